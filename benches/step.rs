@@ -109,9 +109,9 @@ fn recorded_cost(spans: usize, limit: usize) -> ((f64, f64), usize) {
     let (method, tolerance) = (Method::EnergyMomentum, Tolerance::default());
     let settings = SimulationSettings { method, dt: DT.into(), tolerance };
     let mut simulation = Simulation::start(flying_scene(spans), settings).unwrap();
-    simulation.keep_snapshots(limit);
+    simulation.enable_snapshots(limit);
     let cost = measure(|| timed(|| simulation.step(&mut NoMonitor).unwrap()));
-    let (kept, bytes) = simulation.snapshots_kept();
+    let (kept, bytes) = simulation.stored_snapshots();
     (cost, bytes / kept.max(1))
 }
 

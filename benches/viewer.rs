@@ -59,7 +59,7 @@ fn main() {
         // Where the states come from is not of the film: all frames have the last one here.
         let mut inside = FieldReader::of(&simulation, shown.len(), &fields).expect("places");
         if let Some(inside) = &mut inside {
-            (0..shown.len()).for_each(|frame| inside.take(frame, &simulation));
+            (0..shown.len()).for_each(|frame| inside.store_frame(frame, &simulation));
         }
         let wishes = ViewerOptions {
             span: (0.0, f64::INFINITY),

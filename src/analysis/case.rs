@@ -38,7 +38,7 @@ struct CaseMonitor<'a> {
 }
 
 impl Monitor for CaseMonitor<'_> {
-    fn goes_on(&mut self, _time: f64) -> bool {
+    fn continues(&mut self, _time: f64) -> bool {
         self.steps += 1;
         self.exceeded = self.wait.exceeded(self.steps);
         self.exceeded.is_none() && (self.is_wanted)()
@@ -76,7 +76,7 @@ impl Case {
         };
         simulation.record(self.recording());
         let mut is_wanted = || !stop.load(Ordering::Relaxed);
-        let outcome = self.go(&mut simulation, patience, &mut is_wanted, look);
+        let outcome = self.run_to_stops(&mut simulation, patience, &mut is_wanted, look);
         (outcome, Some(simulation))
     }
 
@@ -117,7 +117,7 @@ impl Case {
 
     /// Runs a simulation from its start to the last stop, and calls `look` at every stop. `is_wanted` is called after every step; if it
     /// returns false, the outcome is meaningless.
-    pub fn go(
+    pub fn run_to_stops(
         &self,
         simulation: &mut Simulation,
         patience: RunLimits,
@@ -156,7 +156,7 @@ mod tests {
     use std::rc::Rc;
     use std::time::Duration;
 
-    use super::super::run_limits::is_out_of_patience;
+    use super::super::run_limits::is_past_deadline;
     use super::super::samples::{never, spinning};
     use super::*;
     use crate::loads::{FunctionError, LoadKind, Schedule};
@@ -220,7 +220,7 @@ mod tests {
         // Simulates a script function, whose engine checks the deadline before every operation.
         let function = Rc::new(|t: f64| match t {
             0.5.. => {
-                while !is_out_of_patience() {}
+                while !is_past_deadline() {}
                 Err(FunctionError::new("stopped"))
             }
             _ => Ok(0.0),
@@ -232,6 +232,6 @@ mod tests {
         let told = outcome.describe();
         assert!(told.starts_with("stopped at t = 0.5 by a limit"), "{told}");
         assert!(told.ends_with(": more than 0.05 s"), "{told}");
-        assert!(!is_out_of_patience(), "patience with one case is not that with another");
+        assert!(!is_past_deadline(), "patience with one case is not that with another");
     }
 }

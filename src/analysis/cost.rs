@@ -49,7 +49,7 @@ impl CostCase {
     fn start(&self, patience: RunLimits) -> Result<Simulation, CaseOutcome> {
         let mut simulation = self.case.start(patience)?;
         simulation.record(self.recording);
-        simulation.keep_snapshots(self.snapshots);
+        simulation.enable_snapshots(self.snapshots);
         Ok(simulation)
     }
 }
@@ -111,7 +111,7 @@ fn measure(
         Err(outcome) => return (StepCost::unmeasured(case, outcome), Duration::ZERO),
     };
     let begun = Instant::now();
-    let outcome = case.case.go(&mut simulation, patience, is_wanted, |_| ());
+    let outcome = case.case.run_to_stops(&mut simulation, patience, is_wanted, |_| ());
     let elapsed = begun.elapsed();
     let counts = simulation.counts();
     let steps = counts.steps.max(1);

@@ -180,7 +180,7 @@ impl Journal {
 
     fn place(&self) -> io::Result<(Folder, PathBuf)> {
         let name = self.path.file_name().ok_or(io::ErrorKind::InvalidInput)?;
-        Ok((Folder::make(self.path.parent().unwrap_or(Path::new(".")))?, name.into()))
+        Ok((Folder::open_or_create(self.path.parent().unwrap_or(Path::new(".")))?, name.into()))
     }
 
     /// Removes the journal of a completed study.

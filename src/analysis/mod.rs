@@ -49,7 +49,7 @@ pub use pareto::pareto_front;
 pub use precision::{Precision, PrecisionRow};
 pub use reference::{Deviation, Readings, ReferenceError, ReferenceSolution};
 pub use row_journal::{RowEntry, RowJournal, read_rows, remove_rows};
-pub use run_limits::{RunLimits, is_out_of_patience};
+pub use run_limits::{RunLimits, is_past_deadline};
 pub use run_result::RunResult;
 pub use stability::StabilityVerdict;
 pub use sweep::{

@@ -44,8 +44,8 @@ impl PrecisionRow {
     }
 
     /// Run time [s] and error [-]; infinite if missing.
-    pub fn price_and_error(&self) -> (f64, f64) {
-        let price = self.timing.map_or(f64::INFINITY, |timing| timing.price());
+    pub fn cost_and_error(&self) -> (f64, f64) {
+        let price = self.timing.map_or(f64::INFINITY, |timing| timing.cost());
         (price, self.error.map_or(f64::INFINITY, |error| error.error()))
     }
 
@@ -80,7 +80,7 @@ pub struct Precision {
 impl Precision {
     /// Marks the combinations on the Pareto front.
     pub fn mark_front(&mut self) {
-        let points: Vec<_> = self.rows.iter().map(PrecisionRow::price_and_error).collect();
+        let points: Vec<_> = self.rows.iter().map(PrecisionRow::cost_and_error).collect();
         for (row, is_on_front) in self.rows.iter_mut().zip(pareto_front(&points)) {
             row.is_on_front = is_on_front;
         }
@@ -89,19 +89,19 @@ impl Precision {
     /// Combinations on the Pareto front, fastest first.
     pub fn front(&self) -> Vec<&PrecisionRow> {
         let mut front: Vec<_> = self.rows.iter().filter(|row| row.is_on_front).collect();
-        front.sort_by(|a, b| a.price_and_error().0.total_cmp(&b.price_and_error().0));
+        front.sort_by(|a, b| a.cost_and_error().0.total_cmp(&b.cost_and_error().0));
         front
     }
 
     /// Fastest combination with an error of at most `error` [-].
     pub fn cheapest(&self, error: f64) -> Option<&PrecisionRow> {
-        self.front().into_iter().find(|row| row.price_and_error().1 <= error)
+        self.front().into_iter().find(|row| row.cost_and_error().1 <= error)
     }
 
     /// Fastest combination with an error of at most `error` [-] for which all smaller steps on the same mesh, at least one, are as
     /// accurate. Otherwise mesh and step errors may cancel by chance.
     pub fn cheapest_confirmed(&self, error: f64) -> Option<&PrecisionRow> {
-        let is_right = |row: &&PrecisionRow| row.price_and_error().1 <= error;
+        let is_right = |row: &&PrecisionRow| row.cost_and_error().1 <= error;
         let is_confirmed = |row: &&PrecisionRow| {
             let smaller = |other: &&PrecisionRow| other.is_with_a_smaller_step_than(row);
             let finished = self.rows.iter().filter(|other| other.error.is_some());
@@ -109,11 +109,11 @@ impl Precision {
             smaller.peek().is_some() && smaller.all(|other| is_right(&other))
         };
         let confirmed = self.rows.iter().filter(is_right).filter(is_confirmed);
-        confirmed.min_by(|a, b| a.price_and_error().0.total_cmp(&b.price_and_error().0))
+        confirmed.min_by(|a, b| a.cost_and_error().0.total_cmp(&b.cost_and_error().0))
     }
 
     /// Names of the other programs, without duplicates.
-    pub fn peers(&self) -> Vec<&str> {
+    pub fn program_names(&self) -> Vec<&str> {
         let mut peers = Vec::new();
         for peer in self.rivals.iter().map(|rival| rival.peer.as_str()) {
             if !peers.contains(&peer) {
@@ -173,7 +173,7 @@ mod tests {
     #[test]
     fn smaller_steps_are_better_and_dearer_and_what_failed_stays() {
         let study = study();
-        let errors: Vec<f64> = study.rows.iter().map(|row| row.price_and_error().1).collect();
+        let errors: Vec<f64> = study.rows.iter().map(|row| row.cost_and_error().1).collect();
         assert!(
             errors[0].is_infinite() && errors[2] < 0.3 * errors[1] && errors[2] > 0.0,
             "{errors:?}"
@@ -190,7 +190,7 @@ mod tests {
     #[test]
     fn what_smaller_steps_contradict_is_not_confirmed() {
         let mut study = study();
-        let error = study.rows[1].price_and_error().1;
+        let error = study.rows[1].cost_and_error().1;
         assert_eq!(study.cheapest_confirmed(error).unwrap(), &study.rows[1]);
         assert!(study.cheapest_confirmed(0.5 * error).is_none());
         study.rows[2].error = study.rows[1].error.map(|error| error.divided_by(0.5));
@@ -201,7 +201,7 @@ mod tests {
     #[test]
     fn the_cheapest_rival_is_good_enough() {
         let study = study();
-        assert_eq!(study.peers(), ["P", "Q"]);
+        assert_eq!(study.program_names(), ["P", "Q"]);
         assert_eq!(study.cheapest_of("P", 1e-3).unwrap().run_time, 9.0);
         assert_eq!(study.cheapest_of("P", 0.6).unwrap().run_time, 1.0);
         assert!(study.cheapest_of("Q", 0.6).is_none());

@@ -35,7 +35,7 @@ impl Deviation {
     }
 
     /// The larger of two deviations; NaN counts as the largest.
-    pub fn worst(self, other: Self) -> Self {
+    pub fn larger_deviation(self, other: Self) -> Self {
         if larger(self.distance, other.distance) == self.distance || self.distance.is_nan() {
             Self { trusted: self.trusted.max(other.trusted), ..self }
         } else {
@@ -253,7 +253,7 @@ impl ReferenceSolution {
             let (trusted, is_of_own_run) = (known.trusted.max(rounding), self.is_own);
             Some(Deviation { distance, trusted, is_of_own_run })
         };
-        self.known.iter().zip(readings).filter_map(at).reduce(Deviation::worst)
+        self.known.iter().zip(readings).filter_map(at).reduce(Deviation::larger_deviation)
     }
 
     /// Largest deviation of all positions [length].
@@ -263,7 +263,9 @@ impl ReferenceSolution {
         readings: &Readings,
     ) -> Option<Deviation> {
         let positions = observables.iter().enumerate().filter(|(_, of)| of.is_position());
-        positions.filter_map(|(index, _)| self.deviation(index, readings)).reduce(Deviation::worst)
+        positions
+            .filter_map(|(index, _)| self.deviation(index, readings))
+            .reduce(Deviation::larger_deviation)
     }
 }
 
@@ -357,7 +359,10 @@ mod tests {
         let of = |distance| Deviation { distance, trusted: 0.0, is_of_own_run: false };
         let deviations = [1.0, f64::NAN, 3.0].map(of);
         for order in [[0, 1, 2], [2, 1, 0], [1, 0, 2], [0, 2, 1]] {
-            let worst = order.map(|index| deviations[index]).into_iter().reduce(Deviation::worst);
+            let worst = order
+                .map(|index| deviations[index])
+                .into_iter()
+                .reduce(Deviation::larger_deviation);
             assert!(worst.unwrap().error().is_nan());
         }
         let own =

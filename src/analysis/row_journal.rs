@@ -70,7 +70,7 @@ impl RowJournal {
     /// # Errors
     /// Fails if writing fails.
     pub fn append(path: &Path, whole: u64) -> io::Result<Self> {
-        let (folder, name) = place(path, Folder::make)?;
+        let (folder, name) = place(path, Folder::open_or_create)?;
         let file = folder.append(&name)?;
         file.set_len(whole)?;
         Ok(Self { file: BufWriter::new(file), flushed: Instant::now() })
@@ -86,7 +86,7 @@ impl RowJournal {
         self.file.write_all(&length.to_le_bytes())?;
         self.file.write_all(&crc32fast::hash(&payload).to_le_bytes())?;
         self.file.write_all(&payload)?;
-        self.beat()?;
+        self.flush_periodically()?;
         Ok(8 + u64::from(length))
     }
 
@@ -94,7 +94,7 @@ impl RowJournal {
     ///
     /// # Errors
     /// Fails if writing fails.
-    pub fn beat(&mut self) -> io::Result<()> {
+    pub fn flush_periodically(&mut self) -> io::Result<()> {
         if self.flushed.elapsed() > DELAY {
             self.flush()?;
         }

@@ -25,7 +25,7 @@ thread_local! {
 
 /// Returns true after the deadline of the case on this thread. The case itself checks after every step; this function is for code called
 /// within a step, such as script functions of loads, which may not return.
-pub fn is_out_of_patience() -> bool {
+pub fn is_past_deadline() -> bool {
     DEADLINE.get().is_some_and(|deadline| Instant::now() > deadline)
 }
 
@@ -68,15 +68,15 @@ mod tests {
     #[test]
     fn waits_end_one_within_the_other() {
         let patient = RunLimits::default().begin();
-        assert!(!is_out_of_patience() && patient.exceeded(3).is_none());
+        assert!(!is_past_deadline() && patient.exceeded(3).is_none());
         {
             let wall = Duration::ZERO;
             let impatient = RunLimits { steps: 2, wall }.begin();
-            while !is_out_of_patience() {}
+            while !is_past_deadline() {}
             assert_eq!(impatient.exceeded(3).unwrap(), "more than 2 steps");
             assert_eq!(impatient.exceeded(2).unwrap(), "more than 0 s");
         }
-        assert!(!is_out_of_patience());
+        assert!(!is_past_deadline());
         drop(patient);
         assert_eq!(DEADLINE.get(), None);
     }

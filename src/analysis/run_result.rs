@@ -45,7 +45,7 @@ impl RunResult {
             readings.push(observables.iter().map(|of| of.read(simulation)).collect());
         };
         let (outcome, simulation) = case.run(patience, stop, look);
-        let Some(simulation) = simulation else { return Self::without_a_run(outcome) };
+        let Some(simulation) = simulation else { return Self::not_started(outcome) };
         let (counts, history) = (simulation.counts(), simulation.history());
         Self {
             outcome,
@@ -61,7 +61,7 @@ impl RunResult {
     }
 
     /// Results of a run that did not start.
-    pub fn without_a_run(outcome: CaseOutcome) -> Self {
+    pub fn not_started(outcome: CaseOutcome) -> Self {
         Self {
             outcome,
             readings: Readings::new(),

@@ -32,7 +32,7 @@ impl StabilityVerdict {
         let (outcome, simulation) = case.run(patience, stop, |_| ());
         match simulation {
             Some(simulation) => Self::on(&simulation, outcome),
-            None => Self::without_a_run(outcome),
+            None => Self::not_started(outcome),
         }
     }
 
@@ -51,7 +51,7 @@ impl StabilityVerdict {
     }
 
     /// Verdict on a run that did not start.
-    pub fn without_a_run(outcome: CaseOutcome) -> Self {
+    pub fn not_started(outcome: CaseOutcome) -> Self {
         Self {
             outcome,
             energy_growth: f64::NAN,

@@ -2,7 +2,7 @@
 
 use std::collections::{BTreeMap, HashMap};
 
-use crate::sampling::{VarianceShare, shares_by_rank, shares_of_grid, shares_of_saltelli};
+use crate::sampling::{VarianceShare, grid_indices, rank_indices, saltelli_indices};
 
 /// A swept parameter.
 #[derive(Clone, Debug, PartialEq)]
@@ -217,7 +217,7 @@ impl Sweep {
 
     /// Fraction of the variance of a result explained by each parameter, in the order of the parameters; `None` if the result is constant,
     /// rows of a grid failed, or there are too few points.
-    pub fn shares(&self, result: &str) -> Option<Vec<VarianceShare>> {
+    pub fn variance_fractions(&self, result: &str) -> Option<Vec<VarianceShare>> {
         let results = self.results.column(result)?;
         let parameters = &self.design.parameters;
         match self.design.arrangement {
@@ -227,16 +227,16 @@ impl Sweep {
                     SweptValues::Numbers(numbers) => numbers.len(),
                 };
                 let lengths: Vec<usize> = parameters.iter().map(length).collect();
-                results.iter().all(|x| x.is_finite()).then(|| shares_of_grid(&lengths, results))?
+                results.iter().all(|x| x.is_finite()).then(|| grid_indices(&lengths, results))?
             }
-            RowLayout::Saltelli => shares_of_saltelli(parameters.len(), results),
+            RowLayout::Saltelli => saltelli_indices(parameters.len(), results),
             RowLayout::Points => {
                 let place = |of: &SweptParameter, row: usize| {
                     of.values.number(row).or_else(|| Some(of.values.level(row)? as f64))
                 };
                 let of_parameter = |of: &SweptParameter| {
                     let places = (0..self.design.rows).map(|row| place(of, row).unwrap_or(0.0));
-                    shares_by_rank(&places.collect::<Vec<_>>(), results)
+                    rank_indices(&places.collect::<Vec<_>>(), results)
                 };
                 parameters.iter().map(of_parameter).collect()
             }
@@ -275,7 +275,7 @@ mod tests {
         assert_eq!(sweep.results.column("sum").unwrap(), [1.0, 2.0, 3.0, 2.0, 3.0, 4.0]);
         assert_eq!(sweep.design.parameters[0].values.label(4), Some("2"));
         assert!(sweep.names().eq(["a", "b", "sum"]));
-        let shares = sweep.shares("sum").unwrap();
+        let shares = sweep.variance_fractions("sum").unwrap();
         // Variances 1/4 and 2/3 of an additive function.
         assert!((shares[0].first - 3.0 / 11.0).abs() < 1e-15, "{shares:?}");
         assert_eq!(shares[1].total.map(|x| (x - 8.0 / 11.0).abs() < 1e-15), Some(true));
@@ -290,7 +290,7 @@ mod tests {
         assert_eq!(sweep.results.failure(2), Some("lost"));
         assert_eq!(sweep.results.failure(1), None);
         assert!(sweep.results.failures().eq([(0, "lost"), (2, "lost")]));
-        assert!(sweep.shares("sum").is_none());
+        assert!(sweep.variance_fractions("sum").is_none());
         assert_eq!(sweep.telling_rows("sum"), 5);
         sweep.design.arrangement = RowLayout::Saltelli;
         // Two parameters give blocks of four rows; the first block has a failed row, and the second is incomplete.

@@ -33,7 +33,7 @@ fn processor_time() -> Option<Duration> {
 
 impl Timing {
     /// Cost of the case: processor time, or wall-clock time if not available [s].
-    pub fn price(&self) -> f64 {
+    pub fn cost(&self) -> f64 {
         self.processor.unwrap_or(self.run).as_secs_f64()
     }
 
@@ -53,7 +53,7 @@ impl Timing {
             setups.push(start.elapsed());
             let worked = processor_time();
             let start = Instant::now();
-            let outcome = case.go(&mut simulation, patience, is_wanted, |_| ());
+            let outcome = case.run_to_stops(&mut simulation, patience, is_wanted, |_| ());
             runs.push(start.elapsed());
             works
                 .extend(processor_time().zip(worked).map(|(end, start)| end.saturating_sub(start)));
@@ -85,7 +85,7 @@ mod tests {
     fn a_case_is_timed_as_often_as_asked_unless_nobody_wants_it() {
         let case = spinning(0.1, &[0.2]);
         let timing = Timing::of(&case, RunLimits::default(), 3, &mut || true).unwrap();
-        assert!(timing.repeats == 3 && timing.shortest <= timing.run && timing.price() > 0.0);
+        assert!(timing.repeats == 3 && timing.shortest <= timing.run && timing.cost() > 0.0);
         assert_eq!(Timing::of(&case, RunLimits::default(), 3, &mut || false), None);
         assert_eq!(
             Timing::of(&spinning(-1.0, &[1.0]), RunLimits::default(), 3, &mut || true),

@@ -14,7 +14,7 @@ use std::{env, io, process, thread};
 use serde_json::{Value, json};
 
 use super::Exit;
-use super::console::{say, tell};
+use super::console::{print_error, print_line};
 use super::limits::LimitOptions;
 use crate::exercises::attempt;
 use crate::exercises::exercise::Exercise;
@@ -43,18 +43,18 @@ pub(super) struct JudgeLimits<'a> {
 ///
 /// # Errors
 /// Fails if no process can be started, which is not the student's fault.
-pub(super) fn mark_apart(
+pub(super) fn mark_in_process(
     submission: &Submission,
     file: &Path,
     exercise: &Exercise,
     room: &JudgeLimits,
 ) -> io::Result<Option<(Mark, String)>> {
     let bounds = room.limits.for_an_attempt();
-    Ok(match run_apart(submission, file, exercise, room)? {
+    Ok(match run_in_process(submission, file, exercise, room)? {
         ProcessReport::Line(line) => {
             Some(read(&line).unwrap_or_else(|| (Mark::Broken, "its judge gave no result".into())))
         }
-        ProcessReport::Nothing(status) => Some(mark_of_death(status, &bounds)),
+        ProcessReport::Nothing(status) => Some(mark_of_exit(status, &bounds)),
         ProcessReport::TooLate => Some((Mark::Stopped, too_late(&bounds))),
         ProcessReport::Interrupted => None,
     })
@@ -67,7 +67,7 @@ enum ProcessReport {
     Interrupted,
 }
 
-fn run_apart(
+fn run_in_process(
     submission: &Submission,
     file: &Path,
     exercise: &Exercise,
@@ -80,7 +80,7 @@ fn run_apart(
     let mut command = Command::new(env::current_exe()?);
     command
         .args(["learn", "attempt"])
-        .args(limits.words())
+        .args(limits.to_arguments())
         .arg("--")
         .args([&home, &home.join(below)])
         .arg(exercise.id())
@@ -89,7 +89,7 @@ fn run_apart(
         .stdin(Stdio::null())
         .stdout(Stdio::piped())
         .stderr(Stdio::null());
-    let mut process = apart(&mut command).spawn()?;
+    let mut process = shield_from_interrupt(&mut command).spawn()?;
     let time = limits.for_an_attempt().time.unwrap_or_default() * 2 + START;
     let ended = loop {
         if let Some(status) = process.try_wait()? {
@@ -129,22 +129,24 @@ fn read(line: &str) -> Option<(Mark, String)> {
 
 fn write((mark, message): &(Mark, String)) -> String {
     let message: String = message.chars().take(LONGEST_MESSAGE).collect();
-    json!({ "result": mark.word(), "message": message }).to_string()
+    json!({ "result": mark.keyword(), "message": message }).to_string()
 }
 
 fn too_late(limits: &Limits) -> String {
-    limits.time.map_or_else(|| "it takes too long".into(), |time| Stop::Time(time).words().0)
+    limits
+        .time
+        .map_or_else(|| "it takes too long".into(), |time| Stop::Time(time).message_and_hint().0)
 }
 
-fn mark_of_death(status: ExitStatus, limits: &Limits) -> (Mark, String) {
-    let passed = match cause_of_death(status) {
+fn mark_of_exit(status: ExitStatus, limits: &Limits) -> (Mark, String) {
+    let passed = match kill_reason(status) {
         KillReason::Time => return (Mark::Stopped, too_late(limits)),
         KillReason::Memory => limits.memory.map(Stop::Memory),
         KillReason::Written => limits.written.map(Stop::Written),
         KillReason::Other => None,
     };
     match passed {
-        Some(stop) => (Mark::Stopped, stop.words().0),
+        Some(stop) => (Mark::Stopped, stop.message_and_hint().0),
         None => (Mark::Broken, format!("its process ended without a result: {status}")),
     }
 }
@@ -157,7 +159,7 @@ enum KillReason {
 }
 
 #[cfg(unix)]
-fn cause_of_death(status: ExitStatus) -> KillReason {
+fn kill_reason(status: ExitStatus) -> KillReason {
     use nix::sys::signal::Signal;
     use std::os::unix::process::ExitStatusExt;
     match status.signal().and_then(|number| Signal::try_from(number).ok()) {
@@ -170,12 +172,12 @@ fn cause_of_death(status: ExitStatus) -> KillReason {
 }
 
 #[cfg(not(unix))]
-fn cause_of_death(_: ExitStatus) -> KillReason {
+fn kill_reason(_: ExitStatus) -> KillReason {
     KillReason::Other
 }
 
 /// Shields the process from Ctrl-C at the terminal, which the grading process handles.
-fn apart(command: &mut Command) -> &mut Command {
+fn shield_from_interrupt(command: &mut Command) -> &mut Command {
     #[cfg(unix)]
     std::os::unix::process::CommandExt::process_group(command, 0);
     command
@@ -183,7 +185,7 @@ fn apart(command: &mut Command) -> &mut Command {
 
 /// Reports an exceeded limit in code that does not check for limits, and exits.
 fn stopped_hard(stop: Stop) {
-    say(&write(&(Mark::Stopped, stop.words().0)));
+    print_line(&write(&(Mark::Stopped, stop.message_and_hint().0)));
     process::exit(0)
 }
 
@@ -195,7 +197,7 @@ pub(super) fn judge_one(
 ) -> Exit {
     let limits = limits.for_an_attempt();
     if let Err(error) = confine(&limits) {
-        tell(&format!("error: the limits of this process cannot be set: {error}\n"));
+        print_error(&format!("error: the limits of this process cannot be set: {error}\n"));
         return Exit::Wrong;
     }
     let settings = RunSettings {
@@ -208,7 +210,7 @@ pub(super) fn judge_one(
         Err(why) => AttemptVerdict::Broken(why),
     };
     match grading::mark(verdict) {
-        Some(mark) => say(&write(&mark)),
+        Some(mark) => print_line(&write(&mark)),
         None => return Exit::Interrupted,
     }
     // Data of the attempt is not dropped, because that may take long.

@@ -9,22 +9,22 @@ use crate::output::{printable, printable_in_colours};
 static LOST: AtomicBool = AtomicBool::new(false);
 
 /// Prints a line of output and flushes; a closed pipe is no error.
-pub(super) fn say(text: &str) {
+pub(super) fn print_line(text: &str) {
     let mut out = stdout();
     let line = format!("{}\n", printable_in_colours(text));
-    notice(out.write_all(line.as_bytes()).and_then(|()| out.flush()));
+    record_write_error(out.write_all(line.as_bytes()).and_then(|()| out.flush()));
 }
 
-pub(super) fn tell(text: &str) {
-    tell_drawn(&printable(text));
+pub(super) fn print_error(text: &str) {
+    print_error_styled(&printable(text));
 }
 
 /// Prints to standard error; the colour sequences of this program are kept.
-pub(super) fn tell_drawn(text: &str) {
-    notice(stderr().write_all(printable_in_colours(text).as_bytes()));
+pub(super) fn print_error_styled(text: &str) {
+    record_write_error(stderr().write_all(printable_in_colours(text).as_bytes()));
 }
 
-fn notice(written: io::Result<()>) {
+fn record_write_error(written: io::Result<()>) {
     if written.is_err_and(|error| error.kind() != ErrorKind::BrokenPipe) {
         LOST.store(true, Ordering::Relaxed);
     }

@@ -5,8 +5,8 @@ use std::path::Path;
 
 use super::Exit;
 use super::args::DocsOptions;
-use super::run::refuse;
-use crate::output::{Colours, TerminalStyle, write_whole};
+use super::run::report_error;
+use crate::output::{Colours, TerminalStyle, write_atomic};
 use crate::sandbox_fs::read_text;
 use crate::script::bindings::catalog::Catalog;
 use crate::script::diagnose::Diagnostic;
@@ -29,7 +29,7 @@ pub fn docs(options: &DocsOptions) -> Exit {
     };
     match text {
         Ok(text) => show(&text),
-        Err(diagnostic) => refuse(&diagnostic),
+        Err(diagnostic) => report_error(&diagnostic),
     }
 }
 
@@ -62,7 +62,7 @@ fn write_definitions(catalog: &Catalog, folder: &Path) -> Result<String, Diagnos
         if path.symlink_metadata().is_ok() && !is_definition(&path) {
             return Err(refused(&path, &"a file of this name exists and is not a definition file"));
         }
-        write_whole(&path, file.text.as_bytes()).map_err(|error| refused(&path, &error))?;
+        write_atomic(&path, file.text.as_bytes()).map_err(|error| refused(&path, &error))?;
         told += &format!("wrote {}\n", path.display());
     }
     Ok(told)
@@ -79,7 +79,7 @@ fn show(text: &str) -> Exit {
     let mut out = stdout();
     match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
         Err(error) if error.kind() != io::ErrorKind::BrokenPipe => {
-            refuse(&Diagnostic::general(format!("cannot write to the output: {error}")))
+            report_error(&Diagnostic::general(format!("cannot write to the output: {error}")))
         }
         _ => Exit::Good,
     }

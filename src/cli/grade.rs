@@ -6,8 +6,8 @@ use std::sync::atomic::Ordering;
 use std::thread;
 
 use super::Exit;
-use super::attempt_process::{JudgeLimits, mark_apart};
-use super::console::{say, tell};
+use super::attempt_process::{JudgeLimits, mark_in_process};
+use super::console::{print_error, print_line};
 use super::interrupt::{self, InterruptLoss};
 use super::limits::LimitOptions;
 use crate::exercises::catalogue::EXERCISES;
@@ -61,7 +61,7 @@ pub fn grade(wishes: &GradeOptions) -> Result<Exit, ExerciseError> {
             kept += 1;
         } else if let Some((path, file)) = &mut file {
             let mark = (judged.mark, judged.message.as_str());
-            let noted = file.note(submission, exercise, mark, judged.fingerprint.as_deref());
+            let noted = file.append(submission, exercise, mark, judged.fingerprint.as_deref());
             if let Err(source) = noted
                 && trouble.is_none()
             {
@@ -83,7 +83,7 @@ pub fn grade(wishes: &GradeOptions) -> Result<Exit, ExerciseError> {
     sheet.end();
     if let (Some((path, _)), true) = (&file, kept > 0) {
         let path = path.display();
-        tell(&format!(
+        print_error(&format!(
             "note: {kept} marks were taken from '{path}', because nothing they depend on has changed\n"
         ));
     }
@@ -115,7 +115,7 @@ impl GradedMark {
         known: &KnownMarks,
         room: &JudgeLimits,
     ) -> Option<Self> {
-        let limits = room.limits.words();
+        let limits = room.limits.to_arguments();
         let of_attempt = || fingerprint(submission, exercise, &limits);
         let before = of_attempt();
         if let Some((mark, message)) = known.find(submission, exercise, &before) {
@@ -124,7 +124,7 @@ impl GradedMark {
         }
         let marked = match GradingTask::of(submission, exercise) {
             GradingTask::Known(mark, message) => Ok(Some((mark, message))),
-            GradingTask::Judge(file) => mark_apart(submission, &file, exercise, room),
+            GradingTask::Judge(file) => mark_in_process(submission, &file, exercise, room),
         };
         let (is_ours, (mark, message)) = match marked {
             Ok(marked) => (false, marked?),
@@ -154,7 +154,7 @@ impl GradeSheet {
         match form {
             GradeFormat::Table => sheet.line("student", "exercise", "result", "errors"),
             GradeFormat::Json => {
-                say(&format!("{{\n  \"exercises\": {},\n  \"students\": [", EXERCISES.len()))
+                print_line(&format!("{{\n  \"exercises\": {},\n  \"students\": [", EXERCISES.len()))
             }
         }
         sheet
@@ -163,7 +163,7 @@ impl GradeSheet {
     fn line(&self, student: &str, exercise: &str, result: &str, off: &str) {
         let (first, second) = (self.student_width, self.exercise_width);
         let line = format!("{}  {exercise:<second$}  {result:<9}  {off}", padded(student, first));
-        say(line.trim_end());
+        print_line(line.trim_end());
     }
 
     fn add(&mut self, submission: &Submission, graded: Graded) {
@@ -172,7 +172,7 @@ impl GradeSheet {
             self.line(
                 &printable_line(&submission.student),
                 &graded.exercise.id(),
-                graded.mark.word(),
+                graded.mark.keyword(),
                 &printable_line(off),
             );
         }
@@ -184,22 +184,22 @@ impl GradeSheet {
         if let Some(report) = self.reports.last_mut() {
             report.graded.push(graded);
             if self.form == GradeFormat::Json && report.graded.len() == EXERCISES.len() {
-                self.tell_student();
+                self.print_student();
             }
         }
     }
 
-    fn tell_student(&self) {
+    fn print_student(&self) {
         let Some(report) = self.reports.last() else { return };
         let comma = if self.reports.len() > 1 { "    ,\n" } else { "" };
         let text = format!("{:#}", report.json());
         let lines: Vec<String> = text.lines().map(|line| format!("    {line}")).collect();
-        say(&format!("{comma}{}", lines.join("\n")));
+        print_line(&format!("{comma}{}", lines.join("\n")));
     }
 
     fn end(&self) {
         match self.form {
-            GradeFormat::Json => say("  ]\n}"),
+            GradeFormat::Json => print_line("  ]\n}"),
             GradeFormat::Table => {
                 let mut sums = TextTable::new(&["student", "passed", "of"]);
                 for report in &self.reports {
@@ -208,7 +208,7 @@ impl GradeSheet {
                     let student = Cell::from(report.student.as_str());
                     sums.row([student].into_iter().chain(counts));
                 }
-                say(&format!("\n{}", sums.to_string().trim_end()));
+                print_line(&format!("\n{}", sums.to_string().trim_end()));
             }
         }
     }

@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 use std::{process, thread};
 
 use super::Exit;
-use super::console::tell;
+use super::console::print_error;
 use super::tui::terminal;
 use crate::repl::editor::typed_ahead;
 use crate::script::state::limits::INTERRUPT_HEARD;
@@ -53,7 +53,7 @@ pub fn flag(at_stake: InterruptLoss) -> Arc<AtomicBool> {
     });
     if let Err(error) = installed {
         // Without a handler Ctrl-C ends the process as usual; a warning suffices.
-        tell(&format!("warning: Ctrl-C ends the program without saving results: {error}\n"));
+        print_error(&format!("warning: Ctrl-C ends the program without saving results: {error}\n"));
     }
     flag
 }
@@ -61,7 +61,7 @@ pub fn flag(at_stake: InterruptLoss) -> Arc<AtomicBool> {
 /// Ends a session within a second on SIGTERM and SIGHUP, such as when its window is closed; Ctrl-C is reserved for its inputs. Must be
 /// called before other threads start.
 #[cfg(unix)]
-pub fn end_when_asked() {
+pub fn end_on_signal() {
     use nix::sys::signal::{SigSet, Signal};
     let mut asked = SigSet::empty();
     asked.add(Signal::SIGTERM);
@@ -76,10 +76,10 @@ pub fn end_when_asked() {
 }
 
 #[cfg(not(unix))]
-pub fn end_when_asked() {}
+pub fn end_on_signal() {}
 
 fn end() {
-    typed_ahead::give_back();
-    terminal::give_back();
+    typed_ahead::restore();
+    terminal::restore();
     process::exit(Exit::Interrupted as i32);
 }

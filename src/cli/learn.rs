@@ -6,13 +6,13 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::{env, thread};
 
-use super::console::{is_output_lost, say};
+use super::console::{is_output_lost, print_line};
 use super::grade::{GradeFormat, GradeOptions, grade};
 use super::interrupt::{self, InterruptLoss};
 use super::learn_options::{LearnAction, LearnOptions};
 use super::limits::LimitOptions;
 use super::progress_display::{self, ProgressPreference};
-use super::run::{last_resort, refuse};
+use super::run::{last_resort, report_error};
 use super::tui::{self, ScriptPainter, judge_process, terminal};
 use super::{Exit, attempt_process};
 use crate::exercises::attempt;
@@ -58,16 +58,16 @@ pub fn learn(options: &LearnOptions) -> Exit {
         }
     };
     if is_output_lost() {
-        return refuse(&Diagnostic::general("part of the output could not be written"));
+        return report_error(&Diagnostic::general("part of the output could not be written"));
     }
-    done.unwrap_or_else(|error| refuse(&Diagnostic::general(error.to_string())))
+    done.unwrap_or_else(|error| report_error(&Diagnostic::general(error.to_string())))
 }
 
 type Done = Result<Exit, ExerciseError>;
 
 fn begin(workbook: &Workbook) -> Result<(), ExerciseError> {
     if workbook.fill()? == EXERCISES.len() {
-        say(&format!(
+        print_line(&format!(
             "{} exercises were written to {}\n",
             EXERCISES.len(),
             shown(workbook.folder())
@@ -80,9 +80,9 @@ fn welcome(workbook: &Workbook) -> Done {
     begin(workbook)?;
     let progress = workbook.progress()?;
     let passed = EXERCISES.iter().filter(|exercise| progress.has_passed(exercise)).count();
-    say(&format!("{passed} of {} exercises are passed.\n", EXERCISES.len()));
+    print_line(&format!("{passed} of {} exercises are passed.\n", EXERCISES.len()));
     show_next(workbook)?;
-    say(
+    print_line(
         "\nwithy learn watch judges each file when you save it; withy learn list shows all exercises.",
     );
     Ok(Exit::Good)
@@ -92,10 +92,10 @@ fn list(workbook: &Workbook) -> Done {
     let progress = workbook.progress()?;
     let longest = EXERCISES.iter().map(|exercise| exercise.name.len()).max().unwrap_or(0);
     for track in TRACKS {
-        say(track.title);
+        print_line(track.title);
         for exercise in EXERCISES.iter().filter(|exercise| exercise.track == track.name) {
             let mark = if progress.has_passed(exercise) { "passed" } else { "" };
-            say(&format!("  {mark:<6}  {:<longest$}  {}", exercise.name, exercise.title()));
+            print_line(&format!("  {mark:<6}  {:<longest$}  {}", exercise.name, exercise.title()));
         }
     }
     Ok(Exit::Good)
@@ -104,13 +104,15 @@ fn list(workbook: &Workbook) -> Done {
 fn show_next(workbook: &Workbook) -> Done {
     match workbook.next()? {
         Some(exercise) => {
-            say(&format!("Next: {}. {}", exercise.id(), exercise.title()));
-            say(&format!("  edit           {}", shown(&workbook.file(exercise))));
-            say(&format!("  then           withy learn check {}", exercise.name));
-            say(&format!("  if it is hard  withy learn hint {}", exercise.name));
+            print_line(&format!("Next: {}. {}", exercise.id(), exercise.title()));
+            print_line(&format!("  edit           {}", shown(&workbook.file(exercise))));
+            print_line(&format!("  then           withy learn check {}", exercise.name));
+            print_line(&format!("  if it is hard  withy learn hint {}", exercise.name));
         }
-        None => say("All exercises are passed. Congratulations!\n\
-             withy learn solution NAME shows a solution to compare with."),
+        None => print_line(
+            "All exercises are passed. Congratulations!\n\
+             withy learn solution NAME shows a solution to compare with.",
+        ),
     }
     Ok(Exit::Good)
 }
@@ -137,28 +139,28 @@ fn check(
         matches!(verdict, AttemptVerdict::Interrupted) || note(workbook, exercise, has_passed);
     let off = match verdict {
         AttemptVerdict::Passed => {
-            say(&format!("passed: {}", exercise.id()));
+            print_line(&format!("passed: {}", exercise.id()));
             if is_noted {
                 show_next(workbook)?;
             }
             return Ok(Exit::Good);
         }
         AttemptVerdict::Interrupted => {
-            say("interrupted before the attempt was judged");
+            print_line("interrupted before the attempt was judged");
             return Ok(Exit::Interrupted);
         }
         AttemptVerdict::Broken(why) | AttemptVerdict::Stopped(why) => why.render(colours()),
         AttemptVerdict::Off(found) => found.iter().map(|found| format!("  - {found}\n")).collect(),
     };
-    say(&format!("{off}\nnot yet: {}", exercise.id()));
-    say(&format!("a hint: withy learn hint {}", exercise.name));
+    print_line(&format!("{off}\nnot yet: {}", exercise.id()));
+    print_line(&format!("a hint: withy learn hint {}", exercise.name));
     Ok(Exit::CheckFailed)
 }
 
 fn note(workbook: &Workbook, exercise: &Exercise, has_passed: bool) -> bool {
-    let noted = workbook.note(exercise, has_passed);
+    let noted = workbook.record(exercise, has_passed);
     if let Err(error) = &noted {
-        say(&format!("the result was not recorded: {error}"));
+        print_line(&format!("the result was not recorded: {error}"));
     }
     noted.is_ok()
 }
@@ -183,7 +185,7 @@ fn check_all(workbook: &Workbook, detail: Detail, limits: &LimitOptions) -> Done
     bar.begin_cases("judging", EXERCISES.len());
     let (mut passed, mut begun) = (0, Vec::new());
     for (done, exercise) in EXERCISES.iter().enumerate() {
-        bar.reach_case(done);
+        bar.report_case(done);
         let settings = RunSettings {
             out: workbook.folder().join("out"),
             interrupt: Arc::clone(&flag),
@@ -207,17 +209,17 @@ fn check_all(workbook: &Workbook, detail: Detail, limits: &LimitOptions) -> Done
             begun.push(exercise.id());
         }
         if detail == Detail::Each {
-            bar.step_aside(&mut || say(&format!("{word}  {}", exercise.id())));
+            bar.without_progress_bar(&mut || print_line(&format!("{word}  {}", exercise.id())));
         }
     }
     bar.end();
     if !begun.is_empty() {
-        say(&format!("Begun, but not passed: {}", begun.join(", ")));
+        print_line(&format!("Begun, but not passed: {}", begun.join(", ")));
     }
     if detail == Detail::Summary {
         show_next(workbook)?;
     }
-    say(&format!("\n{passed} of {} exercises are passed.", EXERCISES.len()));
+    print_line(&format!("\n{passed} of {} exercises are passed.", EXERCISES.len()));
     Ok(if passed == EXERCISES.len() { Exit::Good } else { Exit::CheckFailed })
 }
 
@@ -225,7 +227,7 @@ fn solution(workbook: &Workbook, name: &str) -> Done {
     begin(workbook)?;
     let exercise = find(name)?;
     if !workbook.progress()?.has_passed(exercise) {
-        say(&format!(
+        print_line(&format!(
             "{} is not passed yet; its solution is shown after that.\n\
              withy learn hint {} gives one more hint each time, and a solution after the last one.",
             exercise.id(),
@@ -235,8 +237,8 @@ fn solution(workbook: &Workbook, name: &str) -> Done {
     }
     let solution = exercise.solution.trim_end();
     match colours() {
-        Colours::Ansi => say(&ScriptPainter::new().paint(solution)),
-        Colours::None => say(solution),
+        Colours::Ansi => print_line(&ScriptPainter::new().paint(solution)),
+        Colours::None => print_line(solution),
     }
     Ok(Exit::Good)
 }
@@ -252,11 +254,11 @@ fn hint(workbook: &Workbook, name: Option<&str>) -> Done {
     };
     match workbook.hint(exercise)? {
         Advice::Hint { text, number, count } => {
-            say(&format!("{}, hint {number} of {count}: {text}", exercise.id()));
+            print_line(&format!("{}, hint {number} of {count}: {text}", exercise.id()));
         }
         Advice::Solution(solution) => {
-            say(&format!("{}: there are no more hints. One solution:\n", exercise.id()));
-            say(solution.trim_end());
+            print_line(&format!("{}: there are no more hints. One solution:\n", exercise.id()));
+            print_line(solution.trim_end());
         }
     }
     Ok(Exit::Good)
@@ -266,7 +268,7 @@ fn reset(workbook: &Workbook, name: &str) -> Done {
     begin(workbook)?;
     let exercise = find(name)?;
     let kept = workbook.reset(exercise)?;
-    say(&format!(
+    print_line(&format!(
         "{} was reset; your attempt was saved as {}",
         shown(&workbook.file(exercise)),
         shown(&kept)
@@ -283,7 +285,7 @@ fn watch(workbook: &Workbook, limits: &LimitOptions) -> Done {
     tui::watch(workbook, limits, &flag)?;
     let progress = workbook.progress()?;
     let passed = EXERCISES.iter().filter(|exercise| progress.has_passed(exercise)).count();
-    say(&format!("{passed} of {} exercises are passed.", EXERCISES.len()));
+    print_line(&format!("{passed} of {} exercises are passed.", EXERCISES.len()));
     show_next(workbook)
 }
 
@@ -297,9 +299,12 @@ fn watch_in_lines(workbook: &Workbook, limits: &LimitOptions, flag: &Arc<AtomicB
             return Ok(Exit::Good);
         }
         if exit == Exit::Good {
-            say("");
+            print_line("");
         }
-        say(&format!("waiting for a saved file in {}; Ctrl-C ends", shown(workbook.folder())));
+        print_line(&format!(
+            "waiting for a saved file in {}; Ctrl-C ends",
+            shown(workbook.folder())
+        ));
         current = loop {
             if flag.load(Ordering::Relaxed) {
                 return Ok(Exit::Good);

@@ -62,7 +62,7 @@ impl LimitOptions {
     }
 
     /// Options as command line arguments.
-    pub fn words(&self) -> Vec<String> {
+    pub fn to_arguments(&self) -> Vec<String> {
         let time = self.max_time.map(|time| time.as_secs_f64().to_string());
         let given = [
             ("--max-time", time),

@@ -38,7 +38,7 @@ const PARTS: u64 = 1000;
 const SOON: Duration = Duration::from_millis(300);
 
 impl ProgressDisplay {
-    fn make(&self) -> ProgressBar {
+    fn create_bar(&self) -> ProgressBar {
         let bar = ProgressBar::new(PARTS);
         // An invalid template falls back to the default bar.
         let style = ProgressStyle::with_template("{prefix} {wide_bar} {msg} {eta}");
@@ -53,7 +53,7 @@ impl ProgressDisplay {
         if shown.is_none() && self.begun.get().is_none_or(|begun| begun.elapsed() < SOON) {
             return;
         }
-        let bar = shown.get_or_insert_with(|| self.make());
+        let bar = shown.get_or_insert_with(|| self.create_bar());
         let share = (reached - self.from.get()) / (self.to.get() - self.from.get());
         bar.set_position((share.clamp(0.0, 1.0) * PARTS as f64) as u64);
         bar.set_message(message());
@@ -69,7 +69,7 @@ impl Progress for ProgressDisplay {
         self.begun.set(Some(Instant::now()));
     }
 
-    fn reach(&self, t: f64) {
+    fn report_time(&self, t: f64) {
         self.show(t, || format!("t = {}", format_number((t * 1e6).round() / 1e6)));
     }
 
@@ -77,7 +77,7 @@ impl Progress for ProgressDisplay {
         self.begin(name, 0.0, count as f64);
     }
 
-    fn reach_case(&self, done: usize) {
+    fn report_case(&self, done: usize) {
         self.show(done as f64, || format!("{done} of {} cases", self.to.get()));
     }
 
@@ -88,7 +88,7 @@ impl Progress for ProgressDisplay {
         }
     }
 
-    fn step_aside(&self, write: &mut dyn FnMut()) {
+    fn without_progress_bar(&self, write: &mut dyn FnMut()) {
         match &*self.shown.borrow() {
             Some(bar) => bar.suspend(write),
             None => write(),
@@ -104,13 +104,13 @@ mod tests {
     fn what_is_over_soon_has_no_bar_and_what_takes_longer_has_one() {
         let bar = ProgressDisplay::default();
         bar.begin("rod", 0.0, 1.0);
-        bar.reach(0.5);
+        bar.report_time(0.5);
         assert!(bar.shown.borrow().is_none());
         std::thread::sleep(SOON);
-        bar.reach(0.6);
+        bar.report_time(0.6);
         assert!(bar.shown.borrow().is_some());
         bar.end();
-        bar.reach(0.7);
+        bar.report_time(0.7);
         assert!(bar.shown.borrow().is_none());
     }
 
@@ -119,7 +119,7 @@ mod tests {
         let bar = ProgressDisplay::default();
         bar.begin_cases("flight", 8);
         std::thread::sleep(SOON);
-        bar.reach_case(2);
+        bar.report_case(2);
         let shown = bar.shown.borrow();
         let shown = shown.as_ref().expect("a bar");
         assert_eq!((shown.position(), shown.message().as_str()), (PARTS / 4, "2 of 8 cases"));

@@ -7,10 +7,10 @@ use std::sync::Arc;
 
 use super::Exit;
 use super::args::{CheckOptions, RunOptions, StudyOptions};
-use super::console::{tell, tell_drawn};
+use super::console::{print_error, print_error_styled};
 use super::interrupt::{self, InterruptLoss};
 use super::progress_display::{self, ProgressPreference};
-use crate::output::write_whole;
+use crate::output::write_atomic;
 use crate::panics;
 use crate::repl::editor::typed_ahead;
 use crate::sandbox_fs::read_file;
@@ -27,8 +27,8 @@ const LARGEST_REPORT: u64 = 1 << 28;
 
 pub fn run(options: &RunOptions) -> Exit {
     let wish = if options.quiet { ProgressPreference::Hide } else { ProgressPreference::Show };
-    if let Some(Err(diagnostic)) = options.report.as_deref().map(expect_report) {
-        return refuse(&diagnostic);
+    if let Some(Err(diagnostic)) = options.report.as_deref().map(check_report_path) {
+        return report_error(&diagnostic);
     }
     let settings = RunSettings {
         out: options.out.clone(),
@@ -42,12 +42,12 @@ pub fn run(options: &RunOptions) -> Exit {
     };
     let outcome = match start(&options.file, settings) {
         Ok(outcome) => outcome,
-        Err(diagnostic) => return refuse(&diagnostic),
+        Err(diagnostic) => return report_error(&diagnostic),
     };
     if let Some(Err(diagnostic)) =
         options.report.as_deref().map(|file| write_report(file, &outcome))
     {
-        return refuse(&diagnostic);
+        return report_error(&diagnostic);
     }
     if wish == ProgressPreference::Show {
         show_summary(&outcome);
@@ -82,7 +82,7 @@ pub fn study(options: &StudyOptions) -> Exit {
             }
             exit_for_study(&outcome, &options.out)
         }
-        Err(diagnostic) => refuse(&diagnostic),
+        Err(diagnostic) => report_error(&diagnostic),
     }
 }
 
@@ -97,15 +97,15 @@ pub fn check(options: &CheckOptions) -> Exit {
         Ok(outcome) => {
             let file = options.file.display();
             match outcome.ending {
-                Ending::Finished => tell(&format!("{file}: no errors found\n")),
-                Ending::Undecided => tell(&format!(
+                Ending::Finished => print_error(&format!("{file}: no errors found\n")),
+                Ending::Undecided => print_error(&format!(
                     "{file}: no errors found so far\nnote: the rest of the script depends on results of a simulation and was not checked\n"
                 )),
                 _ => (),
             }
             exit_for(&outcome)
         }
-        Err(diagnostic) => refuse(&diagnostic),
+        Err(diagnostic) => report_error(&diagnostic),
     }
 }
 
@@ -117,9 +117,9 @@ fn start(file: &Path, settings: RunSettings) -> Result<RunOutcome, Diagnostic> {
 
 pub(super) fn exit_for(outcome: &RunOutcome) -> Exit {
     match &outcome.ending {
-        Ending::Failed(diagnostic) => refuse(diagnostic),
+        Ending::Failed(diagnostic) => report_error(diagnostic),
         Ending::Interrupted => {
-            tell("interrupted: results up to this point are kept\n");
+            print_error("interrupted: results up to this point are kept\n");
             Exit::Interrupted
         }
         Ending::PipeClosed | Ending::Undecided => Exit::Good,
@@ -138,7 +138,7 @@ fn exit_for_study(outcome: &RunOutcome, out: &Path) -> Exit {
         format!("{cases} {are} kept in '{}'; the same command continues the study", out.display());
     match &outcome.ending {
         Ending::Interrupted => {
-            tell(&format!("interrupted: {kept}\n"));
+            print_error(&format!("interrupted: {kept}\n"));
             Exit::Interrupted
         }
         Ending::Failed(diagnostic) => {
@@ -147,8 +147,8 @@ fn exit_for_study(outcome: &RunOutcome, out: &Path) -> Exit {
                 Some(Stop::Time(_)) => Some("--max-time SECONDS allows more".to_owned()),
                 _ => diagnostic.hint.clone(),
             };
-            let exit = refuse(&Diagnostic { hint, ..diagnostic.clone() });
-            tell(&format!("{kept}\n"));
+            let exit = report_error(&Diagnostic { hint, ..diagnostic.clone() });
+            print_error(&format!("{kept}\n"));
             exit
         }
         Ending::Finished | Ending::Undecided | Ending::PipeClosed => exit_for(outcome),
@@ -170,7 +170,7 @@ fn exit_for_part(outcome: &RunOutcome, options: &StudyOptions) -> Exit {
         (Ending::Failed(diagnostic), None) => {
             if !options.quiet {
                 let message = &diagnostic.message;
-                tell(&format!(
+                print_error(&format!(
                     "{kept}\nnote: then the script failed, perhaps because it needs the results of all parts: {message}\n"
                 ));
             }
@@ -178,26 +178,30 @@ fn exit_for_part(outcome: &RunOutcome, options: &StudyOptions) -> Exit {
         }
         (Ending::Finished | Ending::Undecided | Ending::PipeClosed, _) => {
             if !options.quiet {
-                tell(&format!("{kept}\n"));
+                print_error(&format!("{kept}\n"));
             }
             Exit::Good
         }
     }
 }
 
-pub(super) fn refuse(diagnostic: &Diagnostic) -> Exit {
+pub(super) fn report_error(diagnostic: &Diagnostic) -> Exit {
     let wants_colours =
         stderr().is_terminal() && std::env::var_os("NO_COLOR").is_none_or(|value| value.is_empty());
-    tell_drawn(&diagnostic.render(if wants_colours { Colours::Ansi } else { Colours::None }));
+    print_error_styled(&diagnostic.render(if wants_colours {
+        Colours::Ansi
+    } else {
+        Colours::None
+    }));
     Exit::Wrong
 }
 
 pub(super) fn show_summary(outcome: &RunOutcome) {
     for file in &outcome.files {
-        tell(&format!("wrote {}\n", file.display()));
+        print_error(&format!("wrote {}\n", file.display()));
     }
     if let Some(summary) = outcome.checks.summary() {
-        tell(&format!("{summary}\n"));
+        print_error(&format!("{summary}\n"));
     }
 }
 
@@ -206,16 +210,16 @@ pub(super) fn last_resort() -> HardAbort {
 }
 
 fn end_at(stop: Stop) {
-    typed_ahead::give_back();
-    let (told, hint) = stop.words();
-    refuse(&Diagnostic { hint, ..Diagnostic::general(told) });
-    tell(
+    typed_ahead::restore();
+    let (told, hint) = stop.message_and_hint();
+    report_error(&Diagnostic { hint, ..Diagnostic::general(told) });
+    print_error(
         "note: a long operation could not be interrupted: files written before it are complete, all other results are lost\n",
     );
     process::exit(Exit::Wrong as i32)
 }
 
-fn expect_report(file: &Path) -> Result<(), Diagnostic> {
+fn check_report_path(file: &Path) -> Result<(), Diagnostic> {
     if file.symlink_metadata().is_err() {
         return Ok(());
     }
@@ -234,7 +238,7 @@ fn expect_report(file: &Path) -> Result<(), Diagnostic> {
 
 fn write_report(file: &Path, outcome: &RunOutcome) -> Result<(), Diagnostic> {
     let report = serde_json::json!({ "simulations": outcome.simulations });
-    write_whole(file, format!("{report:#}\n").as_bytes()).map_err(|error| {
+    write_atomic(file, format!("{report:#}\n").as_bytes()).map_err(|error| {
         Diagnostic::general(format!("cannot write the report '{}': {error}", file.display()))
             .with_hint("--report takes the path of a file in a folder that exists")
     })

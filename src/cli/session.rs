@@ -5,10 +5,10 @@ use std::path::{Path, PathBuf};
 
 use super::Exit;
 use super::args::{ReplOptions, SessionOptions};
-use super::console::tell;
+use super::console::print_error;
 use super::interrupt::{self, InterruptLoss};
 use super::progress_display::{self, ProgressPreference};
-use super::run::{last_resort, refuse};
+use super::run::{last_resort, report_error};
 use crate::output::{Glyphs, TerminalStyle};
 use crate::panics;
 use crate::repl::editor::{self, Editor};
@@ -26,12 +26,12 @@ use crate::script::state::settings::{RunMode, RunSettings};
 /// Runs `withy repl`: opens a session, optionally after evaluating a file.
 pub fn open(options: &ReplOptions) -> Exit {
     panics::silence();
-    if is_conversation(&options.session) {
-        interrupt::end_when_asked();
+    if is_interactive(&options.session) {
+        interrupt::end_on_signal();
     }
-    match on_large_stack(&options.session.limits.limits(), || hold(options)) {
+    match on_large_stack(&options.session.limits.limits(), || run(options)) {
         Ok(Ok(exit)) => exit,
-        Ok(Err(diagnostic)) | Err(diagnostic) => refuse(&diagnostic),
+        Ok(Err(diagnostic)) | Err(diagnostic) => report_error(&diagnostic),
     }
 }
 
@@ -39,13 +39,13 @@ pub fn start(options: SessionOptions) -> Exit {
     open(&ReplOptions { file: None, session: options })
 }
 
-fn is_conversation(options: &SessionOptions) -> bool {
+fn is_interactive(options: &SessionOptions) -> bool {
     options.inputs.is_empty() && stdin().is_terminal() && stdout().is_terminal()
 }
 
-fn hold(options: &ReplOptions) -> Result<Exit, Diagnostic> {
+fn run(options: &ReplOptions) -> Result<Exit, Diagnostic> {
     let ReplOptions { file, session: options } = options;
-    let is_conversation = is_conversation(options);
+    let is_conversation = is_interactive(options);
     let settings = RunSettings { folder: folder_of(file), ..settings(options, is_conversation) };
     let session = Session::new(language(), settings)?;
     let screen =
@@ -56,7 +56,7 @@ fn hold(options: &ReplOptions) -> Result<Exit, Diagnostic> {
         None => CommandOutcome::Good,
     };
     if is_conversation {
-        return converse(&mut shell, options).map(|()| Exit::Good);
+        return read_inputs(&mut shell, options).map(|()| Exit::Good);
     }
     for input in &options.inputs {
         if outcome == CommandOutcome::Good {
@@ -69,7 +69,7 @@ fn hold(options: &ReplOptions) -> Result<Exit, Diagnostic> {
     Ok(exit_for(&shell, outcome))
 }
 
-fn converse(shell: &mut Shell, options: &SessionOptions) -> Result<(), Diagnostic> {
+fn read_inputs(shell: &mut Shell, options: &SessionOptions) -> Result<(), Diagnostic> {
     let no_terminal = |error: io::Error| {
         Diagnostic::general(format!("cannot read from the terminal: {error}"))
             .with_hint("inputs can also be read from a file: withy repl < FILE")
@@ -95,7 +95,7 @@ fn exit_for(shell: &Shell, outcome: CommandOutcome) -> Exit {
     let stopped = shell.session().context().stopped_by();
     let is_lost = matches!(stopped, Some(Stop::OutputLost(_)));
     if is_lost && outcome != CommandOutcome::Failed {
-        tell("error: part of the output could not be written\n");
+        print_error("error: part of the output could not be written\n");
     }
     match outcome {
         CommandOutcome::Failed => Exit::Wrong,

@@ -12,7 +12,7 @@ use super::{Exit, console, convert, docs, learn, run, session, view};
 pub fn main() -> ExitCode {
     let arguments = match CliArguments::try_parse() {
         Ok(arguments) => arguments,
-        Err(answer) => return answered(&answer).into(),
+        Err(answer) => return print_clap_answer(&answer).into(),
     };
     let exit = match arguments.command {
         Some(CliCommand::Run(options)) => run::run(&options),
@@ -31,7 +31,7 @@ pub fn main() -> ExitCode {
     }
 }
 
-fn answered(answer: &clap::Error) -> Exit {
+fn print_clap_answer(answer: &clap::Error) -> Exit {
     let printed = answer.print().and_then(|()| stdout().flush());
     let is_lost = printed.is_err_and(|error| error.kind() != ErrorKind::BrokenPipe);
     if is_lost || answer.exit_code() != 0 { Exit::Wrong } else { Exit::Good }

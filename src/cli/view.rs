@@ -8,13 +8,13 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
 use super::Exit;
-use super::console::tell;
+use super::console::print_error;
 use super::interrupt::{self, InterruptLoss};
 use super::progress_display::{self, ProgressPreference};
-use super::run::{exit_for, last_resort, refuse, show_summary};
+use super::run::{exit_for, last_resort, report_error, show_summary};
 use super::saved::{folder_of, literal, program, stem_of};
 use super::view_options::ViewOptions;
-use crate::output::write_whole;
+use crate::output::write_atomic;
 use crate::panics;
 use crate::sandbox_fs::Scratch;
 use crate::script::diagnose::Diagnostic;
@@ -36,7 +36,7 @@ struct ViewRun {
 pub fn view(options: &ViewOptions) -> Exit {
     match prepare(options) {
         Ok(run) => perform(run, options),
-        Err(diagnostic) => refuse(&diagnostic),
+        Err(diagnostic) => report_error(&diagnostic),
     }
 }
 
@@ -92,8 +92,8 @@ fn perform(run: ViewRun, options: &ViewOptions) -> Exit {
     let mut outcome = runner::run(&run.program, &language(), settings);
     let mut page = run.out.join(&run.page);
     if let (Ending::Finished, Some(place)) = (&outcome.ending, &options.output) {
-        if let Err(diagnostic) = put(&page, place) {
-            return refuse(&diagnostic);
+        if let Err(diagnostic) = write_page(&page, place) {
+            return report_error(&diagnostic);
         }
         outcome.files.retain(|file| *file != page);
         outcome.files.push(place.clone());
@@ -103,18 +103,18 @@ fn perform(run: ViewRun, options: &ViewOptions) -> Exit {
         show_summary(&outcome);
     }
     if matches!(outcome.ending, Ending::Finished) && !options.no_open && !open(&page) {
-        tell(&format!("open '{}' in a browser to see it\n", page.display()));
+        print_error(&format!("open '{}' in a browser to see it\n", page.display()));
     }
     exit_for(&outcome)
 }
 
-fn put(page: &Path, place: &Path) -> Result<(), Diagnostic> {
+fn write_page(page: &Path, place: &Path) -> Result<(), Diagnostic> {
     let failed = |error: String| {
         Diagnostic::general(format!("cannot write the page '{}': {error}", place.display()))
             .with_hint("-o takes the path of a file in a folder that you may write to")
     };
     let bytes = fs::read(page).map_err(|error| failed(error.to_string()))?;
-    write_whole(place, &bytes).map_err(|error| failed(error.to_string()))?;
+    write_atomic(place, &bytes).map_err(|error| failed(error.to_string()))?;
     fs::remove_file(page).map_err(|error| failed(error.to_string()))
 }
 

@@ -29,7 +29,7 @@ struct CapturedText {
 
 impl CaptureWriter {
     /// Output captured so far.
-    pub fn heard(&self) -> CapturedOutput {
+    pub fn captured(&self) -> CapturedOutput {
         let heard = self.0.lock().unwrap_or_else(PoisonError::into_inner);
         let text = String::from_utf8_lossy(&heard.kept);
         CapturedOutput { lines: text.lines().map(str::to_owned).collect(), more: heard.more }
@@ -61,7 +61,7 @@ mod tests {
         for _ in 0..MOST {
             writer.write_all(b"1\n").unwrap();
         }
-        let heard = ear.heard();
+        let heard = ear.captured();
         assert_eq!((heard.lines.len(), heard.more), (MOST / 2, MOST / 2));
         assert!(heard.lines.iter().all(|line| line == "1"));
     }

@@ -31,11 +31,11 @@ impl Mark {
     pub fn of(word: &str) -> Option<Self> {
         let all =
             [Self::Passed, Self::Off, Self::Broken, Self::Stopped, Self::Untouched, Self::Missing];
-        all.into_iter().find(|mark| mark.word() == word)
+        all.into_iter().find(|mark| mark.keyword() == word)
     }
 
     /// Keyword of the mark.
-    pub fn word(self) -> &'static str {
+    pub fn keyword(self) -> &'static str {
         match self {
             Self::Passed => "passed",
             Self::Off => "off",
@@ -79,7 +79,7 @@ impl StudentReport {
             .graded
             .iter()
             .map(|Graded { exercise, mark, message }| {
-                json!({ "exercise": exercise.id(), "result": mark.word(), "message": message })
+                json!({ "exercise": exercise.id(), "result": mark.keyword(), "message": message })
             })
             .collect();
         json!({ "student": self.student, "passed": self.passed(), "exercises": exercises })

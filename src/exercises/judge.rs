@@ -41,13 +41,16 @@ impl Judge {
             entries.iter().filter_map(move |entry| entry.strip_prefix(key)).map(str::trim)
         };
         Self {
-            needs: of_key("needs:").flat_map(|list| list.split(',')).filter_map(need).collect(),
+            needs: of_key("needs:")
+                .flat_map(|list| list.split(','))
+                .filter_map(parse_requirement)
+                .collect(),
             hints: of_key("hint:").map(str::to_owned).collect(),
         }
     }
 }
 
-fn need(text: &str) -> Option<Need> {
+fn parse_requirement(text: &str) -> Option<Need> {
     let (name, of) = text.trim().strip_suffix(')')?.split_once(" (")?;
     Some(Need { name: name.into(), of: of.into() })
 }

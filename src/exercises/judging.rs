@@ -43,11 +43,12 @@ pub fn judge(exercise: &Exercise, attempt: &Program, settings: RunSettings) -> A
     limits.time = limits.time.or(Some(PATIENCE));
     let settings =
         RunSettings { limits, snapshots: SNAPSHOTS, folder: attempt.folder.clone(), ..settings };
-    let hold =
-        || match JudgingContext::open(settings).and_then(|trial| trial.hold(exercise, attempt)) {
-            Ok(()) => AttemptVerdict::Passed,
-            Err(verdict) => verdict,
-        };
+    let hold = || match JudgingContext::open(settings)
+        .and_then(|trial| trial.run_judge(exercise, attempt))
+    {
+        Ok(()) => AttemptVerdict::Passed,
+        Err(verdict) => verdict,
+    };
     on_large_stack(&limits, hold).unwrap_or_else(AttemptVerdict::Broken)
 }
 
@@ -60,24 +61,24 @@ impl JudgingContext {
     fn open(settings: RunSettings) -> Result<Self, AttemptVerdict> {
         let silence = SilenceSwitch::default();
         let settings = RunSettings {
-            printed: silence.muffle(settings.printed),
-            told: silence.muffle(settings.told),
+            printed: silence.wrap(settings.printed),
+            told: silence.wrap(settings.told),
             ..settings
         };
         let host = ScriptEngine::open(language(), settings).map_err(AttemptVerdict::Broken)?;
         Ok(Self { host, silence })
     }
 
-    fn hold(&self, exercise: &Exercise, attempt: &Program) -> Result<(), AttemptVerdict> {
+    fn run_judge(&self, exercise: &Exercise, attempt: &Program) -> Result<(), AttemptVerdict> {
         let mut scope = Scope::new();
-        let held = self.hold_within(&mut scope, exercise, attempt);
+        let held = self.run_judge_within(&mut scope, exercise, attempt);
         // Dropping the data of the attempt may take time and memory too.
         let _limits_kept = self.host.watch().map_err(|halt| self.verdict(halt))?;
         drop(scope);
         held
     }
 
-    fn hold_within(
+    fn run_judge_within(
         &self,
         scope: &mut Scope<'static>,
         exercise: &Exercise,
@@ -103,7 +104,7 @@ impl JudgingContext {
         match found {
             None => {
                 let why = format!("{} made no check", program.name);
-                Err(AttemptVerdict::Broken(Diagnostic::bug(why)))
+                Err(AttemptVerdict::Broken(Diagnostic::internal_error(why)))
             }
             Some(found) if found.is_empty() => Ok(()),
             Some(found) => Err(AttemptVerdict::Off(found)),

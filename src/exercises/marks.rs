@@ -93,7 +93,7 @@ impl MarksFile {
     ///
     /// # Errors
     /// Fails if writing fails.
-    pub fn note(
+    pub fn append(
         &mut self,
         submission: &Submission,
         exercise: &Exercise,
@@ -103,7 +103,7 @@ impl MarksFile {
         let line = json!({
             "student": submission.student,
             "exercise": exercise.id(),
-            "result": mark.word(),
+            "result": mark.keyword(),
             "message": message,
             "fingerprint": fingerprint,
         });
@@ -127,9 +127,9 @@ mod tests {
         let (kink, knots) = (find("kink").unwrap(), find("knot_vector").unwrap());
         let (known, mut file) = open(&path).unwrap();
         assert_eq!(known.find(&ada, kink, "1"), None);
-        file.note(&ada, kink, (Mark::Off, "one"), Some("1")).unwrap();
-        file.note(&ada, kink, (Mark::Passed, ""), Some("2")).unwrap();
-        file.note(&ada, knots, (Mark::Broken, "by us"), None).unwrap();
+        file.append(&ada, kink, (Mark::Off, "one"), Some("1")).unwrap();
+        file.append(&ada, kink, (Mark::Passed, ""), Some("2")).unwrap();
+        file.append(&ada, knots, (Mark::Broken, "by us"), None).unwrap();
         assert!(open(&path).unwrap_err().to_string().contains("another process is writing"));
         drop(file);
         let whole = fs::read_to_string(&path).unwrap();
@@ -139,7 +139,7 @@ mod tests {
             assert_eq!(known.find(&ada, kink, "1"), None, "the last one holds");
             assert_eq!(known.find(&ada, kink, "2"), Some((Mark::Passed, String::new())));
             assert!(known.find(&ada, knots, "").is_none());
-            file.note(&ada, kink, (Mark::Passed, ""), Some("2")).unwrap();
+            file.append(&ada, kink, (Mark::Passed, ""), Some("2")).unwrap();
         }
         let text = fs::read_to_string(&path).unwrap();
         assert!(text.lines().count() == 4 && text.lines().all(|line| read_line(line).is_some()));

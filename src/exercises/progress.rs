@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 
 use super::error::ExerciseError;
 use super::exercise::Exercise;
-use crate::output::write_whole;
+use crate::output::write_atomic;
 use crate::sandbox_fs::read_text;
 
 /// Maximum size of the file [bytes].
@@ -46,7 +46,7 @@ impl StudentProgress {
     /// Fails if writing fails; the old file is kept.
     pub fn write(&self, folder: &Path) -> Result<(), ExerciseError> {
         let text = format!("{:#}\n", serde_json::json!(self));
-        Ok(write_whole(folder.join(FILE), text.as_bytes())?)
+        Ok(write_atomic(folder.join(FILE), text.as_bytes())?)
     }
 
     /// Returns true if the last check of an exercise passed.
@@ -55,7 +55,7 @@ impl StudentProgress {
     }
 
     /// Records the result of a check.
-    pub fn note(&mut self, exercise: &Exercise, passed: bool) {
+    pub fn record(&mut self, exercise: &Exercise, passed: bool) {
         match passed {
             true => self.passed.insert(exercise.id()),
             false => self.passed.remove(&exercise.id()),
@@ -68,12 +68,12 @@ impl StudentProgress {
     }
 
     /// Records another hint.
-    pub fn note_hint(&mut self, exercise: &Exercise) {
+    pub fn record_hint(&mut self, exercise: &Exercise) {
         *self.hints.entry(exercise.id()).or_default() += 1;
     }
 
     /// Removes the progress of an exercise.
-    pub fn forget(&mut self, exercise: &Exercise) {
+    pub fn remove(&mut self, exercise: &Exercise) {
         self.passed.remove(&exercise.id());
         self.hints.remove(&exercise.id());
     }
@@ -91,7 +91,7 @@ mod tests {
         let text = r#"{ "passed": ["beams/of_tomorrow"], "hints": { "beams/of_tomorrow": 2 } }"#;
         fs::write(folder.path().join(FILE), text).unwrap();
         let mut progress = StudentProgress::read(folder.path()).unwrap();
-        progress.note(&EXERCISES[0], true);
+        progress.record(&EXERCISES[0], true);
         progress.write(folder.path()).unwrap();
         let text = fs::read_to_string(folder.path().join(FILE)).unwrap();
         let kept: serde_json::Value = serde_json::from_str(&text).unwrap();
@@ -103,10 +103,10 @@ mod tests {
     #[test]
     fn what_is_forgotten_has_neither_passed_nor_had_hints() {
         let mut progress = StudentProgress::default();
-        progress.note(&EXERCISES[0], true);
-        progress.note_hint(&EXERCISES[0]);
+        progress.record(&EXERCISES[0], true);
+        progress.record_hint(&EXERCISES[0]);
         assert_eq!((progress.has_passed(&EXERCISES[0]), progress.hints(&EXERCISES[0])), (true, 1));
-        progress.forget(&EXERCISES[0]);
+        progress.remove(&EXERCISES[0]);
         assert_eq!(progress, StudentProgress::default());
     }
 }

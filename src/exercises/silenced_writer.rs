@@ -14,7 +14,7 @@ impl SilenceSwitch {
     }
 
     /// Wraps a writer so that the switch can silence it.
-    pub fn muffle(&self, writer: Box<dyn Write + Send>) -> Box<dyn Write + Send> {
+    pub fn wrap(&self, writer: Box<dyn Write + Send>) -> Box<dyn Write + Send> {
         Box::new(SilencedWriter { silence: self.clone(), writer })
     }
 }
@@ -59,7 +59,7 @@ mod tests {
     #[test]
     fn nothing_gets_through_once_there_is_silence() {
         let (heard, silence) = (SilenceState::default(), SilenceSwitch::default());
-        let mut writer = silence.muffle(Box::new(heard.clone()));
+        let mut writer = silence.wrap(Box::new(heard.clone()));
         writer.write_all(b"before").unwrap();
         silence.begin();
         writer.write_all(b"after").unwrap();

@@ -25,7 +25,7 @@ impl Submission {
     pub fn all_in(folder: &Path) -> Result<Vec<Self>, ExerciseError> {
         let unreadable = |source| ExerciseError::Read { path: folder.into(), source };
         let own = Self::new(folder);
-        if own.holds_attempts() {
+        if own.contains_attempts() {
             return Ok(vec![own]);
         }
         let mut all = Vec::new();
@@ -71,7 +71,7 @@ impl Submission {
         places.into_iter().find(|place| place.exists())
     }
 
-    fn holds_attempts(&self) -> bool {
+    fn contains_attempts(&self) -> bool {
         EXERCISES.iter().any(|exercise| self.attempt(exercise).is_some())
     }
 }

@@ -8,7 +8,7 @@ use super::catalogue::EXERCISES;
 use super::error::ExerciseError;
 use super::exercise::Exercise;
 use super::progress::{self, StudentProgress};
-use crate::output::write_whole;
+use crate::output::write_atomic;
 use crate::sandbox_fs::read_file;
 
 /// Name of the folder that is created.
@@ -57,7 +57,7 @@ impl Workbook {
         let missing: Vec<_> =
             EXERCISES.iter().filter(|exercise| !self.file(exercise).exists()).collect();
         for exercise in &missing {
-            write_whole(self.file(exercise), exercise.start.as_bytes())?;
+            write_atomic(self.file(exercise), exercise.start.as_bytes())?;
         }
         if !self.folder.join(progress::FILE).exists() {
             StudentProgress::default().write(&self.folder)?;
@@ -101,8 +101,8 @@ impl Workbook {
     ///
     /// # Errors
     /// Fails if the progress file cannot be used.
-    pub fn note(&self, exercise: &Exercise, passed: bool) -> Result<(), ExerciseError> {
-        self.change(|progress| progress.note(exercise, passed))
+    pub fn record(&self, exercise: &Exercise, passed: bool) -> Result<(), ExerciseError> {
+        self.change(|progress| progress.record(exercise, passed))
     }
 
     /// Next hint of an exercise, which is recorded as given.
@@ -115,7 +115,7 @@ impl Workbook {
         let Some(text) = hints.get(given).cloned() else {
             return Ok(Advice::Solution(exercise.solution));
         };
-        self.change(|progress| progress.note_hint(exercise))?;
+        self.change(|progress| progress.record_hint(exercise))?;
         Ok(Advice::Hint { text, number: given + 1, count: hints.len() })
     }
 
@@ -131,8 +131,8 @@ impl Workbook {
             to: kept.clone(),
             source,
         })?;
-        write_whole(&file, exercise.start.as_bytes())?;
-        self.change(|progress| progress.forget(exercise))?;
+        write_atomic(&file, exercise.start.as_bytes())?;
+        self.change(|progress| progress.remove(exercise))?;
         Ok(kept)
     }
 
@@ -190,10 +190,10 @@ mod tests {
     fn progress_survives_and_follows_the_last_check() {
         let (_folder, workbook) = workbook();
         assert_eq!(workbook.next().unwrap(), Some(&EXERCISES[0]));
-        workbook.note(&EXERCISES[0], true).unwrap();
+        workbook.record(&EXERCISES[0], true).unwrap();
         let again = Workbook::near(workbook.folder());
         assert_eq!(again.next().unwrap(), Some(&EXERCISES[1]));
-        again.note(&EXERCISES[0], false).unwrap();
+        again.record(&EXERCISES[0], false).unwrap();
         assert_eq!(workbook.next().unwrap(), Some(&EXERCISES[0]));
     }
 
@@ -216,7 +216,7 @@ mod tests {
         let file = workbook.file(&EXERCISES[0]);
         for attempt in ["first", "second"] {
             fs::write(&file, attempt).unwrap();
-            workbook.note(&EXERCISES[0], true).unwrap();
+            workbook.record(&EXERCISES[0], true).unwrap();
             let kept = workbook.reset(&EXERCISES[0]).unwrap();
             assert_eq!(fs::read_to_string(kept).unwrap(), attempt);
             assert_eq!(fs::read_to_string(&file).unwrap(), EXERCISES[0].start);
@@ -229,7 +229,7 @@ mod tests {
         let (_folder, workbook) = workbook();
         let file = workbook.folder().join(progress::FILE);
         fs::write(&file, "{ half").unwrap();
-        let told = workbook.note(&EXERCISES[0], true).unwrap_err().to_string();
+        let told = workbook.record(&EXERCISES[0], true).unwrap_err().to_string();
         assert!(told.contains("is damaged") && told.contains("your attempts are kept"), "{told}");
         assert_eq!(fs::read_to_string(&file).unwrap(), "{ half");
     }

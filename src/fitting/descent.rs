@@ -5,7 +5,7 @@ use std::cell::RefCell;
 use slsqp::{FailStatus, StopTols, minimize};
 
 use super::design::{PENALTY, Scaled};
-use super::gradient_check::{DISTRUST, agree, beside};
+use super::gradient_check::{DISTRUST, matches_derivatives, test_points};
 use super::{Design, Designed, Rating};
 
 /// Number of restarts; each tightens the constraints if the last solution violated one slightly.
@@ -60,7 +60,7 @@ impl<E> Descent<'_, '_, E> {
         }
         let found = match self.ended {
             Some(_) => None,
-            None => self.asked(scaled).unwrap_or_else(|ended| {
+            None => self.evaluate(scaled).unwrap_or_else(|ended| {
                 self.ended = Some(ended);
                 None
             }),
@@ -70,7 +70,7 @@ impl<E> Descent<'_, '_, E> {
         found
     }
 
-    fn asked(&mut self, scaled: &[f64]) -> Result<Option<SlopedRating>, Ended<E>> {
+    fn evaluate(&mut self, scaled: &[f64]) -> Result<Option<SlopedRating>, Ended<E>> {
         let x = self.design.unscaled(scaled);
         // Counted once, although a missing derivative needs a second call.
         self.runs += 1;
@@ -79,11 +79,11 @@ impl<E> Descent<'_, '_, E> {
                 self.gradient_runs += 1;
                 if self.gradient_runs == 1 && !self.are_true(&x, &found)? {
                     if let Some(rating) = (self.rate)(&x).map_err(Ended::Error)? {
-                        self.keep(x, &rating);
+                        self.store_best(x, &rating);
                     }
                     return Err(Ended::Unknown(DISTRUST.to_owned()));
                 }
-                self.keep(x, &found.rating);
+                self.store_best(x, &found.rating);
                 let sizes: Vec<f64> = self.design.ranges.iter().map(|of| of.width()).collect();
                 for slopes in found.constraints.iter_mut().chain([&mut found.objective]) {
                     slopes.iter_mut().zip(&sizes).for_each(|(slope, size)| *slope *= size);
@@ -93,7 +93,7 @@ impl<E> Descent<'_, '_, E> {
             Err(reason) => match (self.rate)(&x).map_err(Ended::Error)? {
                 None => Ok(None),
                 Some(rating) => {
-                    self.keep(x, &rating);
+                    self.store_best(x, &rating);
                     Err(Ended::Unknown(reason))
                 }
             },
@@ -102,7 +102,7 @@ impl<E> Descent<'_, '_, E> {
 
     /// Checks derivatives of objective and constraints against values for plain numbers.
     fn are_true(&mut self, x: &[f64], found: &SlopedRating) -> Result<bool, Ended<E>> {
-        let [low, high] = beside(&self.design.ranges, x);
+        let [low, high] = test_points(&self.design.ranges, x);
         self.runs += 2;
         let mut rate = |x: &[f64]| (self.rate)(x).map_err(Ended::Error);
         let (Some(before), Some(behind)) = (rate(&low)?, rate(&high)?) else { return Ok(true) };
@@ -115,12 +115,12 @@ impl<E> Descent<'_, '_, E> {
             let change =
                 row.iter().zip(low.iter().zip(&high)).map(|(slope, (a, b))| slope * (b - a));
             let change: f64 = change.sum();
-            agree([&before[at..=at], &behind[at..=at]], &here[at..=at], |_| change)
+            matches_derivatives([&before[at..=at], &behind[at..=at]], &here[at..=at], |_| change)
         };
         Ok(before.len() == here.len() && behind.len() == here.len() && rows.enumerate().all(agrees))
     }
 
-    fn keep(&mut self, x: Vec<f64>, rating: &Rating) {
+    fn store_best(&mut self, x: Vec<f64>, rating: &Rating) {
         self.worst = self.worst.max(rating.objective);
         if self.best.as_ref().is_none_or(|(_, best)| rating.is_better_than(best)) {
             self.best = Some((x, rating.clone()));
@@ -246,7 +246,7 @@ impl Design {
                 return true;
             }
             // The solution may lie slightly on either side of the boundary.
-            margin += 2.0 * missed.rating.missed();
+            margin += 2.0 * missed.rating.largest_violation();
             start = at;
         }
         false

@@ -73,20 +73,20 @@ struct DesignSearch<E> {
 
 impl Rating {
     /// Largest violation of a constraint; zero if all are met.
-    pub fn missed(&self) -> f64 {
+    pub fn largest_violation(&self) -> f64 {
         let missed = self.constraints.iter().map(|value| (-value).max(0.0));
         missed.fold(0.0, f64::max)
     }
 
     pub(super) fn is_feasible(&self) -> bool {
-        self.missed() <= MET
+        self.largest_violation() <= MET
     }
 
     /// Returns true if this result is better: feasible with a lower objective, or closer to feasible.
     pub(super) fn is_better_than(&self, other: &Self) -> bool {
         match (self.is_feasible(), other.is_feasible()) {
             (true, true) => self.objective < other.objective,
-            (false, false) => self.missed() < other.missed(),
+            (false, false) => self.largest_violation() < other.largest_violation(),
             (own, _) => own,
         }
     }

@@ -3,7 +3,7 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::differences::{derivatives, only};
-use super::gradient_check::{DISTRUST, agree, beside};
+use super::gradient_check::{DISTRUST, matches_derivatives, test_points};
 use super::{Evaluate, Evaluation, SearchRange, Slopes};
 
 pub struct CountedEvaluator<'a, 'e, E> {
@@ -66,13 +66,13 @@ impl<'a, 'e, E> CountedEvaluator<'a, 'e, E> {
     }
 
     fn are_true(&mut self, x: &[f64], here: &[f64], slopes: &DMatrix<f64>) -> Result<bool, E> {
-        let [low, high] = beside(self.ranges, x);
+        let [low, high] = test_points(self.ranges, x);
         let way = DVector::from_fn(x.len(), |at, _| high[at] - low[at]);
         let change = slopes * way;
         self.runs += 2;
         let found = (self.evaluate)(&[low, high])?;
         let [Ok(low), Ok(high)] = &found[..] else { return Ok(true) };
-        Ok(agree([low, high], here, |at| change[at]))
+        Ok(matches_derivatives([low, high], here, |at| change[at]))
     }
 
     /// Derivatives at a point by finite differences; `here` are the values there.

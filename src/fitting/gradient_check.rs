@@ -16,7 +16,7 @@ pub const DISTRUST: &str =
     "the derivatives of the runs differ from finite differences of their results";
 
 /// Two points on both sides of `x`, or on one side at a bound; each parameter is moved by a different fraction of its size.
-pub fn beside(ranges: &[SearchRange], x: &[f64]) -> [Vec<f64>; 2] {
+pub fn test_points(ranges: &[SearchRange], x: &[f64]) -> [Vec<f64>; 2] {
     let moved = |sign: f64| {
         let parameters = x.iter().zip(ranges).enumerate();
         let moved = parameters.map(|(at, (x, range))| {
@@ -30,7 +30,11 @@ pub fn beside(ranges: &[SearchRange], x: &[f64]) -> [Vec<f64>; 2] {
 }
 
 /// Returns true if values at two points differ as predicted by the derivatives, and their mean is close to the values between them.
-pub fn agree(values: [&[f64]; 2], here: &[f64], change: impl Fn(usize) -> f64) -> bool {
+pub fn matches_derivatives(
+    values: [&[f64]; 2],
+    here: &[f64],
+    change: impl Fn(usize) -> f64,
+) -> bool {
     let [low, high] = values;
     if low.len() != here.len() || high.len() != here.len() {
         return false;
@@ -54,7 +58,7 @@ mod tests {
     fn points_lie_on_both_sides_within_bounds() {
         let range = |start, low, high| SearchRange { start, low, high };
         let ranges = [range(1.0, 0.0, 10.0), range(0.0, 0.0, 1.0)];
-        let [low, high] = beside(&ranges, &[1.0, 0.0]);
+        let [low, high] = test_points(&ranges, &[1.0, 0.0]);
         assert!(low[0] < 1.0 && high[0] > 1.0 && low[1] == 0.0 && high[1] > 0.0);
     }
 
@@ -63,7 +67,7 @@ mod tests {
         let square = |x: f64| [x * x, 3.0 * x];
         let (x, h) = (2.0, 1e-4);
         let check = |here: [f64; 2], slopes: [f64; 2]| {
-            agree([&square(x - h), &square(x + h)], &here, |at| 2.0 * h * slopes[at])
+            matches_derivatives([&square(x - h), &square(x + h)], &here, |at| 2.0 * h * slopes[at])
         };
         assert!(check(square(x), [4.0, 3.0]));
         assert!(!check(square(x), [0.0, 3.0]), "a derivative is missing");

@@ -151,7 +151,7 @@ impl LeastSquaresState {
     }
 
     /// Updates the derivatives after a step: C. G. Broyden's rank-one correction (1965), in scaled parameters.
-    fn learn(&mut self, step: &DVector<f64>, change: &DVector<f64>) {
+    fn update_derivatives(&mut self, step: &DVector<f64>, change: &DVector<f64>) {
         let scaled =
             DVector::from_fn(step.len(), |at, _| step[at] * self.sizes[at] * self.sizes[at]);
         let length = scaled.dot(step);
@@ -237,7 +237,7 @@ impl LeastSquares {
                 settling = TerminationReason::Settled;
                 break;
             }
-            match self.round(&mut state, least, &mut steps, &mut asking)? {
+            match self.iterate(&mut state, least, &mut steps, &mut asking)? {
                 Round::Goes(found) => known = found,
                 Round::Sticks => {
                     settling = TerminationReason::Stuck;
@@ -264,7 +264,7 @@ impl LeastSquares {
         }))
     }
 
-    fn round<E>(
+    fn iterate<E>(
         &self,
         state: &mut LeastSquaresState,
         least: f64,
@@ -316,7 +316,7 @@ impl LeastSquares {
                 continue;
             };
             let change = &found - &state.residuals;
-            state.learn(&step, &change);
+            state.update_derivatives(&step, &change);
             (state.x, state.residuals) = (x, found);
             state.damping = match share {
                 good if good > 0.75 => (state.damping / 10.0).max(DAMPING.1),

@@ -87,7 +87,7 @@ impl Series {
     }
 
     /// Draws the series thin and pale.
-    pub fn faint(mut self) -> Self {
+    pub fn pale(mut self) -> Self {
         self.weight = SeriesEmphasis::Faint;
         self
     }
@@ -203,7 +203,7 @@ impl LineChart {
                 let name =
                     if is_alone { whose.clone() } else { format!("{whose}: {}", series.name) };
                 // Dashes leave an equal curve below visible.
-                let stroke = series.stroke.or((which > 0).then(|| Stroke::of_round(which)));
+                let stroke = series.stroke.or((which > 0).then(|| Stroke::of_palette_pass(which)));
                 shared.series(Series { name, stroke, ..series })
             })
         })
@@ -223,7 +223,7 @@ impl LineChart {
     }
 
     /// Writes a text into the chart, to the right of a data point and slightly below it.
-    pub fn note(mut self, at: Point, text: impl Into<String>) -> Self {
+    pub fn annotate(mut self, at: Point, text: impl Into<String>) -> Self {
         self.notes.push((at, text.into()));
         self
     }
@@ -268,7 +268,7 @@ impl LineChart {
 
     fn legend(&self) -> Vec<LegendEntry> {
         let entry = |(index, series): (usize, &Series)| {
-            let (colour, stroke) = look(index, series);
+            let (colour, stroke) = default_style(index, series);
             LegendEntry { name: series.name.clone(), colour, stroke, marker: series.marker }
         };
         match self.series.as_slice() {
@@ -283,14 +283,14 @@ impl LineChart {
     }
 }
 
-fn look(index: usize, series: &Series) -> (Colour, Stroke) {
+fn default_style(index: usize, series: &Series) -> (Colour, Stroke) {
     let colour = match series.ink {
         SeriesColour::Next => hue(index),
         SeriesColour::OfSeries(number) => hue(number),
         SeriesColour::Black => INK,
         SeriesColour::Grey => GREY,
     };
-    (colour, series.stroke.unwrap_or(Stroke::of_round(index / HUE_COUNT)))
+    (colour, series.stroke.unwrap_or(Stroke::of_palette_pass(index / HUE_COUNT)))
 }
 
 impl Panel for LineChart {
@@ -306,7 +306,7 @@ impl Panel for LineChart {
         let frame = self.frame();
         frame.draw(canvas, area, plot);
         if self.points().next().is_none() {
-            frame.say_no_data(canvas, plot);
+            frame.draw_no_data(canvas, plot);
         }
         let faint_first = [SeriesEmphasis::Faint, SeriesEmphasis::Thin, SeriesEmphasis::Full]
             .into_iter()
@@ -314,7 +314,7 @@ impl Panel for LineChart {
                 self.series.iter().enumerate().filter(move |(_, series)| series.weight == weight)
             });
         for (index, series) in faint_first {
-            let (colour, stroke) = look(index, series);
+            let (colour, stroke) = default_style(index, series);
             let (line, mark, colour) = match series.weight {
                 SeriesEmphasis::Full => (LINE, MARK, colour),
                 SeriesEmphasis::Thin => (THIN, FAINT.1, colour),

@@ -44,7 +44,7 @@ impl ColourBar {
     }
 
     /// Makes the bar a wedge: its width goes from `least` to `most` [pixels].
-    pub fn wedge(mut self, least: f64, most: f64) -> Self {
+    pub fn with_wedge(mut self, least: f64, most: f64) -> Self {
         self.form = BarWidth::Wedge(least, most);
         self
     }

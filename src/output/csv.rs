@@ -3,7 +3,7 @@
 use std::borrow::Cow;
 use std::path::Path;
 
-use super::{OutputError, files::write_whole};
+use super::{OutputError, files::write_atomic};
 
 /// A table of named columns of numbers. Every number reads back bit for bit.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -70,7 +70,7 @@ impl CsvTable {
 
     /// Writes the table to the file `path` atomically.
     pub fn save(&self, path: impl AsRef<Path>) -> Result<(), OutputError> {
-        write_whole(path, self.to_text()?.as_bytes())
+        write_atomic(path, self.to_text()?.as_bytes())
     }
 
     fn common_length(&self) -> Result<usize, OutputError> {

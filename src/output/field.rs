@@ -90,7 +90,8 @@ impl FieldPicture {
 
     fn bar(&self) -> ColourBar {
         let most = self.largest().map(|(_, value)| value);
-        ColourBar::new(&self.label, [0.0].into_iter().chain(most), ramp).wedge(WIDTHS.0, WIDTHS.1)
+        ColourBar::new(&self.label, [0.0].into_iter().chain(most), ramp)
+            .with_wedge(WIDTHS.0, WIDTHS.1)
     }
 
     fn draw_beam(canvas: &mut Canvas, piece: f64, pixels: &[(Point, f64)]) {
@@ -187,7 +188,7 @@ impl Panel for FieldPicture {
         let frame = self.frame(plot.width(), plot.height());
         frame.draw(canvas, area, plot);
         if self.places().next().is_none() {
-            frame.say_no_data(canvas, plot);
+            frame.draw_no_data(canvas, plot);
         }
         let bar = self.bar();
         bar.draw(canvas, plot);

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use super::{OutputError, canvas::Canvas, files::write_whole, png, svg};
+use super::{OutputError, canvas::Canvas, files::write_atomic, png, svg};
 
 const SIDES: std::ops::RangeInclusive<f64> = 100.0..=8000.0;
 
@@ -70,8 +70,8 @@ impl Figure {
     pub fn save(&self, path: impl AsRef<Path>) -> Result<(), OutputError> {
         let path = path.as_ref();
         match PictureKind::of(path)? {
-            PictureKind::Svg => write_whole(path, self.to_svg()?.as_bytes()),
-            PictureKind::Png => write_whole(path, &self.to_png()?),
+            PictureKind::Svg => write_atomic(path, self.to_svg()?.as_bytes()),
+            PictureKind::Png => write_atomic(path, &self.to_png()?),
         }
     }
 }

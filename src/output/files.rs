@@ -13,7 +13,7 @@ use crate::sandbox_fs::Folder;
 ///
 /// # Errors
 /// Fails if the folder cannot be created, the file cannot be written, or the path names a folder, a pipe or a device.
-pub fn write_whole(path: impl AsRef<Path>, bytes: &[u8]) -> Result<(), OutputError> {
+pub fn write_atomic(path: impl AsRef<Path>, bytes: &[u8]) -> Result<(), OutputError> {
     let path = path.as_ref();
     let not_a_file = || OutputError::NotAFile { path: path.into() };
     let name = path.file_name().ok_or_else(not_a_file)?;
@@ -31,7 +31,7 @@ pub fn write_whole(path: impl AsRef<Path>, bytes: &[u8]) -> Result<(), OutputErr
         source,
     })?;
     opened
-        .write_whole(Path::new(name), bytes)
+        .write_atomic(Path::new(name), bytes)
         .map_err(|source| OutputError::Write { path: path.into(), source })
 }
 
@@ -43,8 +43,8 @@ mod tests {
     fn makes_folders_and_replaces() {
         let home = tempfile::tempdir().unwrap();
         let path = home.path().join("a/b/c.txt");
-        write_whole(&path, b"old").unwrap();
-        write_whole(&path, b"new").unwrap();
+        write_atomic(&path, b"old").unwrap();
+        write_atomic(&path, b"new").unwrap();
         assert_eq!(fs::read(&path).unwrap(), b"new");
         assert_eq!(
             fs::read_dir(path.parent().unwrap()).unwrap().count(),
@@ -57,8 +57,8 @@ mod tests {
     fn a_file_where_a_folder_should_be_is_named() {
         let home = tempfile::tempdir().unwrap();
         let blocker = home.path().join("blocker");
-        write_whole(&blocker, b"").unwrap();
-        let message = write_whole(blocker.join("x.csv"), b"").unwrap_err().to_string();
+        write_atomic(&blocker, b"").unwrap();
+        let message = write_atomic(blocker.join("x.csv"), b"").unwrap_err().to_string();
         assert!(
             message.contains("blocker") && message.contains("choose a writable folder"),
             "{message}"
@@ -68,16 +68,16 @@ mod tests {
     #[test]
     fn a_folder_is_not_a_file() {
         let home = tempfile::tempdir().unwrap();
-        let error = write_whole(home.path(), b"").unwrap_err();
+        let error = write_atomic(home.path(), b"").unwrap_err();
         assert!(matches!(error, OutputError::NotAFile { .. }), "{error}");
-        assert!(matches!(write_whole("", b"").unwrap_err(), OutputError::NotAFile { .. }));
+        assert!(matches!(write_atomic("", b"").unwrap_err(), OutputError::NotAFile { .. }));
     }
 
     #[test]
     fn a_failed_write_leaves_nothing_behind() {
         let home = tempfile::tempdir().unwrap();
         let path = home.path().join("n".repeat(400));
-        let error = write_whole(&path, b"x").unwrap_err();
+        let error = write_atomic(&path, b"x").unwrap_err();
         assert!(matches!(error, OutputError::Write { .. }), "{error}");
         assert_eq!(fs::read_dir(home.path()).unwrap().count(), 0);
     }

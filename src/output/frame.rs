@@ -96,7 +96,7 @@ impl Frame {
         Margins { right, ..self.margins(width - (right - alone), height) }
     }
 
-    pub fn say_no_data(&self, canvas: &mut Canvas, plot: &Area) {
+    pub fn draw_no_data(&self, canvas: &mut Canvas, plot: &Area) {
         let middle = ((plot.left + plot.right) / 2.0, (plot.top + plot.bottom) / 2.0);
         canvas.text("no data", middle, 14.0, Align::Middle, GREY);
     }
@@ -119,7 +119,7 @@ impl Frame {
         self.draw_x_axis(canvas, area, plot);
         self.draw_y_axis(canvas, area, plot);
         let corner = [(plot.left, plot.top), (plot.left, plot.bottom), (plot.right, plot.bottom)];
-        canvas.line(corner.map(crisp), 1.0, AXIS);
+        canvas.line(corner.map(pixel_aligned), 1.0, AXIS);
     }
 
     /// Position of a data point on the canvas [pixels].
@@ -161,7 +161,7 @@ impl Frame {
         let keep = ((widest + 12.0) / spacing).ceil().clamp(1.0, 100.0) as usize;
         for (index, tick) in ticks.iter().enumerate() {
             let x = plot.left + tick.place * plot.width();
-            canvas.line([(x, plot.top), (x, plot.bottom)].map(crisp), 1.0, GRID);
+            canvas.line([(x, plot.top), (x, plot.bottom)].map(pixel_aligned), 1.0, GRID);
             if index % keep == 0 {
                 canvas.text(&tick.label, (x, baseline), NUMBER, Align::Middle, INK);
             }
@@ -178,7 +178,7 @@ impl Frame {
         let (ticks, factor) = self.y.ticks(count(plot.height(), TICK_EVERY.1));
         for tick in &ticks {
             let y = plot.bottom - tick.place * plot.height();
-            canvas.line([(plot.left, y), (plot.right, y)].map(crisp), 1.0, GRID);
+            canvas.line([(plot.left, y), (plot.right, y)].map(pixel_aligned), 1.0, GRID);
             canvas.text(&tick.label, (plot.left - 8.0, y + NUMBER * 0.36), NUMBER, Align::End, INK);
         }
         let label = FittedText::of(&factor.after(&self.y_label), LABEL, plot.height() + 20.0);
@@ -246,7 +246,7 @@ fn count(length: f64, every: f64) -> usize {
 }
 
 /// Moves a point to the centre of its pixel, which makes thin vertical and horizontal lines sharp.
-fn crisp((x, y): Point) -> Point {
+fn pixel_aligned((x, y): Point) -> Point {
     (x.floor() + 0.5, y.floor() + 0.5)
 }
 

@@ -184,7 +184,7 @@ impl Panel for LevelMap {
         let (frame, bar) = (self.frame(), self.bar());
         frame.draw(canvas, area, plot);
         if self.numbers().next().is_none() {
-            frame.say_no_data(canvas, plot);
+            frame.draw_no_data(canvas, plot);
         }
         let (x_ends, y_ends) = (self.x.drawn_ends(), self.y.drawn_ends());
         for (row, y) in self.values.iter().zip(y_ends.windows(2)) {

@@ -70,7 +70,7 @@ pub use data_table::{DataColumn, DataTable, DataValues, TableHeading};
 pub use error::OutputError;
 pub use field::FieldPicture;
 pub use figure::{Figure, PictureKind};
-pub use files::write_whole;
+pub use files::write_atomic;
 pub use frame::Margins;
 pub use heat_map::{HeatCell, HeatMap};
 pub use level_map::{LevelAxis, LevelMap};

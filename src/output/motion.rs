@@ -165,11 +165,11 @@ impl MotionPicture {
         let beams = beams.map(|(index, name)| LegendEntry {
             name: name.clone(),
             colour: hue(index),
-            stroke: Stroke::of_round(index / HUE_COUNT),
+            stroke: Stroke::of_palette_pass(index / HUE_COUNT),
             marker: Marker::Disc,
         });
         let traces = self.traces.iter().enumerate().map(|(index, (name, _))| {
-            let (colour, stroke) = self.trace_look(index);
+            let (colour, stroke) = self.trace_style(index);
             LegendEntry { name: name.clone(), colour, stroke, marker: Marker::Disc }
         });
         beams.chain(traces).filter(|entry| !entry.name.is_empty()).collect()
@@ -180,7 +180,7 @@ impl MotionPicture {
     }
 
     /// Paths are dashed, in colours that no beam has. With a single beam they are vermilion, which stands out from the colour ramp.
-    fn trace_look(&self, index: usize) -> (Colour, Stroke) {
+    fn trace_style(&self, index: usize) -> (Colour, Stroke) {
         let first = if self.beam_count() > 1 { self.beam_count() } else { 1 };
         (hue(first + index), if index < HUE_COUNT { Stroke::Dashed } else { Stroke::Dotted })
     }
@@ -191,7 +191,11 @@ impl MotionPicture {
 
     /// Beams beyond the number of hues differ by their stroke.
     fn stroke(&self, index: usize) -> Stroke {
-        if self.beam_count() > 1 { Stroke::of_round(index / HUE_COUNT) } else { Stroke::Solid }
+        if self.beam_count() > 1 {
+            Stroke::of_palette_pass(index / HUE_COUNT)
+        } else {
+            Stroke::Solid
+        }
     }
 
     fn time_bar(&self) -> ColourBar {
@@ -244,7 +248,7 @@ impl Panel for MotionPicture {
         let frame = self.frame(plot.width(), plot.height());
         frame.draw(canvas, area, plot);
         if self.points().next().is_none() {
-            frame.say_no_data(canvas, plot);
+            frame.draw_no_data(canvas, plot);
         }
         let bar = self.time_bar();
         bar.draw(canvas, plot);
@@ -254,7 +258,7 @@ impl Panel for MotionPicture {
             self.draw_snapshot(canvas, &frame, plot, snapshot, bar.part(snapshot.time));
         }
         for (index, (_, points)) in self.traces.iter().enumerate() {
-            let (colour, stroke) = self.trace_look(index);
+            let (colour, stroke) = self.trace_style(index);
             frame
                 .curve(plot, points)
                 .iter()

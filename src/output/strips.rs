@@ -276,7 +276,7 @@ impl Panel for StripPicture {
         let frame = self.frame(plot.width(), plot.height());
         frame.draw(canvas, area, plot);
         if self.strips.iter().all(|strip| strip.line.is_empty()) {
-            frame.say_no_data(canvas, plot);
+            frame.draw_no_data(canvas, plot);
         }
         let runs: Vec<Vec<Vec<Ordinate>>> =
             self.strips.iter().map(|strip| self.runs(strip)).collect();

@@ -24,7 +24,7 @@ pub enum Stroke {
 
 impl Stroke {
     /// Stroke of the series in the given pass through the palette, counted from 0.
-    pub fn of_round(round: usize) -> Self {
+    pub fn of_palette_pass(round: usize) -> Self {
         [Stroke::Solid, Stroke::Dashed, Stroke::Dotted][round % 3]
     }
 
@@ -63,13 +63,14 @@ mod tests {
         };
         assert_eq!((count(Stroke::Solid), count(Stroke::Dashed), count(Stroke::Dotted)), (1, 2, 4));
         assert_eq!((count(Stroke::Marked), count(Stroke::Unjoined)), (1, 0));
-        assert_eq!(Stroke::of_round(4), Stroke::Dashed);
+        assert_eq!(Stroke::of_palette_pass(4), Stroke::Dashed);
     }
 
     #[test]
     fn three_times_as_many_beams_as_there_are_colours_are_told_apart() {
-        let looks =
-            |index: usize| format!("{:?} {:?}", hue(index), Stroke::of_round(index / HUE_COUNT));
+        let looks = |index: usize| {
+            format!("{:?} {:?}", hue(index), Stroke::of_palette_pass(index / HUE_COUNT))
+        };
         let all: std::collections::BTreeSet<String> = (0..3 * HUE_COUNT).map(looks).collect();
         assert_eq!(all.len(), 3 * HUE_COUNT);
     }

@@ -59,7 +59,7 @@ pub enum Symbol {
 
 impl Symbol {
     /// Returns true for supports, joints and sliders.
-    pub fn holds(self) -> bool {
+    pub fn is_constraint(self) -> bool {
         use Symbol::{Clamp, Guided, HeldAngle, Hinge, Joint, RigidJoint, Roller, Slider};
         matches!(self, Hinge | Clamp | Roller | Guided | HeldAngle | Joint | RigidJoint | Slider)
     }

@@ -49,12 +49,13 @@ pub fn run(shell: &mut Shell, lines: impl BufRead) -> CommandOutcome {
             }
             Err(error) => {
                 let told = Diagnostic::general(format!("cannot read the input: {error}"));
-                return shell.refuse(&told.with_hint("the input must be UTF-8 text"));
+                return shell.report_error(&told.with_hint("the input must be UTF-8 text"));
             }
         }
         if input.len() as u64 > LARGEST_SCRIPT {
             let told = Diagnostic::general("an input is longer than 16 megabytes");
-            return shell.refuse(&told.with_hint("is a bracket or a quotation mark never closed?"));
+            return shell
+                .report_error(&told.with_hint("is a bracket or a quotation mark never closed?"));
         }
         // The next line is read ahead only if the input is complete. Programs that use the pipe interactively end an input with a semicolon
         // or an empty line.

@@ -25,22 +25,22 @@ pub struct Followed {
 ///
 /// # Errors
 /// Fails if the expression fails at a state, moves the simulation, or is interrupted; the user has been told.
-pub fn follow(
+pub fn evaluate_history(
     shell: &mut Shell,
     subject: &SimulationHandle,
     text: &str,
 ) -> Result<Followed, CommandOutcome> {
-    let kept = subject.simulation().states_kept();
+    let kept = subject.simulation().stored_states();
     if kept.first().is_some_and(|(first, _)| *first > 0)
-        && let Some(followed) = make_again(shell, subject, text)?
+        && let Some(followed) = evaluate_rerun(shell, subject, text)?
     {
         return Ok(followed);
     }
-    go_back(shell, subject, text, &kept)
+    evaluate_snapshots(shell, subject, text, &kept)
 }
 
 /// Evaluates at the stored snapshots, from last to first, so that the history is correct at each of them.
-fn go_back(
+fn evaluate_snapshots(
     shell: &mut Shell,
     subject: &SimulationHandle,
     text: &str,
@@ -50,9 +50,9 @@ fn go_back(
     let last = kept.len() - 1;
     let chosen = (0..kept.len()).rev().filter(|at| (last - at).is_multiple_of(every) || *at == 0);
     let steps: Vec<usize> = chosen.map(|at| kept[at].0).collect();
-    let revisit = Revisit::at_present(subject).map_err(|error| shell.refuse_native(error))?;
+    let revisit = Revisit::at_present(subject).map_err(|error| shell.report_native_error(error))?;
     let way = PlaybackStep::Back(steps.into_iter());
-    let (mut points, _) = visit(shell, text, Visits::new(shell, revisit, way))?;
+    let (mut points, _) = evaluate_at_states(shell, text, Visits::new(shell, revisit, way))?;
     points.reverse();
     let time = |at: usize| significant(kept[at].1, DIGITS);
     let what = match (kept[0].0, points.len() == kept.len()) {
@@ -72,17 +72,17 @@ fn go_back(
 }
 
 /// Evaluates at the rows of the history by repeating the run; `None` if the repeated run differs.
-fn make_again(
+fn evaluate_rerun(
     shell: &mut Shell,
     subject: &SimulationHandle,
     text: &str,
 ) -> Result<Option<Followed>, CommandOutcome> {
     let rows = subject.simulation().history().samples().len();
-    let revisit = Revisit::at_start(subject).map_err(|error| shell.refuse_native(error))?;
+    let revisit = Revisit::at_start(subject).map_err(|error| shell.report_native_error(error))?;
     let way = PlaybackStep::Again { next: 0, rows, every: rows.div_ceil(MOST_STATES) };
-    let (points, other) = visit(shell, text, Visits::new(shell, revisit, way))?;
+    let (points, other) = evaluate_at_states(shell, text, Visits::new(shell, revisit, way))?;
     if let Some(why) = other {
-        shell.note(&format!(
+        shell.print_note(&format!(
             "note: the first snapshots of simulation '{}' were discarded, and {why}",
             subject.name()
         ));
@@ -129,11 +129,11 @@ impl Visits {
         Self { revisit, way, context, place, points: Vec::new(), trouble: None }
     }
 
-    fn go_on(&mut self) -> Result<bool, PlaybackError> {
+    fn next_state(&mut self) -> Result<bool, PlaybackError> {
         self.context.proceed().map_err(PlaybackError::Refused)?;
         match &mut self.way {
             PlaybackStep::Back(steps) => match steps.next() {
-                Some(to) => self.revisit.go_back_to(to).map_err(PlaybackError::Refused),
+                Some(to) => self.revisit.restore_step(to).map_err(PlaybackError::Refused),
                 None => Ok(false),
             },
             PlaybackStep::Again { next, rows, every } => loop {
@@ -170,7 +170,7 @@ impl Rounds for Visits {
         if self.trouble.is_some() {
             return false;
         }
-        let goes_on = self.go_on().unwrap_or_else(|trouble| {
+        let goes_on = self.next_state().unwrap_or_else(|trouble| {
             self.trouble = Some(trouble);
             false
         });
@@ -196,24 +196,29 @@ impl Rounds for Visits {
 
 type Values = (Vec<(f64, PlotShape)>, Option<String>);
 
-fn visit(shell: &mut Shell, text: &str, mut visits: Visits) -> Result<Values, CommandOutcome> {
-    let reply = shell.session_mut().peek_in_rounds(text, &mut visits);
+fn evaluate_at_states(
+    shell: &mut Shell,
+    text: &str,
+    mut visits: Visits,
+) -> Result<Values, CommandOutcome> {
+    let reply = shell.session_mut().evaluate_repeatedly(text, &mut visits);
     let Visits { revisit, points, trouble, place, .. } = visits;
     drop(revisit);
     let at = format!("at t = {}", significant(place.1, DIGITS));
     match (reply, trouble) {
         (Err(Reply::Failed(why)), _) => {
-            shell.note(&format!("'{text}' fails {at}:"));
-            Err(shell.refuse(&why))
+            shell.print_note(&format!("'{text}' fails {at}:"));
+            Err(shell.report_error(&why))
         }
-        (Err(stopped), _) => Err(shell.tell(stopped)),
+        (Err(stopped), _) => Err(shell.print_reply(stopped)),
         (Ok(()), None) => Ok((points, None)),
         (Ok(()), Some(PlaybackError::Another(why))) => Ok((points, Some(why))),
-        (Ok(()), Some(PlaybackError::Moves)) => Err(shell.refuse(&moves(text))),
-        (Ok(()), Some(PlaybackError::Refused(error))) => Err(shell.refuse_native(error)),
+        (Ok(()), Some(PlaybackError::Moves)) => Err(shell.report_error(&moves(text))),
+        (Ok(()), Some(PlaybackError::Refused(error))) => Err(shell.report_native_error(error)),
         (Ok(()), Some(PlaybackError::NoPoint(why))) => {
             let told = Diagnostic::general(format!("'{text}' cannot be plotted {at}: {why}"));
-            Err(shell.refuse(&told.with_hint("it must be a number, or a vector, at all times")))
+            Err(shell
+                .report_error(&told.with_hint("it must be a number, or a vector, at all times")))
         }
     }
 }

@@ -7,7 +7,7 @@ mod program;
 use std::io::stdout;
 
 pub use keyboard::{Keyboard, Pressed};
-pub use pages::walk;
+pub use pages::show_pages;
 
 /// Result of showing a text in pages.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -59,7 +59,7 @@ impl Pager for TerminalPager {
 
     fn show(&mut self, text: &str, was_interrupted: &dyn Fn() -> bool) -> PagerOutcome {
         // Keys typed ahead belong to the prompt.
-        if !self.is_long(text) || keyboard::keys_wait() {
+        if !self.is_long(text) || keyboard::has_pending_keys() {
             return PagerOutcome::NotByThis;
         }
         if let Some(name) = &self.program {
@@ -71,7 +71,7 @@ impl Pager for TerminalPager {
         let Some(mut keys) = keyboard::KeyboardTerminal::open() else {
             return PagerOutcome::NotByThis;
         };
-        let walked = walk(text, self.size.1, &mut keys, was_interrupted, &mut stdout());
+        let walked = show_pages(text, self.size.1, &mut keys, was_interrupted, &mut stdout());
         // The next prompt reports a lost terminal.
         walked.unwrap_or(PagerOutcome::Seen)
     }

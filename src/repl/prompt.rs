@@ -11,13 +11,13 @@ use super::shell::{CommandOutcome, Shell};
 /// # Errors
 /// Fails if the terminal fails.
 pub fn run(shell: &mut Shell, editor: &mut Editor) -> io::Result<()> {
-    let _held = TypedAhead::keep();
+    let _held = TypedAhead::set_mode();
     loop {
         if let Some((columns, lines)) = editor.size() {
             shell.resize(columns, lines);
         }
-        if let Some(note) = editor.take_note() {
-            shell.note(&note);
+        if let Some(note) = editor.take_history_problem() {
+            shell.print_note(&note);
         }
         let prompt = format!("withy:{}> ", shell.session().next_line());
         match editor.read(&prompt, shell.surroundings())? {

@@ -45,7 +45,7 @@ impl SessionRecord {
     }
 
     /// Records an input with a value.
-    pub fn answered(&mut self, text: &str) {
+    pub fn record_value(&mut self, text: &str) {
         self.entries.push(RecordedInput::Expression(text.trim().into()));
     }
 
@@ -55,7 +55,7 @@ impl SessionRecord {
     }
 
     /// Records how a failed statement has moved simulations since `before`; returns true if any moved.
-    pub fn moved(&mut self, before: &[Whereabouts]) -> bool {
+    pub fn record_movement(&mut self, before: &[Whereabouts]) -> bool {
         let known = self.entries.len();
         for was in before {
             let (time, steps) = (was.handle.time(), was.handle.simulation().counts().steps);
@@ -73,7 +73,7 @@ impl SessionRecord {
     /// Record as a script. `engine` must not optimise statements away.
     pub fn script(&self, engine: &Engine) -> String {
         let asked: Vec<bool> =
-            self.sources().map(|source| source.is_some_and(mentions_answer)).collect();
+            self.sources().map(|source| source.is_some_and(uses_answer)).collect();
         let defined: Vec<Vec<FunctionText>> =
             self.sources().map(|source| source.map(written).unwrap_or_default()).collect();
         let mut script = format!("{HEADER}\n\n");
@@ -88,7 +88,7 @@ impl SessionRecord {
             let line = match entry {
                 RecordedInput::Statements(statements) => terminated(statements),
                 RecordedInput::Expression(statements) if is_asked() => {
-                    answering(engine, statements)
+                    value_text(engine, statements)
                 }
                 RecordedInput::Expression(statements) => terminated(statements),
                 RecordedInput::Returning(statements) => {
@@ -105,7 +105,7 @@ impl SessionRecord {
             let replaced = |definition: &FunctionText| {
                 defined[index + 1..].iter().flatten().any(|later| later.name == definition.name)
             };
-            let _ = writeln!(script, "{}", without(&line.into(), replaced));
+            let _ = writeln!(script, "{}", remove_replaced(&line.into(), replaced));
         }
         script
     }
@@ -154,7 +154,7 @@ impl RecordedInput {
 }
 
 /// Simulations held by variables, and the last simulation, without duplicates.
-pub fn whereabouts(scope: &Scope, latest: Option<SimulationHandle>) -> Vec<Whereabouts> {
+pub fn simulation_positions(scope: &Scope, latest: Option<SimulationHandle>) -> Vec<Whereabouts> {
     let mut found: Vec<Whereabouts> = Vec::new();
     let held =
         scope.iter_raw().filter(|(name, ..)| *name != ANSWER).filter_map(|(name, _, value)| {
@@ -170,7 +170,7 @@ pub fn whereabouts(scope: &Scope, latest: Option<SimulationHandle>) -> Vec<Where
     found
 }
 
-fn mentions_answer(source: &Source) -> bool {
+fn uses_answer(source: &Source) -> bool {
     source.names().any(|name| name == ANSWER)
 }
 
@@ -183,7 +183,7 @@ fn terminated(statements: &Source) -> String {
     }
 }
 
-fn answering(engine: &Engine, text: &str) -> String {
+fn value_text(engine: &Engine, text: &str) -> String {
     let last = statements::count(engine, text).and_then(|all| all.checked_sub(1));
     let cut = last.and_then(|first| statements::boundary(engine, text, first)).unwrap_or(0);
     let (before, expression) = text.split_at(cut);
@@ -224,7 +224,7 @@ fn documented_from(text: &str, end: usize) -> usize {
     from
 }
 
-fn without(source: &Source, is_replaced: impl Fn(&FunctionText) -> bool) -> String {
+fn remove_replaced(source: &Source, is_replaced: impl Fn(&FunctionText) -> bool) -> String {
     let mut text = source.to_string();
     for definition in written(source).into_iter().rev().filter(is_replaced) {
         let note = format!("/* {} is redefined below */", definition.name.0);
@@ -252,9 +252,9 @@ mod tests {
         let mut record = SessionRecord::default();
         record.worked("let a = 1;");
         record.worked("let b = 2");
-        record.answered("a + b // three");
+        record.record_value("a + b // three");
         record.worked("fn f(x) { x }");
-        record.answered("#{ a: 1 }");
+        record.record_value("#{ a: 1 }");
         assert_eq!(
             script(&record),
             "let a = 1;\nlet b = 2;\na + b // three\n;\nfn f(x) { x };\n#{ a: 1 };"
@@ -264,10 +264,10 @@ mod tests {
     #[test]
     fn a_value_gets_its_name_where_it_is_asked_for_later() {
         let mut record = SessionRecord::default();
-        record.answered("1 + 1");
-        record.answered("let c = 3; f(c, #{ a: 1 })");
+        record.record_value("1 + 1");
+        record.record_value("let c = 3; f(c, #{ a: 1 })");
         record.worked("let b = ans;");
-        record.answered("7");
+        record.record_value("7");
         assert_eq!(
             script(&record),
             "1 + 1;\nlet c = 3; let ans = f(c, #{ a: 1 });\nlet b = ans;\n7;"
@@ -302,9 +302,9 @@ mod tests {
     #[test]
     fn answers_stand_behind_functions_and_blocks() {
         let mut record = SessionRecord::default();
-        record.answered("fn q() { 3 } q()");
-        record.answered("let i = 0; while i < ans { i += 1 } i");
-        record.answered("ans + 1");
+        record.record_value("fn q() { 3 } q()");
+        record.record_value("let i = 0; while i < ans { i += 1 } i");
+        record.record_value("ans + 1");
         let expected = "fn q() { 3 } let ans = q();\n\
             let i = 0; while i < ans { i += 1 } let ans = i;\nans + 1;";
         assert_eq!(script(&record), expected);

@@ -8,7 +8,7 @@ use std::sync::atomic::Ordering;
 
 use rhai::{AST, Caches, Dynamic, Engine, GlobalRuntimeState, ImmutableString, Scope, Stmt};
 
-use super::record::{SessionRecord, Whereabouts, functions_of, whereabouts};
+use super::record::{SessionRecord, Whereabouts, functions_of, simulation_positions};
 use super::transcript::{PROMPT, Transcript};
 use super::{scope, statements};
 use crate::script::bindings::catalog::Catalog;
@@ -88,11 +88,11 @@ impl Session {
         self.library = AST::empty();
         self.transcript = Transcript::new(self.folder.clone());
         self.record = SessionRecord::default();
-        self.context().forget_simulations();
+        self.context().clear_simulations();
     }
 
     /// Clears a Ctrl-C that came between evaluations. A later Ctrl-C stops every evaluation until this is called again.
-    pub fn forget_interrupt(&mut self) {
+    pub fn clear_interrupt(&mut self) {
         self.context().interrupt_flag().store(false, Ordering::Relaxed);
     }
 
@@ -110,7 +110,7 @@ impl Session {
         let (ast, guard) = match self.begin(&text, before) {
             Ok(begun) => begun,
             Err(reply) => {
-                self.transcript.strike_last();
+                self.transcript.mark_last_failed();
                 return reply;
             }
         };
@@ -124,49 +124,49 @@ impl Session {
                 Ok(result) => value = result,
                 Err(reply) => {
                     self.restore(checkpoint.clone());
-                    self.keep_part(&text, number, library);
-                    self.record.moved(&checkpoint.whereabouts);
+                    self.record_partial(&text, number, library);
+                    self.record.record_movement(&checkpoint.whereabouts);
                     return reply;
                 }
             }
             self.publish_constants(checkpoint.scope.len());
         }
-        self.forget_shadowed();
-        let reply = self.answer(value, &text);
+        self.drop_shadowed();
+        let reply = self.show_value(value, &text);
         match &reply {
             _ if returns => self.record.returned(&text),
-            Reply::Value(_) => self.record.answered(&text),
+            Reply::Value(_) => self.record.record_value(&text),
             _ => self.record.worked(&text),
         }
         reply
     }
 
-    fn keep_part(&mut self, text: &str, worked: usize, library: AST) {
+    fn record_partial(&mut self, text: &str, worked: usize, library: AST) {
         let cut = statements::boundary(self.engine(), text, worked).filter(|_| worked > 0);
         let Some((before, after)) = cut.map(|cut| text.split_at(cut)) else {
             self.library = library;
-            return self.transcript.strike_last();
+            return self.transcript.mark_last_failed();
         };
-        self.forget_shadowed();
+        self.drop_shadowed();
         let functions: String =
             functions_of(&after.into()).map(|function| format!("\n{function}")).collect();
         self.record.worked(&format!("{before}{functions}"));
     }
 
     /// Records an input that was evaluated by other means.
-    pub fn note_worked(&mut self, text: &str) {
+    pub fn record_success(&mut self, text: &str) {
         self.record.worked(text);
     }
 
     /// Records the movement of simulations by actions that are not recorded themselves; returns true if any moved.
-    pub fn note_moved(&mut self, before: &[Whereabouts]) -> bool {
-        self.record.moved(before)
+    pub fn record_movement(&mut self, before: &[Whereabouts]) -> bool {
+        self.record.record_movement(before)
     }
 
     /// Named simulations and their positions.
-    pub fn whereabouts(&self) -> Vec<Whereabouts> {
+    pub fn simulation_positions(&self) -> Vec<Whereabouts> {
         let latest = self.context().latest_simulation();
-        whereabouts(&self.scope, latest.and_then(|latest| latest.try_cast()))
+        simulation_positions(&self.scope, latest.and_then(|latest| latest.try_cast()))
     }
 
     fn checkpoint(&self) -> StatementCheckpoint {
@@ -175,7 +175,7 @@ impl Session {
             scope: self.scope.clone(),
             global: self.global.clone(),
             constants: constants.map(|constants| constants.borrow().clone()).unwrap_or_default(),
-            whereabouts: self.whereabouts(),
+            whereabouts: self.simulation_positions(),
         }
     }
 
@@ -194,7 +194,7 @@ impl Session {
         let guard = host.watch().map_err(reply)?;
         let piece = SourcePiece { name: PROMPT, text, before, scope };
         let parse = |engine: &Engine| parse_piece(engine, &piece, || transcript.variables());
-        let ast = host.run(&guard, || transcript.whole(), parse).map_err(reply)?;
+        let ast = host.run(&guard, || transcript.to_program(), parse).map_err(reply)?;
         self.library = self.library.merge(&ast.clone_functions_only());
         // Distinguishes errors in session functions from errors in functions of imported files.
         self.library.set_source(PROMPT);
@@ -206,17 +206,17 @@ impl Session {
 
     fn run(&mut self, guard: &Watchdog, statements: &[Stmt]) -> Result<Dynamic, Reply> {
         let Self { host, transcript, scope, global, .. } = self;
-        let whole = || transcript.whole();
+        let whole = || transcript.to_program();
         let outcome = host.run(guard, whole, |engine| {
             // Only this deprecated call keeps imports and constants between inputs; there is no replacement.
             #[allow(deprecated)]
             engine.eval_statements_raw(global, &mut Caches::new(), scope, statements)
         });
-        host.context().forget_reporters();
+        host.context().clear_reporters();
         outcome.map_err(|halt| reply_to(halt, transcript))
     }
 
-    fn answer(&mut self, value: Dynamic, text: &Source) -> Reply {
+    fn show_value(&mut self, value: Dynamic, text: &Source) -> Reply {
         if value.is_unit() || text.ends_in_semicolon() {
             return Reply::Done;
         }
@@ -237,7 +237,7 @@ impl Session {
     }
 
     /// Drops shadowed variables, which are unreachable, to save memory in long sessions.
-    fn forget_shadowed(&mut self) {
+    fn drop_shadowed(&mut self) {
         if let Some(visible) = scope::visible(&self.scope) {
             self.scope = visible;
         }

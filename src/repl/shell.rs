@@ -117,7 +117,7 @@ impl Shell {
 
     /// Evaluates a complete input: a command, a help request, or statements.
     pub fn submit(&mut self, input: &str) -> CommandOutcome {
-        self.session.forget_interrupt();
+        self.session.clear_interrupt();
         let text = input.trim();
         if text.starts_with(':') {
             return match text.strip_suffix('?').filter(|name| !name.contains(char::is_whitespace)) {
@@ -137,7 +137,7 @@ impl Shell {
         }
         let before = self.latest().map(|latest| latest.time());
         let reply = self.session.eval(input);
-        let outcome = self.tell(reply);
+        let outcome = self.print_reply(reply);
         let has_moved = self.latest().map(|latest| latest.time()) != before;
         match outcome == CommandOutcome::Good && has_moved {
             true => self.show_watched(),
@@ -152,10 +152,10 @@ impl Shell {
             Ok(command) if command.operand == CommandOperand::Nothing && !operand.is_empty() => {
                 let told = format!("'{}' takes no argument, got '{operand}'", command.name);
                 let hint = format!("write {0}; :help {0} describes it", command.name);
-                self.refuse(&Diagnostic::general(told).with_hint(hint))
+                self.report_error(&Diagnostic::general(told).with_hint(hint))
             }
             Ok(command) => (command.body)(self, operand),
-            Err(refusal) => self.refuse(&refusal),
+            Err(refusal) => self.report_error(&refusal),
         }
     }
 
@@ -163,13 +163,13 @@ impl Shell {
     pub fn run_program(&mut self, program: Program) -> CommandOutcome {
         let reply = self.session.eval_program(program);
         match reply {
-            Reply::Value(_) => self.tell(Reply::Done),
-            reply => self.tell(reply),
+            Reply::Value(_) => self.print_reply(Reply::Done),
+            reply => self.print_reply(reply),
         }
     }
 
     /// Shows a reply.
-    pub fn tell(&mut self, reply: Reply) -> CommandOutcome {
+    pub fn print_reply(&mut self, reply: Reply) -> CommandOutcome {
         let outcome = match reply {
             Reply::Done => CommandOutcome::Good,
             Reply::Value(value) => {
@@ -177,9 +177,9 @@ impl Shell {
                 self.print(&shown);
                 CommandOutcome::Good
             }
-            Reply::Failed(diagnostic) => self.refuse(&diagnostic),
+            Reply::Failed(diagnostic) => self.report_error(&diagnostic),
             Reply::Interrupted => {
-                self.note(&match self.latest() {
+                self.print_note(&match self.latest() {
                     Some(latest) => format!("interrupted: {}", latest.show()),
                     None => "interrupted".into(),
                 });
@@ -187,14 +187,14 @@ impl Shell {
             }
             Reply::PipeClosed => CommandOutcome::PipeClosed,
         };
-        self.tell_files();
+        self.print_written_files();
         outcome
     }
 
-    fn tell_files(&mut self) {
+    fn print_written_files(&mut self) {
         let written = self.session.context().output().written();
         for file in written.iter().skip(self.told_files) {
-            self.note(&format!("wrote {}", file.display()));
+            self.print_note(&format!("wrote {}", file.display()));
         }
         self.told_files = written.len();
     }
@@ -213,7 +213,7 @@ impl Shell {
     }
 
     /// Remembers a script that was saved to a file.
-    pub fn note_saved(&mut self, path: &Path, script: String) {
+    pub fn record_saved(&mut self, path: &Path, script: String) {
         self.saved.insert(path.to_owned(), script);
     }
 
@@ -241,18 +241,18 @@ impl Shell {
     }
 
     /// Prints a note next to the replies.
-    pub fn note(&self, text: &str) {
-        self.session.context().tell(text);
+    pub fn print_note(&self, text: &str) {
+        self.session.context().print_message(text);
     }
 
     /// Reports an error.
-    pub fn refuse(&self, diagnostic: &Diagnostic) -> CommandOutcome {
+    pub fn report_error(&self, diagnostic: &Diagnostic) -> CommandOutcome {
         let width = match self.screen {
             ReplyTarget::Terminal(style) => style.width,
             ReplyTarget::Pipe => usize::MAX,
         };
         let told = diagnostic.render_within(self.colours(), width);
-        self.session.context().tell_drawn(told.trim_end());
+        self.session.context().print_styled_message(told.trim_end());
         CommandOutcome::Failed
     }
 
@@ -274,7 +274,7 @@ impl Shell {
 }
 
 /// Removes the position from an error in an input that a command has generated, because the user has not typed it.
-fn without_place_in(input: &str, reply: Reply) -> Reply {
+fn without_position_in(input: &str, reply: Reply) -> Reply {
     let is_made = |location: &Location| {
         let line = location.program.text.lines().nth(location.line.saturating_sub(1));
         line.is_some_and(|line| line.trim() == input.trim())
@@ -296,7 +296,7 @@ impl Shell {
     }
 
     /// Returns true if a variable holds the last simulation.
-    pub fn holds_latest(&self) -> bool {
+    pub fn has_latest_simulation(&self) -> bool {
         self.name_of_latest().is_ok_and(|name| name != LATEST)
     }
 
@@ -316,7 +316,7 @@ impl Shell {
     }
 
     /// Shows the time and step count of the last simulation.
-    pub fn tell_place(&self) {
+    pub fn print_position(&self) {
         if let Some(latest) = self.latest() {
             let steps = latest.simulation().counts().steps;
             let plural = if steps == 1 { "" } else { "s" };
@@ -335,45 +335,45 @@ impl Shell {
     pub fn call_latest(&mut self, call: &str) -> CommandOutcome {
         match self.input_for_latest(call) {
             Ok(input) => {
-                let reply = without_place_in(&input, self.session.eval(&input));
-                self.tell(reply)
+                let reply = without_position_in(&input, self.session.eval(&input));
+                self.print_reply(reply)
             }
-            Err(refusal) => self.refuse(&refusal),
+            Err(refusal) => self.report_error(&refusal),
         }
     }
 
     /// Calls a method of the last simulation within a command, and shows the watched expressions. The call, or its partial progress, is
     /// recorded.
-    pub fn call_latest_watched(&mut self, call: &str) -> CommandOutcome {
+    pub fn call_latest_and_watch(&mut self, call: &str) -> CommandOutcome {
         let input = match self.input_for_latest(call) {
             Ok(input) => input,
-            Err(refusal) => return self.refuse(&refusal),
+            Err(refusal) => return self.report_error(&refusal),
         };
-        let before = self.session.whereabouts();
-        let outcome = match self.session.peek(&input) {
+        let before = self.session.simulation_positions();
+        let outcome = match self.session.evaluate_preview(&input) {
             Reply::Value(_) => CommandOutcome::Good,
-            reply => self.tell(without_place_in(&input, reply)),
+            reply => self.print_reply(without_position_in(&input, reply)),
         };
         match outcome {
             CommandOutcome::Good => {
-                self.session.note_worked(&input);
+                self.session.record_success(&input);
                 self.show_watched()
             }
             failed => {
-                self.session.note_moved(&before);
+                self.session.record_movement(&before);
                 failed
             }
         }
     }
 
     /// Shows the result of a method of the last simulation.
-    pub fn show_of_latest(&mut self, call: &str) -> CommandOutcome {
+    pub fn show_latest_result(&mut self, call: &str) -> CommandOutcome {
         match self.name_of_latest() {
             Ok(name) => {
-                let reply = self.session.peek(&format!("{name}.{call}"));
-                self.tell(reply)
+                let reply = self.session.evaluate_preview(&format!("{name}.{call}"));
+                self.print_reply(reply)
             }
-            Err(refusal) => self.refuse(&refusal),
+            Err(refusal) => self.report_error(&refusal),
         }
     }
 

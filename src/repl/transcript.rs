@@ -56,21 +56,21 @@ impl Transcript {
     }
 
     /// Marks the last input as failed: its declarations do not exist.
-    pub fn strike_last(&mut self) {
+    pub fn mark_last_failed(&mut self) {
         if let Some(last) = self.pieces.last_mut() {
             last.is_valid = false;
         }
     }
 
     /// Removes the last input.
-    pub fn forget_last(&mut self) {
+    pub fn remove_last(&mut self) {
         if let Some(last) = self.pieces.pop() {
             self.lines = last.before;
         }
     }
 
     /// All inputs as one program at their line numbers. Failed inputs are blank, except the last one.
-    pub fn whole(&self) -> Program {
+    pub fn to_program(&self) -> Program {
         let mut text = String::new();
         for (index, piece) in self.pieces.iter().enumerate() {
             let is_shown = piece.is_valid || index + 1 == self.pieces.len();
@@ -148,22 +148,22 @@ mod tests {
         assert_eq!(transcript.next_line(), 5);
         transcript.add(transcript.typed("let b = 2;"));
         assert_eq!(transcript.variables(), [("a".to_owned(), 1), ("b".to_owned(), 5)]);
-        transcript.forget_last();
-        assert_eq!(&*transcript.whole().text, "let a = 1;\nfn f() {\n  2\n}\n");
+        transcript.remove_last();
+        assert_eq!(&*transcript.to_program().text, "let a = 1;\nfn f() {\n  2\n}\n");
     }
 
     #[test]
     fn what_did_not_work_is_blank_later() {
         let mut transcript = Transcript::new(".".into());
         transcript.add(transcript.typed("let a = oops();"));
-        transcript.strike_last();
+        transcript.mark_last_failed();
         assert_eq!(
-            &*transcript.whole().text,
+            &*transcript.to_program().text,
             "let a = oops();\n",
             "it is shown while it is explained"
         );
         transcript.add(transcript.typed("a"));
-        assert_eq!(&*transcript.whole().text, "\na\n");
+        assert_eq!(&*transcript.to_program().text, "\na\n");
     }
 
     #[test]
@@ -171,11 +171,15 @@ mod tests {
         let mut transcript = Transcript::new(".".into());
         transcript.add(transcript.typed("1"));
         transcript.add(Program::named("beam.rhai", "let a = 1;\nlet b = ;"));
-        let at =
-            |line| Location { program: Arc::new(transcript.whole()), line, column: 9, length: 1 };
+        let at = |line| Location {
+            program: Arc::new(transcript.to_program()),
+            line,
+            column: 9,
+            length: 1,
+        };
         let found = |line| {
             let diagnostic = Diagnostic { location: Some(at(line)), ..Diagnostic::general("") };
-            transcript.relocate(diagnostic).place()
+            transcript.relocate(diagnostic).location_text()
         };
         assert_eq!(found(3).as_deref(), Some("beam.rhai:2:9"));
         assert_eq!(found(1).as_deref(), Some("prompt:1:9"));

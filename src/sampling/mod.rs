@@ -24,5 +24,5 @@ pub use latin_hypercube::latin_hypercube;
 pub use normal::normal_quantile;
 pub use random::Random;
 pub use saltelli::saltelli;
-pub use sensitivity::{VarianceShare, shares_by_rank, shares_of_grid, shares_of_saltelli};
+pub use sensitivity::{VarianceShare, grid_indices, rank_indices, saltelli_indices};
 pub use sobol::{MOST_DIMENSIONS, sobol};

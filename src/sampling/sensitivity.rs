@@ -24,7 +24,7 @@ fn variance(values: &[f64]) -> f64 {
 
 /// Indices of the parameters of a full grid, with the last parameter varying fastest. All levels are equally likely; the indices are exact.
 /// `None` if the result is constant.
-pub fn shares_of_grid(lengths: &[usize], results: &[f64]) -> Option<Vec<VarianceShare>> {
+pub fn grid_indices(lengths: &[usize], results: &[f64]) -> Option<Vec<VarianceShare>> {
     let whole = variance(results);
     (whole > 0.0).then(|| {
         let of = |own: usize| {
@@ -47,7 +47,7 @@ pub fn shares_of_grid(lengths: &[usize], results: &[f64]) -> Option<Vec<Variance
 /// Indices of the parameters at the points of [`saltelli`](super::saltelli), by the estimators of M. J. W. Jansen, Computer Physics
 /// Communications 117 (1999) 35-43, over the blocks with finite results. `None` if the result is constant, or fewer than 30 blocks are
 /// complete.
-pub fn shares_of_saltelli(parameters: usize, results: &[f64]) -> Option<Vec<VarianceShare>> {
+pub fn saltelli_indices(parameters: usize, results: &[f64]) -> Option<Vec<VarianceShare>> {
     let is_whole = |block: &&[f64]| block.iter().all(|result| result.is_finite());
     let blocks: Vec<&[f64]> = results.chunks_exact(parameters + 2).filter(is_whole).collect();
     let both: Vec<f64> = blocks.iter().flat_map(|block| [block[0], block[1]]).collect();
@@ -64,7 +64,7 @@ pub fn shares_of_saltelli(parameters: usize, results: &[f64]) -> Option<Vec<Vari
 /// First-order index of a parameter for arbitrary independent points: variance of the means over groups of points that are consecutive in
 /// the parameter, minus the contribution of the scatter within groups. The number of groups is the cube root of the number of points.
 /// Results that are not finite are left out. `None` if there are fewer than 30 points, or the result is constant.
-pub fn shares_by_rank(values: &[f64], results: &[f64]) -> Option<VarianceShare> {
+pub fn rank_indices(values: &[f64], results: &[f64]) -> Option<VarianceShare> {
     let pairs = values.iter().copied().zip(results.iter().copied());
     let mut pairs: Vec<(f64, f64)> = pairs.filter(|(_, result)| result.is_finite()).collect();
     pairs.sort_by(|a, b| a.0.total_cmp(&b.0));
@@ -120,7 +120,7 @@ mod tests {
             .collect();
         let (first, total) = known();
         assert!((first[0] - 0.3139).abs() < 1e-4 && (total[2] - 0.2437).abs() < 1e-4);
-        for (own, share) in shares_of_saltelli(3, &results).unwrap().into_iter().enumerate() {
+        for (own, share) in saltelli_indices(3, &results).unwrap().into_iter().enumerate() {
             assert!((share.first - first[own]).abs() < 0.01, "{own}: {share:?}");
             assert!((share.total.unwrap() - total[own]).abs() < 0.01, "{own}: {share:?}");
         }
@@ -137,7 +137,7 @@ mod tests {
         };
         let results: Vec<f64> = (0..40 * 41 * 42).map(result).collect();
         let (first, total) = known();
-        for (own, share) in shares_of_grid(&lengths, &results).unwrap().into_iter().enumerate() {
+        for (own, share) in grid_indices(&lengths, &results).unwrap().into_iter().enumerate() {
             assert!((share.first - first[own]).abs() < 0.005, "{own}: {share:?}");
             assert!((share.total.unwrap() - total[own]).abs() < 0.005, "{own}: {share:?}");
         }
@@ -149,18 +149,18 @@ mod tests {
         let results: Vec<f64> =
             (0..20_000).map(|at| ishigami(&[0, 1, 2].map(|c: usize| columns[c][at]))).collect();
         for (own, known) in known().0.into_iter().enumerate() {
-            let share = shares_by_rank(&columns[own], &results).unwrap();
+            let share = rank_indices(&columns[own], &results).unwrap();
             assert!((share.first - known).abs() < 0.02, "{own}: {share:?}, {known}");
         }
-        assert!(shares_by_rank(&columns[0][..20], &results[..20]).is_none());
+        assert!(rank_indices(&columns[0][..20], &results[..20]).is_none());
     }
 
     #[test]
     fn what_does_not_vary_is_explained_by_nothing() {
-        assert!(shares_of_grid(&[2, 2], &[1.0; 4]).is_none());
-        assert!(shares_of_saltelli(1, &[1.0; 6]).is_none());
-        let blocks = |count| shares_of_saltelli(1, &[0.0, 1.0, 0.5].repeat(count));
+        assert!(grid_indices(&[2, 2], &[1.0; 4]).is_none());
+        assert!(saltelli_indices(1, &[1.0; 6]).is_none());
+        let blocks = |count| saltelli_indices(1, &[0.0, 1.0, 0.5].repeat(count));
         assert!(blocks(29).is_none() && blocks(30).is_some());
-        assert!(shares_of_saltelli(1, &[f64::NAN; 6]).is_none());
+        assert!(saltelli_indices(1, &[f64::NAN; 6]).is_none());
     }
 }

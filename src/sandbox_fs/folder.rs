@@ -36,13 +36,13 @@ impl Folder {
     ///
     /// # Errors
     /// Fails if the folder cannot be created, or is a link.
-    pub fn make(path: &Path) -> io::Result<Self> {
+    pub fn open_or_create(path: &Path) -> io::Result<Self> {
         let above = path.parent().filter(|above| !above.as_os_str().is_empty());
         let above = above.unwrap_or(Path::new("."));
         match path.components().next_back() {
             Some(Component::Normal(name)) => {
                 fs::create_dir_all(above)?;
-                Self::open(above)?.enter_or_make(name)
+                Self::open(above)?.enter_or_create(name)
             }
             _ => Self::open(path),
         }
@@ -73,7 +73,7 @@ impl Folder {
         })
     }
 
-    pub(super) fn enter_or_make(&self, name: &OsStr) -> io::Result<Self> {
+    pub(super) fn enter_or_create(&self, name: &OsStr) -> io::Result<Self> {
         match self.enter(name) {
             Err(error) if error.kind() == ErrorKind::NotFound => {
                 match self.0.create_dir(name) {
@@ -146,7 +146,7 @@ impl Folder {
     /// # Errors
     /// Fails if the name exists.
     pub fn create(&self, name: &Path) -> io::Result<fs::File> {
-        let (folder, name) = self.parent_of(name, Self::enter_or_make)?;
+        let (folder, name) = self.parent_of(name, Self::enter_or_create)?;
         folder.create_here(name)
     }
 
@@ -161,7 +161,7 @@ impl Folder {
     /// # Errors
     /// Fails if it is a link, a pipe, a device or a folder.
     pub fn append(&self, name: &Path) -> io::Result<fs::File> {
-        let (folder, name) = self.parent_of(name, Self::enter_or_make)?;
+        let (folder, name) = self.parent_of(name, Self::enter_or_create)?;
         let mut options = OpenOptions::new();
         options.append(true).create(true).nonblock(true).follow(FollowSymlinks::No);
         let file = folder.0.open_with(name, &options)?;
@@ -230,11 +230,11 @@ mod tests {
             assert!(folder.append(Path::new(name)).is_err(), "{name}");
             assert!(folder.create(Path::new(name)).is_err(), "{name}");
         }
-        assert!(folder.write_whole(Path::new("way/new"), b"x").is_err());
-        folder.write_whole(Path::new("file"), b"mine").unwrap();
+        assert!(folder.write_atomic(Path::new("way/new"), b"x").is_err());
+        folder.write_atomic(Path::new("file"), b"mine").unwrap();
         assert_eq!(fs::read(other.join("secret")).unwrap(), b"secret");
         assert_eq!(folder.read(Path::new("file"), 100).unwrap(), b"mine");
-        let told = Folder::make(&other.join("out")).unwrap_err().to_string();
+        let told = Folder::open_or_create(&other.join("out")).unwrap_err().to_string();
         assert!(told.contains("'out' is a link"), "{told}");
     }
 
@@ -246,7 +246,7 @@ mod tests {
             symlink(other.join("secret"), own.join(name)).unwrap();
         }
         let folder = Folder::open(&own).unwrap();
-        folder.write_whole(Path::new("a"), b"mine").unwrap();
+        folder.write_atomic(Path::new("a"), b"mine").unwrap();
         assert_eq!(fs::read(own.join("a")).unwrap(), b"mine");
         assert_eq!(fs::read(other.join("secret")).unwrap(), b"secret");
     }
@@ -259,7 +259,7 @@ mod tests {
         assert!(std::process::Command::new("mkfifo").arg(&pipe).status().unwrap().success());
         let folder = Folder::open(&own).unwrap();
         for name in ["below", "pipe"] {
-            assert!(folder.write_whole(Path::new(name), b"x").is_err(), "{name}");
+            assert!(folder.write_atomic(Path::new(name), b"x").is_err(), "{name}");
             assert!(folder.read(Path::new(name), 100).is_err(), "{name}");
             assert!(folder.append(Path::new(name)).is_err(), "{name}");
         }

@@ -29,7 +29,7 @@ impl Prepared {
     ///
     /// # Errors
     /// Fails when it cannot be renamed; nothing has changed then.
-    pub fn place(self) -> io::Result<()> {
+    pub fn rename_to_final(self) -> io::Result<()> {
         self.folder.0.rename(&self.partial, &self.folder.0, &self.name)?;
         self.folder.sync()
     }
@@ -48,8 +48,8 @@ impl Folder {
     ///
     /// # Errors
     /// Fails if writing fails, or the name is that of a folder, a pipe or a device; nothing has changed then.
-    pub fn write_whole(&self, name: &Path, bytes: &[u8]) -> io::Result<()> {
-        self.prepare(name, |file| file.write_all(bytes))?.place()
+    pub fn write_atomic(&self, name: &Path, bytes: &[u8]) -> io::Result<()> {
+        self.prepare(name, |file| file.write_all(bytes))?.rename_to_final()
     }
 
     /// Writes the content of `write` to a temporary file. [`Prepared::place`] then replaces an existing file of that name.
@@ -61,7 +61,7 @@ impl Folder {
         name: &Path,
         write: impl FnOnce(&mut fs::File) -> io::Result<()>,
     ) -> io::Result<Prepared> {
-        let (folder, name) = self.parent_of(name, Self::enter_or_make)?;
+        let (folder, name) = self.parent_of(name, Self::enter_or_create)?;
         if let Ok(about) = folder.0.symlink_metadata(name)
             && !about.is_symlink()
         {
@@ -167,13 +167,17 @@ mod tests {
     fn a_file_that_is_not_placed_leaves_nothing_and_changes_nothing() {
         let home = tempfile::tempdir().unwrap();
         let folder = Folder::open(home.path()).unwrap();
-        folder.write_whole(Path::new("a"), b"old").unwrap();
+        folder.write_atomic(Path::new("a"), b"old").unwrap();
         drop(folder.prepare(Path::new("a"), |file| file.write_all(b"new")).unwrap());
         let full = |_: &mut fs::File| Err(ErrorKind::StorageFull.into());
         assert!(folder.prepare(Path::new("a"), full).is_err());
         assert_eq!(folder.entries().unwrap().len(), 1);
         assert_eq!(fs::read(home.path().join("a")).unwrap(), b"old");
-        folder.prepare(Path::new("a"), |file| file.write_all(b"new")).unwrap().place().unwrap();
+        folder
+            .prepare(Path::new("a"), |file| file.write_all(b"new"))
+            .unwrap()
+            .rename_to_final()
+            .unwrap();
         assert_eq!(fs::read(home.path().join("a")).unwrap(), b"new");
     }
 
@@ -210,12 +214,12 @@ mod tests {
     fn a_kept_file_gets_its_name_back_unless_it_is_taken() {
         let home = tempfile::tempdir().unwrap();
         let folder = Folder::open(home.path()).unwrap();
-        folder.write_whole(Path::new("a"), b"theirs").unwrap();
+        folder.write_atomic(Path::new("a"), b"theirs").unwrap();
         let kept = folder.keep_as(Path::new("a"), |number| format!("a.{number}").into()).unwrap();
         folder.restore_name(&kept, Path::new("a")).unwrap();
         assert_eq!(fs::read(home.path().join("a")).unwrap(), b"theirs");
         let kept = folder.keep_as(Path::new("a"), |number| format!("a.{number}").into()).unwrap();
-        folder.write_whole(Path::new("a"), b"new").unwrap();
+        folder.write_atomic(Path::new("a"), b"new").unwrap();
         assert!(folder.restore_name(&kept, Path::new("a")).is_err());
         assert_eq!(fs::read(home.path().join("a")).unwrap(), b"new");
     }

@@ -60,7 +60,7 @@ impl<W: Write> ChecksumWriter<W> {
     }
 
     /// Checksum of everything written.
-    pub fn imprint(&self) -> FileChecksum {
+    pub fn checksum(&self) -> FileChecksum {
         FileChecksum { checksum: self.hasher.clone().finalize(), length: self.length }
     }
 }
@@ -96,7 +96,7 @@ impl WrittenFiles {
         let is_torn = !text.is_empty() && !text.ends_with('\n');
         let mut record = Self { files: BTreeMap::new(), is_torn };
         for (name, imprint) in text.lines().filter_map(entry) {
-            record.know(name, imprint);
+            record.add(name, imprint);
         }
         record
     }
@@ -118,7 +118,7 @@ impl WrittenFiles {
         self.files.get(name).is_some_and(|known| known.contains(&imprint))
     }
 
-    fn know(&mut self, name: String, imprint: FileChecksum) {
+    fn add(&mut self, name: String, imprint: FileChecksum) {
         let known = self.files.entry(name).or_default();
         if known[1] != Some(imprint) {
             *known = [known[1], Some(imprint)];
@@ -129,7 +129,7 @@ impl WrittenFiles {
     ///
     /// # Errors
     /// Fails if the record cannot be written.
-    pub fn note(&mut self, folder: &Folder, name: &str, written: FileChecksum) -> io::Result<()> {
+    pub fn record(&mut self, folder: &Folder, name: &str, written: FileChecksum) -> io::Result<()> {
         let is_last = self.files.get(name).is_some_and(|known| known[1] == Some(written));
         if name.contains(['\n', '\r']) || is_last {
             return Ok(());
@@ -138,7 +138,7 @@ impl WrittenFiles {
         let line = format!("{end}{:08x} {} {name}\n", written.checksum, written.length);
         folder.append(Path::new(FILE))?.write_all(line.as_bytes())?;
         self.is_torn = false;
-        self.know(name.into(), written);
+        self.add(name.into(), written);
         Ok(())
     }
 }
@@ -159,15 +159,15 @@ mod tests {
     fn only_files_just_as_they_were_written_may_be_replaced() {
         let home = tempfile::tempdir().unwrap();
         let folder = Folder::open(home.path()).unwrap();
-        let write = |content: &[u8]| folder.write_whole(Path::new("a b"), content).unwrap();
+        let write = |content: &[u8]| folder.write_atomic(Path::new("a b"), content).unwrap();
         let mut record = WrittenFiles::of(&folder);
         assert!(record.may_replace(&folder, "a b"));
         write(b"one");
         assert!(!record.may_replace(&folder, "a b"), "nobody has said whose it is");
-        record.note(&folder, "a b", FileChecksum::of_bytes(b"one")).unwrap();
+        record.record(&folder, "a b", FileChecksum::of_bytes(b"one")).unwrap();
         assert!(record.may_replace(&folder, "a b"));
         write(b"two");
-        record.note(&folder, "a b", FileChecksum::of_bytes(b"two")).unwrap();
+        record.record(&folder, "a b", FileChecksum::of_bytes(b"two")).unwrap();
         assert!(WrittenFiles::of(&folder).may_replace(&folder, "a b"), "the last line holds");
         write(b"2wo");
         assert!(!WrittenFiles::of(&folder).may_replace(&folder, "a b"));
@@ -179,17 +179,17 @@ mod tests {
         let folder = Folder::open(home.path()).unwrap();
         let mut record = WrittenFiles::of(&folder);
         for content in [&b"one"[..], b"two"] {
-            record.note(&folder, "a", FileChecksum::of_bytes(content)).unwrap();
+            record.record(&folder, "a", FileChecksum::of_bytes(content)).unwrap();
             for on_disk in [&b"one"[..], content] {
-                folder.write_whole(Path::new("a"), on_disk).unwrap();
+                folder.write_atomic(Path::new("a"), on_disk).unwrap();
                 assert!(WrittenFiles::of(&folder).may_replace(&folder, "a"));
             }
         }
         // The next entry terminates an incomplete line.
         folder.append(Path::new(FILE)).unwrap().write_all(b"0123").unwrap();
         let mut record = WrittenFiles::of(&folder);
-        record.note(&folder, "a", FileChecksum::of_bytes(b"three")).unwrap();
-        folder.write_whole(Path::new("a"), b"three").unwrap();
+        record.record(&folder, "a", FileChecksum::of_bytes(b"three")).unwrap();
+        folder.write_atomic(Path::new("a"), b"three").unwrap();
         assert!(WrittenFiles::of(&folder).may_replace(&folder, "a"));
     }
 
@@ -198,8 +198,8 @@ mod tests {
         let home = tempfile::tempdir().unwrap();
         let folder = Folder::open(home.path()).unwrap();
         let [mut first, mut second] = [WrittenFiles::of(&folder), WrittenFiles::of(&folder)];
-        first.note(&folder, "a", FileChecksum::of_bytes(b"one")).unwrap();
-        folder.write_whole(Path::new("a"), b"one").unwrap();
+        first.record(&folder, "a", FileChecksum::of_bytes(b"one")).unwrap();
+        folder.write_atomic(Path::new("a"), b"one").unwrap();
         assert!(second.may_replace(&folder, "a"));
     }
 }

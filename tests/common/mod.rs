@@ -76,7 +76,7 @@ struct Pause {
 }
 
 impl Monitor for Pause {
-    fn goes_on(&mut self, time: f64) -> bool {
+    fn continues(&mut self, time: f64) -> bool {
         self.is_paused = time < self.until;
         !self.is_paused
     }

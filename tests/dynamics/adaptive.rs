@@ -231,7 +231,7 @@ fn back_rewind_fork_save_and_load_go_on_bit_for_bit() {
             let label = format!("{}, {}", entry.name, scene.name);
             let settings = settings(entry.method, adaptive(1e-2));
             let mut straight = Simulation::start(scene.clone(), settings).unwrap();
-            straight.keep_snapshots(1 << 28);
+            straight.enable_snapshots(1 << 28);
             let mut prints = vec![fingerprint(&straight)];
             for _ in 0..30 {
                 let rows = straight.history().samples().len();
@@ -308,7 +308,7 @@ fn run_over_stops_that_round(first: Option<f64>, start: f64) -> Simulation {
     let control = StepControl { first, ..StepControl::to(1e-2) };
     let settings = settings(Method::EnergyMomentum, control);
     let mut flight = Simulation::start(scene, settings).unwrap();
-    flight.keep_snapshots(1 << 28);
+    flight.enable_snapshots(1 << 28);
     for i in 1..=10 {
         run(&mut flight, start + i as f64 * 0.1).unwrap();
     }

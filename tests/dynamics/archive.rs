@@ -103,7 +103,7 @@ fn a_load_with_a_function_is_named_and_refused() {
     let simulation = Simulation::start(scene, settings(Method::EnergyMomentum, 0.1)).unwrap();
     let refusal = simulation.to_bytes("towed").unwrap_err();
     assert!(refusal.to_string().contains("moment at the end of beam 'beam1'"), "{refusal}");
-    let advice = withy::script::messages::advice::on(&refusal);
+    let advice = withy::script::messages::advice::hint_for(&refusal);
     assert!(advice.as_ref().is_some_and(|told| told.contains("smooth_pulse")), "{advice:?}");
 }
 
@@ -129,7 +129,7 @@ fn with_right_checksum(mut file: Vec<u8>) -> Vec<u8> {
 struct Patience(usize);
 
 impl Monitor for Patience {
-    fn goes_on(&mut self, _time: f64) -> bool {
+    fn continues(&mut self, _time: f64) -> bool {
         self.0 = self.0.saturating_sub(1);
         self.0 > 0
     }
@@ -189,7 +189,7 @@ fn random_content_with_a_right_checksum_is_refused() {
 #[test]
 fn a_run_that_was_loaded_has_its_own_way_back() {
     let (_, mut loaded) = Simulation::from_bytes(&spaghetti().to_bytes("back").unwrap()).unwrap();
-    loaded.keep_snapshots(1 << 20);
+    loaded.enable_snapshots(1 << 20);
     loaded.step(&mut NoMonitor).unwrap();
     loaded.back(1).unwrap();
     assert_eq!(loaded.time(), 0.5);

@@ -163,7 +163,7 @@ fn midpoint_forces_do_exactly_the_work_by_which_the_energy_changes() {
 }
 
 fn is_damped(scene: &Scene) -> bool {
-    scene.springs().any(|spring| spring.damping.acts()) || scene.dissipating().next().is_some()
+    scene.springs().any(|spring| spring.damping.is_active()) || scene.dissipating().next().is_some()
 }
 
 fn has_followers(scene: &Scene) -> bool {

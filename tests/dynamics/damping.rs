@@ -243,7 +243,7 @@ fn sections_transmit_what_is_viscous_too() {
         let section = simulation.section_forces(&start).unwrap();
         let now = simulation.instant().unwrap();
         let model = simulation.model();
-        let (_, given) = model.transmission(simulation.scene(), 0).unwrap().read(now.given());
+        let (_, given) = model.transmission(simulation.scene(), 0).unwrap().read(now.reactions());
         let of_strain = BENDING * section.curvature;
         assert!(
             (given + section.moment).abs() < 5e-3 * 1e-2 * LENGTH,

@@ -77,7 +77,7 @@ fn assert_walk_is_straight(
     let mut random = Random(seed);
     let mut choose = |below: usize| ((random.next() + 1.0) * 0.5 * below as f64) as usize;
     let mut simulation = start();
-    simulation.keep_snapshots(PLENTY);
+    simulation.enable_snapshots(PLENTY);
     let mut aside: Option<Simulation> = None;
     for _ in 0..30 {
         match choose(6) {
@@ -196,7 +196,7 @@ fn walks_under_a_function_of_time_are_straight() {
 struct StopAt(usize);
 
 impl Monitor for StopAt {
-    fn goes_on(&mut self, _time: f64) -> bool {
+    fn continues(&mut self, _time: f64) -> bool {
         self.0 = self.0.saturating_sub(1);
         self.0 > 0
     }
@@ -222,7 +222,7 @@ fn a_run_that_has_ended_can_be_gone_back_from() {
     let mut scene = sliding_scenes::abacus(&mesh, SlidingRule::Conserving);
     scene.sliders.iter_mut().for_each(|slider| slider.ends = EndAction::Stop);
     let mut simulation = start(&scene, settings(Method::EnergyMomentum, 0.02));
-    simulation.keep_snapshots(PLENTY);
+    simulation.enable_snapshots(PLENTY);
     run(&mut simulation, 5.0).unwrap();
     assert!(simulation.has_ended());
     let (end, time) = (fingerprint(&simulation), simulation.time());
@@ -236,7 +236,7 @@ fn a_run_that_has_ended_can_be_gone_back_from() {
 fn a_cut_of_the_grid_stays_when_time_goes_back() {
     let scene = scenes::spaghetti(&Mesh::bspline(4, 3, 2).unwrap(), 1e4);
     let mut simulation = Simulation::start(scene, settings(Method::EnergyMomentum, 0.1)).unwrap();
-    simulation.keep_snapshots(PLENTY);
+    simulation.enable_snapshots(PLENTY);
     run(&mut simulation, 0.3).unwrap();
     simulation.cut_at(0.15);
     simulation.rewind(0.0).unwrap();
@@ -249,14 +249,14 @@ fn a_limit_bounds_the_memory_and_forgets_the_oldest_but_the_start() {
     let scene = scenes::spaghetti(&Mesh::bspline(14, 3, 2).unwrap(), 1e4);
     let settings = settings(Method::EnergyMomentum, 0.1);
     let mut simulation = Simulation::start(scene.clone(), settings).unwrap();
-    simulation.keep_snapshots(100_000);
+    simulation.enable_snapshots(100_000);
     let beginning = fingerprint(&simulation);
     for _ in 0..200 {
         step(&mut simulation).unwrap();
-        let (_, bytes) = simulation.snapshots_kept();
+        let (_, bytes) = simulation.stored_snapshots();
         assert!(bytes <= 100_000, "{bytes}");
     }
-    let (kept, bytes) = simulation.snapshots_kept();
+    let (kept, bytes) = simulation.stored_snapshots();
     println!("{} bytes a snapshot of the flying spaghetti", bytes / kept);
     assert!(kept > 10 && bytes > 80_000, "{kept} snapshots in {bytes} bytes");
     let end = fingerprint(&simulation);
@@ -265,7 +265,7 @@ fn a_limit_bounds_the_memory_and_forgets_the_oldest_but_the_start() {
         matches!(refusal, SimulationError::Forgotten { steps, .. } if steps == kept - 2),
         "{refusal:?}"
     );
-    let advice = withy::script::messages::advice::on(&refusal).unwrap();
+    let advice = withy::script::messages::advice::hint_for(&refusal).unwrap();
     let told = format!("{refusal}; {advice}");
     for part in
         ["limit of 0.1 MB", &format!("last {} steps", kept - 2), "sim.rewind(0)", "snapshots: 64"]
@@ -280,12 +280,12 @@ fn a_limit_bounds_the_memory_and_forgets_the_oldest_but_the_start() {
         step(&mut simulation).unwrap();
     }
     assert_eq!(fingerprint(&simulation), end);
-    simulation.keep_snapshots(50_000);
-    let (fewer, bytes) = simulation.snapshots_kept();
+    simulation.enable_snapshots(50_000);
+    let (fewer, bytes) = simulation.stored_snapshots();
     assert!(fewer < kept && bytes <= 50_000);
     simulation.back(fewer - 2).unwrap();
-    simulation.keep_snapshots(0);
-    assert_eq!(simulation.snapshots_kept(), (0, 0));
+    simulation.enable_snapshots(0);
+    assert_eq!(simulation.stored_snapshots(), (0, 0));
 }
 
 #[test]
@@ -295,13 +295,13 @@ fn ways_back_that_are_none_are_refused_with_a_reason() {
     run(&mut simulation, 1.0).unwrap();
     let told = |refused: Result<(), SimulationError>| refused.unwrap_err().to_string();
     assert!(told(simulation.back(3)).contains("stores no snapshots"));
-    simulation.keep_snapshots(10);
+    simulation.enable_snapshots(10);
     assert!(told(simulation.back(3)).contains("exceeds the memory limit of 0.00001 MB"));
     assert!(told(simulation.back(11)).contains("only 10 were taken"));
     for time in [-0.5, 1.5, f64::NAN, f64::INFINITY] {
         assert!(told(simulation.rewind(time)).contains("covers t = 0 to 1"));
     }
-    simulation.keep_snapshots(PLENTY);
+    simulation.enable_snapshots(PLENTY);
     run(&mut simulation, 2.0).unwrap();
     assert!(told(simulation.back(15)).contains("snapshots are stored from t = 1 on"));
     simulation.back(10).unwrap();
@@ -314,7 +314,7 @@ fn ways_back_that_are_none_are_refused_with_a_reason() {
 fn a_fork_and_its_original_do_not_touch_each_other() {
     let scene = scenes::spaghetti(&Mesh::bspline(4, 3, 2).unwrap(), 1e4);
     let mut simulation = Simulation::start(scene, settings(Method::EnergyMomentum, 0.1)).unwrap();
-    simulation.keep_snapshots(PLENTY);
+    simulation.enable_snapshots(PLENTY);
     run(&mut simulation, 1.0).unwrap();
     let mut fork = simulation.fork().unwrap();
     let before = fingerprint(&simulation);

@@ -224,7 +224,7 @@ fn common_scenes_have_every_element_of_a_machine() {
     let is_sampled = |law: &SpringLaw| matches!(law, SpringLaw::Sampled { .. });
     let central = |one: &Spring| {
         let at_ease = matches!(one.law, Some(SpringLaw::Linear { natural: 0.0, .. }));
-        at_ease && one.damping.acts() && one.origin == Origin::Zero
+        at_ease && one.damping.is_active() && one.origin == Origin::Zero
     };
     let joints = || all.iter().flat_map(|scene| &scene.joints).map(|joint| joint.kind);
     let drives = || all.iter().flat_map(|scene| &scene.drives);

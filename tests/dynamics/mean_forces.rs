@@ -113,7 +113,7 @@ fn mean_reactions_and_loads_change_the_momenta() {
                 let ended = simulation.history().samples().last().unwrap().measures;
                 let dt = ended.time - begun.time;
                 let model = simulation.model();
-                let given = model.given_in_step().unwrap();
+                let given = model.mean_reactions().unwrap();
                 let (mut force, mut moment, mut size) = (Vec2::zeros(), 0.0, 1.0);
                 for (place, before) in places.iter().zip(before) {
                     let middle = (before + model.position(place)) * 0.5;
@@ -160,14 +160,14 @@ fn means_of_a_very_short_step_are_the_forces_at_its_ends() {
                 let now = simulation.instant().unwrap();
                 let model = simulation.model();
                 let force = |joint| {
-                    model.transmission(simulation.scene(), joint).unwrap().read(now.given())
+                    model.transmission(simulation.scene(), joint).unwrap().read(now.reactions())
                 };
                 (0..count).map(force).collect()
             };
             let before = read(&mut simulation);
             run(&mut simulation, 0.4 + short).unwrap();
             let after = read(&mut simulation);
-            let Some(given) = simulation.model().given_in_step() else { continue };
+            let Some(given) = simulation.model().mean_reactions() else { continue };
             for joint in 0..count {
                 let transmission =
                     simulation.model().transmission(simulation.scene(), joint).unwrap();
@@ -195,12 +195,12 @@ fn means_between_rigid_bodies_are_of_second_order_to_the_forces_at_the_ends() {
             let scene = listening(scene.clone());
             let mut simulation = Simulation::start(scene, settings(Method::default(), dt)).unwrap();
             let joint = simulation.model().transmission(simulation.scene(), joint).unwrap();
-            let mut before = joint.read(simulation.instant().unwrap().given()).0;
+            let mut before = joint.read(simulation.instant().unwrap().reactions()).0;
             let mut worst = 0.0_f64;
             while simulation.time() < 0.5 - 0.1 * dt {
                 simulation.step(&mut NoMonitor).unwrap();
-                let after = joint.read(simulation.instant().unwrap().given()).0;
-                let mean = joint.read(&simulation.model().given_in_step().unwrap()).0;
+                let after = joint.read(simulation.instant().unwrap().reactions()).0;
+                let mean = joint.read(&simulation.model().mean_reactions().unwrap()).0;
                 worst = worst.max((mean - (before + after) * 0.5).norm());
                 before = after;
             }

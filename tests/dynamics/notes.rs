@@ -239,7 +239,7 @@ fn an_energy_that_is_not_kept_as_promised_is_told() {
 fn notes_are_those_of_the_steps_behind_the_present() {
     let mut simulation =
         Simulation::start(ruler().0, settings(Method::EnergyMomentum, 0.005)).unwrap();
-    simulation.keep_snapshots(10_000_000);
+    simulation.enable_snapshots(10_000_000);
     run(&mut simulation, 0.1).unwrap();
     assert_eq!(simulation.notes(), []);
     let before = *simulation.model().resolution();
@@ -256,7 +256,7 @@ fn notes_are_those_of_the_steps_behind_the_present() {
     assert_eq!(*simulation.model().resolution(), before);
 
     let mut coarse = Simulation::start(ruler().0, settings(Method::EnergyMomentum, 5.0)).unwrap();
-    coarse.keep_snapshots(10_000_000);
+    coarse.enable_snapshots(10_000_000);
     run(&mut coarse, 50.0).unwrap();
     assert!(motion(&coarse.notes()).is_some() && motion(&coarse.fork().unwrap().notes()).is_some());
     let (_, loaded) = Simulation::from_bytes(&coarse.to_bytes("coarse").unwrap()).unwrap();

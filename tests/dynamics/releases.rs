@@ -61,13 +61,13 @@ fn nothing_jumps_where_something_lets_go() {
     let mut gone: Vec<Releasable> = Vec::new();
     for (time, hold) in releases {
         run(&mut simulation, time).unwrap();
-        assert_eq!(simulation.let_go().len(), gone.len());
+        assert_eq!(simulation.releases().len(), gone.len());
         let mut model = System::assemble(&scene).unwrap();
-        model.stand_released(&scene, &gone).unwrap();
+        model.restore_releases(&scene, &gone).unwrap();
         model.restore(&simulation.model().state());
         let points = |model: &System| model.control_points().flatten().copied().collect::<Vec<_>>();
         let (before, there, unknowns) = (model.measure(), points(&model), model.unknowns());
-        model.let_go(&scene, &gone, hold).unwrap();
+        model.release(&scene, &gone, hold).unwrap();
         let after = model.measure();
         assert_eq!(points(&model), there);
         assert_eq!(model.unknowns() == unknowns, hold == Releasable::Spring(0));
@@ -81,7 +81,7 @@ fn nothing_jumps_where_something_lets_go() {
         gone.push(hold);
     }
     run(&mut simulation, 0.5).unwrap();
-    assert_eq!(simulation.let_go().len(), 5);
+    assert_eq!(simulation.releases().len(), 5);
     assert_eq!(simulation.model().springs().next().unwrap().stored, 0.0);
 }
 
@@ -206,7 +206,7 @@ fn steps_of_any_size_end_where_something_lets_go() {
                 simulation.history().samples().iter().map(|row| row.measures.time).collect();
             let label = format!("{} {}", entry.name, simulation.scene().name);
             assert!(times.iter().all(|time| steps.contains(time)), "{label}: {times:?}");
-            let gone: Vec<f64> = simulation.let_go().iter().map(|gone| gone.time).collect();
+            let gone: Vec<f64> = simulation.releases().iter().map(|gone| gone.time).collect();
             assert_eq!(gone, times, "{label}");
         }
     }
@@ -217,20 +217,20 @@ fn a_copy_and_a_way_back_know_what_had_let_go() {
     for entry in INTEGRATORS {
         for scene in all(&mesh()) {
             let mut simulation = Simulation::start(scene, settings(entry.method, 0.02)).unwrap();
-            simulation.keep_snapshots(1 << 24);
+            simulation.enable_snapshots(1 << 24);
             run(&mut simulation, 0.6).unwrap();
-            let (gone, state) = (simulation.let_go().to_vec(), simulation.model().state());
+            let (gone, state) = (simulation.releases().to_vec(), simulation.model().state());
             let unknowns = simulation.unknowns();
             let mut fork = simulation.fork().unwrap();
             fork.rewind(0.05).unwrap();
-            assert!(fork.let_go().is_empty() && fork.unknowns() < unknowns);
+            assert!(fork.releases().is_empty() && fork.unknowns() < unknowns);
             for end in [0.18, 0.6] {
                 run(&mut fork, end).unwrap();
             }
             simulation.rewind(0.18).unwrap();
             simulation.run_to(0.6, &mut NoMonitor).unwrap();
             for again in [&simulation, &fork] {
-                assert_eq!(again.let_go(), gone);
+                assert_eq!(again.releases(), gone);
                 assert!(again.model().state() == state, "{} {}", entry.name, again.scene().name);
             }
             let mut copy = simulation.copy_at_start().unwrap();
@@ -238,7 +238,7 @@ fn a_copy_and_a_way_back_know_what_had_let_go() {
             assert!(copy.run_again(&simulation, rows - 1, &mut NoMonitor).unwrap());
             let file = simulation.to_bytes("gone").unwrap();
             let (_, loaded) = Simulation::from_bytes(&file).unwrap();
-            assert_eq!((loaded.let_go(), loaded.unknowns()), (&gone[..], unknowns));
+            assert_eq!((loaded.releases(), loaded.unknowns()), (&gone[..], unknowns));
         }
     }
 }
@@ -253,13 +253,13 @@ fn somebody_outside_says_when() {
     scene.add_release(Release { hold: Releasable::Joint(0), trigger: Trigger::Outside }).unwrap();
     let mut simulation = Simulation::start(scene, settings(Method::EnergyMomentum, 0.02)).unwrap();
     run(&mut simulation, 0.2).unwrap();
-    assert!(simulation.waits_for_release(0) && simulation.let_go().is_empty());
+    assert!(simulation.waits_for_release(0) && simulation.releases().is_empty());
     let stored = simulation.to_bytes("waits");
     assert!(matches!(stored, Err(ArchiveError::Release { name }) if name == "hinge1"));
     simulation.release(0).unwrap();
     simulation.release(0).unwrap();
     assert!(!simulation.waits_for_release(0));
-    assert_eq!(simulation.let_go().iter().map(|gone| gone.time).collect::<Vec<_>>(), [0.2]);
+    assert_eq!(simulation.releases().iter().map(|gone| gone.time).collect::<Vec<_>>(), [0.2]);
     assert!(simulation.to_bytes("gone").is_ok());
     run(&mut simulation, 0.4).unwrap();
     assert!(simulation.history().drift(Invariant::Energy) < 1e-12);

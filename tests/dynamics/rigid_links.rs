@@ -97,7 +97,7 @@ fn joints_give_to_a_body_what_its_accelerations_need() {
     let [centre, held] = [point(fixed, 0), point(fixed, 1)].map(|at| place(&simulation, &at));
     let rigid = simulation.model().transmission(&scene, 1).unwrap();
     let now = simulation.instant().unwrap();
-    let (force, moment) = rigid.read(now.given());
+    let (force, moment) = rigid.read(now.reactions());
     let model = simulation.model();
     let acceleration = model.acceleration(&now, &centre);
     let inertia = (1.2 * acceleration).norm();
@@ -134,9 +134,10 @@ fn a_clamp_at_a_point_gives_the_moment_of_the_body() {
     let now = simulation.instant().unwrap();
     let arm = at(1.0, 0.5) - simulation.model().position(&at_point);
     let expected = (at(0.0, 20.0), 20.0 * arm.x);
-    for (force, moment) in
-        [simulation.model().reaction(now.given(), &at_point).unwrap(), joint.read(now.given())]
-    {
+    for (force, moment) in [
+        simulation.model().reaction(now.reactions(), &at_point).unwrap(),
+        joint.read(now.reactions()),
+    ] {
         assert!((force - expected.0).norm() < 1e-12 && (moment - expected.1).abs() < 1e-12);
     }
 }

@@ -80,8 +80,8 @@ fn a_scene_that_is_turned_moves_as_with_a_roller_along_an_axis() {
                 let place = end(one, tip(one.scene()));
                 let now = one.instant().unwrap();
                 let scene = one.scene().clone();
-                let (force, moment) = one.model().reaction(now.given(), &place).unwrap();
-                let joint = one.model().transmission(&scene, 2).unwrap().read(now.given());
+                let (force, moment) = one.model().reaction(now.reactions(), &place).unwrap();
+                let joint = one.model().transmission(&scene, 2).unwrap().read(now.reactions());
                 assert!((joint.0 - force).norm() < 1e-9 && joint.1 == 0.0 && moment == 0.0);
                 force
             });
@@ -162,7 +162,7 @@ fn a_cart_runs_down_a_slope_and_presses_on_it_by_its_weight_across() {
             assert!((place - expected).norm() < 1e-12 * expected.norm(), "{place} {expected}");
             let own = simulation.scene().place(&Station::on_particle(0), &[]).unwrap();
             let now = simulation.instant().unwrap();
-            let (force, _) = simulation.model().reaction(now.given(), &own).unwrap();
+            let (force, _) = simulation.model().reaction(now.reactions(), &own).unwrap();
             let across = perpendicular(unit(angle));
             assert!((force - across * (2.0 * 9.81 * angle.cos())).norm() < 1e-12 * 20.0, "{force}");
             for (name, invariant) in Invariant::ALL {

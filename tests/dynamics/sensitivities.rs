@@ -149,7 +149,7 @@ fn derivatives_of_all_scenes_are_those_of_exact_runs() {
             let plain = simulate(scene.clone(), method, DT, END);
             assert_eq!(plain.model().state(), simulation.model().state(), "{}", scene.name);
             assert_eq!(plain.counts().factorisations, simulation.counts().factorisations);
-            if let Err(reason) = simulation.beside(0, PerturbedSide::Plus) {
+            if let Err(reason) = simulation.perturbed(0, PerturbedSide::Plus) {
                 assert!(
                     matches!(reason, DerivativeError::Event { .. }),
                     "{}: {reason}",
@@ -169,7 +169,7 @@ fn derivatives_of_all_scenes_are_those_of_exact_runs() {
                 let expected: Vec<f64> =
                     at(h).into_iter().zip(at(2.0 * h)).map(|(a, b)| (4.0 * a - b) / 3.0).collect();
                 let [plus, minus] = [PerturbedSide::Plus, PerturbedSide::Minus]
-                    .map(|side| places(simulation.beside(what, side).unwrap()));
+                    .map(|side| places(simulation.perturbed(what, side).unwrap()));
                 let found = plus.iter().zip(&minus).map(|(a, b)| (a - b) / 2e-5);
                 let largest = expected.iter().fold(1e-3_f64, |most, x| most.max(x.abs()));
                 let error = found.zip(&expected).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
@@ -233,7 +233,7 @@ fn what_cannot_be_right_is_refused_with_a_reason() {
     assert_eq!(reason, DerivativeError::Times { parameter: "until".to_owned() });
     let mut back =
         Simulation::start_with_derivatives(plain, settings(METHODS[0], 0.1), of()).unwrap();
-    back.keep_snapshots(1 << 20);
+    back.enable_snapshots(1 << 20);
     run(&mut back, 0.5).unwrap();
     assert!(back.derivative(0, bead).is_ok() && back.derivative(1, bead).is_err());
     back.back(2).unwrap();
@@ -248,7 +248,7 @@ fn histories_beside_a_run_have_its_rows() {
     let mut simulation =
         Simulation::start_with_derivatives(scene, settings(METHODS[0], 0.1), of).unwrap();
     run(&mut simulation, 1.05).unwrap();
-    let beside = simulation.beside(0, PerturbedSide::Minus).unwrap();
+    let beside = simulation.perturbed(0, PerturbedSide::Minus).unwrap();
     let times = |of: &Simulation| -> Vec<f64> {
         of.history().samples().iter().map(|row| row.measures.time).collect()
     };

@@ -102,7 +102,7 @@ fn forces_and_accelerations_are_those_of_a_very_short_step() {
             let place = simulation.place(&station).unwrap();
             let model = simulation.model();
             let reaction = held.iter().map(|station| {
-                model.reaction(now.given(), &simulation.place(station).unwrap()).unwrap().0
+                model.reaction(now.reactions(), &simulation.place(station).unwrap()).unwrap().0
             });
             let measures = simulation.history().samples().last().unwrap().measures;
             let acceleration = model.acceleration(&now, &place);
@@ -138,7 +138,7 @@ fn joints_give_what_sections_transmit() {
             for (index, joint) in joints.iter().enumerate() {
                 let model = simulation.model();
                 let transmission = model.transmission(simulation.scene(), index).unwrap();
-                let (force, moment) = transmission.read(now.given());
+                let (force, moment) = transmission.read(now.reactions());
                 let section = simulation.section_forces(&joint.station).unwrap();
                 let size = section.axial.hypot(section.shear);
                 worst[0] = worst[0].max((force.norm() - size).abs() / (1.0 + size));
@@ -252,7 +252,7 @@ fn sensors_are_stored_by_their_names_and_go_back_with_the_run() {
         scene.record(name).unwrap();
     }
     let mut simulation = Simulation::start(scene, settings(Method::default(), 0.02)).unwrap();
-    simulation.keep_snapshots(1 << 24);
+    simulation.enable_snapshots(1 << 24);
     run(&mut simulation, 0.4).unwrap();
     let bytes = simulation.to_bytes("swing").unwrap();
     let (_, mut again) = Simulation::from_bytes(&bytes).unwrap();

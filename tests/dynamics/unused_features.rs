@@ -29,7 +29,7 @@ fn shape(simulation: &Simulation) -> ([usize; 5], [usize; 4]) {
         simulation.half_bandwidth(),
         simulation.model().constraint_shape().width,
         simulation.history().columns().count(),
-        simulation.snapshots_kept().1,
+        simulation.stored_snapshots().1,
     ];
     let work = [counts.steps, counts.newton_iterations, counts.factorisations, counts.retries];
     (matrix, work)
@@ -93,7 +93,7 @@ fn recording_and_snapshots_change_no_bit_of_the_motion() {
         quiet.record(Recording::Nothing);
         quiet.run_to(END, &mut NoMonitor).unwrap();
         let mut kept = Simulation::start(spinning(), settings(entry.method, DT)).unwrap();
-        kept.keep_snapshots(10_000_000);
+        kept.enable_snapshots(10_000_000);
         kept.run_to(END, &mut NoMonitor).unwrap();
         assert_eq!((state(&quiet), state(&kept)), (state(&plain), state(&plain)), "{}", entry.name);
         assert_eq!(quiet.history().samples().len(), 2);

@@ -9,7 +9,7 @@ use rhai::Dynamic;
 use withy::script::bindings::call::Call;
 use withy::script::bindings::kind::{Kind, NumberRange, Scripted, Type};
 use withy::script::bindings::parameter::{
-    Parameter, Presence, callback, choice, either, number, options, point, text, whole,
+    Parameter, Presence, callback, choice, either, integer, number, options, point, text,
 };
 use withy::script::bindings::table::{BindingTable, FunctionBinding, function, method, property};
 use withy::script::diagnose::Diagnostic;
@@ -74,8 +74,8 @@ const KEYS: &[Parameter] = &[
     choice("end", &["free", "fixed"]).or(Presence::Text("free")),
     options("mesh", MESH).optional(),
 ];
-const MESH: &[Parameter] = &[whole("spans").positive()];
-const PULL: Parameter = whole("times").non_negative().or(Presence::Whole(1));
+const MESH: &[Parameter] = &[integer("spans").positive()];
+const PULL: Parameter = integer("times").non_negative().or(Presence::Whole(1));
 
 fn spring(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let options = call.options("options")?;
@@ -122,7 +122,7 @@ fn set_length(call: &mut Call) -> Result<Dynamic, ScriptError> {
 fn mesh(call: &mut Call) -> Result<Dynamic, ScriptError> {
     match call.get_if::<i64>("spans") {
         Some(spans) => Ok(spans.into()),
-        None => Ok(call.options("spans")?.whole("spans")?.into()),
+        None => Ok(call.options("spans")?.integer("spans")?.into()),
     }
 }
 
@@ -259,7 +259,7 @@ fn callbacks_keep_their_own_errors_and_positions() {
     let (_, message, _) = said("spring(#{ stiffness: 2 }).follow(|t| \"a\");");
     assert_eq!(message, "follow: the force must give a finite number, got the text \"a\"");
     let error = error("spring(#{ stiffness: 2 }).follow(|t|\n    sqrt(\"a\"));");
-    assert_eq!(error.place().as_deref(), Some("test:2:10"));
+    assert_eq!(error.location_text().as_deref(), Some("test:2:10"));
     assert_eq!(error.message, "sqrt: 'x' must be a number, got the text \"a\"");
     assert_eq!(error.trace.len(), 1);
 }

@@ -130,7 +130,7 @@ fn what_worked_before_an_error_stays_and_the_statement_that_failed_leaves_nothin
 fn peeking_changes_no_variable() {
     let mut session = session();
     done(&mut session, "let n = 1;");
-    assert!(matches!(session.peek("n += 1; n"), Reply::Value(_)));
+    assert!(matches!(session.evaluate_preview("n += 1; n"), Reply::Value(_)));
     assert_eq!(value(&mut session, "n"), "1");
 }
 
@@ -170,7 +170,7 @@ fn an_error_in_a_file_is_shown_in_the_file() {
     else {
         panic!("must fail")
     };
-    assert_eq!(diagnostic.place().unwrap(), "b.rhai:2:9");
+    assert_eq!(diagnostic.location_text().unwrap(), "b.rhai:2:9");
 }
 
 #[test]
@@ -195,7 +195,9 @@ fn peeking_leaves_nothing_behind() {
     done(&mut session, "let a = 1;");
     assert_eq!(value(&mut session, "a + 1"), "2");
     let line = session.next_line();
-    let Reply::Value(shown) = session.peek("let a = 5; let b = 7; a + b") else { panic!() };
+    let Reply::Value(shown) = session.evaluate_preview("let a = 5; let b = 7; a + b") else {
+        panic!()
+    };
     assert_eq!(shown.to_string(), "12");
     assert_eq!(session.next_line(), line);
     assert_eq!(value(&mut session, "ans"), "2");

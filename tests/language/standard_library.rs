@@ -148,7 +148,7 @@ fn an_error_in_a_closure_of_the_user_stays_at_its_place() {
     let script = "import \"std/shapes\" as shapes;\nshapes::sampled(|u|\n    [u, lost], 8);";
     let (outcome, _) = run_beside(&[], script);
     let Ending::Failed(diagnostic) = &outcome.ending else { panic!("{:?}", outcome.ending) };
-    assert_eq!(diagnostic.place().as_deref(), Some("main.rhai:3:9"), "{diagnostic}");
+    assert_eq!(diagnostic.location_text().as_deref(), Some("main.rhai:3:9"), "{diagnostic}");
 }
 
 #[test]

@@ -107,7 +107,7 @@ fn judge_ending(expected: &Expectation, outcome: &RunOutcome) -> Result<(), Stri
         (None, Ending::Failed(diagnostic)) => Err(format!("must run\n{diagnostic}")),
         (Some((line, column, message)), Ending::Failed(diagnostic)) => {
             let place = format!("suite:{line}:{column}");
-            let right_place = diagnostic.place().as_deref() == Some(&place);
+            let right_place = diagnostic.location_text().as_deref() == Some(&place);
             let right_hint = expected.hint.as_deref().is_none_or(|hint| {
                 diagnostic.hint.as_deref().is_some_and(|given| given.contains(hint))
             });

@@ -84,13 +84,13 @@ fn a_full_store_of_snapshots_takes_no_allocations() {
     let scene = scenes::spaghetti(&mesh, 1e4);
     let settings = settings(Method::EnergyMomentum, 0.001);
     let mut simulation = Simulation::start(scene, settings).unwrap();
-    simulation.keep_snapshots(60_000);
+    simulation.enable_snapshots(60_000);
     run(&mut simulation, 0.1).unwrap();
-    let kept = simulation.snapshots_kept();
+    let kept = simulation.stored_snapshots();
     assert!(kept.0 > 5 && kept.0 < 50, "{kept:?}");
     // Room for the rows of the history, the times and the configurations of the trajectory.
     assert!(allocations_of(|| run(&mut simulation, 0.2).unwrap()) <= 3);
-    assert_eq!(simulation.snapshots_kept(), kept);
+    assert_eq!(simulation.stored_snapshots(), kept);
 }
 
 #[test]

@@ -4,7 +4,7 @@
 use crate::common::probe::{self, STEP, differences};
 use crate::common::{Random, meshes, sliding_scenes};
 use nalgebra::{DMatrix, DVector};
-use withy::beams::{Mesh, missed_kink};
+use withy::beams::{Mesh, unresolved_kink};
 use withy::geometry::{ContactPath, Curve, PiecewisePolynomial, Vec2, cross, interpolate};
 use withy::integrators::{Constraints, Mechanism, Stage};
 use withy::joints::{
@@ -42,7 +42,9 @@ struct State {
 /// The kink lengths of a mesh of an axis of that length.
 fn kink_of(mesh: &Mesh, length: f64) -> Option<PiecewisePolynomial> {
     let axis = Curve::line(Vec2::zeros(), Vec2::new(length, 0.0)).unwrap();
-    missed_kink(mesh, &interpolate(&axis, mesh.basis()).unwrap()).unwrap().map(|kink| kink.length)
+    unresolved_kink(mesh, &interpolate(&axis, mesh.basis()).unwrap())
+        .unwrap()
+        .map(|kink| kink.length)
 }
 
 /// The arc length along a mesh of a straight axis of that length.
@@ -58,7 +60,7 @@ impl State {
         let moved: Vec<Vec2> = (2..last).step_by(2).map(vector).collect();
         let unknowns = ContactUnknowns::of(std::array::from_fn(|k| numbers[last + k]));
         let mut passage = ContactPath::new(self.mesh.basis().clone());
-        passage.go(self.from, self.from + unknowns.way);
+        passage.set_interval(self.from, self.from + unknowns.way);
         let window = passage.first()..passage.first() + passage.end().len();
         let (before, moved) = (&self.before[window.clone()], &moved[window]);
         let kink = self.kink.as_ref().map(|(length, compliance, before)| Kink {
@@ -199,7 +201,7 @@ fn what_a_contact_does_is_what_its_equations_leave() {
         state.with(&state.numbers(), |contact, passage| {
             let (force, moment, work) = balance(&state, contact, passage);
             let ContactUnknowns { force: lambda, couple: eta, way } = contact.unknowns;
-            let (tau, d) = (contact.tangent().value, contact.swing().value);
+            let (tau, d) = (contact.tangent().value, contact.tangent_change().value);
             let (gap_before, gap) =
                 (-contact.start_gap(), state.slave_moved - contact.end_point().value);
             let close = |what: &str, found: f64, expected: f64| {
@@ -330,8 +332,10 @@ fn the_border_of_every_scene_is_the_derivative_of_its_forces_and_equations() {
                 for state in ["sliding", "held", "released"] {
                     for slider in 0..scene.sliders.len() {
                         match state {
-                            "held" => model.hold(MasterLimit { slider, end: MasterEnd::Start }),
-                            "released" => model.release(slider),
+                            "held" => {
+                                model.hold_at_stop(MasterLimit { slider, end: MasterEnd::Start })
+                            }
+                            "released" => model.release_slider(slider),
                             _ => {}
                         }
                     }

@@ -167,10 +167,10 @@ const DEEDS: [(&str, Deed); 4] = [
     ("bounce", |model, slider| {
         let end = if model.slider_speed(slider) < 0.0 { MasterEnd::Start } else { MasterEnd::End };
         let strike = vec![MasterLimit { slider, end }];
-        model.meet(&Arriving { strike, ..Arriving::default() }, 0.001).unwrap();
+        model.solve_impact(&Arriving { strike, ..Arriving::default() }, 0.001).unwrap();
     }),
-    ("hold", |model, slider| model.hold(MasterLimit { slider, end: MasterEnd::End })),
-    ("release", |model, slider| model.release(slider)),
+    ("hold", |model, slider| model.hold_at_stop(MasterLimit { slider, end: MasterEnd::End })),
+    ("release", |model, slider| model.release_slider(slider)),
 ];
 
 #[test]
@@ -189,7 +189,7 @@ fn a_restored_state_goes_on_bit_for_bit_whatever_sliders_did() {
                         let interval = Interval::between(start, end);
                         let mut step = integrator.step(model, interval);
                         if let Err(StepError::Overshoot { .. }) = step {
-                            model.leave_stops().unwrap();
+                            model.leave_tensile_stops().unwrap();
                             step = integrator.step(model, interval);
                         }
                         step.unwrap_or_else(|error| panic!("{label}: {error}"));

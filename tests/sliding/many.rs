@@ -51,8 +51,8 @@ fn the_solution_is_that_of_a_border() {
                 let mut model = moved(&scene);
                 for slider in 0..scene.sliders.len() {
                     match state {
-                        "held" => model.hold(MasterLimit { slider, end: MasterEnd::Start }),
-                        "released" => model.release(slider),
+                        "held" => model.hold_at_stop(MasterLimit { slider, end: MasterEnd::Start }),
+                        "released" => model.release_slider(slider),
                         _ => {}
                     }
                 }

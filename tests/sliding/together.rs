@@ -176,7 +176,7 @@ fn whatever_happens_in_one_step_keeps_everything() {
             scene.add_release(Release { hold, trigger }).unwrap();
             let simulation = simulated(scene, method, dt, 0.9);
             assert_eq!(simulation.slider_state(1), SliderState::Released);
-            assert_eq!(simulation.let_go().len(), 1);
+            assert_eq!(simulation.releases().len(), 1);
             assert!(simulation.arrivals().len() >= 2);
             for (name, invariant) in Invariant::ALL {
                 let drift = simulation.history().drift(invariant);
@@ -194,7 +194,7 @@ fn what_leans_loses_and_leaves_goes_on_bit_for_bit_from_files_and_after_going_ba
         for (dt, end) in [(5e-4, 0.12), (0.01, 0.6)] {
             let scene = sliding_scenes::losing_abacus(&mesh, SlidingRule::Conserving);
             let mut first = Simulation::start(scene, settings(method, dt)).unwrap();
-            first.keep_snapshots(50_000_000);
+            first.enable_snapshots(50_000_000);
             let mut states = Vec::new();
             for part in 1..=6 {
                 run(&mut first, end * f64::from(part) / 6.0).unwrap();

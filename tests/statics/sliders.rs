@@ -73,7 +73,7 @@ fn the_tangent_of_contacts_at_rest_is_the_derivative_of_their_forces_and_equatio
                 let (movements, shape) = (model.unknowns(), model.constraint_shape());
                 for leans in [false, true] {
                     for slider in (0..scene.sliders.len()).filter(|_| leans) {
-                        model.hold(MasterLimit { slider, end: MasterEnd::End });
+                        model.hold_at_stop(MasterLimit { slider, end: MasterEnd::End });
                     }
                     let label = format!("{rule:?}, {}, {mesh_name}, leans: {leans}", scene.name);
                     let mut unknowns = random.vector(movements + shape.width, 0.05);

@@ -35,7 +35,7 @@ pub(in crate::cli) fn watch(
     let mut desk = EventLoop::open(workbook, limits)?;
     // A panic is reported after the terminal is restored.
     let done = caught(|| {
-        let mut terminal = RawTerminal::take()?;
+        let mut terminal = RawTerminal::enter()?;
         desk.work(&mut terminal, stop)
     });
     let done = done
@@ -79,14 +79,14 @@ impl<'a> EventLoop<'a> {
 
     fn work(&mut self, terminal: &mut RawTerminal, stop: &AtomicBool) -> io::Result<()> {
         while !stop.load(Ordering::Relaxed) {
-            self.look();
+            self.check_files();
             let size = terminal.size();
             let screen = screen(&self.state, size, &self.solution);
             terminal.show(&screen.lines, size)?;
             let Some(key) = terminal.key(PATIENCE)? else { continue };
             match self.press(key, screen.window) {
                 KeyAction::Leave => break,
-                KeyAction::Suspend => terminal.rest()?,
+                KeyAction::Suspend => terminal.suspend()?,
                 _ => {}
             }
         }
@@ -100,19 +100,19 @@ impl<'a> EventLoop<'a> {
                 self.run();
                 self.state.top = ScrollPosition::Part(TaskSection::Result);
             }
-            KeyAction::Open(exercise) => self.turn_to(exercise),
+            KeyAction::Open(exercise) => self.select_exercise(exercise),
             KeyAction::Hint => self.hint(),
             KeyAction::Nothing | KeyAction::Leave | KeyAction::Suspend => {}
         }
         wish
     }
 
-    fn look(&mut self) {
+    fn check_files(&mut self) {
         if self.looked.elapsed() >= INTERVAL {
             self.looked = Instant::now();
             if let Some(exercise) = self.watcher.changed() {
                 if exercise != self.state.exercise {
-                    self.turn_to(exercise);
+                    self.select_exercise(exercise);
                 } else {
                     self.run();
                 }
@@ -123,15 +123,15 @@ impl<'a> EventLoop<'a> {
         }
         let Some(trial) = &mut self.trial else { return };
         self.state.running = Some(trial.seconds());
-        if let Some(report) = trial.ended() {
+        if let Some(report) = trial.result() {
             self.trial = None;
             if report.outcome != AttemptOutcome::Interrupted {
                 let has_passed = report.outcome == AttemptOutcome::Passed;
-                if let Err(error) = self.workbook.note(self.state.exercise, has_passed) {
+                if let Err(error) = self.workbook.record(self.state.exercise, has_passed) {
                     self.state.notice = Some(format!("the result was not recorded: {error}"));
                 }
             }
-            self.state.tell(report);
+            self.state.set_report(report);
             // Another window may have changed the progress.
             if let Ok(progress) = self.workbook.progress() {
                 self.state.progress = progress;
@@ -139,7 +139,7 @@ impl<'a> EventLoop<'a> {
         }
     }
 
-    fn turn_to(&mut self, exercise: &'static Exercise) {
+    fn select_exercise(&mut self, exercise: &'static Exercise) {
         // An unreadable progress file is reported when it is written next.
         let progress = self.workbook.progress().unwrap_or_else(|_| self.state.progress.clone());
         self.state = TuiState::open(exercise, shown(&self.workbook.file(exercise)), progress);
@@ -154,7 +154,7 @@ impl<'a> EventLoop<'a> {
                 self.trial = Some(trial);
                 self.state.running = Some(0);
             }
-            Err(error) => self.state.tell(cannot(&error)),
+            Err(error) => self.state.set_report(cannot(&error)),
         }
     }
 
@@ -168,7 +168,7 @@ impl<'a> EventLoop<'a> {
         match self.workbook.hint(exercise) {
             Ok(Advice::Hint { number, .. }) => {
                 self.state.hints = number;
-                self.state.progress.note_hint(exercise);
+                self.state.progress.record_hint(exercise);
             }
             Ok(Advice::Solution(_)) => self.state.hints = exercise.judge().hints.len(),
             Err(error) => self.state.notice = Some(format!("the result was not recorded: {error}")),

@@ -8,7 +8,7 @@ use std::time::{Duration, Instant};
 use std::{env, thread};
 
 use crate::cli::Exit;
-use crate::cli::console::say;
+use crate::cli::console::print_line;
 use crate::cli::limits::LimitOptions;
 use crate::exercises::attempt;
 use crate::exercises::captured_output::{CaptureWriter, CapturedOutput};
@@ -40,7 +40,7 @@ impl JudgeProcess {
     /// Fails if no process can be started.
     pub fn begin(exercise: &Exercise, options: &LimitOptions) -> io::Result<Self> {
         let mut command = Command::new(env::current_exe()?);
-        command.args(["learn", "try"]).args(options.words()).args(["--", &exercise.id()]);
+        command.args(["learn", "try"]).args(options.to_arguments()).args(["--", &exercise.id()]);
         command.stdin(Stdio::null()).stdout(Stdio::piped()).stderr(Stdio::null());
         // Key signals such as Ctrl-C go to the watching process only.
         #[cfg(unix)]
@@ -65,7 +65,7 @@ impl JudgeProcess {
     }
 
     /// Result of the attempt, once it is known.
-    pub fn ended(&mut self) -> Option<AttemptReport> {
+    pub fn result(&mut self) -> Option<AttemptReport> {
         let longest = self.limits.time.unwrap_or(PATIENCE) * 2 + SLACK;
         match self.said.try_recv() {
             Ok(said) => Some(self.report(&said)),
@@ -81,7 +81,7 @@ impl JudgeProcess {
         match said.lines().last().and_then(|line| serde_json::from_str(line).ok()) {
             Some(report) => report,
             None => match self.process.wait() {
-                Ok(status) => death(status, &self.limits),
+                Ok(status) => killed_report(status, &self.limits),
                 Err(error) => cannot(&error),
             },
         }
@@ -102,7 +102,7 @@ pub fn cannot(error: &io::Error) -> AttemptReport {
     AttemptReport { outcome: AttemptOutcome::Broken(why), printed: CapturedOutput::default() }
 }
 
-fn death(status: ExitStatus, limits: &Limits) -> AttemptReport {
+fn killed_report(status: ExitStatus, limits: &Limits) -> AttemptReport {
     match limits.memory.filter(|_| is_out_of_memory(status)) {
         Some(memory) => stopped(Stop::Memory(memory), CapturedOutput::default()),
         None => {
@@ -130,14 +130,14 @@ fn is_out_of_memory(_: ExitStatus) -> bool {
 }
 
 fn stopped(stop: Stop, printed: CapturedOutput) -> AttemptReport {
-    let (message, help) = stop.words();
+    let (message, help) = stop.message_and_hint();
     let why = AttemptError { message, help, ..AttemptError::default() };
     AttemptReport { outcome: AttemptOutcome::Stopped(why), printed }
 }
 
 /// Judges an attempt in this dedicated process, and prints the report.
 pub fn try_here(workbook: &Workbook, exercise: &Exercise, options: &LimitOptions) -> Exit {
-    die_with_parent();
+    exit_with_parent();
     let ear = CaptureWriter::default();
     let heard = ear.clone();
     // Only one report is printed.
@@ -145,7 +145,7 @@ pub fn try_here(workbook: &Workbook, exercise: &Exercise, options: &LimitOptions
     let last_turn = Arc::clone(&turn);
     let resort = move |stop: Stop| {
         let _turn = last_turn.lock().unwrap_or_else(PoisonError::into_inner);
-        tell(&stopped(stop, heard.heard()));
+        send_report(&stopped(stop, heard.captured()));
         process::exit(0)
     };
     let settings = RunSettings {
@@ -161,24 +161,24 @@ pub fn try_here(workbook: &Workbook, exercise: &Exercise, options: &LimitOptions
         Err(why) => AttemptVerdict::Broken(why),
     };
     let _turn = turn.lock().unwrap_or_else(PoisonError::into_inner);
-    tell(&AttemptReport { outcome: verdict.into(), printed: ear.heard() });
+    send_report(&AttemptReport { outcome: verdict.into(), printed: ear.captured() });
     // Data of the attempt is not dropped, because that may take long.
     process::exit(0)
 }
 
-fn tell(report: &AttemptReport) {
+fn send_report(report: &AttemptReport) {
     match serde_json::to_string(report) {
-        Ok(line) => say(&line),
+        Ok(line) => print_line(&line),
         Err(error) => eprintln!("error: {error}"),
     }
 }
 
 /// Ends this process with its parent, which reads the output.
 #[cfg(target_os = "linux")]
-fn die_with_parent() {
+fn exit_with_parent() {
     use nix::sys::signal::Signal;
     let _ = nix::sys::prctl::set_pdeathsig(Signal::SIGKILL);
 }
 
 #[cfg(not(target_os = "linux"))]
-fn die_with_parent() {}
+fn exit_with_parent() {}

@@ -70,7 +70,7 @@ impl ScreenLine {
     }
 
     /// Lines of code wrapped at a width, after blanks if possible.
-    pub fn broken(self, columns: usize) -> Vec<Self> {
+    pub fn wrapped(self, columns: usize) -> Vec<Self> {
         let characters = self.characters();
         let margin = characters.iter().take_while(|(character, _)| !character.is_alphanumeric());
         let indent = margin.count() + 4;
@@ -199,10 +199,10 @@ mod tests {
         assert_eq!(lines, ["A strip of length 1", "  is clamped at its", "  left end."]);
         let code =
             ScreenLine::of("  let", LOOK).and(" a = f(123, 45678901234567890123456789);", PLAIN);
-        let code: Vec<String> = code.broken(20).iter().map(ScreenLine::text).collect();
+        let code: Vec<String> = code.wrapped(20).iter().map(ScreenLine::text).collect();
         let expected = ["  let a = f(123, ", "      45678901234567", "      890123456789);"];
         assert_eq!(code, expected);
-        let empty = ScreenLine::default().broken(20);
+        let empty = ScreenLine::default().wrapped(20);
         assert_eq!(empty.iter().map(ScreenLine::text).collect::<Vec<_>>(), [""]);
         assert_eq!(wrapped("", "", 20), Vec::<String>::new());
     }

@@ -32,7 +32,7 @@ fn judged(state: &TuiState, report: &AttemptReport, columns: usize) -> Vec<Scree
         AttemptOutcome::Passed => {
             lines =
                 vec![ScreenLine::of("Passed.", GOOD).and(&format!(" (run {})", state.runs), FAINT)];
-            lines.extend(paragraph(&what_next(state), "", columns, &PLAIN));
+            lines.extend(paragraph(&next_actions(state), "", columns, &PLAIN));
         }
         AttemptOutcome::Off(found) => {
             lines = not_yet("it runs, but the result is wrong.");
@@ -53,7 +53,7 @@ fn judged(state: &TuiState, report: &AttemptReport, columns: usize) -> Vec<Scree
     lines
 }
 
-fn what_next(state: &TuiState) -> String {
+fn next_actions(state: &TuiState) -> String {
     let on = match state.next() {
         Some(next) => format!("n continues with {}: {}", next.id(), next.title()),
         None => format!("All {} exercises are passed. Congratulations!", EXERCISES.len()),
@@ -96,7 +96,8 @@ fn excerpt(place: &ScriptPosition, columns: usize) -> Vec<ScreenLine> {
     let room = columns.saturating_sub(crate::output::columns(&number) + 1).max(8);
     // The beginning of the line is cut if the location would not be visible.
     let skipped = if at + length.max(1) <= room { 0 } else { at.saturating_sub(room / 3) };
-    let (before, seen) = if skipped > 0 { ("…", behind(&text, skipped + 1)) } else { ("", text) };
+    let (before, seen) =
+        if skipped > 0 { ("…", text_from_column(&text, skipped + 1)) } else { ("", text) };
     let line = ScreenLine::of(&number, FAINT).and(before, FAINT).and(&seen, PLAIN).cut(columns);
     let marks = "^".repeat(length.clamp(1, room - (at - skipped).min(room - 1)));
     let mark = format!("{}{marks}", " ".repeat(at - skipped));
@@ -104,7 +105,7 @@ fn excerpt(place: &ScriptPosition, columns: usize) -> Vec<ScreenLine> {
 }
 
 /// Text after the first columns; a wide character across the cut becomes a blank.
-fn behind(text: &str, columns: usize) -> String {
+fn text_from_column(text: &str, columns: usize) -> String {
     let (mut left_out, mut rest) = (0, text.chars());
     while left_out < columns {
         let Some(letter) = rest.next() else { break };

@@ -76,7 +76,7 @@ pub fn screen(
     };
     let window = ScrollWindow { top: top.min(last), last, rows: room };
     let mut lines = head;
-    lines.extend(seen(&mut body.lines, window));
+    lines.extend(visible_lines(&mut body.lines, window));
     if foot.len() + lines.len() < rows {
         lines.resize(rows - foot.len(), ScreenLine::default());
     }
@@ -85,7 +85,7 @@ pub fn screen(
     Screen { lines: lines.into_iter().map(|line| line.cut(columns)).collect(), window }
 }
 
-fn seen(lines: &mut Vec<ScreenLine>, window: ScrollWindow) -> Vec<ScreenLine> {
+fn visible_lines(lines: &mut Vec<ScreenLine>, window: ScrollWindow) -> Vec<ScreenLine> {
     let ScrollWindow { top, last, rows } = window;
     let mut shown: Vec<ScreenLine> = lines.drain(..).skip(top).take(rows).collect();
     let above = if top > 0 { top + 1 } else { 0 };
@@ -166,7 +166,7 @@ fn body(state: &TuiState, columns: usize, solution: &[ScreenLine]) -> PageLayout
         ScreenPage::Task => task(state, columns.min(WIDEST)),
         ScreenPage::List(chosen) => list(state, chosen, columns),
         ScreenPage::Solution => {
-            PageLayout::of(solution.iter().flat_map(|line| line.clone().broken(columns)).collect())
+            PageLayout::of(solution.iter().flat_map(|line| line.clone().wrapped(columns)).collect())
         }
     }
 }

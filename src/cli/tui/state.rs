@@ -116,8 +116,8 @@ impl TuiState {
         others.into_iter().find(|exercise| !self.progress.has_passed(exercise))
     }
 
-    pub fn tell(&mut self, report: AttemptReport) {
-        self.progress.note(self.exercise, report.outcome == AttemptOutcome::Passed);
+    pub fn set_report(&mut self, report: AttemptReport) {
+        self.progress.record(self.exercise, report.outcome == AttemptOutcome::Passed);
         self.running = None;
         self.runs += 1;
         self.last = Some(report);
@@ -130,21 +130,21 @@ impl TuiState {
         match (key, self.page) {
             (Key::Letter('q') | Key::Interrupt, _) => return KeyAction::Leave,
             (Key::Suspend, _) => return KeyAction::Suspend,
-            (Key::Letter('l'), ScreenPage::Task | ScreenPage::Solution) => self.turn_to(ScreenPage::List(index(self.exercise))),
-            (Key::Letter('l' | 's') | Key::Escape, ScreenPage::List(_) | ScreenPage::Solution) => self.turn_to(ScreenPage::Task),
+            (Key::Letter('l'), ScreenPage::Task | ScreenPage::Solution) => self.show_page(ScreenPage::List(index(self.exercise))),
+            (Key::Letter('l' | 's') | Key::Escape, ScreenPage::List(_) | ScreenPage::Solution) => self.show_page(ScreenPage::Task),
             (_, ScreenPage::List(chosen)) => return self.choose(key, chosen, typed, window),
             (Key::Letter('h'), ScreenPage::Task) => return self.ask_for_hint(asked),
             (Key::Letter('r'), _) => {
                 self.page = ScreenPage::Task;
                 return KeyAction::Run;
             }
-            (Key::Letter('n'), _) => return self.go_on(asked),
+            (Key::Letter('n'), _) => return self.next_exercise(asked),
             (Key::Letter('p'), _) => match index(self.exercise).checked_sub(1) {
                 Some(before) => return KeyAction::Open(&EXERCISES[before]),
-                None => self.say("this is the first exercise"),
+                None => self.set_notice("this is the first exercise"),
             },
-            (Key::Letter('s'), ScreenPage::Task) if self.has_passed() => self.turn_to(ScreenPage::Solution),
-            (Key::Letter('s'), _) => self.say(
+            (Key::Letter('s'), ScreenPage::Task) if self.has_passed() => self.show_page(ScreenPage::Solution),
+            (Key::Letter('s'), _) => self.set_notice(
                 "the solution is shown after the exercise is passed; h gives one more hint each time, and a solution after the last one",
             ),
             _ => self.scroll(key, window),
@@ -152,7 +152,7 @@ impl TuiState {
         KeyAction::Nothing
     }
 
-    fn turn_to(&mut self, page: ScreenPage) {
+    fn show_page(&mut self, page: ScreenPage) {
         self.page = page;
         let part = if page == ScreenPage::Task && self.runs > 0 {
             TaskSection::Result
@@ -162,7 +162,7 @@ impl TuiState {
         self.top = ScrollPosition::Part(part);
     }
 
-    fn say(&mut self, notice: &str) {
+    fn set_notice(&mut self, notice: &str) {
         self.notice = Some(notice.into());
     }
 
@@ -173,27 +173,27 @@ impl TuiState {
             return KeyAction::Hint;
         }
         match asked {
-            Some(Confirmation::Solution) => self.turn_to(ScreenPage::Solution),
+            Some(Confirmation::Solution) => self.show_page(ScreenPage::Solution),
             _ => {
                 self.asked = Some(Confirmation::Solution);
-                self.say("there are no more hints; h again shows a solution");
+                self.set_notice("there are no more hints; h again shows a solution");
             }
         }
         KeyAction::Nothing
     }
 
-    fn go_on(&mut self, asked: Option<Confirmation>) -> KeyAction {
+    fn next_exercise(&mut self, asked: Option<Confirmation>) -> KeyAction {
         match self.next() {
             None if self.has_passed() => {
-                self.say("all exercises are passed; l lists them, q exits")
+                self.set_notice("all exercises are passed; l lists them, q exits")
             }
-            None => self.say("this is the only exercise not passed yet"),
+            None => self.set_notice("this is the only exercise not passed yet"),
             Some(next) if self.has_passed() || asked == Some(Confirmation::Skip) => {
                 return KeyAction::Open(next);
             }
             Some(_) => {
                 self.asked = Some(Confirmation::Skip);
-                self.say("this exercise is not passed yet; n again skips it");
+                self.set_notice("this exercise is not passed yet; n again skips it");
             }
         }
         KeyAction::Nothing
@@ -218,7 +218,7 @@ impl TuiState {
                 number.map_or(chosen, |number| number - 1)
             }
             _ => {
-                self.say("arrows or a number select an exercise, Enter opens it, l returns");
+                self.set_notice("arrows or a number select an exercise, Enter opens it, l returns");
                 chosen
             }
         };
@@ -237,10 +237,11 @@ impl TuiState {
             Key::End => last,
             Key::Enter | Key::Escape => return,
             Key::Letter(letter) => {
-                return self
-                    .say(&format!("the key {letter} has no function here; see the keys below"));
+                return self.set_notice(&format!(
+                    "the key {letter} has no function here; see the keys below"
+                ));
             }
-            _ => return self.say("this key has no function here; see the keys below"),
+            _ => return self.set_notice("this key has no function here; see the keys below"),
         };
         self.top = ScrollPosition::Line(top.min(last));
     }

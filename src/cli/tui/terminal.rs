@@ -40,8 +40,8 @@ impl RawTerminal {
     ///
     /// # Errors
     /// Fails if the terminal does not support this.
-    pub fn take() -> io::Result<Self> {
-        hold()?;
+    pub fn enter() -> io::Result<Self> {
+        enter_raw_mode()?;
         let style = TerminalStyle::of_environment(|name| std::env::var(name).ok());
         Ok(Self { colours: style.colours, drawn: Vec::new(), size: (0, 0) })
     }
@@ -100,29 +100,29 @@ impl RawTerminal {
     ///
     /// # Errors
     /// See [`take`](Self::take).
-    pub fn rest(&mut self) -> io::Result<()> {
-        give_back();
+    pub fn suspend(&mut self) -> io::Result<()> {
+        restore();
         #[cfg(unix)]
         nix::sys::signal::raise(nix::sys::signal::Signal::SIGTSTP)?;
         self.size = (0, 0);
-        hold()
+        enter_raw_mode()
     }
 }
 
 impl Drop for RawTerminal {
     fn drop(&mut self) {
-        give_back();
+        restore();
     }
 }
 
-fn hold() -> io::Result<()> {
+fn enter_raw_mode() -> io::Result<()> {
     terminal::enable_raw_mode()?;
     HELD.store(true, Ordering::Relaxed);
     execute!(stdout(), EnterAlternateScreen, Hide)
 }
 
 /// Restores the terminal if necessary; also for code that ends the process without unwinding.
-pub fn give_back() {
+pub fn restore() {
     if HELD.swap(false, Ordering::Relaxed) {
         // An error means that the terminal is gone.
         let _ = execute!(stdout(), Show, LeaveAlternateScreen);

@@ -157,15 +157,15 @@ impl Dashpots {
     }
 
     /// Prepares a movement of zero duration without damping.
-    pub fn rest(&mut self) {
+    pub fn rest_without_damping(&mut self) {
         for span in &mut self.spans {
-            span.forces.iter_mut().for_each(ForceDashpot::rest);
-            span.moments.iter_mut().for_each(MomentDashpot::rest);
+            span.forces.iter_mut().for_each(ForceDashpot::rest_without_damping);
+            span.moments.iter_mut().for_each(MomentDashpot::rest_without_damping);
         }
     }
 
     /// Discards the rate history after a jump of the rates.
-    pub fn forget_rates(&mut self) {
+    pub fn clear_rate_history(&mut self) {
         self.watch = RateResolution::default();
     }
 
@@ -240,12 +240,13 @@ impl Dashpots {
             let moved = &moved[*first..*first + self.order];
             for dashpot in forces {
                 sum += dashpot.advance(moved, rotations, duration);
-                let seen = share.map(|share| dashpot.seen(share)).unwrap_or_default();
+                let seen = share.map(|share| dashpot.last_rate_mismatch(share)).unwrap_or_default();
                 all.iter_mut().zip(seen).for_each(|(all, seen)| all.join(seen));
             }
             for dashpot in moments {
                 sum += dashpot.advance(moved, rotations, duration);
-                all[2].join(share.map(|share| dashpot.seen(share)).unwrap_or_default());
+                all[2]
+                    .join(share.map(|share| dashpot.last_rate_mismatch(share)).unwrap_or_default());
             }
         }
         self.watch.add(duration, all);
@@ -254,11 +255,11 @@ impl Dashpots {
 
     /// Passes the dashpot forces at given rates at the start of the step. Rates that the steps do not resolve are extrapolated from the means of the
     /// last two steps.
-    pub fn resist(&self, rates: &[Movement], give: &mut dyn FnMut(usize, Movement)) {
+    pub fn emit_dashpot_forces(&self, rates: &[Movement], give: &mut dyn FnMut(usize, Movement)) {
         for SpanDashpots { first, forces, moments } in &self.spans {
-            let rates = self.watch.told(&rates[*first..*first + self.order]);
-            forces.iter().for_each(|dashpot| dashpot.resist(rates, *first, give));
-            moments.iter().for_each(|dashpot| dashpot.resist(rates, *first, give));
+            let rates = self.watch.selected(&rates[*first..*first + self.order]);
+            forces.iter().for_each(|dashpot| dashpot.emit_dashpot_forces(rates, *first, give));
+            moments.iter().for_each(|dashpot| dashpot.emit_dashpot_forces(rates, *first, give));
         }
     }
 
@@ -277,7 +278,7 @@ impl Dashpots {
     pub fn transmitted(&self, place: &SectionPlace, rates: &[Movement]) -> (Vec2, f64) {
         let of_span = |span: usize| {
             let span = &self.spans[span];
-            (span, self.watch.told(&rates[span.first..span.first + self.order]))
+            (span, self.watch.selected(&rates[span.first..span.first + self.order]))
         };
         let (mut force, mut moment) = (Vec2::zeros(), 0.0);
         for share in &place.force_shares {

@@ -243,10 +243,10 @@ impl<const N: usize, S: Sections> BodyDynamics for DiscreteBeam<N, S> {
         self.inertia.each_diagonal(factor, points, tangent);
     }
 
-    fn each_span_at_rest(&self, take: &mut dyn FnMut(&SpanStiffness)) {
+    fn for_each_static_span(&self, take: &mut dyn FnMut(&SpanStiffness)) {
         let mut rows = SpanStiffness::default();
         for group in &self.groups {
-            group.each_at_rest(&self.section, &mut rows, take);
+            group.for_each_static_span(&self.section, &mut rows, take);
         }
     }
 

@@ -121,7 +121,7 @@ pub trait BodyDynamics: Send + Sync {
     );
 
     /// Passes the stiffness of each span at the start of the step, as at rest, to `take`.
-    fn each_span_at_rest(&self, take: &mut dyn FnMut(&SpanStiffness));
+    fn for_each_static_span(&self, take: &mut dyn FnMut(&SpanStiffness));
 
     /// Section of a beam (the mean if tapered) and length of its axis as drawn [length]; `None` for bodies of points.
     fn extent(&self) -> Option<(Section, f64)>;

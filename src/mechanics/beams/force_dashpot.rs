@@ -82,7 +82,7 @@ impl ForceDashpot {
         self.start_rate = self.rate(rates);
     }
 
-    pub(super) fn rest(&mut self) {
+    pub(super) fn rest_without_damping(&mut self) {
         self.force = Vec2::zeros();
     }
 
@@ -92,7 +92,7 @@ impl ForceDashpot {
     }
 
     /// Mismatch of the axial and shear rates in the last accepted step, which started at a fraction between the middles of two steps.
-    pub(super) fn seen(&self, share: f64) -> [RateMismatch; 2] {
+    pub(super) fn last_rate_mismatch(&self, share: f64) -> [RateMismatch; 2] {
         let of = |axis: usize| {
             let means = [self.rate_before[axis], self.last_rate[axis]];
             let damping = self.functions.weight * self.damping[axis];
@@ -123,7 +123,7 @@ impl ForceDashpot {
     }
 
     /// Target force at the rates of a configuration.
-    fn wanted(&self, at: RateCollocation, now: &DashpotKinematics) -> Vec2 {
+    fn target_force(&self, at: RateCollocation, now: &DashpotKinematics) -> Vec2 {
         let carried = self.last_rate * at.by_last;
         now.resistance.component_mul(&now.change) - self.damping.component_mul(&carried)
     }
@@ -152,7 +152,7 @@ impl ForceDashpot {
         summary: &mut ForceSummary,
     ) {
         let now = self.configuration(at, moved);
-        self.mismatch = self.wanted(at, &now) - self.force;
+        self.mismatch = self.target_force(at, &now) - self.force;
         self.distribute((now.rotation, now.gradient), self.force, first, give);
         let force = larger(self.force.x.abs(), self.force.y.abs());
         summary.join(&ForceSummary {
@@ -172,7 +172,7 @@ impl ForceDashpot {
         block: &mut [f64],
     ) {
         let now = self.configuration(at, moved);
-        let wanted = self.wanted(at, &now);
+        let wanted = self.target_force(at, &now);
         self.mismatch = wanted - self.force;
         self.distribute((now.rotation, now.gradient), wanted, first, give);
 
@@ -242,7 +242,7 @@ impl ForceDashpot {
     }
 
     /// Strain rates at the start of the step, present or extrapolated.
-    fn told(&self, told: DashpotRates<'_>) -> Vec2 {
+    fn selected_rates(&self, told: DashpotRates<'_>) -> Vec2 {
         let (present, carried) = (self.rate(told.present), self.carried(told.late));
         let [axial, shear, _] = told.carried;
         Vec2::new(
@@ -253,17 +253,17 @@ impl ForceDashpot {
 
     /// Force in space at the start of the step [force], and its `w x' × n` [force·length].
     pub(super) fn transmitted(&self, rates: DashpotRates<'_>) -> (Vec2, f64) {
-        let force = self.rotation.to_space(self.damping.component_mul(&self.told(rates)));
+        let force = self.rotation.to_space(self.damping.component_mul(&self.selected_rates(rates)));
         (force, self.functions.weight * cross(self.gradient, force))
     }
 
-    pub(super) fn resist(
+    pub(super) fn emit_dashpot_forces(
         &self,
         rates: DashpotRates<'_>,
         first: usize,
         give: &mut dyn FnMut(usize, Movement),
     ) {
-        let force = self.damping.component_mul(&self.told(rates));
+        let force = self.damping.component_mul(&self.selected_rates(rates));
         self.distribute((self.rotation, self.gradient), force, first, give);
     }
 

@@ -44,7 +44,7 @@ impl<const N: usize> ForcePoint<N> {
     }
 
     /// Adds the rows of axial and shear strain at rest, and those of a nonzero section force.
-    pub(super) fn write_at_rest(&self, section: &Section, span: &mut SpanStiffness) {
+    pub(super) fn write_static_rows(&self, section: &Section, span: &mut SpanStiffness) {
         let w = self.axis.weight;
         let row = |by_gradient: Vec2, by_rotation: f64| -> [[f64; 3]; N] {
             std::array::from_fn(|a| {

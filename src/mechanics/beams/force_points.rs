@@ -172,7 +172,7 @@ impl<const N: usize> ForcePoints<N> {
 
     /// Multiplies a section force in space by the weights of the points.
     #[inline(always)]
-    fn weigh<V: Simd>(
+    fn apply_weights<V: Simd>(
         &self,
         part: LaneChunk<V>,
         weight: f64,
@@ -220,7 +220,7 @@ impl<const N: usize> ForcePoints<N> {
             self.force.get(part)
         };
         let spatial = now.collocated_rotation.to_space(force);
-        self.weigh(part, weight, (now.collocated_gradient, spatial), resultant);
+        self.apply_weights(part, weight, (now.collocated_gradient, spatial), resultant);
         let mismatch = collocated_strain - force.over_component(stiffness);
         self.mismatch.put(part, mismatch);
         let force = force.larger_magnitude();
@@ -248,7 +248,7 @@ impl<const N: usize> ForcePoints<N> {
         let (tau, sigma) = (part.splat(at.configuration), part.splat(at.stress));
         let (rotation, gradient) = (now.collocated_rotation, now.collocated_gradient);
         let condensed = force_in_space(rotation, stiffness, collocated_strain);
-        self.weigh(part, weight, (gradient, condensed), resultant);
+        self.apply_weights(part, weight, (gradient, condensed), resultant);
 
         // δn = A δg + b δω  and  δ(gτ × n) = e·δg + f δω, the geometric terms with the section force of the iterate.
         let (end, force) = (now.end_rotation, self.force.get(part));
@@ -318,7 +318,7 @@ impl<const N: usize> ForcePoints<N> {
         let StrainKinematics { collocated_rotation, collocated_gradient, .. } = self.linearised_at;
         let rotation = collocated_rotation.get(part);
         let force = force_in_space(rotation, stiffness, self.mismatch.get(part));
-        self.weigh(part, weight, (collocated_gradient.get(part), force), resultant);
+        self.apply_weights(part, weight, (collocated_gradient.get(part), force), resultant);
     }
 
     /// Corrects the section forces: `N ← N + C (m + σ δΓ1)`, `δΓ1 = Λ1ᵀ δg - J (Γ1 + e1) δω/q`.

@@ -36,7 +36,10 @@ pub struct MissedKink {
 ///
 /// # Errors
 /// Fails if the mesh has no quadrature, or the axis a point without a tangent.
-pub fn missed_kink(mesh: &Mesh, control_points: &[Vec2]) -> Result<Option<MissedKink>, BeamError> {
+pub fn unresolved_kink(
+    mesh: &Mesh,
+    control_points: &[Vec2],
+) -> Result<Option<MissedKink>, BeamError> {
     let (basis, degree) = (mesh.basis(), mesh.basis().degree());
     let spans = basis.spans();
     let mut products = PositiveBand::zeros(basis.functions() - 1, degree - 1);
@@ -110,7 +113,7 @@ impl SplineString {
 
     /// Residual of a load on all splines before index `cut` when these have the strains of a constant force. It has a few entries around the cut
     /// only; returns the index of the first one.
-    fn left_over(&self, cut: usize) -> (usize, Vec<f64>) {
+    fn load_residual(&self, cut: usize) -> (usize, Vec<f64>) {
         let (size, reach) = (self.stretched.len(), self.degree - 1);
         let first = cut.saturating_sub(reach);
         let entry = |row: usize| -> f64 {
@@ -137,7 +140,7 @@ impl SplineString {
     /// those of the residual.
     fn polynomial(&self, span: &Span, fractions: &[Vec<f64>]) -> Vec<f64> {
         let own = span.first..span.first + self.degree;
-        let (before, behind) = (self.left_over(own.start), self.left_over(own.end));
+        let (before, behind) = (self.load_residual(own.start), self.load_residual(own.end));
         let mut sum = vec![0.0; 2 * self.degree + 1];
         // Earlier and later splines.
         sum[0] -=

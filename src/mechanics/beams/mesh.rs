@@ -133,7 +133,7 @@ impl Mesh {
         let rule = match self.quadrature {
             Quadrature::Patch => String::new(),
             Quadrature::Points(points) => {
-                let flaw = match self.surplus() {
+                let flaw = match self.excess_points() {
                     0 => String::new(),
                     more if more > 0 => format!(": {more} too many, stiff beams lock"),
                     fewer => format!(": {} zero-energy modes", -2 * fewer),
@@ -173,7 +173,7 @@ impl Mesh {
 
     /// Number of points for `Γ` minus the number of derivatives of functions. A surplus causes locking; each missing point leaves two zero-energy
     /// modes.
-    fn surplus(&self) -> isize {
+    fn excess_points(&self) -> isize {
         let wanted: usize = self.runs().iter().map(|run| self.derivatives(run)).sum();
         self.point_counts().force as isize - wanted as isize
     }

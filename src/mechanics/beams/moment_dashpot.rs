@@ -64,7 +64,7 @@ impl MomentDashpot {
         (_, _, self.start_rate) = self.functions.interpolate(rates);
     }
 
-    pub(super) fn rest(&mut self) {
+    pub(super) fn rest_without_damping(&mut self) {
         self.moment = 0.0;
     }
 
@@ -74,7 +74,7 @@ impl MomentDashpot {
     }
 
     /// Mismatch of the rate in the last accepted step, which started at a fraction between the middles of two steps.
-    pub(super) fn seen(&self, share: f64) -> RateMismatch {
+    pub(super) fn last_rate_mismatch(&self, share: f64) -> RateMismatch {
         let damping = self.functions.weight * self.damping;
         RateMismatch::of(damping, self.start_rate, [self.rate_before, self.last_rate], share)
     }
@@ -91,7 +91,7 @@ impl MomentDashpot {
     }
 
     /// Target moment at the rate of a configuration.
-    fn wanted(&self, at: RateCollocation, now: &RotationKinematics) -> f64 {
+    fn target_moment(&self, at: RateCollocation, now: &RotationKinematics) -> f64 {
         now.resistance * now.change() - self.damping * at.by_last * self.last_rate
     }
 
@@ -111,7 +111,7 @@ impl MomentDashpot {
         summary: &mut ForceSummary,
     ) {
         let now = self.bend(at, moved);
-        self.mismatch = self.wanted(at, &now) - self.moment;
+        self.mismatch = self.target_moment(at, &now) - self.moment;
         self.distribute(self.moment * now.inverse_q, first, give);
         summary.join(&ForceSummary {
             strain_mismatch: self.functions.weight * strain_missing(self.mismatch, now.resistance),
@@ -129,7 +129,7 @@ impl MomentDashpot {
         block: &mut [f64],
     ) {
         let now = self.bend(at, moved);
-        let wanted = self.wanted(at, &now);
+        let wanted = self.target_moment(at, &now);
         self.mismatch = wanted - self.moment;
         self.distribute(wanted * now.inverse_q, first, give);
 
@@ -187,7 +187,7 @@ impl MomentDashpot {
             }
     }
 
-    pub(super) fn resist(
+    pub(super) fn emit_dashpot_forces(
         &self,
         rates: DashpotRates<'_>,
         first: usize,

@@ -27,7 +27,7 @@ impl<const N: usize> MomentPoint<N> {
         Self { axis, ..Self::NOWHERE }
     }
 
-    pub(super) fn write_at_rest(&self, section: &Section, span: &mut SpanStiffness) {
+    pub(super) fn write_static_rows(&self, section: &Section, span: &mut SpanStiffness) {
         let row: [[f64; 3]; N] = std::array::from_fn(|a| [0.0, 0.0, self.axis.slope[a]]);
         span.add_strain(StrainKind::Bending, self.axis.weight * section.bending_stiffness, row);
     }

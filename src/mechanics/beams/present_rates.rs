@@ -81,7 +81,7 @@ impl RateResolution {
     }
 
     /// Selects the rates for the dashpots of a span with the given present rates.
-    pub(super) fn told<'a>(&self, present: &'a [Movement]) -> DashpotRates<'a> {
+    pub(super) fn selected<'a>(&self, present: &'a [Movement]) -> DashpotRates<'a> {
         let is_off = |seen: RateMismatch| seen.off > MOST_OFF * MOST_OFF * seen.apart;
         let carried = self.seen.map(|seen| self.late > 0.0 && is_off(seen));
         DashpotRates { present, late: self.late, carried }
@@ -114,7 +114,7 @@ mod tests {
                 0.1,
                 [RateMismatch::default(), seen.unwrap_or_default(), RateMismatch::default()],
             );
-            let [axial, shear, bending] = watch.told(&[]).carried;
+            let [axial, shear, bending] = watch.selected(&[]).carried;
             assert!(!axial && !bending);
             !shear
         });
@@ -145,11 +145,11 @@ mod tests {
         let mut watch = RateResolution::default();
         let seen = [RateMismatch { off: 1.0, apart: 0.0 }; 3];
         watch.add(0.1, seen);
-        assert_eq!(watch.told(&[]).carried, [false; 3]);
+        assert_eq!(watch.selected(&[]).carried, [false; 3]);
         watch.add(0.3, seen);
-        assert_eq!(watch.told(&[]).carried, [true; 3]);
-        assert_eq!(watch.told(&[]).late, 0.75);
+        assert_eq!(watch.selected(&[]).carried, [true; 3]);
+        assert_eq!(watch.selected(&[]).late, 0.75);
         watch.add(f64::INFINITY, seen);
-        assert_eq!(watch.told(&[]).carried, [false; 3]);
+        assert_eq!(watch.selected(&[]).carried, [false; 3]);
     }
 }

@@ -108,7 +108,7 @@ impl BodyDynamics for RigidPoints {
     ) {
     }
 
-    fn each_span_at_rest(&self, _take: &mut dyn FnMut(&SpanStiffness)) {}
+    fn for_each_static_span(&self, _take: &mut dyn FnMut(&SpanStiffness)) {}
 
     fn extent(&self) -> Option<(Section, f64)> {
         None

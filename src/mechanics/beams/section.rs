@@ -164,7 +164,7 @@ impl Section {
 
 impl Solid {
     /// Returns true if both solids have the same kind of shape, so that intermediate shapes exist.
-    pub fn is_of_one_kind_with(&self, other: &Self) -> bool {
+    pub fn has_same_shape_as(&self, other: &Self) -> bool {
         std::mem::discriminant(&self.shape) == std::mem::discriminant(&other.shape)
     }
 

@@ -237,7 +237,7 @@ impl SmoothRun {
                     0.0
                 },
                 of_force: at.weight * here.kernel(on, at.xi),
-                of_couple: here.missed(on, at.xi),
+                of_couple: here.projection_error(on, at.xi),
             }
         };
         let mut force_shares: Vec<ForceShare> =

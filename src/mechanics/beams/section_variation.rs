@@ -41,7 +41,7 @@ impl SectionVariation {
             }
             Self::Dimensions(all) => {
                 all.iter().try_for_each(|(_, solid)| Section::from_solid(*solid).map(|_| ()))?;
-                let same = all.windows(2).all(|pair| pair[0].1.is_of_one_kind_with(&pair[1].1));
+                let same = all.windows(2).all(|pair| pair[0].1.has_same_shape_as(&pair[1].1));
                 if !same {
                     return Err(BeamError::TaperShapes);
                 }

@@ -9,7 +9,7 @@ use std::ops::Range;
 use super::dynamics::Movement;
 use super::sections::Sections;
 use super::span_points::{SPANS_AT_ONCE, SpanGroup};
-use crate::threads::at_once;
+use crate::threads::run_concurrently;
 
 /// Data of one part: its context, its spans, its first control point and its sums.
 type PartOf<'a, const N: usize, S, C> =
@@ -83,7 +83,7 @@ impl SpanPartition {
             return work(groups);
         }
         let most = groups.len().div_ceil(self.count());
-        at_once(groups.chunks_mut(most), work);
+        run_concurrently(groups.chunks_mut(most), work);
     }
 
     pub(super) fn each_point(
@@ -102,7 +102,7 @@ impl SpanPartition {
             (sums, next) = (behind, cut.point);
         }
         parts.push((next..next + sums.len(), sums));
-        at_once(parts, |(points, sums)| work(points, sums));
+        run_concurrently(parts, |(points, sums)| work(points, sums));
     }
 
     /// Accumulates contributions of spans to control points, with concurrent parts.
@@ -138,7 +138,7 @@ impl SpanPartition {
                 on_one_side(own, group, sums, cut.point..usize::MAX);
             }
         }
-        at_once(self.split(groups, sums, own), |(own, groups, first, sums)| {
+        run_concurrently(self.split(groups, sums, own), |(own, groups, first, sums)| {
             work(own, groups, first, sums);
         });
         for (cut, own) in self.cuts.iter().zip(own) {

@@ -211,7 +211,7 @@ impl<const N: usize, S: Sections> SpanGroup<N, S> {
         self.moment_points[index / LANES].point(index % LANES)
     }
 
-    pub(super) fn each_at_rest(
+    pub(super) fn for_each_static_span(
         &self,
         section: &Section,
         rows: &mut SpanStiffness,
@@ -220,10 +220,10 @@ impl<const N: usize, S: Sections> SpanGroup<N, S> {
         for span in &self.spans {
             rows.begin(span.first);
             for (point, section) in self.force_points_of(section, span) {
-                point.write_at_rest(section, rows);
+                point.write_static_rows(section, rows);
             }
             for (point, section) in self.moment_points_of(section, span) {
-                point.write_at_rest(section, rows);
+                point.write_static_rows(section, rows);
             }
             take(rows);
         }

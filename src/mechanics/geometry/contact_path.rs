@@ -85,20 +85,20 @@ impl ContactPath {
             length: 0,
             numbers: vec![0.0; room],
         };
-        passage.go(start, start);
+        passage.set_interval(start, start);
         passage
     }
 
     /// Replaces the path by the one from ξ₀ = `from`, in the domain, to ξ₁ = `to`, which may lie outside.
     ///
     /// If either is not finite, all numbers are NaN, and the window is that of the span of `from`.
-    pub fn go(&mut self, from: f64, to: f64) {
+    pub fn set_interval(&mut self, from: f64, to: f64) {
         let is_there = self.length > 0 && (self.way.from, self.way.to) == (from, to);
         if is_there {
             return;
         }
         let finite = from.is_finite() && to.is_finite();
-        let way = self.way(from, if finite { to } else { from });
+        let way = self.interval(from, if finite { to } else { from });
         self.way = PathInterval { from, to, ..way };
         let (low, high) = way.lowest_and_highest();
         self.first = self.line.spans[low].first;
@@ -193,14 +193,14 @@ impl ContactPath {
     /// Number of spans between two parameters, including fractions: for a short path its length over the width of its span.
     pub fn spans_between(&self, from: f64, to: f64) -> f64 {
         let (from, to) = if from <= to { (from, to) } else { (to, from) };
-        let PathInterval { departure, arrival, .. } = self.way(from, to);
+        let PathInterval { departure, arrival, .. } = self.interval(from, to);
         let part = |span: &Span| {
             (to.min(span.end) - from.max(span.start)).max(0.0) / (span.end - span.start)
         };
         self.line.spans[departure..=arrival].iter().map(part).sum()
     }
 
-    fn way(&self, from: f64, to: f64) -> PathInterval {
+    fn interval(&self, from: f64, to: f64) -> PathInterval {
         let spans = &self.line.spans;
         let last = spans.len() - 1;
         let (departure, arrival) = if to < from {

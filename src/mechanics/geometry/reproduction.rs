@@ -119,7 +119,7 @@ impl Reproduction<'_> {
     }
 
     /// Difference `Π v - v` at a parameter of a span: the projection error of the integral of the kernel `ρ`.
-    pub fn missed(&self, span: &Span, xi: f64) -> f64 {
+    pub fn projection_error(&self, span: &Span, xi: f64) -> f64 {
         let values = self.splines.basis.evaluate_in(span, xi);
         let functions = values.values().iter().zip(&self.integral[self.splines.first(span)..]);
         let v: f64 = functions.map(|(n, y)| n * y).sum();
@@ -191,8 +191,9 @@ mod tests {
                     let expected = slope(span, xi);
                     assert!((found - expected).abs() < 1e-9 * (1.0 + expected.abs()));
                     // The projection error is orthogonal to the derivatives.
-                    let missed =
-                        integral(&basis, &run, |on, at| place.missed(on, at) * slope(on, at));
+                    let missed = integral(&basis, &run, |on, at| {
+                        place.projection_error(on, at) * slope(on, at)
+                    });
                     assert!(missed.abs() < 1e-10, "{missed:e}");
                     // v' = ρ, so v(end) - v(start) = ∫ ρ dξ = 1.
                     let ends = [place.integral[0], place.integral[basis.functions() - 1]];

@@ -138,7 +138,7 @@ impl StepError {
         }
     }
 
-    pub(super) fn of_whole(self, interval: Interval, before: usize) -> Self {
+    pub(super) fn for_whole_step(self, interval: Interval, before: usize) -> Self {
         match self {
             Self::Newton { source, culprit, .. } => {
                 Self::Newton { interval, source, before, culprit }
@@ -157,7 +157,7 @@ impl StepError {
     }
 
     /// Returns true if a smaller step may succeed.
-    pub fn may_be_cured_by_a_smaller_step(&self) -> bool {
+    pub fn is_step_size_dependent(&self) -> bool {
         !matches!(self, Self::Load { .. })
     }
 }

@@ -38,7 +38,7 @@ impl FourthOrder {
     /// Creates the method with work space for a mechanism.
     pub fn new(mechanism: &mut dyn Mechanism, tolerance: Tolerance) -> Self {
         // Allocates the checkpoint outside of the steps.
-        mechanism.checkpoint().keep();
+        mechanism.checkpoint().save_state();
         Self { part: EnergyMomentum::new(mechanism, tolerance) }
     }
 }
@@ -60,15 +60,15 @@ pub(super) fn in_parts(
     interval: Interval,
     mut step: impl FnMut(&mut dyn Mechanism, Interval) -> Result<NewtonReport, StepError>,
 ) -> Result<NewtonReport, StepError> {
-    mechanism.checkpoint().keep();
+    mechanism.checkpoint().save_state();
     let mut whole = NewtonReport::default();
     let mut behind = 0.0;
     for end in ENDS {
         match step(mechanism, interval.part(behind, end)) {
             Ok(report) => whole = whole.then(report),
             Err(error) => {
-                mechanism.checkpoint().go_back();
-                return Err(error.of_whole(interval, whole.iterations));
+                mechanism.checkpoint().restore_state();
+                return Err(error.for_whole_step(interval, whole.iterations));
             }
         }
         behind = end;

@@ -58,7 +58,7 @@ impl GeneralizedAlpha {
 
     /// Creates the method with `ρ∞` [-] and work space for a mechanism, which keeps accelerations from here on.
     pub fn new(rho_infinity: f64, mechanism: &mut dyn Mechanism, tolerance: Tolerance) -> Self {
-        mechanism.accelerated().keep_accelerations();
+        mechanism.accelerated().enable_accelerations();
         Self {
             solver: StepSolver::new(mechanism, tolerance),
             weights: Weights::new(rho_infinity),

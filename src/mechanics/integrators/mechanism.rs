@@ -160,16 +160,16 @@ pub trait Mechanism: Inertia + Forces + Constraints {
 /// Mechanical system that stores one of its states, for methods with substeps.
 pub trait Checkpoint {
     /// Stores the present state at the start of a step, replacing the previous one.
-    fn keep(&mut self);
+    fn save_state(&mut self);
 
     /// Restores the stored state bit for bit.
-    fn go_back(&mut self);
+    fn restore_state(&mut self);
 }
 
 /// Mechanical system with accelerations in its state.
 pub trait Accelerated {
     /// Enables accelerations in the state. They are unknown until set.
-    fn keep_accelerations(&mut self);
+    fn enable_accelerations(&mut self);
 
     /// Accelerations just after the start of the present step, if known [length/time², 1/time²].
     fn accelerations(&self) -> Option<&[f64]>;

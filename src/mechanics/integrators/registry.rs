@@ -56,7 +56,7 @@ pub struct Claims {
 
 impl Claims {
     /// Names of the conserved quantities.
-    pub fn kept(&self) -> impl Iterator<Item = &'static str> {
+    pub fn conserved_quantities(&self) -> impl Iterator<Item = &'static str> {
         let claims = [
             (self.energy == EnergyClaim::Kept, "energy"),
             (self.momentum, "linear momentum"),

@@ -41,7 +41,7 @@ impl SharedFactorStepper {
             Method::FourthOrder => SubstepCount::OfFourthOrder,
             _ => return None,
         };
-        leader.checkpoint().keep();
+        leader.checkpoint().save_state();
         let [leader, follower] = [(); 2].map(|()| StepSolver::new(leader, tolerance));
         Some(Self { leader, follower, parts })
     }
@@ -84,7 +84,7 @@ impl SharedFactorStepper {
             newton.solve_and(balance, u, residual, |solution, factors| {
                 if let Ok(before) = followed {
                     let step = (interval, rule);
-                    *followed = follow(follower, companions, step, solution, factors)
+                    *followed = step_companions(follower, companions, step, solution, factors)
                         .map(|work| before.then(work));
                 }
             })
@@ -95,7 +95,7 @@ impl SharedFactorStepper {
 }
 
 /// Solves a step of all companions from the solution and factors of the leader.
-fn follow(
+fn step_companions(
     solver: &mut StepSolver,
     companions: &mut [&mut dyn Mechanism],
     (interval, rule): (Interval, BalanceCoefficients),
@@ -109,7 +109,7 @@ fn follow(
         solver.begin_at(solution);
         let report =
             solver.solve_by(*companion, interval, rule, |newton, balance, u, residual| {
-                newton.follow(balance, factors, u, residual)
+                newton.solve_with_shared_factors(balance, factors, u, residual)
             })?;
         solver.correct(*companion, interval);
         work = work.then(report);

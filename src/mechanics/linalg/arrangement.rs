@@ -41,7 +41,7 @@ impl Arrangement {
             touched: Vec::new(),
             layout,
         };
-        new.follow_the_band();
+        new.use_natural_order();
         new.number(&[]);
         new
     }
@@ -53,29 +53,29 @@ impl Arrangement {
     /// Updates the order, if blocks touch other unknowns than before, and the profile.
     pub(super) fn fit(&mut self, blocks: &[Block]) {
         self.touched.clear();
-        for block in blocks.iter().filter(|block| block.may_delay()) {
+        for block in blocks.iter().filter(|block| block.can_delay_unknowns()) {
             self.touched.extend(&block.touched);
             self.touched.push(NOWHERE);
         }
         if self.touched != self.made_for {
             std::mem::swap(&mut self.touched, &mut self.made_for);
-            self.follow_the_band();
+            self.use_natural_order();
             self.number(&[]);
             let alone = work(&self.own_ends);
             self.number(blocks);
             if work(&self.own_ends) > LARGEST_WORK * alone {
-                self.follow_levels(blocks);
+                self.use_level_order(blocks);
                 self.number(blocks);
             }
         }
         self.ends.clone_from(&self.own_ends);
-        for block in blocks.iter().filter(|block| !block.may_delay()) {
+        for block in blocks.iter().filter(|block| !block.can_delay_unknowns()) {
             couple(&mut self.ends, block.touched.iter().map(|&at| self.position[at]));
         }
     }
 
     /// Uses the natural order of the band.
-    fn follow_the_band(&mut self) {
+    fn use_natural_order(&mut self) {
         self.position.fill(0);
         for &at in self.layout.own.iter().flatten() {
             self.position[at] = NOWHERE;
@@ -85,11 +85,11 @@ impl Arrangement {
     }
 
     /// Uses a bandwidth-reducing order of the band including the unknowns touched by blocks.
-    fn follow_levels(&mut self, blocks: &[Block]) {
-        self.follow_the_band();
+    fn use_level_order(&mut self, blocks: &[Block]) {
+        self.use_natural_order();
         let position = |&at: &usize| Some(self.position[at]).filter(|&place| place != NOWHERE);
         let of_band = self.layout.groups.iter();
-        let delaying = blocks.iter().filter(|block| block.may_delay());
+        let delaying = blocks.iter().filter(|block| block.can_delay_unknowns());
         let groups: Vec<Vec<usize>> = of_band
             .chain(delaying.map(|block| &block.touched))
             .map(|group| group.iter().filter_map(position).collect())
@@ -103,7 +103,7 @@ impl Arrangement {
 
     /// Inserts delayed unknowns behind the unknowns touched by their blocks, and computes the profile.
     fn number(&mut self, blocks: &[Block]) {
-        let delaying = |block: &&Block| block.may_delay() && !block.touched.is_empty();
+        let delaying = |block: &&Block| block.can_delay_unknowns() && !block.touched.is_empty();
         self.behind.fill(0);
         let last = |block: &Block, position: &[usize]| {
             block.touched.iter().map(|&at| position[at]).max().unwrap_or(0)

@@ -94,7 +94,7 @@ impl Block {
     }
 
     /// Returns true if unknowns of the block may be delayed, because it has no own unknowns of the band.
-    pub(super) fn may_delay(&self) -> bool {
+    pub(super) fn can_delay_unknowns(&self) -> bool {
         self.own.is_empty()
     }
 
@@ -119,7 +119,7 @@ impl Block {
         let largest = self.touched.iter().map(|&at| band.get(at, at).abs()).fold(0.0, f64::max);
         self.scale = if largest > 0.0 { largest } else { 1.0 };
         let candidates = self.candidates();
-        let fewest = candidates - if self.may_delay() { MOST_DELAYED } else { 0 };
+        let fewest = candidates - if self.can_delay_unknowns() { MOST_DELAYED } else { 0 };
         self.row_at.clear();
         self.row_at.extend(0..candidates);
         self.column_at.clear();
@@ -236,7 +236,7 @@ impl Block {
     }
 
     /// Schur complement by the places of row and column, delayed unknowns first, then touched ones.
-    pub(super) fn left(&self) -> impl Iterator<Item = (usize, &[f64])> {
+    pub(super) fn schur_complement(&self) -> impl Iterator<Item = (usize, &[f64])> {
         let (size, first) = (self.size(), self.pivots);
         let rows = self.front.chunks_exact(size).skip(first);
         rows.map(move |row| &row[first..]).enumerate()

@@ -138,7 +138,7 @@ impl BorderedMatrix {
 
     /// Returns the matrix with its dense border eliminated jointly with the band, which alone may be singular. The last `full` rows and columns,
     /// which couple with all others, remain a border.
-    pub fn together(self, full: usize) -> Self {
+    pub fn with_joint_elimination(self, full: usize) -> Self {
         Self { together: Some(Together::new(self.size(), full)), ends: None, ..self }
     }
 
@@ -270,7 +270,7 @@ mod tests {
     fn what_only_the_border_holds_is_solved_with_it() {
         // Three masses on springs of stiffness 2 and 3, of which the border fixes the last. The last border row is dense.
         let border = BorderShape { width: 2, row_entries: 4 };
-        let mut matrix = BorderedMatrix::zeros(3, 1, border).together(1);
+        let mut matrix = BorderedMatrix::zeros(3, 1, border).with_joint_elimination(1);
         for (at, stiffness) in [2e6, 3e6].into_iter().enumerate() {
             for (row, column) in [(at, at), (at + 1, at + 1)] {
                 matrix.band_mut().add(row, column, stiffness);

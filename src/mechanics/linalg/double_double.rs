@@ -41,7 +41,7 @@ impl DoubleDouble {
 
     /// Product `self · other`.
     #[inline(always)]
-    pub(super) fn times_twofold(self, other: Self) -> Self {
+    pub(super) fn multiply_double_double(self, other: Self) -> Self {
         let Self { high, low } = Self::product(self.high, other.high);
         let low = self.high.mul_add(other.low, low);
         Self::renormalised(high, self.low.mul_add(other.high, low))
@@ -109,7 +109,7 @@ pub(super) fn subtract_multiple<S: Simd>(
     for (((high, low), ph), pl) in
         high_rest.iter_mut().zip(low_rest).zip(of_high_rest).zip(of_low_rest)
     {
-        let product = minus.times_twofold(DoubleDouble { high: *ph, low: *pl });
+        let product = minus.multiply_double_double(DoubleDouble { high: *ph, low: *pl });
         let sum = DoubleDouble { high: *high, low: *low }.plus(product);
         (*high, *low) = (sum.high, sum.low);
     }
@@ -160,8 +160,10 @@ mod tests {
             .plus(DoubleDouble { high: 1e-5, low: 0.0 })
             .plus(DoubleDouble { high: -1e20, low: 0.0 });
         assert!((tiny.high - 1e-5).abs() < 1e-16, "{tiny:?}");
-        let square =
-            third.times_twofold(third).times(9.0).plus(DoubleDouble { high: -1.0, low: 0.0 });
+        let square = third
+            .multiply_double_double(third)
+            .times(9.0)
+            .plus(DoubleDouble { high: -1.0, low: 0.0 });
         assert!(square.high.abs() < 1e-30, "{square:?}");
     }
 }

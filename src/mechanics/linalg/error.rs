@@ -36,7 +36,7 @@ impl LinearError {
     }
 
     /// Converts the error of a block that follows `rows` other rows.
-    pub(super) fn behind(self, rows: usize) -> Self {
+    pub(super) fn offset_by_rows(self, rows: usize) -> Self {
         match self {
             Self::Singular { unknown, size } => {
                 Self::Singular { unknown: unknown + rows, size: size + rows }

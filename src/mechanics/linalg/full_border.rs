@@ -132,7 +132,7 @@ impl FullBorder {
     ) -> Result<FullLu<'a>, LinearError> {
         self.eliminate(&band);
         let Self { width, strips, rows, corner } = self;
-        let complement = corner.factorise().map_err(|error| error.behind(size))?;
+        let complement = corner.factorise().map_err(|error| error.offset_by_rows(size))?;
         Ok(FullLu { width: *width, band, solved: strips, rows, complement })
     }
 

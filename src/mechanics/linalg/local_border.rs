@@ -113,7 +113,7 @@ impl LocalBorder {
         self.matrix.remake(&self.arrangement.ends, band.half_bandwidth());
         self.copy(band);
         for (block, &delayed) in self.blocks.iter().zip(&self.arrangement.delayed) {
-            add_what_is_left(block, delayed, &self.arrangement.position, &mut self.matrix);
+            add_schur_complement(block, delayed, &self.arrangement.position, &mut self.matrix);
         }
         let Self { blocks, arrangement, matrix, right, own, all, .. } = self;
         let factors = matrix.factorise().map_err(|error| {
@@ -147,9 +147,14 @@ fn place_of(block: &Block, delayed: usize, position: &[usize], left: usize) -> u
         .map_or_else(|| delayed + left, |touched| position[block.touched[touched]])
 }
 
-fn add_what_is_left(block: &Block, delayed: usize, position: &[usize], matrix: &mut ProfileMatrix) {
+fn add_schur_complement(
+    block: &Block,
+    delayed: usize,
+    position: &[usize],
+    matrix: &mut ProfileMatrix,
+) {
     let count = block.delayed();
-    for (number, entries) in block.left() {
+    for (number, entries) in block.schur_complement() {
         let scale = if number < count { block.scale } else { 1.0 };
         let row = place_of(block, delayed, position, number);
         for (other, &value) in entries.iter().enumerate() {

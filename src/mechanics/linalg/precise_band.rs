@@ -65,7 +65,7 @@ impl PreciseBand {
                 for (&column, &b) in unknowns.iter().zip(r) {
                     // Each pair of different unknowns occurs twice and is used once.
                     if row <= column && column < self.size {
-                        self.add_twofold(row, column, a.times(b));
+                        self.add_double_double(row, column, a.times(b));
                     }
                 }
             }
@@ -79,13 +79,13 @@ impl PreciseBand {
                 if row <= column && column < self.size {
                     let value =
                         DoubleDouble::product(p_a, q_b).plus(DoubleDouble::product(q_a, p_b));
-                    self.add_twofold(row, column, value);
+                    self.add_double_double(row, column, value);
                 }
             }
         }
     }
 
-    fn add_twofold(&mut self, row: usize, column: usize, value: DoubleDouble) {
+    fn add_double_double(&mut self, row: usize, column: usize, value: DoubleDouble) {
         let at = row * self.stride() + column - row;
         let sum = DoubleDouble { high: self.high[at], low: self.low[at] }.plus(value);
         (self.high[at], self.low[at]) = (sum.high, sum.low);

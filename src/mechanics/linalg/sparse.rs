@@ -38,11 +38,11 @@ impl SymmetricSparse {
             next[row] += 1;
         });
         let mut matrix = Self { starts, columns, values };
-        matrix.close_up();
+        matrix.compact();
         matrix
     }
 
-    fn close_up(&mut self) {
+    fn compact(&mut self) {
         let Self { starts, columns, values } = self;
         let (mut kept, mut first) = (0, 0);
         for row in 0..starts.len() - 1 {

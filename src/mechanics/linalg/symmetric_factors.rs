@@ -153,7 +153,7 @@ impl SymmetricElimination<'_> {
                 if entry.high == 0.0 {
                     continue;
                 }
-                let factor = entry.times_twofold(inverse);
+                let factor = entry.multiply_double_double(inverse);
                 let to = (at + below) % rows;
                 taken[to] += (factor.high * entry.high).abs();
                 let width = (reach + 1 - below).next_multiple_of(LANES);

@@ -92,7 +92,7 @@ impl Together {
                 complement.add(*row, column, -value * solved[*at]);
             }
         }
-        let complement = complement.factorise().map_err(|error| error.behind(size))?;
+        let complement = complement.factorise().map_err(|error| error.offset_by_rows(size))?;
         Ok(TogetherLu { others, columns, rows, complement })
     }
 

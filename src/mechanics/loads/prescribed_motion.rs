@@ -132,7 +132,7 @@ impl PrescribedMotion {
         before: f64,
     ) -> Result<Option<f64>, LoadError> {
         let schedule = self.schedule();
-        if !schedule.is_sampled() && !schedule.may_bend_at(start) {
+        if !schedule.is_sampled() && !schedule.is_break(start) {
             return Ok(None);
         }
         let (after, rounding) = match self {

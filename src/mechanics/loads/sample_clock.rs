@@ -65,12 +65,12 @@ impl SampleClock {
     }
 
     /// Index of the sample whose command acts just after a time; `None` before the first acts [time].
-    pub fn acting_after(&self, time: f64, slack: f64) -> Option<u64> {
+    pub fn sample_active_after(&self, time: f64, slack: f64) -> Option<u64> {
         self.last_by(time - self.delay, slack)
     }
 
     /// Returns true if a command starts to act at a time.
-    pub fn acts_at(&self, time: f64) -> bool {
+    pub fn is_active_at(&self, time: f64) -> bool {
         self.sample_at(time - self.delay, SAME * self.period).is_some()
     }
 
@@ -84,15 +84,15 @@ impl SampleClock {
 }
 
 /// Formats a time, with a power of ten for very small or large values.
-fn in_words(time: f64) -> String {
+fn time_text(time: f64) -> String {
     if (1e-4..1e7).contains(&time) { time.to_string() } else { format!("{time:e}") }
 }
 
 impl std::fmt::Display for SampleClock {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        write!(f, "every {}", in_words(self.period))?;
+        write!(f, "every {}", time_text(self.period))?;
         if self.delay > 0.0 {
-            write!(f, ", with a delay of {}", in_words(self.delay))
+            write!(f, ", with a delay of {}", time_text(self.delay))
         } else {
             Ok(())
         }
@@ -116,16 +116,16 @@ mod tests {
         assert_eq!(beat.sample_at(0.3, 1e-12), Some(3));
         assert_eq!(beat.sample_at(0.1 * 3.0, 1e-12), Some(3));
         assert_eq!(beat.sample_at(0.33, 1e-12), None);
-        assert_eq!(beat.acting_after(0.02, 1e-12), None);
-        assert_eq!(beat.acting_after(0.03, 1e-12), Some(0));
-        assert_eq!(beat.acting_after(0.32, 1e-12), Some(2));
-        assert!(beat.acts_at(0.43) && !beat.acts_at(0.4));
+        assert_eq!(beat.sample_active_after(0.02, 1e-12), None);
+        assert_eq!(beat.sample_active_after(0.03, 1e-12), Some(0));
+        assert_eq!(beat.sample_active_after(0.32, 1e-12), Some(2));
+        assert!(beat.is_active_at(0.43) && !beat.is_active_at(0.4));
     }
 
     #[test]
     fn a_delay_may_be_longer_than_the_period() {
         let beat = SampleClock::new(0.01, 0.025).unwrap();
-        assert_eq!(beat.acting_after(0.055, 1e-12), Some(3));
+        assert_eq!(beat.sample_active_after(0.055, 1e-12), Some(3));
         assert_eq!(beat.next(0.0, 1e-12), 0.01);
         assert!((beat.next(0.03, 1e-12) - 0.035).abs() < 1e-15);
         assert_eq!(beat.to_string(), "every 0.01, with a delay of 0.025");

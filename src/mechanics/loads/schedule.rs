@@ -232,11 +232,11 @@ impl Schedule {
     }
 
     /// Returns true if the schedule contains a controller that is sampled at every step.
-    pub fn is_asked_every_step(&self) -> bool {
+    pub fn is_sampled_every_step(&self) -> bool {
         match self {
             Self::Sampled(_) => true,
             Self::Combined { parts, .. } => {
-                parts.0.is_asked_every_step() || parts.1.is_asked_every_step()
+                parts.0.is_sampled_every_step() || parts.1.is_sampled_every_step()
             }
             _ => false,
         }

@@ -187,7 +187,7 @@ impl Newton {
     ///
     /// # Errors
     /// Errors of [`solve`](Self::solve).
-    pub fn follow(
+    pub fn solve_with_shared_factors(
         &mut self,
         equations: &mut impl Equations,
         factors: &mut BorderedLu<'_>,

@@ -97,7 +97,7 @@ pub(super) fn extra_columns(scene: &Scene) -> Vec<ExtraColumn> {
                 Component::X | Component::Y => "force",
                 Component::Rotation => "force·length",
             };
-            column(format!("{name}.{}", told_of(drive.kind, component)), dimension)
+            column(format!("{name}.{}", column_suffix(drive.kind, component)), dimension)
         });
         own.chain([column(format!("work.{name}"), "energy")]).collect::<Vec<_>>()
     };
@@ -116,7 +116,7 @@ pub(super) fn extra_columns(scene: &Scene) -> Vec<ExtraColumn> {
     let of_springs = scene.springs().flat_map(of_spring);
     let of_drives = scene.drives.iter().flat_map(of_drive);
     let of_loads = scene.loads().flat_map(of_load);
-    let of_wind = scene.blown().map(|name| column(format!("work.{name}"), "energy"));
+    let of_wind = scene.drag_with_wind().map(|name| column(format!("work.{name}"), "energy"));
     of_sliders
         .chain(sums)
         .chain(of_springs)
@@ -128,7 +128,7 @@ pub(super) fn extra_columns(scene: &Scene) -> Vec<ExtraColumn> {
         .collect()
 }
 
-fn told_of(kind: DriveKind, component: Component) -> &'static str {
+fn column_suffix(kind: DriveKind, component: Component) -> &'static str {
     match kind {
         DriveKind::Move => component.name(),
         DriveKind::Motor => "torque",

@@ -16,24 +16,24 @@ pub(super) struct CornerCrossings {
 }
 
 impl CornerCrossings {
-    pub(super) fn look_at_start(&mut self, model: &System) {
+    pub(super) fn record_start(&mut self, model: &System) {
         model.write_branches(&mut self.start);
     }
 
-    pub(super) fn look_at_whole(&mut self, model: &System) {
+    pub(super) fn record_whole_step(&mut self, model: &System) {
         model.write_branches(&mut self.whole);
     }
 
-    pub(super) fn look_at_middle(&mut self, model: &System) {
+    pub(super) fn record_middle(&mut self, model: &System) {
         model.write_branches(&mut self.middle);
     }
 
-    pub(super) fn look_at_halves(&mut self, model: &System) {
+    pub(super) fn record_half_steps(&mut self, model: &System) {
         model.write_branches(&mut self.halves);
     }
 
     /// Difference between the whole step and its halves of a duration [time], relative to a length or in rad [-].
-    pub(super) fn apart(&self, duration: f64, length: f64) -> f64 {
+    pub(super) fn difference(&self, duration: f64, length: f64) -> f64 {
         let ends = self.whole.iter().zip(&self.halves);
         let all = self.start.iter().zip(&self.middle).zip(ends);
         let apart =
@@ -63,10 +63,10 @@ mod tests {
         let (start, middle) = (branch(1, -2.0), branch(1, -2.0));
         let mut blows =
             CornerCrossings { start, middle, whole: branch(1, -2.0), halves: branch(1, -2.5) };
-        assert_eq!(blows.apart(0.5, 4.0), 0.0);
+        assert_eq!(blows.difference(0.5, 4.0), 0.0);
         blows.whole = branch(0, 1.5);
-        assert_eq!(blows.apart(0.5, 4.0), 0.5);
+        assert_eq!(blows.difference(0.5, 4.0), 0.5);
         blows.whole[0].along = Along::Angle;
-        assert_eq!(blows.apart(0.5, 4.0), 2.0);
+        assert_eq!(blows.difference(0.5, 4.0), 2.0);
     }
 }

@@ -69,41 +69,41 @@ impl StepDoubling {
         let Interval { start, end, .. } = interval;
         let middle = start + 0.5 * interval.duration();
         model.write_state(&mut self.start);
-        self.blows.look_at_start(model);
+        self.blows.record_start(model);
         let mut report = take(integrator, model, interval, NewtonReport::default())?;
         model.write_placement(&mut self.whole);
-        self.blows.look_at_whole(model);
+        self.blows.record_whole_step(model);
         model.restore(&self.start);
         report =
-            self.take_or_go_back(integrator, model, Interval::between(start, middle), report)?;
-        self.blows.look_at_middle(model);
+            self.take_or_restore(integrator, model, Interval::between(start, middle), report)?;
+        self.blows.record_middle(model);
         if let Some(between) = between {
             model.write_state(between);
         }
-        report = self.take_or_go_back(integrator, model, Interval::between(middle, end), report)?;
+        report = self.take_or_restore(integrator, model, Interval::between(middle, end), report)?;
         model.write_placement(&mut self.halves);
-        self.blows.look_at_halves(model);
+        self.blows.record_half_steps(model);
         let distance = self.whole.distance(&self.halves);
         let apart = larger(distance.length / self.length, distance.angle);
         let (of_places, duration) = (apart / self.allowed, interval.duration());
-        let of_blows = self.blows.apart(duration, self.length) / self.allowed;
+        let of_blows = self.blows.difference(duration, self.length) / self.allowed;
         let trial = TriedStep { duration, error: larger(of_places, of_blows) };
         Ok(DoubledStep { report, trial, of_places })
     }
 
     /// Takes a step after successful ones. On failure, the model is restored to the start of the first one.
-    pub(super) fn take_or_go_back(
+    pub(super) fn take_or_restore(
         &self,
         integrator: &mut dyn Integrator,
         model: &mut System,
         step: Interval,
         before: NewtonReport,
     ) -> Result<NewtonReport, FailedStep> {
-        take(integrator, model, step, before).inspect_err(|_| self.take_back(model))
+        take(integrator, model, step, before).inspect_err(|_| self.restore_start(model))
     }
 
     /// Restores the start of the last pair of half steps.
-    pub(super) fn take_back(&self, model: &mut System) {
+    pub(super) fn restore_start(&self, model: &mut System) {
         model.restore(&self.start);
     }
 }

@@ -3,7 +3,7 @@
 /// Observer of a run that may stop it.
 pub trait Monitor {
     /// Called after every step and every failed try with the present time. Returns `false` to stop the run.
-    fn goes_on(&mut self, time: f64) -> bool;
+    fn continues(&mut self, time: f64) -> bool;
 }
 
 /// Monitor that never stops a run.
@@ -11,7 +11,7 @@ pub trait Monitor {
 pub struct NoMonitor;
 
 impl Monitor for NoMonitor {
-    fn goes_on(&mut self, _time: f64) -> bool {
+    fn continues(&mut self, _time: f64) -> bool {
         true
     }
 }

@@ -70,7 +70,7 @@ impl RunProgress {
             StepTaken { dt: interval.duration(), newton_iterations: iterations, retries };
     }
 
-    pub(super) fn count_pretended(&mut self, dt: f64) {
+    pub(super) fn count_dry_run(&mut self, dt: f64) {
         self.counts.steps += 1;
         self.last_step = StepTaken { dt, ..StepTaken::default() };
     }

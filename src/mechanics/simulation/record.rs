@@ -35,10 +35,10 @@ impl RunRecord {
             rows_kept: 0,
             sensing: SensorReader::of(scene, model)?,
         };
-        if record.sensing.need_mean() {
+        if record.sensing.need_mean_forces() {
             model.sum_up_impulses();
         }
-        record.keep_row(model, StepTaken::default());
+        record.store_row(model, StepTaken::default());
         Ok(record)
     }
 
@@ -46,7 +46,11 @@ impl RunRecord {
     ///
     /// # Errors
     /// Fails if a sensor can no longer be located.
-    pub(super) fn look_again(&mut self, scene: &Scene, model: &System) -> Result<(), SystemError> {
+    pub(super) fn relocate_sensors(
+        &mut self,
+        scene: &Scene,
+        model: &System,
+    ) -> Result<(), SystemError> {
         self.sensing = SensorReader::of(scene, model)?;
         Ok(())
     }
@@ -57,13 +61,13 @@ impl RunRecord {
         self.trajectory.reserve(rows);
     }
 
-    pub(super) fn keep_row(&mut self, model: &mut System, last_step: StepTaken) {
+    pub(super) fn store_row(&mut self, model: &mut System, last_step: StepTaken) {
         self.add_row(model, last_step);
         self.rows_kept = self.history.samples().len();
     }
 
     /// Adds a temporary row for the present state, unless it has one.
-    pub(super) fn show_present(&mut self, model: &mut System, last_step: StepTaken) {
+    pub(super) fn append_present(&mut self, model: &mut System, last_step: StepTaken) {
         let last = self.history.samples().last().map(|row| row.measures.time);
         if last != Some(model.time()) {
             self.add_row(model, last_step);
@@ -71,7 +75,7 @@ impl RunRecord {
     }
 
     fn add_row(&mut self, model: &mut System, last_step: StepTaken) {
-        self.go_back(self.rows_kept);
+        self.truncate(self.rows_kept);
         let StepTaken { dt, newton_iterations, retries } = last_step;
         let sample = Sample { measures: model.measure(), dt, newton_iterations, retries };
         let sensed = self.sensing.read(model);
@@ -79,10 +83,10 @@ impl RunRecord {
         self.trajectory.push(model.time(), coordinates(model));
     }
 
-    pub(super) fn go_back(&mut self, rows: usize) {
+    pub(super) fn truncate(&mut self, rows: usize) {
         self.rows_kept = rows;
         self.history.truncate(rows);
-        self.trajectory.go_back(rows);
+        self.trajectory.truncate(rows);
     }
 }
 

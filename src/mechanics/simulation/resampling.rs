@@ -37,9 +37,10 @@ struct HalfStep {
 impl Resampling {
     /// Creates the estimate for a scene with a length scale; `None` without controllers that are sampled at every step.
     pub(super) fn of(scene: &Scene, length: f64, tolerance: f64) -> Option<Self> {
-        let all = scene.schedules().filter(|(_, schedule)| schedule.is_asked_every_step()).count();
+        let all =
+            scene.schedules().filter(|(_, schedule)| schedule.is_sampled_every_step()).count();
         let of_drives = scene.drives.iter().flat_map(Drive::schedules);
-        let rates = of_drives.filter(|schedule| schedule.is_asked_every_step()).count();
+        let rates = of_drives.filter(|schedule| schedule.is_sampled_every_step()).count();
         let order = if all > rates { 3 } else { 2 };
         (all > 0).then(|| Self {
             order,
@@ -56,12 +57,12 @@ impl Resampling {
         &mut self.middle
     }
 
-    pub(super) fn is_half_way(&self) -> bool {
+    pub(super) fn is_paused(&self) -> bool {
         self.under_way.is_some()
     }
 
     /// Restores the middle of a completed step and pauses there.
-    pub(super) fn wait_half_way(
+    pub(super) fn pause_at_middle(
         &mut self,
         model: &mut System,
         plan: StepPlan,
@@ -73,7 +74,7 @@ impl Resampling {
     }
 
     /// Repeats the second half of a paused step with new controller values. The larger of both errors counts.
-    pub(super) fn go_on(
+    pub(super) fn resume(
         &mut self,
         doubling: &mut StepDoubling,
         integrator: &mut dyn Integrator,
@@ -82,7 +83,7 @@ impl Resampling {
     ) -> Option<(StepPlan, Result<DoubledStep, FailedStep>)> {
         let HalfStep { plan, doubled } = self.under_way.take()?;
         let half = Interval::between(model.time(), plan.interval.end);
-        let taken = doubling.take_or_go_back(integrator, model, half, doubled.report);
+        let taken = doubling.take_or_restore(integrator, model, half, doubled.report);
         let taken = taken.map(|report| {
             model.write_placement(&mut self.resampled);
             let distance = self.held.distance(&self.resampled);

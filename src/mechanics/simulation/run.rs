@@ -123,7 +123,7 @@ impl Simulation {
                 (TimeGrid::of_cuts(0.0, first, cuts), Some(Box::new(adaptive)), first)
             }
         };
-        let beats = || scene.schedules().filter_map(|(_, schedule)| schedule.beat());
+        let beats = || scene.schedules().filter_map(|(_, schedule)| schedule.sample_clock());
         if let Some(beat) = beats().find(|beat| beat.period() * MOST_SAMPLES < first) {
             let (period, most) = (beat.period(), MOST_SAMPLES);
             return Err(SimulationError::ManySamples { period, dt: first, most });
@@ -264,7 +264,7 @@ impl Simulation {
     ///
     /// # Errors
     /// Fails if the time has passed or is not finite, or the monitor stops the run.
-    pub fn pretend_to(
+    pub fn dry_run_to(
         &mut self,
         end: f64,
         monitor: &mut dyn Monitor,
@@ -273,19 +273,19 @@ impl Simulation {
         self.clock.goal = end;
         // Perturbed runs add their own rows.
         let mut beside = self.stepper.sensitivities.take();
-        let pretended = self.pretend_alone_to(end, monitor);
+        let pretended = self.dry_run_alone_to(end, monitor);
         if let Some(sensitivities) = &mut beside {
-            sensitivities.pretend_to(end);
+            sensitivities.dry_run_to(end);
         }
         self.stepper.sensitivities = beside;
         if pretended? > 0 {
-            self.pretend_arrivals();
-            self.pretend_releases()?;
+            self.dry_run_arrivals();
+            self.dry_run_releases()?;
         }
         Ok(())
     }
 
-    fn pretend_alone_to(
+    fn dry_run_alone_to(
         &mut self,
         end: f64,
         monitor: &mut dyn Monitor,
@@ -295,12 +295,12 @@ impl Simulation {
             rows += 1;
             let next = if rows < MOST_PRETENDED { self.next_stop(end) } else { end };
             let dt = next - self.time();
-            self.model.pass_time_to(next);
-            self.let_go_due()?;
-            self.clock.grid.reach(next);
-            self.progress.count_pretended(dt);
-            self.keep_present();
-            self.ask(monitor)?;
+            self.model.set_time(next);
+            self.execute_due_releases()?;
+            self.clock.grid.mark_reached(next);
+            self.progress.count_dry_run(dt);
+            self.store_present();
+            self.query_monitor(monitor)?;
         }
         Ok(rows)
     }
@@ -312,14 +312,14 @@ impl Simulation {
     ) -> Result<(), SimulationError> {
         let begun = Instant::now();
         if !self.scene.releases.is_empty() {
-            self.let_go_due()?;
+            self.execute_due_releases()?;
         }
         let next = self.clock.grid.next(self.time(), limit);
         let way = Interval::between(self.time(), next);
-        if self.model.follow_jumps_of_drives(way)
+        if self.model.apply_drive_jumps(way)
             && let Some(sensitivities) = &mut self.stepper.sensitivities
         {
-            sensitivities.follow_jumps_of_drives(way);
+            sensitivities.apply_drive_jumps(way);
         }
         let stepped = match self.adaptive.take() {
             None => self.step_on_grid(limit, monitor),
@@ -333,7 +333,7 @@ impl Simulation {
         if !matches!(stepped, Err(SimulationError::Interrupted { .. })) {
             self.clock.under_way = None;
         }
-        self.clock.grid.reach(self.time());
+        self.clock.grid.mark_reached(self.time());
         self.progress.counts.wall += begun.elapsed();
         stepped
     }

@@ -99,7 +99,7 @@ impl Sensitivities {
         }
         model.write_state(&mut self.start);
         for twins in &mut self.parameters {
-            twins.stand_beside(&self.start);
+            twins.set_perturbed_states(&self.start);
         }
         let models = self.parameters.iter_mut().flat_map(PerturbedRuns::models);
         let mut companions: Vec<&mut dyn Mechanism> =
@@ -120,10 +120,10 @@ impl Sensitivities {
         Ok(leader)
     }
 
-    pub(super) fn follow_jumps_of_drives(&mut self, way: Interval) {
+    pub(super) fn apply_drive_jumps(&mut self, way: Interval) {
         for twins in &mut self.parameters {
             for model in twins.models() {
-                model.follow_jumps_of_drives(way);
+                model.apply_drive_jumps(way);
             }
             twins.differentiate();
         }
@@ -133,19 +133,19 @@ impl Sensitivities {
         self.each(|twin| twin.count_step(interval, report, 0));
     }
 
-    pub(super) fn keep_row(&mut self) {
+    pub(super) fn store_row(&mut self) {
         self.each(Simulation::keep_row);
     }
 
-    pub(super) fn show_present(&mut self) {
+    pub(super) fn append_present(&mut self) {
         self.each(Simulation::show_present);
     }
 
     /// Advances the perturbed runs in a dry run.
-    pub(super) fn pretend_to(&mut self, end: f64) {
+    pub(super) fn dry_run_to(&mut self, end: f64) {
         self.each(|twin| {
             // Errors would stop the run itself.
-            let _: Result<(), super::SimulationError> = twin.pretend_to(end, &mut NoMonitor);
+            let _: Result<(), super::SimulationError> = twin.dry_run_to(end, &mut NoMonitor);
         });
     }
 
@@ -160,7 +160,7 @@ impl Sensitivities {
     }
 
     /// Stops the computation of derivatives. An earlier reason is kept.
-    pub(super) fn lose(&mut self, reason: DerivativeError) {
+    pub(super) fn disable(&mut self, reason: DerivativeError) {
         let _: &mut DerivativeError = self.lost.get_or_insert(reason);
     }
 }
@@ -180,7 +180,7 @@ impl Sensitivities {
     ///
     /// # Errors
     /// Fails if there are no derivatives.
-    pub(super) fn beside(
+    pub(super) fn perturbed(
         &self,
         parameter: usize,
         side: PerturbedSide,
@@ -198,7 +198,7 @@ impl Sensitivities {
     ///
     /// # Errors
     /// Fails if the run itself was changed since.
-    pub(super) fn beside_so_far(
+    pub(super) fn perturbed_with_history(
         &self,
         parameter: usize,
         side: PerturbedSide,
@@ -212,7 +212,7 @@ impl Sensitivities {
         }
     }
 
-    pub(super) fn beside_mut(
+    pub(super) fn perturbed_mut(
         &mut self,
         parameter: usize,
         side: PerturbedSide,

@@ -65,7 +65,7 @@ impl StepRetry {
     }
 
     /// Returns the step unless it is fully covered.
-    pub(super) fn rest(self) -> Option<Self> {
+    pub(super) fn remaining(self) -> Option<Self> {
         (!self.is_done()).then_some(self)
     }
 
@@ -100,7 +100,7 @@ mod tests {
         let mut halving = StepRetry::new(Interval::between(0.0, 1.0));
         assert!(halving.fail() && halving.fail());
         let mut ends = Vec::new();
-        while let Some(rest) = halving.rest() {
+        while let Some(rest) = halving.remaining() {
             ends.push(rest.next().end);
             halving.succeed();
         }

@@ -87,7 +87,7 @@ impl TimeGrid {
 
     /// End of the step that starts at `now`: the next grid point or cut, at most `limit` [time].
     pub fn next(&self, now: f64, limit: f64) -> f64 {
-        let grid = self.point(self.passed_by(now) + 1);
+        let grid = self.point(self.points_up_to(now) + 1);
         let cut = self.cuts[self.cuts.partition_point(|cut| self.has_reached(now, *cut))..].first();
         let slack = self.slack(now);
         let beat = self.beats.iter().map(|beat| beat.next(now, slack)).min_by(f64::total_cmp);
@@ -103,7 +103,7 @@ impl TimeGrid {
     }
 
     /// Restores the number of passed grid points. Cuts remain.
-    pub fn go_back(&mut self, passed: u64) {
+    pub fn restore(&mut self, passed: u64) {
         self.passed = passed;
     }
 
@@ -111,15 +111,15 @@ impl TimeGrid {
     pub fn lay(&mut self, cuts: &[f64], now: f64) {
         *self = std::mem::take(self).with_cuts(cuts.to_vec());
         self.passed = 0;
-        self.reach(now);
+        self.mark_reached(now);
     }
 
     /// Records that a time is reached, so that the next search starts there.
-    pub fn reach(&mut self, now: f64) {
-        self.passed = self.passed_by(now);
+    pub fn mark_reached(&mut self, now: f64) {
+        self.passed = self.points_up_to(now);
     }
 
-    fn passed_by(&self, now: f64) -> u64 {
+    fn points_up_to(&self, now: f64) -> u64 {
         // Start of the search: close to the result, and never beyond it.
         let near = (((now - self.start) / self.dt) as u64).saturating_sub(2).min(MOST_POINTS);
         let mut passed = self.passed.max(near);
@@ -139,7 +139,7 @@ mod tests {
         let (mut now, mut times) = (0.0, Vec::new());
         while now < end - 1e-9 * dt {
             now = grid.next(now, end);
-            grid.reach(now);
+            grid.mark_reached(now);
             times.push(now);
         }
         times
@@ -148,7 +148,7 @@ mod tests {
     #[test]
     fn a_time_far_away_is_reached_at_once() {
         let mut grid = TimeGrid::new(0.0, 0.1, vec![]);
-        grid.reach(1e10);
+        grid.mark_reached(1e10);
         assert_eq!(grid.passed(), 100_000_000_000);
         assert_eq!(grid.next(1e10, 2e10), 10_000_000_000.1);
         assert_eq!(grid.next(1e300, 2e300), 2e300);
@@ -164,9 +164,9 @@ mod tests {
     #[test]
     fn going_back_leads_to_the_same_points_and_keeps_cuts() {
         let mut grid = TimeGrid::new(0.0, 1.0, vec![]);
-        grid.reach(3.0);
+        grid.mark_reached(3.0);
         grid.cut_at(2.5);
-        grid.go_back(1);
+        grid.restore(1);
         assert_eq!((grid.next(1.0, 9.0), grid.next(2.0, 9.0)), (2.0, 2.5));
         assert_eq!(grid.cuts(), [2.5]);
         let mut again = TimeGrid::new(0.0, 1.0, vec![]);
@@ -182,7 +182,7 @@ mod tests {
             (1.0, 2.0, 9.0)
         );
         assert_eq!(grid.next(3.0, f64::INFINITY), f64::INFINITY);
-        grid.reach(2.0);
+        grid.mark_reached(2.0);
         grid.lay(&[4.0], 3.0);
         assert_eq!((grid.next(3.0, 9.0), grid.passed()), (4.0, 0));
     }

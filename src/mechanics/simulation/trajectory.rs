@@ -52,7 +52,7 @@ impl Trajectory {
 
     /// Restores the state after `offered` configurations. Discarded configurations remain discarded. The final content is the same as without going
     /// back.
-    pub fn go_back(&mut self, offered: usize) {
+    pub fn truncate(&mut self, offered: usize) {
         self.offered = offered;
         let kept = offered.div_ceil(self.every);
         self.times.truncate(kept);
@@ -133,7 +133,7 @@ mod tests {
         let mut trajectory = Trajectory::new(1 << 22);
         offer(&mut trajectory, 0);
         let straight = trajectory.times().to_vec();
-        trajectory.go_back(6);
+        trajectory.truncate(6);
         assert!(trajectory.times().iter().all(|time| *time < 6.0));
         assert_eq!(trajectory.numbers().len(), trajectory.times().len() << 22);
         offer(&mut trajectory, 6);

@@ -165,7 +165,7 @@ impl Warning {
     }
 
     /// Name of the object, for kinds with several.
-    fn about(&self) -> Option<&str> {
+    fn object_name(&self) -> Option<&str> {
         match self {
             Self::Motion { .. }
             | Self::Uneven { .. }
@@ -182,10 +182,10 @@ impl Warning {
     }
 
     /// Returns true if the warning is new, or more severe than those reported before.
-    pub fn is_news_after(&self, told: &[Self]) -> bool {
+    pub fn is_new_or_worse(&self, told: &[Self]) -> bool {
         !told.iter().any(|other| {
             std::mem::discriminant(other) == std::mem::discriminant(self)
-                && other.about() == self.about()
+                && other.object_name() == self.object_name()
                 && self.measure() < WORSE * other.measure()
         })
     }
@@ -351,11 +351,11 @@ mod tests {
     fn what_was_told_is_told_again_when_it_is_new_or_twice_as_bad() {
         let way = |slider: &str, spans| Warning::Way { slider: slider.to_owned(), dt: 1.0, spans };
         let told = [way("ring", 2.0)];
-        assert!(!way("ring", 3.9).is_news_after(&told));
-        assert!(way("ring", 4.0).is_news_after(&told));
-        assert!(way("bead", 1.1).is_news_after(&told));
+        assert!(!way("ring", 3.9).is_new_or_worse(&told));
+        assert!(way("ring", 4.0).is_new_or_worse(&told));
+        assert!(way("bead", 1.1).is_new_or_worse(&told));
         let bounce = Warning::Bounce { slider: "ring".to_owned(), dt: 1.0, blows: 1.1 };
-        assert!(bounce.is_news_after(&told) && bounce.is_news_after(&[]));
+        assert!(bounce.is_new_or_worse(&told) && bounce.is_new_or_worse(&[]));
     }
 
     #[test]

@@ -41,7 +41,7 @@ pub(super) struct UnderLoad<'a> {
 }
 
 impl UnderLoad<'_> {
-    fn resist(&mut self, unknowns: &[f64], residual: &mut [f64]) {
+    fn add_internal_forces(&mut self, unknowns: &[f64], residual: &mut [f64]) {
         if self.rate > 0.0 {
             let model = &mut *self.balance.model;
             let movements = &unknowns[..model.unknowns()];
@@ -52,7 +52,7 @@ impl UnderLoad<'_> {
 
 impl Equations for UnderLoad<'_> {
     fn linearise(&mut self, u: &[f64], residual: &mut [f64], tangent: &mut BorderedMatrix) {
-        self.resist(u, residual);
+        self.add_internal_forces(u, residual);
         let Self { balance: Balance { model, .. }, factor, rate } = self;
         if *rate > 0.0 {
             model.add_inertia_tangent(*rate, tangent.band_mut());
@@ -70,7 +70,7 @@ impl Equations for UnderLoad<'_> {
     }
 
     fn imbalance(&mut self, u: &[f64], residual: &mut [f64]) -> ResidualNorms {
-        self.resist(u, residual);
+        self.add_internal_forces(u, residual);
         self.balance.imbalance(u, self.factor, residual)
     }
 }
@@ -87,7 +87,7 @@ pub(super) struct AlongPath<'a> {
 }
 
 impl AlongPath<'_> {
-    fn beyond_plane(&self, movements: &[f64]) -> f64 {
+    fn distance_from_plane(&self, movements: &[f64]) -> f64 {
         let way: f64 = self.normal.iter().zip(movements).map(|(t, u)| t * u).sum();
         way - self.distance
     }
@@ -114,7 +114,7 @@ impl Equations for AlongPath<'_> {
         self.forces.fill(0.0);
         model.add_linearised_static_forces(moved, factor[0], self.forces, tangent);
         self.add_forces_to(residual);
-        residual[moved.len()] = self.beyond_plane(moved);
+        residual[moved.len()] = self.distance_from_plane(moved);
     }
 
     fn condense(&mut self, residual: &mut [f64]) {
@@ -133,7 +133,7 @@ impl Equations for AlongPath<'_> {
         self.forces.fill(0.0);
         let imbalance = self.balance.imbalance(movements, factor[0], self.forces);
         self.add_forces_to(residual);
-        let beyond = self.beyond_plane(movements);
+        let beyond = self.distance_from_plane(movements);
         residual[movements.len()] = beyond;
         ResidualNorms {
             constraint: larger(imbalance.constraint, beyond.abs() / self.distance),

@@ -56,7 +56,7 @@ struct PathDirection {
 impl PathDirection {
     /// Returns true if the next step continues in this direction. Otherwise it may have changed to another branch, as near the buckling load of a
     /// straight column, and smaller steps decide.
-    fn is_kept_by(&self, next: &Self, metric: &[f64]) -> bool {
+    fn is_aligned_with(&self, next: &Self, metric: &[f64]) -> bool {
         let ways = metric.iter().zip(&self.movements).zip(&next.movements);
         let along: f64 = ways.map(|((weight, before), now)| weight * before * now).sum();
         along >= 0.0 && next.falls == self.falls
@@ -93,7 +93,7 @@ impl<'s> Continuation<'s> {
         self.begin(factor * (1.0 / steps as f64), hold, goes_on)?;
         for step in 2..=steps {
             // The last factor is exact.
-            self.reach(factor * (step as f64 / steps as f64), MOST_HALVINGS, goes_on)?;
+            self.solve_for_factor(factor * (step as f64 / steps as f64), MOST_HALVINGS, goes_on)?;
         }
         Ok(())
     }
@@ -105,16 +105,16 @@ impl<'s> Continuation<'s> {
         goes_on: &mut dyn FnMut(f64) -> bool,
     ) -> Result<(), StaticsError> {
         match hold {
-            InitialSupport::Itself => self.reach(factor, MOST_HALVINGS, goes_on),
+            InitialSupport::Itself => self.solve_for_factor(factor, MOST_HALVINGS, goes_on),
             InitialSupport::Loads(movements) => {
-                self.settle(factor, movements, goes_on)?;
-                self.heading.falls = self.falls();
+                self.find_equilibrium(factor, movements, goes_on)?;
+                self.heading.falls = self.unstable_directions();
                 Ok(())
             }
         }
     }
 
-    pub(super) fn follow(
+    pub(super) fn trace_path(
         &mut self,
         arc: ArcLength,
         hold: InitialSupport,
@@ -124,16 +124,16 @@ impl<'s> Continuation<'s> {
         self.begin(goal / steps as f64, hold, goes_on)?;
         if hold != InitialSupport::Itself && steps > 1 {
             // If only loads restrain the scene, the path starts from there.
-            self.reach(goal * (2.0 / steps as f64), MOST_HALVINGS, goes_on)?;
+            self.solve_for_factor(goal * (2.0 / steps as f64), MOST_HALVINGS, goes_on)?;
         }
         let mut trial = PathStep::new(&self.model, &self.loading);
         let mut distance = norm(&self.metric, &self.unknowns).min(arc.longest);
         if distance == 0.0 {
             // If loads act on supports only, nothing moves and there is no path.
-            return self.reach(goal, MOST_HALVINGS, goes_on);
+            return self.solve_for_factor(goal, MOST_HALVINGS, goes_on);
         }
         while self.path.load_factor() != goal && self.path.points().len() < arc.points {
-            trial.look_along(&self.metric, &self.unknowns);
+            trial.set_direction(&self.metric, &self.unknowns);
             distance = self.advance(&mut trial, distance, goes_on)?.min(arc.longest);
         }
         Ok(())
@@ -149,16 +149,17 @@ impl<'s> Continuation<'s> {
         let (from, goal) = (self.path.load_factor(), self.loading.factor);
         let mut miss = StepFailure::Far;
         for _ in 0..=MOST_HALVINGS {
-            self.ask(goes_on)?;
+            self.query_monitor(goes_on)?;
             match trial.find(&mut self.model, self.length, from, distance, self.scene) {
                 Ok(_) if norm(&self.metric, trial.movements()) > FAR * distance => {
                     miss = StepFailure::Far
                 }
                 Ok(_) if (from < goal) != (trial.factor() < goal) => {
-                    return self.reach(goal, MOST_HALVINGS, goes_on).map(|()| distance);
+                    return self.solve_for_factor(goal, MOST_HALVINGS, goes_on).map(|()| distance);
                 }
                 Ok(iterations) => {
-                    if let Some(way) = self.way_beyond(goal, trial.factor(), distance)
+                    if let Some(way) =
+                        self.distance_to_turning_point(goal, trial.factor(), distance)
                         && let Ok(iterations) = self.find(goal)
                         && norm(&self.metric, &self.unknowns) <= way
                     {
@@ -172,15 +173,15 @@ impl<'s> Continuation<'s> {
                 }
                 Err(error) => miss = error,
             }
-            self.go_back();
+            self.restore_last();
             distance *= 0.5;
         }
-        Err(self.lost(miss))
+        Err(self.path_lost_error(miss))
     }
 
     /// Distance from the last point to the turning point of the load factor, if the path crosses the goal before it and again after it. The first
     /// crossing counts.
-    fn way_beyond(&self, goal: f64, factor: f64, distance: f64) -> Option<f64> {
+    fn distance_to_turning_point(&self, goal: f64, factor: f64, distance: f64) -> Option<f64> {
         let [.., before, last] = self.path.points() else { return None };
         let factors = [before.load_factor, last.load_factor, factor];
         let vertex = vertex(factors, [last.distance, distance])?;
@@ -189,37 +190,37 @@ impl<'s> Continuation<'s> {
     }
 
     /// Solves for a load factor, with halved steps if nothing is found or the result does not continue the path.
-    fn reach(
+    fn solve_for_factor(
         &mut self,
         factor: f64,
         halvings: u32,
         goes_on: &mut dyn FnMut(f64) -> bool,
     ) -> Result<(), StaticsError> {
-        self.ask(goes_on)?;
+        self.query_monitor(goes_on)?;
         let from = self.path.load_factor();
         match self.find(factor) {
             Ok(iterations) => {
                 self.accept(factor, iterations);
-                if self.goes_on_as_before(halvings) {
+                if self.is_continuation(halvings) {
                     return Ok(());
                 }
-                self.take_back();
+                self.undo_step();
             }
-            Err(error) if halvings == 0 => return Err(self.lost(error)),
+            Err(error) if halvings == 0 => return Err(self.path_lost_error(error)),
             Err(_) => (),
         }
-        self.reach(0.5 * (from + factor), halvings - 1, goes_on)?;
-        self.reach(factor, halvings - 1, goes_on)
+        self.solve_for_factor(0.5 * (from + factor), halvings - 1, goes_on)?;
+        self.solve_for_factor(factor, halvings - 1, goes_on)
     }
 
     /// Returns true if the last point continues the path, or no halving is left. With arc-length control the path may turn and become unstable.
-    fn goes_on_as_before(&mut self, halvings: u32) -> bool {
+    fn is_continuation(&mut self, halvings: u32) -> bool {
         if self.loading.control != Control::Load {
             return true;
         }
-        let falls = self.falls();
+        let falls = self.unstable_directions();
         let heading = PathDirection { movements: self.unknowns.clone(), falls };
-        let goes_on = halvings == 0 || self.heading.is_kept_by(&heading, &self.metric);
+        let goes_on = halvings == 0 || self.heading.is_aligned_with(&heading, &self.metric);
         if goes_on {
             self.heading = heading;
         }
@@ -227,28 +228,32 @@ impl<'s> Continuation<'s> {
     }
 
     /// Number of directions with negative stiffness, excluding the effect of follower loads.
-    pub(super) fn falls(&self) -> usize {
-        self.falls_against(0.0)
+    pub(super) fn unstable_directions(&self) -> usize {
+        self.unstable_directions_with_inertia(0.0)
     }
 
     /// The same with a multiple of the inertia added to the stiffness [1/time²].
-    pub(super) fn falls_against(&self, rate: f64) -> usize {
-        if self.model.follower().is_some() { 0 } else { self.model.falls_against(rate) }
+    pub(super) fn unstable_directions_with_inertia(&self, rate: f64) -> usize {
+        if self.model.follower().is_some() {
+            0
+        } else {
+            self.model.negative_stiffness_count_with_inertia(rate)
+        }
     }
 
     /// Solves for an equilibrium near the last one. Returns the number of iterations.
     fn find(&mut self, factor: f64) -> Result<usize, StepFailure> {
         let found = match self.balance_from(factor, 0.0) {
-            Ok(_) if self.moved() > self.farthest(factor) => Err(StepFailure::Far),
+            Ok(_) if self.distance_moved() > self.farthest(factor) => Err(StepFailure::Far),
             found => found,
         };
         if found.is_err() {
-            self.go_back();
+            self.restore_last();
         }
         found
     }
 
-    pub(super) fn moved(&self) -> f64 {
+    pub(super) fn distance_moved(&self) -> f64 {
         norm(&self.metric, &self.unknowns)
     }
 
@@ -259,14 +264,14 @@ impl<'s> Continuation<'s> {
     pub(super) fn balance_from(&mut self, factor: f64, rate: f64) -> Result<usize, StepFailure> {
         let mut iterations = 0;
         for _ in 0..=self.scene.most_settlings() {
-            self.model.stay(&mut self.unknowns);
+            self.model.predict_unchanged(&mut self.unknowns);
             self.model.begin_movement();
             let balance = Balance { model: &mut self.model, length: self.length };
             let mut equations = UnderLoad { balance, factor, rate };
             let report =
                 self.newton.solve(&mut equations, &mut self.unknowns, &mut self.residual)?;
             iterations += report.iterations;
-            if !settle_on_stops(&mut self.model, self.scene, &self.unknowns, factor)? {
+            if !update_stop_contacts(&mut self.model, self.scene, &self.unknowns, factor)? {
                 return Ok(iterations);
             }
         }
@@ -274,7 +279,7 @@ impl<'s> Continuation<'s> {
     }
 
     /// Restores the last equilibrium after a failed search.
-    pub(super) fn go_back(&mut self) {
+    pub(super) fn restore_last(&mut self) {
         if let Some(last) = self.path.points().last() {
             self.model.restore(&last.state);
         }
@@ -294,25 +299,28 @@ impl<'s> Continuation<'s> {
 
     fn accept(&mut self, factor: f64, iterations: usize) {
         self.model.move_by(&self.unknowns, factor);
-        self.arrive(factor, self.moved(), iterations);
+        self.append_point(factor, self.distance_moved(), iterations);
     }
 
     /// Appends the configuration of the model to the path.
-    pub(super) fn arrive(&mut self, factor: f64, distance: f64, iterations: usize) {
+    pub(super) fn append_point(&mut self, factor: f64, distance: f64, iterations: usize) {
         self.path.push(point(&mut self.model, factor, distance, iterations));
     }
 
-    fn take_back(&mut self) {
+    fn undo_step(&mut self) {
         self.path.pop();
-        self.go_back();
+        self.restore_last();
     }
 
-    pub(super) fn ask(&self, goes_on: &mut dyn FnMut(f64) -> bool) -> Result<(), StaticsError> {
+    pub(super) fn query_monitor(
+        &self,
+        goes_on: &mut dyn FnMut(f64) -> bool,
+    ) -> Result<(), StaticsError> {
         let reached = self.path.load_factor();
         if goes_on(reached) { Ok(()) } else { Err(StaticsError::Interrupted { reached }) }
     }
 
-    pub(super) fn lost(&self, reason: StepFailure) -> StaticsError {
+    pub(super) fn path_lost_error(&self, reason: StepFailure) -> StaticsError {
         let (scene, reached) = (self.scene.name.clone(), self.path.load_factor());
         let (points, reason) = (self.path.points().len(), Box::new(reason));
         match self.loading.control {
@@ -325,7 +333,7 @@ impl<'s> Continuation<'s> {
 }
 
 /// Holds sliders that pass stops, and frees those with tensile stop forces. Returns true if any changed.
-pub(super) fn settle_on_stops(
+pub(super) fn update_stop_contacts(
     model: &mut System,
     scene: &Scene,
     unknowns: &[f64],
@@ -335,7 +343,7 @@ pub(super) fn settle_on_stops(
         slider: scene.sliders[slider].name.clone(),
         end: end.name(),
     };
-    model.settle_on_stops(unknowns, factor).map_err(leaves)
+    model.update_stop_contacts(unknowns, factor).map_err(leaves)
 }
 
 /// Tangent matrix of a model with `full` additional dense rows. With sliders, contacts may be the only restraint.
@@ -346,7 +354,7 @@ pub(super) fn tangent(model: &System, full: usize) -> BorderedMatrix {
         row_entries: contacts.row_entries + full * unknowns,
     };
     let tangent = BorderedMatrix::zeros(unknowns, model.half_bandwidth(), border);
-    if contacts.width == 0 { tangent } else { tangent.together(full) }
+    if contacts.width == 0 { tangent } else { tangent.with_joint_elimination(full) }
 }
 
 fn metric(model: &System, length: f64) -> Vec<f64> {

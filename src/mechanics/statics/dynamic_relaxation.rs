@@ -37,7 +37,7 @@ impl Continuation<'_> {
     /// `movements` is the number of unrestrained movements as drawn.
     ///
     /// Every pass reduces the energy: `K + σ M` is positive definite at its start.
-    pub(super) fn settle(
+    pub(super) fn find_equilibrium(
         &mut self,
         factor: f64,
         movements: usize,
@@ -46,26 +46,28 @@ impl Continuation<'_> {
         let mut rate = self.first_rate(factor, goes_on)?;
         let (mut way, mut iterations, mut leaves, mut miss) = (0.0, 0, 0, StepFailure::Far);
         for _ in 0..MOST_PASSES {
-            self.ask(goes_on)?;
+            self.query_monitor(goes_on)?;
             let before = self.model.state();
             match self.balance_from(factor, rate) {
-                Ok(work) if self.moved() <= FAR => {
-                    let moved = self.moved();
+                Ok(work) if self.distance_moved() <= FAR => {
+                    let moved = self.distance_moved();
                     self.model.move_by(&self.unknowns, factor);
                     (way, iterations) = (way + moved, iterations + work);
-                    if moved < NEAR && (moved < STILL || self.falls() == 0) {
+                    if moved < NEAR && (moved < STILL || self.unstable_directions() == 0) {
                         let near = self.model.state();
                         match self.balance_from(factor, 0.0) {
-                            Ok(work) if self.moved() <= NEAR => {
+                            Ok(work) if self.distance_moved() <= NEAR => {
                                 self.model.move_by(&self.unknowns, factor);
-                                self.arrive(factor, way, iterations + work);
+                                self.append_point(factor, way, iterations + work);
                                 return Ok(());
                             }
                             found => miss = found.err().unwrap_or(StepFailure::Far),
                         }
                         self.model.restore(&near);
                     }
-                    if moved < 0.5 * FAR && self.falls_against(EASIER * rate) == 0 {
+                    if moved < 0.5 * FAR
+                        && self.unstable_directions_with_inertia(EASIER * rate) == 0
+                    {
                         rate *= EASIER;
                     }
                 }
@@ -84,7 +86,7 @@ impl Continuation<'_> {
                 break;
             }
         }
-        self.go_back();
+        self.restore_last();
         let (scene, reason) = (self.scene.name.clone(), Box::new(miss));
         Err(StaticsError::Loose { scene, movements, reason })
     }
@@ -97,11 +99,11 @@ impl Continuation<'_> {
     ) -> Result<f64, StaticsError> {
         let mut rate = self.model.slowest_bending().unwrap_or(1.0);
         for _ in 0..MOST_FIRST_PASSES {
-            self.ask(goes_on)?;
+            self.query_monitor(goes_on)?;
             let found = self.balance_from(factor, rate);
-            let is_near = found.is_ok() && self.moved() <= FAR;
-            self.go_back();
-            if is_near && self.falls_against(rate) == 0 {
+            let is_near = found.is_ok() && self.distance_moved() <= FAR;
+            self.restore_last();
+            if is_near && self.unstable_directions_with_inertia(rate) == 0 {
                 break;
             }
             rate *= 100.0;

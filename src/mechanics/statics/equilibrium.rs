@@ -54,7 +54,7 @@ impl Equilibrium {
         let mut tracer = Continuation::new(&scene, model, loading);
         match loading.control {
             Control::Load => tracer.load_up(hold, goes_on)?,
-            Control::ArcLength(arc) => tracer.follow(arc, hold, goes_on)?,
+            Control::ArcLength(arc) => tracer.trace_path(arc, hold, goes_on)?,
         }
         let Continuation { model, path, .. } = tracer;
         Ok(Self { scene, loading, model, path })
@@ -64,10 +64,10 @@ impl Equilibrium {
     ///
     /// # Errors
     /// Errors of [`find`](Self::find) except those of the solution.
-    pub fn pretend(scene: Scene, loading: Loading) -> Result<Self, StaticsError> {
+    pub fn dry_run(scene: Scene, loading: Loading) -> Result<Self, StaticsError> {
         let model = prepare(&scene, &loading)?;
         let Continuation { model, mut path, .. } = Continuation::new(&scene, model, loading);
-        path.pretend(loading.factor);
+        path.append_dry_point(loading.factor);
         Ok(Self { scene, loading, model, path })
     }
 
@@ -109,7 +109,7 @@ impl Equilibrium {
         let mut forces = vec![0.0; self.model.degrees_of_freedom()];
         let contacts = self.model.constraint_shape().width;
         let mut standstill = vec![0.0; self.model.unknowns() + contacts];
-        self.model.stay(&mut standstill);
+        self.model.predict_unchanged(&mut standstill);
         self.model.begin_movement();
         self.model.add_static_forces(&standstill, self.path.load_factor(), &mut forces);
         self.model.support_force(place, &forces)
@@ -137,7 +137,7 @@ impl Equilibrium {
         if self.model.follower().is_some() {
             return Stability::Follower;
         }
-        if self.model.falls() == 0 {
+        if self.model.negative_stiffness_count() == 0 {
             return Stability::Stable;
         }
         match self.modes(1, goes_on).as_ref().map(Modes::all) {
@@ -212,12 +212,12 @@ fn prepare(scene: &Scene, loading: &Loading) -> Result<System, StaticsError> {
     check_needs_no_time(scene)?;
     let mut model = at_rest(scene)?;
     model
-        .hold_loads_at(loading.time)
+        .evaluate_loads_at(loading.time)
         .map_err(|(load, source)| StaticsError::Load { load, source })?;
     if let (Some(drive), Control::ArcLength(_)) = (scene.drives.first(), loading.control) {
         return Err(StaticsError::Driven { drive: drive.name.clone() });
     }
-    if model.is_moved_at_rest() {
+    if model.has_prescribed_positions() {
         return Ok(model);
     }
     let mut loads = vec![0.0; model.degrees_of_freedom()];
@@ -226,21 +226,21 @@ fn prepare(scene: &Scene, loading: &Loading) -> Result<System, StaticsError> {
         return Ok(model);
     }
     let time = loading.time;
-    match (is_at_ease(&mut model), loading.control) {
+    match (is_unloaded(&mut model), loading.control) {
         (true, _) => Err(StaticsError::NoLoad { time }),
         (false, Control::ArcLength(_)) => Err(StaticsError::NothingGrows { time }),
         (false, Control::Load) => Ok(model),
     }
 }
 
-fn is_at_ease(model: &mut System) -> bool {
+fn is_unloaded(model: &mut System) -> bool {
     if !model.is_strung() {
         return true;
     }
     let (at_start, mut forces) = (model.state(), vec![0.0; model.degrees_of_freedom()]);
     let movements = model.unknowns();
     let mut standstill = vec![0.0; movements + model.constraint_shape().width];
-    model.stay(&mut standstill);
+    model.predict_unchanged(&mut standstill);
     model.begin_movement();
     let met = model.add_static_forces(&standstill, 0.0, &mut forces);
     model.restore(&at_start);

@@ -34,7 +34,7 @@ impl EquilibriumPath {
     }
 
     /// Appends an unmoved point, for a dry run.
-    pub(super) fn pretend(&mut self, load_factor: f64) {
+    pub(super) fn append_dry_point(&mut self, load_factor: f64) {
         let last = self.points.last().cloned();
         self.points.extend(last.map(|point| PathPoint { load_factor, ..point }));
     }

@@ -2,7 +2,7 @@
 
 use super::Loading;
 use super::balance::{AlongPath, Balance};
-use super::continuation::{norm, settle_on_stops, tangent};
+use super::continuation::{norm, tangent, update_stop_contacts};
 use super::error::StepFailure;
 use crate::integrators::{Constraints, Mechanism};
 use crate::newton::Newton;
@@ -29,7 +29,7 @@ impl PathStep {
     }
 
     /// Sets the direction to that of the last movement.
-    pub(super) fn look_along(&mut self, metric: &[f64], last: &[f64]) {
+    pub(super) fn set_direction(&mut self, metric: &[f64], last: &[f64]) {
         let inverse = 1.0 / norm(metric, last);
         for ((normal, weight), u) in self.normal.iter_mut().zip(metric).zip(last) {
             *normal = weight * u * inverse;
@@ -48,7 +48,7 @@ impl PathStep {
         let mut iterations = 0;
         for _ in 0..=scene.most_settlings() {
             let last = self.normal.len();
-            model.stay(&mut self.unknowns[..last]);
+            model.predict_unchanged(&mut self.unknowns[..last]);
             self.unknowns[last] = from;
             model.begin_movement();
             let balance = Balance { model, length };
@@ -57,7 +57,7 @@ impl PathStep {
             let report =
                 self.newton.solve(&mut equations, &mut self.unknowns, &mut self.residual)?;
             iterations += report.iterations;
-            if !settle_on_stops(model, scene, self.movements(), self.factor())? {
+            if !update_stop_contacts(model, scene, self.movements(), self.factor())? {
                 return Ok(iterations);
             }
         }

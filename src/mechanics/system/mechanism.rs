@@ -89,10 +89,10 @@ impl System {
         let apart = damped.filter(|_| bodies.len() > 1);
         let unknowns = self.unknowns.count();
         let movements = |body: usize| bodies[body].degrees_of_freedom.below(unknowns);
-        self.motion.watch(apart.map(|body| (body, movements(body))));
+        self.motion.measure_resolution_of(apart.map(|body| (body, movements(body))));
     }
 
-    pub(super) fn set_given_in_motion(&mut self, time: f64) -> Result<(), (String, LoadError)> {
+    pub(super) fn set_prescribed_motion(&mut self, time: f64) -> Result<(), (String, LoadError)> {
         self.supports.prescribed_mut().begin_at(time)?;
         let first = self.unknowns.count();
         let prescribed = &self.supports.prescribed().in_step().rates;
@@ -159,7 +159,7 @@ impl System {
     }
 
     /// Sets the time without moving anything.
-    pub fn pass_time_to(&mut self, time: f64) {
+    pub fn set_time(&mut self, time: f64) {
         self.motion.time = time;
     }
 
@@ -167,28 +167,28 @@ impl System {
     ///
     /// # Errors
     /// Name of the element without a finite value, and the reason.
-    pub fn hold_loads_at(&mut self, time: f64) -> Result<(), (String, LoadError)> {
-        self.supports.prescribed_mut().hold_at(time)?;
-        self.elements.hold_at(time)
+    pub fn evaluate_loads_at(&mut self, time: f64) -> Result<(), (String, LoadError)> {
+        self.supports.prescribed_mut().evaluate_after(time)?;
+        self.elements.evaluate_after(time)
     }
 
     /// Makes the next step end where a slider reaches a limit; `None` for a regular step.
-    pub fn aim_at(&mut self, limit: Option<MasterLimit>) {
-        self.sliders.aim_at(limit);
+    pub fn set_target_limit(&mut self, limit: Option<MasterLimit>) {
+        self.sliders.set_target_limit(limit);
     }
 
     /// Releases a slider from its master.
-    pub fn release(&mut self, slider: usize) {
+    pub fn release_slider(&mut self, slider: usize) {
         self.sliders[slider].release();
-        self.motion.accelerations.forget();
+        self.motion.accelerations.mark_unknown();
     }
 
     /// Holds a slider at the stop at a limit, until the stop force would become tensile.
-    pub fn hold(&mut self, limit: MasterLimit) {
+    pub fn hold_at_stop(&mut self, limit: MasterLimit) {
         let slider = &mut self.sliders[limit.slider];
-        slider.hold(limit.end);
+        slider.hold_at(limit.end);
         slider.stop_may_pull = slider.left_at == self.motion.time;
-        self.motion.accelerations.forget();
+        self.motion.accelerations.mark_unknown();
     }
 
     /// Returns true if the present velocities move a slider at a limit beyond it.

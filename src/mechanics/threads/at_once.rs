@@ -4,7 +4,7 @@ use std::hint::spin_loop;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
 
-use super::pool::{announce_parts, pool, stay_awake};
+use super::pool::{keep_polling, notify_workers, pool};
 
 /// Number of polls before a thread sleeps: about 50 µs, the cost of sleeping and waking.
 const PATIENCE: usize = 2000;
@@ -13,7 +13,7 @@ const PATIENCE: usize = 2000;
 ///
 /// Returns after every task is done, and waits if all threads are busy. Each call allocates a few hundred bytes, so it is meant for tasks that take
 /// far longer.
-pub fn at_once<T: Send>(tasks: impl IntoIterator<Item = T>, work: impl Fn(T) + Sync) {
+pub fn run_concurrently<T: Send>(tasks: impl IntoIterator<Item = T>, work: impl Fn(T) + Sync) {
     let mut tasks = tasks.into_iter();
     let first = tasks.next();
     let others: Vec<Mutex<Option<T>>> = tasks.map(|task| Mutex::new(Some(task))).collect();
@@ -28,10 +28,10 @@ pub fn at_once<T: Send>(tasks: impl IntoIterator<Item = T>, work: impl Fn(T) + S
     let left = AtomicUsize::new(others.len());
     pool.in_place_scope(|scope| {
         let (take, left) = (&take, &left);
-        announce_parts();
+        notify_workers();
         for task in &others {
             scope.spawn(move |_| {
-                stay_awake();
+                keep_polling();
                 take(task);
                 left.fetch_sub(1, Ordering::Release);
             });
@@ -54,7 +54,7 @@ pub fn both(threads: usize, one: impl FnOnce() + Send, other: impl FnOnce() + Se
         one();
         return other();
     }
-    at_once([Either::One(one), Either::Other(other)], |either| match either {
+    run_concurrently([Either::One(one), Either::Other(other)], |either| match either {
         Either::One(one) => one(),
         Either::Other(other) => other(),
     });
@@ -72,9 +72,9 @@ mod tests {
     #[test]
     fn every_task_is_worked_on_once_whatever_the_threads() {
         let mut counts = [0; 9];
-        at_once(counts.iter_mut().enumerate(), |(index, count)| *count += index);
+        run_concurrently(counts.iter_mut().enumerate(), |(index, count)| *count += index);
         assert_eq!(counts, [0, 1, 2, 3, 4, 5, 6, 7, 8]);
-        at_once(std::iter::empty::<usize>(), |_| unreachable!());
+        run_concurrently(std::iter::empty::<usize>(), |_| unreachable!());
         for threads in [1, 2] {
             let (mut one, mut other) = (0, String::new());
             both(threads, || one += 1, || other.push('x'));

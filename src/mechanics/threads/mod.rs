@@ -3,4 +3,4 @@
 mod at_once;
 mod pool;
 
-pub use at_once::{at_once, both};
+pub use at_once::{both, run_concurrently};

@@ -25,12 +25,12 @@ pub(super) fn pool() -> Option<&'static ThreadPool> {
     POOL.get_or_init(start).as_ref()
 }
 
-pub(super) fn announce_parts() {
+pub(super) fn notify_workers() {
     HANDED_OUT.fetch_add(1, Ordering::Release);
 }
 
 /// Makes this pool thread poll for new parts for a while after its work.
-pub(super) fn stay_awake() {
+pub(super) fn keep_polling() {
     let before = HANDED_OUT.load(Ordering::Acquire);
     rayon_core::spawn(move || {
         let begun = Instant::now();

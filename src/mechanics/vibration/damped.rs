@@ -62,7 +62,7 @@ impl DampedMode {
         let mut modes = lowest(&pencil, pencil.finite, goes_on)?;
         for mode in &mut modes {
             let shape = std::mem::take(&mut mode.shape);
-            mode.shape = pencil.order.in_own_order(shape, unknowns);
+            mode.shape = pencil.order.to_step_order(shape, unknowns);
         }
         let squares: Vec<f64> = modes.iter().map(|mode| mode.square).collect();
         let least = NOTHING * squares.iter().copied().fold(0.0, larger).sqrt();

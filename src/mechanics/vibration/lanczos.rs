@@ -66,7 +66,7 @@ impl<'a> Lanczos<'a> {
             momenta: pencil.zeros(),
             seed: 0,
         };
-        search.begin_anew();
+        search.restart_randomly();
         search
     }
 
@@ -79,7 +79,7 @@ impl<'a> Lanczos<'a> {
     ///
     /// # Errors
     /// Fails if the pairs do not converge, or the search is stopped.
-    pub(super) fn settle(
+    pub(super) fn find_pairs(
         &mut self,
         count: usize,
         goes_on: &mut dyn FnMut() -> bool,
@@ -112,12 +112,12 @@ impl<'a> Lanczos<'a> {
     }
 
     /// Continues with the found pairs and new random vectors, because there may be more equal modes than vectors in a block.
-    pub(super) fn look_beside(&mut self, found: Pairs) {
+    pub(super) fn continue_with_random(&mut self, found: Pairs) {
         self.projected = DMatrix::from_diagonal(&DVector::from_vec(found.values));
         self.basis = found.strips;
         let width = STRIP_WIDTH * self.basis.len();
         self.projected.resize_mut(width, width, 0.0);
-        self.begin_anew();
+        self.restart_randomly();
     }
 
     /// Applies the inverted stiffness to the next block, and projects the result onto the basis.
@@ -198,7 +198,7 @@ impl<'a> Lanczos<'a> {
     }
 
     /// Makes a random block, orthogonal to the basis, the next one.
-    fn begin_anew(&mut self) {
+    fn restart_randomly(&mut self) {
         let mut block = self.pencil.zeros();
         self.replace(&mut block, &[0, 1, 2, 3]);
         self.next_momenta = self.pencil.inertia_times(&block);

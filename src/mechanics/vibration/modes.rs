@@ -88,7 +88,7 @@ impl Modes {
         let mut modes = lowest(&pencil, count, goes_on)?;
         for mode in &mut modes {
             let shape = std::mem::take(&mut mode.shape);
-            mode.shape = pencil.order.in_own_order(shape, model.unknowns());
+            mode.shape = pencil.order.to_step_order(shape, model.unknowns());
         }
         let displacements = modes.iter().map(|mode| model.displacements(&mode.shape)).collect();
         let decay_rates = modes.iter().map(|mode| 0.5 * model.dissipation(&mode.shape)).collect();

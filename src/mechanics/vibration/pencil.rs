@@ -26,7 +26,7 @@ impl Pencil {
         let size = order.count();
         let mut stiffness = PreciseBand::zeros(size, order.half_bandwidth());
         let mut elastic = Elastic::default();
-        model.each_span_at_rest(&order, &mut |degrees, span| {
+        model.for_each_static_span(&order, &mut |degrees, span| {
             add_resistance(&mut stiffness, degrees, span);
             elastic.add(size, degrees, span);
         });
@@ -35,14 +35,14 @@ impl Pencil {
         let own: Vec<f64> = (0..size)
             .map(|at| stiffness.diagonal(at).abs() + scale * inertia.diagonal(at))
             .collect();
-        model.each_tie_at_rest(&order, |at| own[at], &mut |degrees, span| {
+        model.for_each_static_constraint(&order, |at| own[at], &mut |degrees, span| {
             add_resistance(&mut stiffness, degrees, span);
             elastic.add(size, degrees, span);
         });
         let is_finite = (0..size)
             .all(|at| stiffness.diagonal(at).is_finite() && inertia.diagonal(at).is_finite());
         let finite = (0..size).filter(|at| inertia.diagonal(*at) > 0.0).count();
-        let finite = finite.saturating_sub(model.held_by_ties(&order, &inertia));
+        let finite = finite.saturating_sub(model.constrained_movements(&order, &inertia));
         if !is_finite || !scale.is_normal() {
             return Err(VibrationError::NotFinite);
         }

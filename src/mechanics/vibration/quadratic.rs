@@ -79,7 +79,9 @@ impl Quadratic {
             let numbers = resolvent.numbers()?;
             let reached = match shift >= self.fastest() {
                 true => all,
-                false => whole_pairs(&numbers, numbers.partition_point(|at| size(*at) <= REACH)),
+                false => {
+                    conjugate_pairs(&numbers, numbers.partition_point(|at| size(*at) <= REACH))
+                }
             };
             if let Some(next) = numbers.get(reached) {
                 shift *= size(*next).clamp(REACH, FARTHEST);
@@ -125,7 +127,7 @@ impl Quadratic {
     }
 }
 
-fn whole_pairs(numbers: &[ComplexNumber], first: usize) -> usize {
+fn conjugate_pairs(numbers: &[ComplexNumber], first: usize) -> usize {
     let numbers = numbers[..first].iter();
     let above = numbers.clone().filter(|at| at.im > 0.0).count();
     first - usize::from(above != numbers.filter(|at| at.im < 0.0).count())

@@ -112,13 +112,13 @@ impl OtherPairs<'_> {
         let mut imbalance = self.momenta[at].clone();
         let kinetic = self.kinetic(shapes, &imbalance);
         let squares = squares_of(&energies.whole, &kinetic);
-        subtract_resisting(&mut imbalance, &squares, shapes);
-        let of_others = self.without_others(&mut imbalance, &squares);
+        subtract_restoring(&mut imbalance, &squares, shapes);
+        let of_others = self.remove_other_pairs(&mut imbalance, &squares);
         let residuals = std::array::from_fn(|lane| {
             (of_others[lane] / (kinetic[lane] * (squares[lane] + self.shift))).sqrt()
         });
         shapes.scale(&scale_of(&kinetic));
-        self.sure(shapes, &squares, &residuals)
+        self.is_certain(shapes, &squares, &residuals)
     }
 
     fn kinetic(&self, shapes: &Shapes, momenta: &[FourVectors]) -> FourVectors {
@@ -131,7 +131,7 @@ impl OtherPairs<'_> {
         kinetic
     }
 
-    fn sure(
+    fn is_certain(
         &self,
         shapes: &Shapes,
         squares: &FourVectors,
@@ -160,8 +160,8 @@ impl OtherPairs<'_> {
         let (mut correction, mut old) = (momenta.clone(), momenta.clone());
         for pass in 0..MOST_CORRECTIONS {
             correction.copy_from_slice(&momenta);
-            subtract_resisting(&mut correction, &squares, shapes);
-            let of_others = self.without_others(&mut correction, &squares);
+            subtract_restoring(&mut correction, &squares, shapes);
+            let of_others = self.remove_other_pairs(&mut correction, &squares);
             factors.solve(&mut correction);
             if self.is_wide() {
                 self.clean(&mut correction);
@@ -197,13 +197,17 @@ impl OtherPairs<'_> {
                 break;
             }
         }
-        self.sure(shapes, &squares, &residuals)
+        self.is_certain(shapes, &squares, &residuals)
     }
 
     /// Removes the components of all pairs from residual forces. Returns their contribution to the residuals, relative to `ω² + σ`.
     ///
     /// Components in lower pairs count by magnitude only, because the inverted stiffness would overestimate them.
-    fn without_others(&self, imbalance: &mut [FourVectors], squares: &FourVectors) -> FourVectors {
+    fn remove_other_pairs(
+        &self,
+        imbalance: &mut [FourVectors],
+        squares: &FourVectors,
+    ) -> FourVectors {
         let mut left = [0.0; STRIP_WIDTH];
         for (at, (strip, momenta)) in self.strips.iter().zip(self.momenta).enumerate() {
             let parts = products(strip, imbalance);
@@ -233,7 +237,7 @@ impl OtherPairs<'_> {
 }
 
 /// `r ← ω² r - Bᵀ (n + k m) - K_g x`
-fn subtract_resisting(r: &mut [FourVectors], squares: &FourVectors, shapes: &Shapes) {
+fn subtract_restoring(r: &mut [FourVectors], squares: &FourVectors, shapes: &Shapes) {
     for (r, resisting) in r.iter_mut().zip(&shapes.resisting) {
         for ((r, resisting), square) in r.iter_mut().zip(resisting).zip(squares) {
             *r = square * *r - resisting;

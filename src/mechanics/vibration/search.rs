@@ -129,7 +129,7 @@ fn counted_pairs(
     let mut search = Lanczos::new(pencil, factors);
     let mut wanted = count;
     loop {
-        let pairs = search.settle(wanted, goes_on)?;
+        let pairs = search.find_pairs(wanted, goes_on)?;
         // Pairs equal to the last one are as good; all below must be found.
         let below = 1.0 / pairs.values[count - 1] * (1.0 - EQUAL) - shift;
         let found = pairs.values.iter().filter(|value| 1.0 / *value - shift < below).count();
@@ -138,7 +138,7 @@ fn counted_pairs(
             Some(there) if there <= found => return Ok(pairs),
             Some(there) => wanted = there.max(count),
         }
-        search.look_beside(pairs);
+        search.continue_with_random(pairs);
     }
 }
 

@@ -57,7 +57,7 @@ impl Dots {
         for piece in pieces(points, &Area { left: 0.0, top: 0.0, right, bottom }) {
             let stops: Vec<(i64, i64)> =
                 piece.iter().map(|(x, y)| (x.round() as i64, y.round() as i64)).collect();
-            let ways = stops.windows(2).flat_map(|pair| way(pair[0], pair[1]));
+            let ways = stops.windows(2).flat_map(|pair| line_dots(pair[0], pair[1]));
             for (x, y) in stops[..1].iter().copied().chain(ways).step_by(every) {
                 self.dot(x, y, ink);
             }
@@ -83,7 +83,7 @@ impl Dots {
 }
 
 /// Dots after the first on the straight line between two dots (Bresenham 1965).
-fn way(from: (i64, i64), to: (i64, i64)) -> impl Iterator<Item = (i64, i64)> {
+fn line_dots(from: (i64, i64), to: (i64, i64)) -> impl Iterator<Item = (i64, i64)> {
     let (dx, dy) = (to.0 - from.0, to.1 - from.1);
     let steps = dx.abs().max(dy.abs());
     // Integer division with rounding; ties are rounded away from the start point of the line.
@@ -164,7 +164,7 @@ mod tests {
     #[test]
     fn a_line_is_the_same_both_ways_at_its_ends_and_has_no_gaps() {
         for to in [(7, 3), (-7, 3), (2, -9), (0, 5), (5, 5), (0, 0)] {
-            let dots: Vec<_> = [(0, 0)].into_iter().chain(way((0, 0), to)).collect();
+            let dots: Vec<_> = [(0, 0)].into_iter().chain(line_dots((0, 0), to)).collect();
             assert_eq!(dots.last(), Some(&to));
             let is_near = |pair: &[(i64, i64)]| {
                 (pair[0].0 - pair[1].0).abs().max((pair[0].1 - pair[1].1).abs()) == 1

@@ -27,7 +27,7 @@ pub enum PictureMark {
 impl PictureMark {
     const ALL: [Self; 5] = [Self::Particle, Self::Slider, Self::Joint, Self::Hinge, Self::Clamp];
 
-    fn look(self) -> (char, char, &'static str) {
+    fn symbols(self) -> (char, char, &'static str) {
         match self {
             Self::Particle => ('●', 'O', "particle"),
             Self::Slider => ('◆', 'X', "slider"),
@@ -82,7 +82,7 @@ impl ConfigurationPicture {
     }
 
     /// Adds a beam in a reference configuration: dotted, and dimmer if there are colours.
-    pub fn ghost(mut self, points: Vec<Point>) -> Self {
+    pub fn reference_beam(mut self, points: Vec<Point>) -> Self {
         self.ghost.push(points);
         self
     }
@@ -129,7 +129,7 @@ impl ConfigurationPicture {
             let (x, y) = window.place(*at);
             let is_seen = |at: f64, last: f64| (-0.5..=last + 0.5).contains(&at);
             if is_seen(x, window.last.0) && is_seen(y, window.last.1) {
-                let (braille, ascii, _) = mark.look();
+                let (braille, ascii, _) = mark.symbols();
                 let (column, row) = (x.round() as usize / ACROSS, y.round() as usize / DOWN);
                 let sign = style.glyphs.choose(braille, ascii);
                 sheet.put(border + column, border + row, sign, TerminalColour::Plain);
@@ -229,7 +229,7 @@ impl ConfigurationPicture {
         let used =
             PictureMark::ALL.into_iter().filter(|mark| self.marks.iter().any(|(m, _)| m == mark));
         let named = used.map(|mark| {
-            let (braille, ascii, name) = mark.look();
+            let (braille, ascii, name) = mark.symbols();
             format!("{} {name}", style.glyphs.choose(braille, ascii))
         });
         named.collect::<Vec<_>>().join("  ")
@@ -266,7 +266,7 @@ mod tests {
     fn picture() -> ConfigurationPicture {
         ConfigurationPicture::new("rod")
             .time(2.5)
-            .ghost(vec![(0.0, 0.0), (4.0, 0.0)])
+            .reference_beam(vec![(0.0, 0.0), (4.0, 0.0)])
             .line(vec![(0.0, 0.0), (3.0, 2.0)])
             .mark(PictureMark::Hinge, (0.0, 0.0))
             .mark(PictureMark::Particle, (3.0, 2.0))
@@ -343,7 +343,7 @@ mod tests {
             for glyphs in [Glyphs::Braille, Glyphs::Ascii] {
                 let style = TerminalStyle { glyphs, width, height, ..PLAIN };
                 let picture = ConfigurationPicture::new(title.clone()).time(mark.0)
-                    .line(line.clone()).ghost(ghost.clone()).mark(PictureMark::Slider, mark);
+                    .line(line.clone()).reference_beam(ghost.clone()).mark(PictureMark::Slider, mark);
                 let text = picture.text(&style);
                 prop_assert!(text.lines().count() <= height.max(1));
                 prop_assert!(text.lines().all(|line| line.chars().count() <= width), "{text}");

@@ -20,7 +20,7 @@ pub fn help(shell: &mut Shell, operand: &str) -> CommandOutcome {
                 let page = explained(command);
                 show(shell, &[drawn(shell, &page)])
             }
-            Err(refusal) => shell.refuse(&refusal),
+            Err(refusal) => shell.report_error(&refusal),
         };
     }
     let mut texts = Vec::new();
@@ -44,7 +44,7 @@ pub fn help(shell: &mut Shell, operand: &str) -> CommandOutcome {
             texts.extend(command.map(|command| drawn(shell, &explained(command))));
             if texts.is_empty() {
                 let told = Diagnostic::general(unknown.to_string());
-                return shell.refuse(&match unknown.is_strange() {
+                return shell.report_error(&match unknown.is_strange() {
                     true => told.with_hint(":help topics lists all topics"),
                     false => told.with_hint(unknown.hint()),
                 });
@@ -88,7 +88,7 @@ fn commands(shell: &mut Shell) -> CommandOutcome {
 fn topics(shell: &mut Shell) -> CommandOutcome {
     match lookup::page(shell.session().catalog(), "") {
         Ok(page) => show(shell, &[drawn(shell, &page)]),
-        Err(unknown) => shell.refuse(&Diagnostic::bug(unknown)),
+        Err(unknown) => shell.report_error(&Diagnostic::internal_error(unknown)),
     }
 }
 

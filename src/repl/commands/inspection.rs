@@ -77,7 +77,7 @@ enum ShownVariable<'a> {
 }
 
 pub fn invariants(shell: &mut Shell, _: &str) -> CommandOutcome {
-    shell.show_of_latest("invariants()")
+    shell.show_latest_result("invariants()")
 }
 
 pub fn view(shell: &mut Shell, operand: &str) -> CommandOutcome {
@@ -93,7 +93,7 @@ pub fn view(shell: &mut Shell, operand: &str) -> CommandOutcome {
 }
 
 pub fn explain(shell: &mut Shell, _: &str) -> CommandOutcome {
-    shell.show_of_latest("explain()")
+    shell.show_latest_result("explain()")
 }
 
 pub fn show(shell: &mut Shell, operand: &str) -> CommandOutcome {
@@ -105,7 +105,7 @@ pub fn show(shell: &mut Shell, operand: &str) -> CommandOutcome {
             Err(_) => {
                 let told = Diagnostic::general(format!("'{time}' is not a time"));
                 let hint = "write :show, :show T with a time up to the present, or :show #{ … } with options of plot_motion";
-                return shell.refuse(&told.with_hint(hint));
+                return shell.report_error(&told.with_hint(hint));
             }
         },
     };
@@ -158,12 +158,12 @@ pub(super) fn options_of(
     text: &str,
     example: &str,
 ) -> Result<Map, CommandOutcome> {
-    match shell.session_mut().peek(text) {
+    match shell.session_mut().evaluate_preview(text) {
         Reply::Value(value) => value.try_cast::<Map>().ok_or_else(|| {
             let told = Diagnostic::general(format!("'{text}' is not a map of options"));
-            shell.refuse(&told.with_hint(format!("for example {example}")))
+            shell.report_error(&told.with_hint(format!("for example {example}")))
         }),
-        failed => Err(shell.tell(failed)),
+        failed => Err(shell.print_reply(failed)),
     }
 }
 
@@ -173,7 +173,8 @@ pub fn along(shell: &mut Shell, operand: &str) -> CommandOutcome {
         let told = Diagnostic::general(format!("there is no quantity '{name}' along beams"));
         let meant = nearest(name, NAMES.iter().copied());
         let meant = meant.map(|name| format!("did you mean {name}? ")).unwrap_or_default();
-        return shell.refuse(&told.with_hint(format!("{meant}quantities: {}", NAMES.join(", "))));
+        return shell
+            .report_error(&told.with_hint(format!("{meant}quantities: {}", NAMES.join(", "))));
     };
     draw(shell, |simulation, screen| {
         let inside = SectionForceProfile::of_simulation(simulation, &[])?;
@@ -190,7 +191,7 @@ pub(super) fn draw(
 ) -> CommandOutcome {
     let latest = match shell.latest() {
         Some(latest) => latest,
-        None => return shell.refuse(&no_simulation()),
+        None => return shell.report_error(&no_simulation()),
     };
     let drawn = picture(&latest.simulation(), shell.screen());
     match drawn {
@@ -198,6 +199,6 @@ pub(super) fn draw(
             shell.print(text.trim_end());
             CommandOutcome::Good
         }
-        Err(error) => shell.refuse_native(error),
+        Err(error) => shell.report_native_error(error),
     }
 }

@@ -130,7 +130,7 @@ fn member(shell: &mut Shell, path: &str) -> Option<NameInfo> {
     if !shell.session().variables().contains(first) || path.contains(['(', '[', '/', ':']) {
         return None;
     }
-    let Reply::Value(value) = shell.session_mut().peek(path) else { return None };
+    let Reply::Value(value) = shell.session_mut().evaluate_preview(path) else { return None };
     let of = with_article(shell.session().engine().map_type_name(value.type_name()));
     let mut page = HelpPage::default();
     page.words(

@@ -6,7 +6,7 @@ use rhai::Map;
 
 use super::inspection::{draw, options_of};
 use crate::repl::curves::{CurveAbscissa, PlotCurve, PlotShape, parts, shape, summary};
-use crate::repl::history_expression::{Followed, follow, moves};
+use crate::repl::history_expression::{Followed, evaluate_history, moves};
 use crate::repl::session::Reply;
 use crate::repl::shell::{CommandOutcome, ReplyTarget, Shell, no_simulation};
 use crate::script::diagnose::Diagnostic;
@@ -69,7 +69,7 @@ fn with_options(operand: &str) -> (&str, Option<&str>) {
 
 fn plot_columns(shell: &mut Shell, columns: &[String]) -> CommandOutcome {
     for name in columns.iter().filter(|name| shell.session().variables().contains(name)) {
-        shell.note(&format!(
+        shell.print_note(&format!(
             "note: '{name}' is a column of the history here; write ({name}) for the variable"
         ));
     }
@@ -86,7 +86,7 @@ fn plot_columns(shell: &mut Shell, columns: &[String]) -> CommandOutcome {
         ReplyTarget::Pipe => column_summaries(simulation.history(), columns),
     });
     if outcome == CommandOutcome::Good {
-        note_one_state(shell);
+        print_single_state_note(shell);
     }
     outcome
 }
@@ -95,9 +95,9 @@ fn has_one_row(shell: &Shell) -> bool {
     shell.latest().is_some_and(|of| of.simulation().history().samples().len() == 1)
 }
 
-fn note_one_state(shell: &mut Shell) {
+fn print_single_state_note(shell: &mut Shell) {
     if has_one_row(shell) && matches!(shell.screen(), ReplyTarget::Terminal(_)) {
-        shell.note("note: there is only one state so far; :run T or :step 10 adds more");
+        shell.print_note("note: there is only one state so far; :run T or :step 10 adds more");
     }
 }
 
@@ -152,13 +152,15 @@ fn plot_curves(shell: &mut Shell, found: Vec<PlotPart>, options: Option<Map>) ->
     };
     if let Some(empty) = curves.iter().find(|curve| !curve.has_points()) {
         let told = format!("'{}' has no finite value", empty.name);
-        return shell.refuse(&Diagnostic::general(told).with_hint("there is nothing to draw"));
+        return shell
+            .report_error(&Diagnostic::general(told).with_hint("there is nothing to draw"));
     }
     if let Some(other) = curves.iter().find(|curve| curve.over != first) {
         let (one, two) = (first.in_words(), other.over.in_words());
         let told =
             format!("'{}' is plotted over {one}, but '{}' over {two}", curves[0].name, other.name);
-        return shell.refuse(&Diagnostic::general(told).with_hint("plot them one after the other"));
+        return shell
+            .report_error(&Diagnostic::general(told).with_hint("plot them one after the other"));
     }
     let is_one_state =
         |curve: &PlotCurve| curve.over == CurveAbscissa::Time && curve.points.len() == 1;
@@ -166,7 +168,7 @@ fn plot_curves(shell: &mut Shell, found: Vec<PlotPart>, options: Option<Map>) ->
     let engine = shell.session().engine();
     let chart = match typed_chart(engine, &options.unwrap_or_default(), first.label(), drawn) {
         Ok(chart) => chart,
-        Err(error) => return shell.refuse_native(error),
+        Err(error) => return shell.report_native_error(error),
     };
     match shell.screen() {
         ReplyTarget::Terminal(_) if curves.iter().any(is_one_state) => {
@@ -177,15 +179,15 @@ fn plot_curves(shell: &mut Shell, found: Vec<PlotPart>, options: Option<Map>) ->
         }
         ReplyTarget::Terminal(style) => shell.print(chart.text(&style).trim_end()),
     }
-    said.iter().for_each(|words| shell.note(words));
-    note_one_state(shell);
+    said.iter().for_each(|words| shell.print_note(words));
+    print_single_state_note(shell);
     CommandOutcome::Good
 }
 
 type PlotData = Result<(Vec<PlotCurve>, Option<String>), CommandOutcome>;
 
 fn columns(shell: &mut Shell, names: &[String]) -> PlotData {
-    let Some(latest) = shell.latest() else { return Err(shell.refuse(&no_simulation())) };
+    let Some(latest) = shell.latest() else { return Err(shell.report_error(&no_simulation())) };
     let simulation = latest.simulation();
     let history = simulation.history();
     let mut curves = Vec::new();
@@ -193,7 +195,7 @@ fn columns(shell: &mut Shell, names: &[String]) -> PlotData {
         let Some(values) = history.column(name) else {
             let told = format!("the history has no column {name:?}");
             let hint = plots::column_hint(history, name);
-            return Err(shell.refuse(&Diagnostic::general(told).with_hint(hint)));
+            return Err(shell.report_error(&Diagnostic::general(told).with_hint(hint)));
         };
         let times = history.samples().iter().map(|row| row.measures.time);
         let points = times.zip(values).collect();
@@ -206,27 +208,27 @@ fn columns(shell: &mut Shell, names: &[String]) -> PlotData {
 fn expression(shell: &mut Shell, text: &str) -> PlotData {
     let subject = match subject(shell, text) {
         Ok(subject) => subject,
-        Err(refusal) => return Err(shell.refuse(&refusal)),
+        Err(refusal) => return Err(shell.report_error(&refusal)),
     };
-    let before = shell.session().whereabouts();
+    let before = shell.session().simulation_positions();
     // Expressions are evaluated on a copy, so that a mistaken step does not move the simulation.
     let present = subject.as_ref().map(Revisit::at_present).transpose();
-    let present = present.map_err(|error| shell.refuse_native(error))?;
+    let present = present.map_err(|error| shell.report_native_error(error))?;
     let place = present.as_ref().map(Revisit::place);
-    let reply = shell.session_mut().peek(text);
+    let reply = shell.session_mut().evaluate_preview(text);
     let has_moved = present.as_ref().map(Revisit::place) != place;
     drop(present);
-    if shell.session_mut().note_moved(&before) || has_moved {
-        return Err(shell.refuse(&moves(text)));
+    if shell.session_mut().record_movement(&before) || has_moved {
+        return Err(shell.report_error(&moves(text)));
     }
     let value = match reply {
         Reply::Value(value) => value,
         Reply::Done => {
             let told = format!("'{text}' has no value");
             let hint = "write it without a semicolon, and as an expression";
-            return Err(shell.refuse(&Diagnostic::general(told).with_hint(hint)));
+            return Err(shell.report_error(&Diagnostic::general(told).with_hint(hint)));
         }
-        failed => return Err(shell.tell(failed)),
+        failed => return Err(shell.print_reply(failed)),
     };
     let of = with_article(shell.session().engine().map_type_name(value.type_name()));
     let is_point = match shape(&value, &of) {
@@ -241,18 +243,18 @@ fn expression(shell: &mut Shell, text: &str) -> PlotData {
                     "plot a number or a vector over time, an array of numbers, a pair of arrays [x, y], or columns: :plot energy"
                 }
             };
-            return Err(shell.refuse(&Diagnostic::general(told).with_hint(hint)));
+            return Err(shell.report_error(&Diagnostic::general(told).with_hint(hint)));
         }
         point => point,
     };
     let alone = |shell: &Shell| {
         let told = format!("'{text}' is a single number, not a curve");
-        shell.refuse(&Diagnostic::general(told).with_hint(
+        shell.report_error(&Diagnostic::general(told).with_hint(
                 "give an array of numbers, or an expression with a simulation, which is plotted over time",
             ))
     };
     let Some(subject) = subject else { return Err(alone(shell)) };
-    let Followed { points, words } = follow(shell, &subject, text)?;
+    let Followed { points, words } = evaluate_history(shell, &subject, text)?;
     let asks = mentions(shell, text).next().is_some();
     let is_flat = points.windows(2).all(|pair| pair[0].1 == pair[1].1);
     if is_flat && !asks && points.len() > 1 {

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use crate::output::write_whole;
+use crate::output::write_atomic;
 use crate::repl::shell::{CommandOutcome, Shell};
 use crate::script::diagnose::Diagnostic;
 use crate::script::source::program::Program;
@@ -11,35 +11,37 @@ pub fn save(shell: &mut Shell, operand: &str) -> CommandOutcome {
     let operand = operand.trim_matches('"');
     if operand.is_empty() {
         let told = Diagnostic::general("the name of a file is missing");
-        return shell.refuse(&told.with_hint("write :save FILE.rhai"));
+        return shell.report_error(&told.with_hint("write :save FILE.rhai"));
     }
     let path = Path::new(operand);
     // Files that this session did not write, or that were edited since, are not overwritten.
     if !shell.may_write(path) {
         let told = format!("'{operand}' exists and was not written by this session");
-        return shell.refuse(&Diagnostic::general(told).with_hint("choose another name"));
+        return shell.report_error(&Diagnostic::general(told).with_hint("choose another name"));
     }
     let script = match shell.session().script() {
         Ok(script) => script,
         Err(why) => {
-            shell.note("the session cannot be saved, because the script would have an error:");
-            return shell.refuse(&why);
+            shell
+                .print_note("the session cannot be saved, because the script would have an error:");
+            return shell.report_error(&why);
         }
     };
     let record = shell.session().record();
     let (redefined, has_returned) = (record.redefined(), record.has_returned());
-    if let Err(error) = write_whole(path, script.as_bytes()) {
-        return shell.refuse(&Diagnostic::general(format!("cannot save the session: {error}")));
+    if let Err(error) = write_atomic(path, script.as_bytes()) {
+        return shell
+            .report_error(&Diagnostic::general(format!("cannot save the session: {error}")));
     }
     for name in redefined {
-        shell.note(&format!(
+        shell.print_note(&format!(
             "'{name}' was defined more than once; the script uses its last definition everywhere"
         ));
     }
     if has_returned {
-        shell.note("inputs with a return statement are saved as comments");
+        shell.print_note("inputs with a return statement are saved as comments");
     }
-    shell.note_saved(path, script);
+    shell.record_saved(path, script);
     shell.print(&format!("saved to {operand}"));
     CommandOutcome::Good
 }
@@ -48,11 +50,11 @@ pub fn load(shell: &mut Shell, operand: &str) -> CommandOutcome {
     let operand = operand.trim_matches('"');
     if operand.is_empty() {
         let told = Diagnostic::general("the name of a file is missing");
-        return shell.refuse(&told.with_hint("write :load FILE.rhai"));
+        return shell.report_error(&told.with_hint("write :load FILE.rhai"));
     }
     match Program::load(Path::new(operand)) {
         Ok(program) => shell.run_program(program),
-        Err(refused) => shell.refuse(&refused.into()),
+        Err(refused) => shell.report_error(&refused.into()),
     }
 }
 

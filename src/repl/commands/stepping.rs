@@ -10,14 +10,14 @@ const MOST_STEPS: f64 = 9e15;
 pub fn step(shell: &mut Shell, operand: &str) -> CommandOutcome {
     let count = match whole(operand, "step") {
         Ok(count) => count,
-        Err(refusal) => return shell.refuse(&refusal),
+        Err(refusal) => return shell.report_error(&refusal),
     };
     if !shell.is_watching() {
         return move_latest(shell, &format!("step({count})"));
     }
     let mut outcome = CommandOutcome::Good;
     for _ in 0..count {
-        outcome = shell.call_latest_watched("step()");
+        outcome = shell.call_latest_and_watch("step()");
         if outcome != CommandOutcome::Good {
             break;
         }
@@ -28,14 +28,14 @@ pub fn step(shell: &mut Shell, operand: &str) -> CommandOutcome {
 pub fn run(shell: &mut Shell, operand: &str) -> CommandOutcome {
     let Ok(end) = operand.parse::<f64>() else {
         let hint = "write :run T with the end time T";
-        return shell.refuse(&not_a_number(operand, "a time").with_hint(hint));
+        return shell.report_error(&not_a_number(operand, "a time").with_hint(hint));
     };
     if !shell.is_watching() || !end.is_finite() || shell.next_stop(end).is_none() {
         return move_latest(shell, &format!("run_to({})", format_number(end)));
     }
     let mut outcome = CommandOutcome::Good;
     while let (CommandOutcome::Good, Some(next)) = (outcome, shell.next_stop(end)) {
-        outcome = shell.call_latest_watched(&format!("run_to({})", format_number(next)));
+        outcome = shell.call_latest_and_watch(&format!("run_to({})", format_number(next)));
     }
     outcome
 }
@@ -43,13 +43,13 @@ pub fn run(shell: &mut Shell, operand: &str) -> CommandOutcome {
 pub fn back(shell: &mut Shell, operand: &str) -> CommandOutcome {
     match whole(operand, "back") {
         Ok(count) => move_latest(shell, &format!("back({count})")),
-        Err(refusal) => shell.refuse(&refusal),
+        Err(refusal) => shell.report_error(&refusal),
     }
 }
 
 pub fn watch(shell: &mut Shell, operand: &str) -> CommandOutcome {
     if operand.is_empty() {
-        shell.watch_nothing();
+        shell.clear_watched();
         return CommandOutcome::Good;
     }
     shell.watch(operand)
@@ -60,7 +60,7 @@ fn move_latest(shell: &mut Shell, call: &str) -> CommandOutcome {
     if outcome == CommandOutcome::Good {
         match shell.is_watching() {
             true => return shell.show_watched(),
-            false => shell.tell_place(),
+            false => shell.print_position(),
         }
     }
     outcome

@@ -11,7 +11,7 @@ use crate::script::diagnose::Diagnostic;
 pub fn time(shell: &mut Shell, operand: &str) -> CommandOutcome {
     if operand.is_empty() {
         let told = Diagnostic::general("no input to time");
-        return shell.refuse(&told.with_hint("write :time followed by an input"));
+        return shell.report_error(&told.with_hint("write :time followed by an input"));
     }
     let before = Footprint::of(shell.session());
     let earlier = shell.session().context().latest_simulation();
@@ -20,8 +20,8 @@ pub fn time(shell: &mut Shell, operand: &str) -> CommandOutcome {
     let outcome = shell.submit(operand);
     let took = clock.now().saturating_sub(begun);
     // A simulation created only for timing, which no variable holds, must not become the last simulation.
-    if let Some(earlier) = earlier.filter(|_| !shell.holds_latest()) {
-        shell.session().context().note_simulation(earlier);
+    if let Some(earlier) = earlier.filter(|_| !shell.has_latest_simulation()) {
+        shell.session().context().set_latest_simulation(earlier);
     }
     if outcome != CommandOutcome::Good {
         return outcome;
@@ -41,36 +41,37 @@ pub fn time(shell: &mut Shell, operand: &str) -> CommandOutcome {
 
 fn repeat(shell: &mut Shell, operand: &str, first: Duration) -> CommandOutcome {
     let first = in_words(first);
-    let (before, places) = (Footprint::of(shell.session()), shell.session().whereabouts());
+    let (before, places) = (Footprint::of(shell.session()), shell.session().simulation_positions());
     let context = shell.session().context().clone();
     let (checks, latest) =
         (context.with_checks(|checks| checks.clone()), context.latest_simulation());
     let mut sampling = Sampling::new(shell.clock());
-    let outcome = context.silently(|| shell.session_mut().peek_in_rounds(operand, &mut sampling));
+    let outcome =
+        context.silently(|| shell.session_mut().evaluate_repeatedly(operand, &mut sampling));
     context.with_checks(|now| *now = checks);
     match latest {
-        Some(latest) => context.note_simulation(latest),
-        None => context.forget_simulations(),
+        Some(latest) => context.set_latest_simulation(latest),
+        None => context.clear_simulations(),
     }
-    shell.session_mut().note_moved(&places);
+    shell.session_mut().record_movement(&places);
     shell.print(&match (sampling.figures(), &outcome) {
-        (Some(figures), Ok(()) | Err(Reply::Interrupted)) => told(&first, &figures),
+        (Some(figures), Ok(()) | Err(Reply::Interrupted)) => report(&first, &figures),
         (_, Err(Reply::Failed(why))) => {
             format!("took {first}, timed once: it fails when repeated: {}", why.message)
         }
         _ => format!("took {first}, timed once"),
     });
     if let Some(change) = before.change(shell.session()) {
-        shell.note(&format!("note: when repeated, it {change}"));
+        shell.print_note(&format!("note: when repeated, it {change}"));
     }
     match outcome {
         Ok(()) | Err(Reply::Failed(_)) => CommandOutcome::Good,
-        Err(stopped) => shell.tell(stopped),
+        Err(stopped) => shell.print_reply(stopped),
     }
 }
 
 /// The first run is reported separately, because it includes loading and other one-time work.
-fn told(first: &str, figures: &Figures) -> String {
+fn report(first: &str, figures: &Figures) -> String {
     let [least, median, low, high] =
         [figures.least, figures.median, figures.quartiles.0, figures.quartiles.1].map(in_words);
     let runs = match figures.runs {

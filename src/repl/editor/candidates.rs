@@ -63,7 +63,7 @@ impl Candidate {
     }
 
     /// Candidate of a key of the options of a script function.
-    pub fn told_key(name: &str, about: &str) -> Self {
+    pub fn option_candidate(name: &str, about: &str) -> Self {
         Self {
             display: name.to_owned(),
             replacement: format!("{name}: "),
@@ -94,13 +94,13 @@ pub fn fitting(typed: &str, candidates: impl IntoIterator<Item = Candidate>) -> 
     let is_prefix = |candidate: &Candidate| candidate.name().starts_with(typed);
     match all.iter().any(is_prefix) {
         true => all.retain(is_prefix),
-        false => all.retain(|candidate| has_in_order(candidate.name(), typed)),
+        false => all.retain(|candidate| is_subsequence(candidate.name(), typed)),
     }
     all
 }
 
 /// Returns true if the letters of `typed` occur in `name` in this order, the first one at the beginning.
-fn has_in_order(name: &str, typed: &str) -> bool {
+fn is_subsequence(name: &str, typed: &str) -> bool {
     let mut letters = name.chars().flat_map(char::to_lowercase);
     let mut wanted = typed.chars().flat_map(char::to_lowercase);
     match wanted.next() {

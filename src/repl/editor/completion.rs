@@ -133,7 +133,7 @@ fn keys(input: &Input, line: &str, surroundings: &CompletionContext) -> Option<V
     let free = expected.keys().into_iter().filter(|key| !given.contains(&key.name));
     let of_library = expected.library_keys().iter();
     let of_library = of_library.filter(|(name, _)| !given.contains(&name.as_str()));
-    let of_library = of_library.map(|(name, about)| Candidate::told_key(name, about));
+    let of_library = of_library.map(|(name, about)| Candidate::option_candidate(name, about));
     Some(free.map(Candidate::key).chain(of_library).collect())
 }
 

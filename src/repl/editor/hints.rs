@@ -27,7 +27,7 @@ impl Hint {
     }
 
     /// A hint of text that can be inserted.
-    pub fn rest(text: &str) -> Option<Self> {
+    pub fn insertable(text: &str) -> Option<Self> {
         (!text.is_empty())
             .then(|| Self { shown: text.to_owned(), insertable: Some(text.to_owned()) })
     }
@@ -72,7 +72,7 @@ pub fn hint(line: &str, position: usize, surroundings: &CompletionContext) -> Op
 fn only_candidate(line: &str, surroundings: &CompletionContext) -> Option<Hint> {
     let (start, candidates) = complete(line, line.len(), surroundings);
     match candidates.as_slice() {
-        [only] => Hint::rest(only.replacement.strip_prefix(&line[start..])?),
+        [only] => Hint::insertable(only.replacement.strip_prefix(&line[start..])?),
         _ => None,
     }
 }

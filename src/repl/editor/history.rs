@@ -25,7 +25,7 @@ pub fn file(setting: Option<OsString>) -> Option<PathBuf> {
 }
 
 /// Returns true if an entry should be stored in the history.
-pub fn is_kept(entry: &str) -> bool {
+pub fn should_store(entry: &str) -> bool {
     !entry.trim().is_empty() && entry.len() <= LONGEST_ENTRY
 }
 
@@ -42,8 +42,8 @@ mod tests {
 
     #[test]
     fn blank_and_enormous_entries_are_not_kept() {
-        assert!(is_kept("let a = 1;"));
-        assert!(!is_kept(" \n "));
-        assert!(!is_kept(&"x".repeat(LONGEST_ENTRY + 1)));
+        assert!(should_store("let a = 1;"));
+        assert!(!should_store(" \n "));
+        assert!(!should_store(&"x".repeat(LONGEST_ENTRY + 1)));
     }
 }

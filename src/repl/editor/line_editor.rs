@@ -116,7 +116,7 @@ impl Editor {
         self.lines.set_helper(Some(assistant));
         match self.lines.readline(prompt) {
             Ok(line) => {
-                self.remember(&line);
+                self.add_to_history(&line);
                 Ok(EditorInput::Line(line))
             }
             Err(ReadlineError::Interrupted) => Ok(EditorInput::Interrupted),
@@ -132,7 +132,7 @@ impl Editor {
     }
 
     /// Returns a problem with the history, once.
-    pub fn take_note(&mut self) -> Option<String> {
+    pub fn take_history_problem(&mut self) -> Option<String> {
         self.note.take()
     }
 
@@ -141,7 +141,7 @@ impl Editor {
         // Reading a pipe or a device would block the session.
         if !file.is_file() {
             let error = ReadlineError::from(io::Error::other("it is not a regular file"));
-            return self.give_up("read", &file, &error);
+            return self.disable_history("read", &file, &error);
         }
         match self.lines.load_history(&file) {
             Ok(()) => {
@@ -149,13 +149,13 @@ impl Editor {
                     entries.extend(self.lines.history().iter().cloned());
                 }
             }
-            Err(error) => self.give_up("read", &file, &error),
+            Err(error) => self.disable_history("read", &file, &error),
         }
     }
 
     /// Adds an entry to the history and writes it to the file at once, so that a killed session loses nothing.
-    fn remember(&mut self, line: &str) {
-        if !history::is_kept(line) || !self.lines.add_history_entry(line).unwrap_or(false) {
+    fn add_to_history(&mut self, line: &str) {
+        if !history::should_store(line) || !self.lines.add_history_entry(line).unwrap_or(false) {
             return;
         }
         if let Ok(mut entries) = self.entries.lock() {
@@ -164,11 +164,11 @@ impl Editor {
         let Some(file) = self.history.clone() else { return };
         let folder = file.parent().map_or(Ok(()), fs::create_dir_all).map_err(ReadlineError::from);
         if let Err(error) = folder.and_then(|()| self.lines.append_history(&file)) {
-            self.give_up("write", &file, &error);
+            self.disable_history("write", &file, &error);
         }
     }
 
-    fn give_up(&mut self, what: &str, file: &Path, error: &ReadlineError) {
+    fn disable_history(&mut self, what: &str, file: &Path, error: &ReadlineError) {
         self.history = None;
         self.note = Some(format!(
             "note: cannot {what} the history file '{}': {error}; the inputs of this session are not stored (WITHY_HISTORY=FILE selects another file)",
@@ -231,10 +231,10 @@ mod tests {
             " secret",
             "fn f() {\n    \"\\\\n\"\n}",
         ] {
-            first.remember(line);
+            first.add_to_history(line);
         }
         let mut second = editor(file.clone());
-        second.remember("f()");
+        second.add_to_history("f()");
         let third = editor(file);
         let entries: Vec<_> = third.lines.history().iter().map(String::as_str).collect();
         assert_eq!(entries, ["let a = 1;", "fn f() {\n    \"\\\\n\"\n}", "f()"]);
@@ -247,16 +247,18 @@ mod tests {
         let file = folder.path().join("picture");
         fs::write(&file, b"\xff\xfe\n").expect("a file");
         let mut unreadable = editor(file.clone());
-        assert!(unreadable.take_note().is_some_and(|note| note.contains("cannot read")));
-        unreadable.remember("let a = 1;");
-        assert_eq!(unreadable.take_note(), None);
+        assert!(unreadable.take_history_problem().is_some_and(|note| note.contains("cannot read")));
+        unreadable.add_to_history("let a = 1;");
+        assert_eq!(unreadable.take_history_problem(), None);
         assert_eq!(fs::read(&file).expect("the file"), b"\xff\xfe\n");
 
         let mut unwritable = editor(file.join("history"));
-        unwritable.remember("let a = 1;");
-        assert!(unwritable.take_note().is_some_and(|note| note.contains("cannot write")));
-        unwritable.remember("let b = 1;");
-        assert_eq!(unwritable.take_note(), None);
+        unwritable.add_to_history("let a = 1;");
+        assert!(
+            unwritable.take_history_problem().is_some_and(|note| note.contains("cannot write"))
+        );
+        unwritable.add_to_history("let b = 1;");
+        assert_eq!(unwritable.take_history_problem(), None);
     }
 
     #[test]

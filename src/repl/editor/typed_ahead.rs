@@ -8,14 +8,14 @@ pub struct TypedAhead(());
 
 impl TypedAhead {
     /// Sets the mode of the terminal; a terminal that refuses is left unchanged.
-    pub fn keep() -> Self {
-        terminal::take();
+    pub fn set_mode() -> Self {
+        terminal::set_raw_mode();
         Self(())
     }
 
     /// Restores the original mode for another program until the result is dropped.
-    pub fn lend() -> TerminalLease {
-        TerminalLease(terminal::give_back())
+    pub fn restore_for_program() -> TerminalLease {
+        TerminalLease(terminal::restore())
     }
 }
 
@@ -25,20 +25,20 @@ pub struct TerminalLease(bool);
 impl Drop for TerminalLease {
     fn drop(&mut self) {
         if self.0 {
-            terminal::take();
+            terminal::set_raw_mode();
         }
     }
 }
 
 impl Drop for TypedAhead {
     fn drop(&mut self) {
-        give_back();
+        restore();
     }
 }
 
 /// Restores the terminal mode; for code that ends the process without unwinding.
-pub fn give_back() {
-    terminal::give_back();
+pub fn restore() {
+    terminal::restore();
 }
 
 #[cfg(unix)]
@@ -52,7 +52,7 @@ mod terminal {
 
     static AS_IT_WAS: Mutex<Option<Termios>> = Mutex::new(None);
 
-    pub fn take() {
+    pub fn set_raw_mode() {
         let Ok(original) = tcgetattr(stdin()) else { return };
         let mut held = original.clone();
         // Without echo, waiting keys are shown once, at the prompt that reads them.
@@ -65,7 +65,7 @@ mod terminal {
     }
 
     /// Restores the terminal mode; returns true if it was changed before.
-    pub fn give_back() -> bool {
+    pub fn restore() -> bool {
         let original = AS_IT_WAS.lock().unwrap_or_else(PoisonError::into_inner).take();
         if let Some(original) = &original {
             // An error means that the terminal is gone.
@@ -79,9 +79,9 @@ mod terminal {
 mod terminal {
     //! On this system keys are events, and none is lost.
 
-    pub fn take() {}
+    pub fn set_raw_mode() {}
 
-    pub fn give_back() -> bool {
+    pub fn restore() -> bool {
         false
     }
 }

@@ -28,7 +28,7 @@ pub trait Keyboard {
     fn rest_of_sequence(&mut self) -> io::Result<Vec<u8>>;
 }
 
-pub use of_system::{KeyboardTerminal, keys_wait};
+pub use of_system::{KeyboardTerminal, has_pending_keys};
 
 #[cfg(unix)]
 mod of_system {
@@ -56,7 +56,7 @@ mod of_system {
     }
 
     /// Returns true if unread keys are waiting.
-    pub fn keys_wait() -> bool {
+    pub fn has_pending_keys() -> bool {
         has_keys(0).unwrap_or(false)
     }
 
@@ -130,7 +130,7 @@ mod of_system {
     }
 
     /// Always false on this system.
-    pub fn keys_wait() -> bool {
+    pub fn has_pending_keys() -> bool {
         false
     }
 

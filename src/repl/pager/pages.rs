@@ -41,7 +41,7 @@ struct Pages<'t> {
 }
 
 impl Pages<'_> {
-    fn go(&mut self, wish: &PagerAction) -> Range<usize> {
+    fn scroll(&mut self, wish: &PagerAction) -> Range<usize> {
         let Range { start, end } = self.shown;
         match wish {
             PagerAction::Page => self.forward(end + self.height),
@@ -84,7 +84,7 @@ impl Pages<'_> {
 ///
 /// # Errors
 /// Fails if the terminal fails.
-pub fn walk(
+pub fn show_pages(
     text: &str,
     lines: usize,
     keys: &mut dyn Keyboard,
@@ -106,9 +106,9 @@ pub fn walk(
         let percent = 100 * pages.shown.end / pages.lines.len();
         write!(out, "-- {percent} % -- {note}")?;
         out.flush()?;
-        let wish = wish(keys, was_interrupted)?;
+        let wish = key_action(keys, was_interrupted)?;
         let searched = match wish {
-            Ok(PagerAction::Search) => ask(&mut pages.word, keys, was_interrupted, out)?,
+            Ok(PagerAction::Search) => read_action(&mut pages.word, keys, was_interrupted, out)?,
             _ => Some(()),
         };
         write!(out, "{CLEAR}")?;
@@ -124,12 +124,12 @@ pub fn walk(
                     pages.shown.end..pages.shown.end
                 })
             }
-            (Ok(wish), _) => pages.go(&wish),
+            (Ok(wish), _) => pages.scroll(&wish),
         };
     }
 }
 
-fn ask(
+fn read_action(
     word: &mut String,
     keys: &mut dyn Keyboard,
     was_interrupted: &dyn Fn() -> bool,
@@ -161,7 +161,7 @@ fn ask(
     Ok(Some(()))
 }
 
-fn wish(
+fn key_action(
     keys: &mut dyn Keyboard,
     was_interrupted: &dyn Fn() -> bool,
 ) -> io::Result<Result<PagerAction, PagerOutcome>> {
@@ -223,7 +223,8 @@ mod tests {
         let text: Vec<String> = (0..10).map(|line| format!("\x1b[1mline\x1b[0m {line}")).collect();
         let mut out = Vec::new();
         let mut keys = Decided(keys.bytes().collect());
-        let shown = walk(&text.join("\n"), 4, &mut keys, &|| false, &mut out).expect("a terminal");
+        let shown =
+            show_pages(&text.join("\n"), 4, &mut keys, &|| false, &mut out).expect("a terminal");
         let written = String::from_utf8(out).expect("text");
         let lines = written.lines().filter_map(|line| line.rsplit_once("line\x1b[0m "));
         (lines.map(|(_, number)| number).collect(), shown)

@@ -24,7 +24,7 @@ pub fn show(program: &str, text: &str, was_interrupted: &dyn Fn() -> bool) -> io
     if env::var_os(LESS.0).is_none() {
         command.env(LESS.0, LESS.1);
     }
-    let lent = TypedAhead::lend();
+    let lent = TypedAhead::restore_for_program();
     let mut child = command.spawn()?;
     if let Some(mut input) = child.stdin.take() {
         let text = format!("{text}\n");

@@ -31,9 +31,9 @@ impl Rounds for Once {
 
 impl Session {
     /// Evaluates an expression without lasting effects, apart from changes of scenes and simulations.
-    pub fn peek(&mut self, text: &str) -> Reply {
+    pub fn evaluate_preview(&mut self, text: &str) -> Reply {
         let mut once = Once::default();
-        match self.peek_in_rounds(text, &mut once) {
+        match self.evaluate_repeatedly(text, &mut once) {
             Ok(()) if once.value.is_unit() => Reply::Done,
             Ok(()) => Reply::Value(once.value),
             Err(failed) => failed,
@@ -44,20 +44,24 @@ impl Session {
     ///
     /// # Errors
     /// The reply to the first evaluation that fails.
-    pub fn peek_in_rounds(&mut self, text: &str, rounds: &mut dyn Rounds) -> Result<(), Reply> {
+    pub fn evaluate_repeatedly(
+        &mut self,
+        text: &str,
+        rounds: &mut dyn Rounds,
+    ) -> Result<(), Reply> {
         let program = self.transcript.typed(text);
         let text = program.text.clone();
         let before = self.transcript.add(program);
         let (checkpoint, library) = (self.checkpoint(), self.library.clone());
         let begun = self.begin(&text, before);
-        let outcome = begun.and_then(|(ast, guard)| self.go_round(&guard, &ast, rounds));
+        let outcome = begun.and_then(|(ast, guard)| self.evaluate_round(&guard, &ast, rounds));
         self.restore(checkpoint);
         self.library = library;
-        self.transcript.forget_last();
+        self.transcript.remove_last();
         outcome
     }
 
-    fn go_round(
+    fn evaluate_round(
         &mut self,
         guard: &Watchdog,
         ast: &AST,

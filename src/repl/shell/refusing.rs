@@ -10,21 +10,23 @@ use crate::script::messages::stop::Stop;
 
 impl Shell {
     /// Reports an error that does not originate in a script.
-    pub fn refuse_native(&mut self, error: ScriptError) -> CommandOutcome {
+    pub fn report_native_error(&mut self, error: ScriptError) -> CommandOutcome {
         match error {
             ScriptError::Failure(failure) => {
                 let hint = failure.hint.clone();
-                self.refuse(&Diagnostic { hint, ..Diagnostic::general(failure.message) })
+                self.report_error(&Diagnostic { hint, ..Diagnostic::general(failure.message) })
             }
-            ScriptError::Stopped(Stop::Interrupt) => self.tell(Reply::Interrupted),
-            ScriptError::Stopped(stop) => self.refuse(&Diagnostic::general(stop.words().0)),
+            ScriptError::Stopped(Stop::Interrupt) => self.print_reply(Reply::Interrupted),
+            ScriptError::Stopped(stop) => {
+                self.report_error(&Diagnostic::general(stop.message_and_hint().0))
+            }
             ScriptError::Engine(error) => match *error {
                 EvalAltResult::ErrorTerminated(token, _) => {
-                    self.refuse_native(ScriptError::Stopped(Stop::of_token(&token)))
+                    self.report_native_error(ScriptError::Stopped(Stop::of_token(&token)))
                 }
-                other => self.refuse(&Diagnostic::general(other.to_string())),
+                other => self.report_error(&Diagnostic::general(other.to_string())),
             },
-            ScriptError::Bug(message) => self.refuse(&Diagnostic::bug(message)),
+            ScriptError::Bug(message) => self.report_error(&Diagnostic::internal_error(message)),
         }
     }
 }

@@ -22,7 +22,7 @@ impl Shell {
     }
 
     /// Removes all watched expressions.
-    pub fn watch_nothing(&mut self) {
+    pub fn clear_watched(&mut self) {
         self.watched.clear();
     }
 
@@ -33,9 +33,9 @@ impl Shell {
             parts.push(format!("t = {}", significant(latest.time(), 10)));
         }
         for expression in self.watched.clone() {
-            let before = self.session.whereabouts();
-            let reply = self.session.peek(&expression);
-            let has_moved = self.session.note_moved(&before);
+            let before = self.session.simulation_positions();
+            let reply = self.session.evaluate_preview(&expression);
+            let has_moved = self.session.record_movement(&before);
             let told = match reply {
                 Reply::Value(_) | Reply::Done if has_moved => {
                     let told =
@@ -54,10 +54,10 @@ impl Shell {
                     continue;
                 }
                 Reply::Failed(diagnostic) => diagnostic,
-                other => return self.tell(other),
+                other => return self.print_reply(other),
             };
             self.watched.retain(|other| *other != expression);
-            return self.refuse(&told);
+            return self.report_error(&told);
         }
         if !self.watched.is_empty() {
             self.print(&parts.join("   "));

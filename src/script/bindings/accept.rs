@@ -9,7 +9,7 @@ use super::type_hints;
 use crate::geometry::Vec2;
 use crate::script::messages::error::{CallPart, ScriptError};
 use crate::script::messages::nouns::type_word;
-use crate::script::messages::numbers::{as_number, as_whole, describe};
+use crate::script::messages::numbers::{as_integer, as_number, describe};
 use crate::system::refusal_of_name;
 
 /// Converts `value` to the form that native bodies read: numbers to `f64`, points to [`Vec2`], option maps to [`Options`].
@@ -50,7 +50,7 @@ fn convert(engine: &Engine, owner: &str, kind: &Kind, value: Dynamic) -> Convers
         Kind::Anything => Some(value.clone()),
         Kind::Number(range) => as_number(&value).filter(|x| range.contains(*x)).map(Dynamic::from),
         Kind::Whole(range) => {
-            as_whole(&value).filter(|n| range.contains(*n as f64)).map(Dynamic::from)
+            as_integer(&value).filter(|n| range.contains(*n as f64)).map(Dynamic::from)
         }
         Kind::Numeric => as_number(&value).is_some().then(|| value.clone()),
         Kind::Text => value.is_string().then(|| value.clone()),
@@ -157,7 +157,7 @@ fn is_infinite_or_nan(value: &Dynamic) -> bool {
 }
 
 /// Moves an error to argument `number`, unless it already points at a key.
-pub fn blame_argument(error: ScriptError, number: usize) -> ScriptError {
+pub fn at_argument(error: ScriptError, number: usize) -> ScriptError {
     match error {
         ScriptError::Failure(failure) if failure.place == CallPart::Call => {
             ScriptError::Failure(failure).at(CallPart::Argument(number))

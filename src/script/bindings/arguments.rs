@@ -32,7 +32,7 @@ impl Arguments {
     }
 
     /// Names of the arguments that have a value.
-    pub fn given(&self) -> impl Iterator<Item = &'static str> {
+    pub fn present_names(&self) -> impl Iterator<Item = &'static str> {
         let pairs = self.parameters.iter().zip(&self.values);
         pairs.filter(|(_, value)| value.is_some()).map(|(parameter, _)| parameter.name)
     }
@@ -43,40 +43,40 @@ impl Arguments {
 
     /// The argument as a number.
     pub fn number(&self, name: &str) -> Result<f64, ScriptError> {
-        self.find(name)?.as_float().map_err(|held| wrong_read(name, held))
+        self.find(name)?.as_float().map_err(|held| wrong_type_read(name, held))
     }
 
     /// The argument as a number, if present.
-    pub fn number_if_given(&self, name: &str) -> Option<f64> {
+    pub fn optional_number(&self, name: &str) -> Option<f64> {
         self.number(name).ok()
     }
 
     /// The argument as an integer.
-    pub fn whole(&self, name: &str) -> Result<INT, ScriptError> {
-        self.find(name)?.as_int().map_err(|held| wrong_read(name, held))
+    pub fn integer(&self, name: &str) -> Result<INT, ScriptError> {
+        self.find(name)?.as_int().map_err(|held| wrong_type_read(name, held))
     }
 
     /// The argument as a count; the parameter must exclude negative numbers.
     pub fn count(&self, name: &str) -> Result<usize, ScriptError> {
-        usize::try_from(self.whole(name)?).map_err(|_| wrong_read(name, "a negative number"))
+        usize::try_from(self.integer(name)?).map_err(|_| wrong_type_read(name, "a negative number"))
     }
 
     /// The argument as a text.
     pub fn text(&self, name: &str) -> Result<ImmutableString, ScriptError> {
-        self.find(name)?.clone().into_immutable_string().map_err(|held| wrong_read(name, held))
+        self.find(name)?.clone().into_immutable_string().map_err(|held| wrong_type_read(name, held))
     }
 
     /// The argument as a text, if present.
     ///
     /// # Errors
     /// Fails if it is not a text, which the parameter must exclude.
-    pub fn text_if_given(&self, name: &str) -> Result<Option<String>, ScriptError> {
+    pub fn optional_text(&self, name: &str) -> Result<Option<String>, ScriptError> {
         self.has(name).then(|| self.text(name).map(String::from)).transpose()
     }
 
     /// The argument as a boolean.
     pub fn boolean(&self, name: &str) -> Result<bool, ScriptError> {
-        self.find(name)?.as_bool().map_err(|held| wrong_read(name, held))
+        self.find(name)?.as_bool().map_err(|held| wrong_type_read(name, held))
     }
 
     /// The argument as a point or vector.
@@ -121,7 +121,7 @@ impl Arguments {
 
     /// The argument as a value of a native type. Handles are cheap to clone.
     pub fn get<T: Clone + 'static>(&self, name: &str) -> Result<T, ScriptError> {
-        self.find(name)?.clone().try_cast().ok_or_else(|| wrong_read(name, "another type"))
+        self.find(name)?.clone().try_cast().ok_or_else(|| wrong_type_read(name, "another type"))
     }
 
     /// The argument as a value of a native type, if it is present and of that type.
@@ -137,13 +137,15 @@ impl Arguments {
     fn find(&self, name: &str) -> Result<&Dynamic, ScriptError> {
         let index = self.parameters.iter().position(|parameter| parameter.name == name);
         index.and_then(|index| self.values.get(index)?.as_ref()).ok_or_else(|| {
-            ScriptError::bug(format!("a body reads '{name}', which its row does not promise"))
+            ScriptError::internal_error(format!(
+                "a body reads '{name}', which its row does not promise"
+            ))
         })
     }
 }
 
-fn wrong_read(name: &str, held: &str) -> ScriptError {
-    ScriptError::bug(format!(
+fn wrong_type_read(name: &str, held: &str) -> ScriptError {
+    ScriptError::internal_error(format!(
         "a body reads '{name}' as something else than its row says; it holds {held}"
     ))
 }

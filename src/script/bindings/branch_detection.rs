@@ -10,25 +10,25 @@ mod jumps;
 mod search;
 
 /// Warns once per position of a function that branches on its argument and on a variable that depends on a parameter of a scene.
-pub fn tell(native: &NativeCallContext, context: &Context, given: &[Dynamic]) {
-    given.iter().for_each(|value| tell_of(native, context, value));
+pub fn warn_once(native: &NativeCallContext, context: &Context, given: &[Dynamic]) {
+    given.iter().for_each(|value| warn_about(native, context, value));
 }
 
-fn tell_of(native: &NativeCallContext, context: &Context, value: &Dynamic) {
+fn warn_about(native: &NativeCallContext, context: &Context, value: &Dynamic) {
     if let Some(map) = value.read_lock::<Map>() {
-        return map.values().for_each(|element| tell_of(native, context, element));
+        return map.values().for_each(|element| warn_about(native, context, element));
     }
     if let Some(array) = value.read_lock::<Array>() {
-        return array.iter().for_each(|element| tell_of(native, context, element));
+        return array.iter().for_each(|element| warn_about(native, context, element));
     }
     let Some(function) = value.read_lock::<FnPtr>() else { return };
-    let family = function.curry().iter().find_map(VariantValue::family_of);
+    let family = function.curry().iter().find_map(VariantValue::parameter_set_of);
     let Some(family) = family else { return };
     let Some(found) = Decision::find(native, &function) else { return };
     let (line, column) = (found.at.line().unwrap_or(0), found.at.position().unwrap_or(0));
-    if family.is_told_first(line, column) {
+    if family.is_first_report(line, column) {
         let Decision { parameter, sign, .. } = found;
-        context.tell(&format!(
+        context.print_message(&format!(
             "note: line {line}, column {column}: {sign} compares with '{parameter}', which \
             depends on a parameter: if the function jumps there, derivatives are wrong; \
             compare with plain numbers, or use value_of(…)"

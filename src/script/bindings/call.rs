@@ -57,7 +57,7 @@ impl<'c, 'r> Call<'c, 'r> {
             .as_ref()
             .and_then(|value| value.read_lock::<T>().map(|held| held.clone()));
         receiver.ok_or_else(|| {
-            ScriptError::bug(format!("'{}' has no receiver of its type", self.row.name))
+            ScriptError::internal_error(format!("'{}' has no receiver of its type", self.row.name))
         })
     }
 
@@ -68,8 +68,9 @@ impl<'c, 'r> Call<'c, 'r> {
     ) -> Result<(), ScriptError> {
         let name = self.row.name;
         let receiver = self.receiver.as_mut().and_then(|value| value.write_lock::<T>());
-        let mut receiver = receiver
-            .ok_or_else(|| ScriptError::bug(format!("'{name}' has no receiver of its type")))?;
+        let mut receiver = receiver.ok_or_else(|| {
+            ScriptError::internal_error(format!("'{name}' has no receiver of its type"))
+        })?;
         change(&mut receiver);
         Ok(())
     }

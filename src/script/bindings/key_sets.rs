@@ -33,10 +33,10 @@ impl<T: Copy> KeySets<T> {
     /// Fails if a key of the set is missing, or a key of another set is given.
     pub fn choose(&self, owner: &str, options: &Options) -> Result<T, ScriptError> {
         let Some(meant) = self.meant(options) else {
-            return Err(ScriptError::bug(format!("{owner} has no sets of keys")));
+            return Err(ScriptError::internal_error(format!("{owner} has no sets of keys")));
         };
         let odd: Vec<&str> = options
-            .given()
+            .present_names()
             .filter(|key| !meant.keys.contains(key) && !self.besides.contains(key))
             .collect();
         match odd.first() {

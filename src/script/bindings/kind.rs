@@ -30,7 +30,7 @@ pub trait Scripted: Clone + 'static {
     }
 
     /// Parameters that the value, or its scene, depends on.
-    fn family(&self) -> Option<Rc<ParameterSet>> {
+    fn parameter_set(&self) -> Option<Rc<ParameterSet>> {
         None
     }
 
@@ -114,8 +114,8 @@ impl Type {
 
 fn register<T: Scripted>(engine: &mut Engine) {
     engine.register_type_with_name::<T>(T::NAME);
-    parameter_variants::know(TypeId::of::<T>(), T::NAME, |value| {
-        value.read_lock::<T>().and_then(|of| of.family())
+    parameter_variants::register_type(TypeId::of::<T>(), T::NAME, |value| {
+        value.read_lock::<T>().and_then(|of| of.parameter_set())
     });
     for name in ["to_string", "to_debug"] {
         engine.register_fn(name, |value: &mut T| value.show());

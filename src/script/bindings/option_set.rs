@@ -118,12 +118,12 @@ pub const fn both<const N: usize>(
 mod tests {
     use super::*;
     use crate::script::bindings::options::Options;
-    use crate::script::bindings::parameter::{Presence, number, text, whole};
+    use crate::script::bindings::parameter::{Presence, integer, number, text};
 
     option_set! {
         struct GeneratedFields {
             width: f64 = number("width").or(Presence::Number(2.0)),
-            count: usize = whole("count").or(Presence::Whole(3)),
+            count: usize = integer("count").or(Presence::Whole(3)),
             title: Option<String> = text("title").optional(),
         }
     }

@@ -55,8 +55,8 @@ impl Options {
 
     pub(super) fn missing(&self, owner: &str, name: &str, told: &str) -> ScriptError {
         match self.arguments.parameter(name) {
-            Some(key) => missing(owner, name, &format!("{}; {told}", asked_for(key))),
-            None => ScriptError::bug(format!("{owner} has no option '{name}'")),
+            Some(key) => missing(owner, name, &format!("{}; {told}", expected_key_text(key))),
+            None => ScriptError::internal_error(format!("{owner} has no option '{name}'")),
         }
     }
 }
@@ -70,7 +70,7 @@ fn value_of(
     match map.get(key.name) {
         Some(value) => accept(engine, owner, key, value.clone().flatten())
             .map(Some)
-            .map_err(|error| blame_key(error, key.name)),
+            .map_err(|error| at_key(error, key.name)),
         None if key.is_required() => Err(missing_key(owner, key)),
         None => Ok(None),
     }
@@ -85,7 +85,7 @@ fn unknown_key(owner: &str, keys: &[Parameter], unknown: &str) -> ScriptError {
 }
 
 fn missing_key(owner: &str, key: &Parameter) -> ScriptError {
-    missing(owner, key.name, &asked_for(key))
+    missing(owner, key.name, &expected_key_text(key))
 }
 
 fn missing(owner: &str, name: &str, what_to_add: &str) -> ScriptError {
@@ -96,13 +96,13 @@ fn missing(owner: &str, name: &str, what_to_add: &str) -> ScriptError {
 fn alone(owner: &str, keys: &[Parameter], key: &Parameter) -> ScriptError {
     let Parameter { name, beside, .. } = key;
     let other = keys.iter().find(|other| other.name == *beside);
-    let other = other.map_or_else(|| (*beside).to_owned(), asked_for);
+    let other = other.map_or_else(|| (*beside).to_owned(), expected_key_text);
     ScriptError::new(format!("{owner}: the option '{name}' requires the option '{beside}'"))
         .hint(format!("add {other}, or omit {name}"))
         .at(CallPart::Key((*name).to_owned()))
 }
 
-fn asked_for(key: &Parameter) -> String {
+fn expected_key_text(key: &Parameter) -> String {
     let meaning = if key.doc.is_empty() { String::new() } else { format!(" ({})", key.doc) };
     format!("{}: {}{meaning}", key.name, key.expectation())
 }
@@ -116,7 +116,7 @@ fn list(keys: &[Parameter]) -> String {
 }
 
 /// Moves an error to the key, unless it points at a key of a nested map.
-fn blame_key(error: ScriptError, key: &str) -> ScriptError {
+fn at_key(error: ScriptError, key: &str) -> ScriptError {
     match error {
         ScriptError::Failure(failure) if failure.place == CallPart::Call => {
             ScriptError::Failure(failure).at(CallPart::Key(key.to_owned()))

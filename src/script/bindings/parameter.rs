@@ -49,7 +49,7 @@ pub const fn numeric(name: &'static str) -> Parameter {
 }
 
 /// Parameter of an integer.
-pub const fn whole(name: &'static str) -> Parameter {
+pub const fn integer(name: &'static str) -> Parameter {
     Parameter::new(name, Kind::Whole(NumberRange::Finite))
 }
 
@@ -114,7 +114,7 @@ pub const fn either(name: &'static str, kinds: &'static [Kind]) -> Parameter {
 }
 
 /// Parameter of any value.
-pub const fn anything(name: &'static str) -> Parameter {
+pub const fn of_any_type(name: &'static str) -> Parameter {
     Parameter::new(name, Kind::Anything)
 }
 
@@ -139,7 +139,7 @@ impl Parameter {
     }
 
     /// Allows infinity and NaN, for functions about such numbers.
-    pub const fn any_number(self) -> Self {
+    pub const fn allow_non_finite(self) -> Self {
         self.within(NumberRange::Unlimited)
     }
 
@@ -177,7 +177,7 @@ impl Parameter {
     }
 
     /// Requires another key of the same map.
-    pub const fn beside(mut self, other: &'static str) -> Self {
+    pub const fn requires_key(mut self, other: &'static str) -> Self {
         self.beside = other;
         self
     }

@@ -4,13 +4,13 @@ use std::any::TypeId;
 
 use rhai::{Array, Dynamic, Engine, INT, ImmutableString, NativeCallContext};
 
-use super::accept::{accept, blame_argument};
+use super::accept::{accept, at_argument};
 use super::arguments::Arguments;
 use super::branch_detection;
 use super::call::Call;
 use super::kind::{Kind, Type};
 use super::parameter::Parameter;
-use super::parameter_variants::{Lifting, ParameterSet, lift, lifting_of, present};
+use super::parameter_variants::{Lifting, ParameterSet, evaluate_variants, lifting_of, present};
 use super::table::{
     BindingTable, CallSyntax, FunctionBinding, NativeFunction, Setter, getter_of, setter_of,
 };
@@ -22,7 +22,7 @@ use crate::script::state::context::Context;
 pub fn register(engine: &mut Engine, table: &'static BindingTable, context: &Context) {
     for of in table.types {
         of.register(engine);
-        context.know(of.busy());
+        context.register_busy_check(of.busy());
     }
     for row in table.rows {
         register_row(engine, row, lifting_of(table, row), context);
@@ -194,9 +194,9 @@ fn called(
     };
     let given: Vec<Dynamic> = given.collect();
     if binding.lifting == Lifting::Each && present().is_none() {
-        branch_detection::tell(native, context, &given);
+        branch_detection::warn_once(native, context, &given);
     }
-    lift((row, binding.lifting), receiver, (parameters, given), again)
+    evaluate_variants((row, binding.lifting), receiver, (parameters, given), again)
 }
 
 fn make(
@@ -213,7 +213,7 @@ fn make(
         .map(|(number, (parameter, value))| {
             accept(native.engine(), row.name, parameter, value)
                 .map(Some)
-                .map_err(|error| blame_argument(error, number))
+                .map_err(|error| at_argument(error, number))
         })
         .collect::<Result<_, _>>()?;
     body(&mut Call::new(row, context, native, receiver, Arguments::new(parameters, accepted)))

@@ -182,13 +182,13 @@ impl Returns {
     }
 
     /// Replaces the description of the kind: `an angle from -PI to PI`.
-    pub const fn words(mut self, words: &'static str) -> Self {
+    pub const fn with_description(mut self, words: &'static str) -> Self {
         self.words = words;
         self
     }
 
     /// Adds text after kind and dimension, including a leading blank or comma.
-    pub const fn note(mut self, note: &'static str) -> Self {
+    pub const fn with_remark(mut self, note: &'static str) -> Self {
         self.note = note;
         self
     }
@@ -223,12 +223,15 @@ mod tests {
         for (returns, words) in [
             (Returns::NOTHING, ""),
             (Returns::NUMBER.unit("time"), "a number [time]"),
-            (Returns::NUMBER.note(", whole if x is"), "a number, whole if x is"),
-            (Returns::NUMBER.words("an angle from -PI to PI"), "an angle from -PI to PI"),
+            (Returns::NUMBER.with_remark(", whole if x is"), "a number, whole if x is"),
+            (
+                Returns::NUMBER.with_description("an angle from -PI to PI"),
+                "an angle from -PI to PI",
+            ),
             (Returns::TRUTH, "true or false"),
             (Returns::ANYTHING, "a value"),
             (Returns::ANYTHING_OR_NOTHING, "a value or nothing"),
-            (Returns::ARRAY.note(" [a, b]"), "an array [a, b]"),
+            (Returns::ARRAY.with_remark(" [a, b]"), "an array [a, b]"),
             (Returns::array_of(&ValueKind::Map), "an array of maps"),
             (Returns::NUMBERS.unit("rad/time"), "an array of numbers [rad/time]"),
         ] {

@@ -75,12 +75,12 @@ impl Sources {
     }
 
     /// Records the text of an imported file.
-    pub fn note_text(&self, file: &str, content: &[u8]) {
+    pub fn record_import(&self, file: &str, content: &[u8]) {
         self.imported.borrow_mut().insert(file.to_owned(), crc32fast::hash(content));
     }
 
     /// Checksum of the texts of all imported files.
-    pub fn imprint(&self) -> u64 {
+    pub fn checksum(&self) -> u64 {
         let imported = self.imported.borrow();
         imported.values().fold(imported.len() as u64, |sum, one| {
             sum.rotate_left(7).wrapping_mul(0x100_0000_01b3) ^ u64::from(*one)
@@ -88,7 +88,7 @@ impl Sources {
     }
 
     /// Records the functions and closures of a file.
-    pub fn note(&self, ast: &AST, source: &str) {
+    pub fn record_file(&self, ast: &AST, source: &str) {
         let mut known = self.functions.borrow_mut();
         for function in ast.iter_functions() {
             known.entry(function.name.to_owned()).or_default().insert(source.to_owned());

@@ -186,7 +186,7 @@ impl FunctionBinding {
     }
 
     /// Sets related names.
-    pub const fn see(mut self, see: &'static [&'static str]) -> Self {
+    pub const fn with_related(mut self, see: &'static [&'static str]) -> Self {
         self.see = see;
         self
     }

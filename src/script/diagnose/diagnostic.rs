@@ -81,7 +81,7 @@ impl Diagnostic {
     }
 
     /// An internal error.
-    pub fn bug(message: impl fmt::Display) -> Self {
+    pub fn internal_error(message: impl fmt::Display) -> Self {
         let mut diagnostic = Self::general(format!("internal error of withy: {message}"));
         diagnostic.hint = Some(
             "this is a bug in withy, not in your script; please report it with the script".into(),
@@ -114,7 +114,7 @@ impl Diagnostic {
     }
 
     /// Location as `file:line:column`, for tests and editors.
-    pub fn place(&self) -> Option<String> {
+    pub fn location_text(&self) -> Option<String> {
         self.location.as_ref().map(|at| format!("{}:{}:{}", at.program.name, at.line, at.column))
     }
 }

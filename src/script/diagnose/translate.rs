@@ -74,10 +74,10 @@ impl Explainer<'_> {
         if let EvalAltResult::ErrorSystem(message, mark) = inner
             && mark.to_string() == BUG
         {
-            return Diagnostic { trace, ..Diagnostic::bug(message) };
+            return Diagnostic { trace, ..Diagnostic::internal_error(message) };
         }
         if let EvalAltResult::ErrorParsing(kind, at) = inner
-            && let Some(cure) = foreign_syntax::cure(&program, self.catalog, kind, *at)
+            && let Some(cure) = foreign_syntax::explain(&program, self.catalog, kind, *at)
         {
             let location = match cure.at.is_none() {
                 true => Some(locate::end_of(&program, &program.text)),
@@ -195,7 +195,7 @@ impl Explainer<'_> {
             }
             Error::ErrorModuleNotFound(name, _) => unknown.module(name),
             Error::ErrorPropertyNotFound(key, _) => missing_key(key, outline),
-            Error::ErrorRuntime(payload, _) => self.thrown(payload),
+            Error::ErrorRuntime(payload, _) => self.diagnose_thrown(payload),
             Error::ErrorMismatchDataType(wanted, got, _)
             | Error::ErrorMismatchOutputType(wanted, got, _) => mismatch(wanted, got),
             Error::ErrorArrayBounds(length, index, _) => {
@@ -250,7 +250,7 @@ impl Explainer<'_> {
                     scene.record(\"height\", |q| q.position(parts.tip).y); {STEERED}"
                 )),
             ),
-            Error::ErrorTerminated(stop, _) => Stop::of_token(stop).words(),
+            Error::ErrorTerminated(stop, _) => Stop::of_token(stop).message_and_hint(),
             Error::ErrorSystem(message, cause) => {
                 (format!("{message} {cause}").trim().to_owned(), None)
             }
@@ -292,7 +292,7 @@ impl Explainer<'_> {
         (message, Some(hint))
     }
 
-    fn thrown(&self, payload: &Dynamic) -> Diagnosis {
+    fn diagnose_thrown(&self, payload: &Dynamic) -> Diagnosis {
         if let Some(failure) = payload.read_lock::<Failure>() {
             return (failure.message.clone(), failure.hint.clone());
         }

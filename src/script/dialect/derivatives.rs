@@ -7,8 +7,9 @@ use rhai::{Dynamic, Engine, NativeCallContext};
 
 use crate::elementary::power;
 use crate::script::bindings::parameter_variants::{
-    NonsmoothCheck, ParameterSet, VariantValue, at_multiples, corner_of, gathered,
-    gathered_without, near_zero_base, near_zero_divisor, present, present_variant,
+    NonsmoothCheck, ParameterSet, VariantValue, at_multiples, combined,
+    combined_without_derivatives, corner_of, near_zero_base, near_zero_divisor, present,
+    present_variant,
 };
 use crate::script::messages::error::{EngineResult, ScriptError};
 use crate::script::messages::numbers::as_number;
@@ -26,7 +27,7 @@ impl OnNumbers {
         Self { of, corner: None }
     }
 
-    const fn rough(of: fn(f64, f64) -> f64, corner: NonsmoothCheck) -> Self {
+    const fn nonsmooth(of: fn(f64, f64) -> f64, corner: NonsmoothCheck) -> Self {
         Self { of, corner: Some(corner) }
     }
 }
@@ -37,10 +38,10 @@ pub fn install(engine: &mut Engine) {
         ("+".into(), OnNumbers::smooth(|x, y| x + y)),
         ("-".into(), OnNumbers::smooth(|x, y| x - y)),
         ("*".into(), OnNumbers::smooth(|x, y| x * y)),
-        ("%".into(), OnNumbers::rough(|x, y| x % y, at_multiples)),
-        (format!("{OWN}/"), OnNumbers::rough(|x, y| x / y, near_zero_divisor)),
+        ("%".into(), OnNumbers::nonsmooth(|x, y| x % y, at_multiples)),
+        (format!("{OWN}/"), OnNumbers::nonsmooth(|x, y| x / y, near_zero_divisor)),
     ];
-    let raised = OnNumbers::rough(power, near_zero_base);
+    let raised = OnNumbers::nonsmooth(power, near_zero_base);
     let powers = (0..LONGEST_CHAIN).map(|chain| (power_name(chain), raised));
     for (name, numbers) in arithmetic.into_iter().chain(powers) {
         for types in with_one() {
@@ -122,8 +123,8 @@ fn in_each(
     let sign = name.trim_start_matches(OWN).trim_end_matches(|of: char| of.is_ascii_digit());
     let corner = numbers.corner.and_then(|corner| corner_of((sign, corner), &family, &given));
     let gathered: Result<Dynamic, ScriptError> = match corner {
-        Some(reason) => gathered_without(&family, &all, reason),
-        None => gathered(&family, &all, &[&given[0], &given[1]]),
+        Some(reason) => combined_without_derivatives(&family, &all, reason),
+        None => combined(&family, &all, &[&given[0], &given[1]]),
     };
     gathered.map_err(|error| error.into_engine(position))
 }

@@ -22,7 +22,7 @@ pub fn install(engine: &mut Engine) {
             return Ok(());
         };
         for (index, element) in array.iter_mut().enumerate() {
-            let _ = asked.about(index, element)?;
+            let _ = asked.call_function(index, element)?;
         }
         Ok(())
     });
@@ -41,7 +41,7 @@ fn install_searches(engine: &mut Engine) {
         let (mut array, test) = array_and_test(values)?;
         let asked = ElementCallback::new(&native, &test);
         for (index, element) in array.iter_mut().enumerate() {
-            if !asked.whether(index, element)? {
+            if !asked.test_element(index, element)? {
                 return Ok(false);
             }
         }
@@ -66,7 +66,7 @@ fn search(engine: &mut Engine, name: &str, give: fn(&Array, Option<usize>) -> Dy
                 let asked = ElementCallback::new(&native, &test);
                 let mut found = None;
                 for (index, element) in array.iter_mut().enumerate().skip(first) {
-                    if asked.whether(index, element)? {
+                    if asked.test_element(index, element)? {
                         found = Some(index);
                         break;
                     }
@@ -117,7 +117,7 @@ fn part_array(
     let asked = ElementCallback::new(native, &test);
     let (mut passed, mut others) = (Array::new(), Array::new());
     for (index, mut element) in array.into_iter().enumerate() {
-        let is_passed = asked.whether(index, &mut element)?;
+        let is_passed = asked.test_element(index, &mut element)?;
         if is_passed { &mut passed } else { &mut others }.push(element);
     }
     Ok((passed.into(), others.into()))
@@ -158,7 +158,9 @@ fn array_and_test(values: &[&mut Dynamic]) -> EngineResult<(Array, FnPtr)> {
 fn function_of(values: &[&mut Dynamic]) -> EngineResult<FnPtr> {
     // The engine calls with these types only.
     let function = values.get(1).and_then(|function| (**function).clone().try_cast::<FnPtr>());
-    function.ok_or_else(|| ScriptError::bug("a test is no function").into_engine(Position::NONE))
+    function.ok_or_else(|| {
+        ScriptError::internal_error("a test is no function").into_engine(Position::NONE)
+    })
 }
 
 #[derive(Clone, Copy)]
@@ -181,7 +183,7 @@ impl<'a> ElementCallback<'a> {
     }
 
     /// Calls the function for an element. The number of its arguments is determined on the first call.
-    fn about(&self, index: usize, element: &mut Dynamic) -> EngineResult<Dynamic> {
+    fn call_function(&self, index: usize, element: &mut Dynamic) -> EngineResult<Dynamic> {
         if let Some(given) = self.given.get() {
             return self.call(given, index, element);
         }
@@ -229,8 +231,8 @@ impl<'a> ElementCallback<'a> {
         )
     }
 
-    fn whether(&self, index: usize, element: &mut Dynamic) -> EngineResult<bool> {
-        truth(self.native, &self.about(index, element)?)
+    fn test_element(&self, index: usize, element: &mut Dynamic) -> EngineResult<bool> {
+        truth(self.native, &self.call_function(index, element)?)
     }
 }
 

@@ -8,7 +8,7 @@ use crate::script::bindings::sources::Sources;
 use crate::script::bindings::table::CallSyntax;
 use crate::script::messages::error::ScriptError;
 use crate::script::source::definitions::{Definition, definitions};
-use crate::script::source::text::{Source, behind, name_of};
+use crate::script::source::text::{Source, moved_down, name_of};
 
 /// Checks the functions of `source`, which starts after `lines_before` lines of a file with the top-level `variables` and their lines.
 ///
@@ -91,7 +91,7 @@ impl NamedFunction<'_> {
     }
 
     fn place(&self, at: Position) -> Position {
-        behind(at, self.lines_before)
+        moved_down(at, self.lines_before)
     }
 
     fn names(&self) -> impl Iterator<Item = (&str, Position)> {

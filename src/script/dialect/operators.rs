@@ -37,10 +37,10 @@ pub fn install(engine: &mut Engine) {
     engine.register_fn(format!("{OWN}<<"), shifted_up);
     engine.register_fn(format!("{OWN}>>"), shifted_down);
     for (symbol, _) in REPLACED {
-        hand_over(engine, format!("{OWN}{symbol}"), symbol);
+        forward_to_engine(engine, format!("{OWN}{symbol}"), symbol);
     }
     for chain in 0..LONGEST_CHAIN {
-        hand_over(engine, power_name(chain), "^");
+        forward_to_engine(engine, power_name(chain), "^");
     }
     register_assignment(engine, "/=", format!("{OWN}/"));
     register_assignment(engine, "**=", power_name(0));
@@ -147,7 +147,7 @@ fn shift(places: INT) -> EngineResult<INT> {
 }
 
 /// Forwards all operands except two numbers to the engine's operator `symbol`.
-fn hand_over(engine: &mut Engine, name: String, symbol: &'static str) {
+fn forward_to_engine(engine: &mut Engine, name: String, symbol: &'static str) {
     let any_two = [TypeId::of::<Dynamic>(); 2];
     engine.register_raw_fn(
         name,

@@ -21,13 +21,13 @@ pub fn install(engine: &mut Engine) {
 }
 
 fn judge(engine: &Engine, value: &Dynamic) -> Result<(), ScriptError> {
-    if VariantValue::family_of(value).is_some() {
+    if VariantValue::parameter_set_of(value).is_some() {
         let told = "switch cannot compare a value that depends on a parameter of a scene";
         let hint = "use switch int(x) { … } for a whole number, or switch value_of(x) for the number \
             without derivatives; the derivatives ignore the choice";
         return Err(ScriptError::new(told).hint(hint));
     }
-    match odd_one_in(value) {
+    match unusual_value(value) {
         None => Ok(()),
         Some(odd) => {
             let told = format!("switch cannot compare {}", describe(engine, &odd));
@@ -38,12 +38,12 @@ fn judge(engine: &Engine, value: &Dynamic) -> Result<(), ScriptError> {
     }
 }
 
-fn odd_one_in(value: &Dynamic) -> Option<Dynamic> {
+fn unusual_value(value: &Dynamic) -> Option<Dynamic> {
     if let Some(array) = value.read_lock::<Array>() {
-        return array.iter().find_map(odd_one_in);
+        return array.iter().find_map(unusual_value);
     }
     if let Some(map) = value.read_lock::<Map>() {
-        return map.values().find_map(odd_one_in);
+        return map.values().find_map(unusual_value);
     }
     let is_known = value.is_unit()
         || value.is_bool()

@@ -4,7 +4,7 @@ use std::ops::{Range, RangeInclusive};
 
 use rhai::{Dynamic, Engine, FnPtr, INT, ImmutableString, Map, OptimizationLevel};
 
-use crate::analysis::is_out_of_patience;
+use crate::analysis::is_past_deadline;
 use crate::script::bindings::catalog::Catalog;
 use crate::script::bindings::members;
 use crate::script::bindings::register::register;
@@ -90,12 +90,12 @@ fn connect(engine: &mut Engine, context: &Context) {
     engine.on_print(move |text| printer.print(text));
     let teller = context.clone();
     engine.on_debug(move |text, _, position| match position.line() {
-        Some(line) => teller.remark(&format!("line {line}: {text}")),
-        None => teller.remark(text),
+        Some(line) => teller.print_debug(&format!("line {line}: {text}")),
+        None => teller.print_debug(text),
     });
     let watched = context.clone();
     engine.on_progress(move |operations| {
-        let late = || operations.is_multiple_of(PULSE) && is_out_of_patience();
+        let late = || operations.is_multiple_of(PULSE) && is_past_deadline();
         let stop = watched.stopped_by().map(Dynamic::from);
         stop.or_else(|| late().then(|| Dynamic::from("the study ran out of patience")))
     });

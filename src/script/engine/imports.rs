@@ -37,7 +37,7 @@ impl FolderResolver {
     pub fn new(folder: &Path) -> Self {
         Self {
             folder: folder.to_owned(),
-            inputs: InputFolders::new([InputFolder::beside(folder)]),
+            inputs: InputFolders::new([InputFolder::in_folder_of(folder)]),
             being_read: RefCell::default(),
             read: RefCell::default(),
         }
@@ -69,7 +69,7 @@ impl FolderResolver {
         let module = Module::eval_ast_as_new_raw(engine, &mut Scope::new(), global, &ast).map_err(
             |error| Box::new(EvalAltResult::ErrorInModule(of.file.into(), error, position)),
         )?;
-        let module = Shared::new(library::behind_entrances(&module, &ast, of.file));
+        let module = Shared::new(library::with_entry_wrappers(&module, &ast, of.file));
         let read = ReadModule { content: Vec::new(), module: Shared::clone(&module) };
         self.read.borrow_mut().insert(file, read);
         Ok(module)
@@ -96,7 +96,7 @@ impl FolderResolver {
         content: Vec<u8>,
         position: Position,
     ) -> Result<Shared<Module>, Box<EvalAltResult>> {
-        Sources::of(engine).note_text(&file.display().to_string(), &content);
+        Sources::of(engine).record_import(&file.display().to_string(), &content);
         let program = Program::from_bytes(file, content).map_err(|refused| {
             let refusal = ScriptError::new(refused.told);
             refusal.into_engine(position)

@@ -8,7 +8,7 @@ use crate::script::dialect::reading::read;
 use crate::script::messages::error::{EngineResult, ScriptError};
 use crate::script::source::outline::ScriptOutline;
 use crate::script::source::program::Program;
-use crate::script::source::text::{Source, behind};
+use crate::script::source::text::{Source, moved_down};
 
 /// A text to be parsed that follows earlier texts.
 pub struct SourcePiece<'a> {
@@ -46,12 +46,12 @@ pub fn parse_piece(
 ) -> EngineResult<AST> {
     let &SourcePiece { name, text, before, scope } = piece;
     let ast = read(engine, scope, text, before)?;
-    Sources::of(engine).note(&ast, name);
+    Sources::of(engine).record_file(&ast, name);
     naming::judge(engine, text, before, variables)?;
     match text.open_comment() {
         Some(at) => Err(ScriptError::new("a comment that begins with /* has no */")
             .hint("write */ at its end")
-            .into_engine(behind(at, before))),
+            .into_engine(moved_down(at, before))),
         None => Ok(ast),
     }
 }

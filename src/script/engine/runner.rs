@@ -113,13 +113,13 @@ fn run_here(program: &Program, catalog: &Catalog, settings: RunSettings) -> RunO
         simulations: context.report(),
         files: context.output().written(),
         stopped_by: context.stopped_by(),
-        kept_cases: context.journals().kept(),
+        kept_cases: context.journals().stored_cases(),
     }
 }
 
 fn discard_journals(context: &Context) {
     if let Err(ScriptError::Failure(failure)) = context.journals().finish() {
-        context.tell(&failure.message);
+        context.print_message(&failure.message);
     }
 }
 

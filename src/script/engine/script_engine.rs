@@ -49,10 +49,10 @@ impl ScriptEngine {
         let resolver = FolderResolver::new(&settings.folder);
         let context = Context::new(settings);
         let built = caught(|| build(&catalog, &context)).and_then(|built| built);
-        let mut engine = built.map_err(Diagnostic::bug)?;
+        let mut engine = built.map_err(Diagnostic::internal_error)?;
         engine.set_module_resolver(resolver);
         let engine = Rc::new(engine);
-        context.lend(&engine);
+        context.set_engine(&engine);
         Ok(Self { catalog, context, engine })
     }
 
@@ -85,19 +85,19 @@ impl ScriptEngine {
         }
         match (outcome, self.context.meter().passed()) {
             (Ok(Ok(_)), Some(lost @ Stop::OutputLost(_))) => {
-                let (told, hint) = lost.words();
+                let (told, hint) = lost.message_and_hint();
                 Err(Halt::Failed(Diagnostic { hint, ..Diagnostic::general(told) }))
             }
             (Ok(Ok(value)), _) => Ok(value),
             (Ok(Err(error)), _) if is_interrupt(&error) => Err(Halt::Interrupted),
             (Ok(Err(error)), _) => Err(self.halted_by(&error, &program())),
-            (Err(panic), _) => Err(Halt::Failed(Diagnostic::bug(panic))),
+            (Err(panic), _) => Err(Halt::Failed(Diagnostic::internal_error(panic))),
         }
     }
 
     fn halted_by(&self, error: &EvalAltResult, program: &Program) -> Halt {
         let diagnostic = self.explain(error, program);
-        match self.context.meter().has_pretended() {
+        match self.context.meter().depends_on_dry_run() {
             _ if is_waiting(error) => Halt::Undecided(diagnostic),
             true => Halt::Failed(diagnostic.with_another_hint(ONLY_DRY)),
             false => Halt::Failed(diagnostic),
@@ -128,6 +128,6 @@ impl ScriptEngine {
 /// Breaks the cycle of simulations, stored functions, and the context with the last simulation.
 impl Drop for ScriptEngine {
     fn drop(&mut self) {
-        self.context.forget_simulations();
+        self.context.clear_simulations();
     }
 }

@@ -44,7 +44,7 @@ pub fn on_stack<T: Send>(
         };
         let done = running.join().map_err(|_| "a thread ended by a panic that was caught");
         let done = done.and_then(|done| done.ok_or("the work of a thread was done twice"));
-        done.map_err(Diagnostic::bug)?.map_err(Diagnostic::bug)
+        done.map_err(Diagnostic::internal_error)?.map_err(Diagnostic::internal_error)
     })
 }
 

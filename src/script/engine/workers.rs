@@ -166,24 +166,24 @@ impl<J, R> WorkerPool<'_, J, R> {
     }
 
     /// Queues a job; its result has the same number.
-    pub fn give(&self, number: usize, job: J) {
+    pub fn submit(&self, number: usize, job: J) {
         // Without workers the loss is noticed on receiving.
         let _ = self.jobs.send((number, job));
     }
 
     /// Like [`hear`](Self::hear), for many queued jobs: results are collected in batches, because each wake-up costs time.
-    pub fn hear_of_many(&self) -> WorkerEvent<R> {
+    pub fn receive_batch(&self) -> WorkerEvent<R> {
         match self.results.try_recv() {
             Ok((number, result)) => WorkerEvent::Done(number, result),
             Err(_) => {
                 thread::sleep(REST);
-                self.hear()
+                self.receive()
             }
         }
     }
 
     /// Waits for the next result, in any order. A job that takes too long is stopped.
-    pub fn hear(&self) -> WorkerEvent<R> {
+    pub fn receive(&self) -> WorkerEvent<R> {
         match self.results.recv_timeout(PULSE) {
             Ok((number, result)) => WorkerEvent::Done(number, result),
             Err(mpsc::RecvTimeoutError::Timeout) => {

@@ -20,7 +20,7 @@ pub struct BeamHandle {
 
 impl BeamHandle {
     /// Returns the index of the beam if it belongs to the given scene.
-    pub fn own(&self, scene: &SceneHandle) -> Result<usize, ScriptError> {
+    pub fn index_in(&self, scene: &SceneHandle) -> Result<usize, ScriptError> {
         scene.expect_same(&self.scene, "beam")?;
         Ok(self.index)
     }
@@ -55,7 +55,7 @@ impl Scripted for BeamHandle {
         details::of_beam(&self.scene.scene().borrow(), self.index)
     }
 
-    fn family(&self) -> Option<Rc<ParameterSet>> {
-        self.scene.family()
+    fn parameter_set(&self) -> Option<Rc<ParameterSet>> {
+        self.scene.parameter_set()
     }
 }

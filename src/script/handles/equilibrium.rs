@@ -32,18 +32,18 @@ impl EquilibriumHandle {
     }
 
     /// Read access to the equilibrium.
-    pub fn rest(&self) -> Ref<'_, Equilibrium> {
+    pub fn equilibrium(&self) -> Ref<'_, Equilibrium> {
         self.0.rest.borrow()
     }
 
     /// Write access to the equilibrium, for queries that need a solution.
-    pub fn rest_mut(&self) -> RefMut<'_, Equilibrium> {
+    pub fn equilibrium_mut(&self) -> RefMut<'_, Equilibrium> {
         self.0.rest.borrow_mut()
     }
 
     /// Location of a station of the equilibrium's scene.
     pub fn place(&self, station: &StationHandle) -> Result<BodyPoint, ScriptError> {
-        let rest = self.rest();
+        let rest = self.equilibrium();
         station.within(&self.0.scene, rest.scene(), rest.model().meshes())
     }
 }
@@ -53,7 +53,7 @@ impl Scripted for EquilibriumHandle {
     const DOC: &'static str = "A scene in static equilibrium, with its load path.";
 
     fn show(&self) -> String {
-        let rest = self.rest();
+        let rest = self.equilibrium();
         let points = rest.path().points();
         format!(
             "equilibrium of '{}' at load factor {}, {} points, strain energy {}",
@@ -65,7 +65,7 @@ impl Scripted for EquilibriumHandle {
     }
 
     fn details(&self) -> Details {
-        let rest = self.rest();
+        let rest = self.equilibrium();
         let limits = rest.path().limit_points();
         let shown = |value: &f64| significant(*value, 6);
         let line = |label: &str, value: String| (label.to_owned(), value);

@@ -33,7 +33,7 @@ impl<F: Clone> Events<F> {
     }
 
     /// Reschedules the functions after `now` when time goes back.
-    pub fn go_back(&mut self, now: f64) {
+    pub fn reschedule_after(&mut self, now: f64) {
         let passed = self.functions.partition_point(|(time, _)| *time <= now);
         self.called = self.called.min(passed);
     }
@@ -60,7 +60,7 @@ mod tests {
         }
         assert_eq!(names(&mut events, 2.5), ["first", "second", "third"]);
         assert_eq!((events.next_time(), events.waiting()), (None, 0));
-        events.go_back(1.0);
+        events.reschedule_after(1.0);
         assert_eq!((events.next_time(), events.waiting()), (Some(2.0), 2));
         assert_eq!(names(&mut events, 1.5), Vec::<&str>::new());
         assert_eq!(names(&mut events, 2.0), ["second", "third"]);

@@ -53,7 +53,7 @@ impl HistoryHandle {
         argument: usize,
     ) -> Result<String, ScriptError> {
         let name = given.clone().into_string().unwrap_or_default();
-        let simulation = self.of.own();
+        let simulation = self.of.primary();
         let history = simulation.history();
         if history.dimension(&name).is_some() {
             return Ok(name);
@@ -110,9 +110,9 @@ impl Scripted for HistoryHandle {
         self.read(details::of_history)
     }
 
-    fn family(
+    fn parameter_set(
         &self,
     ) -> Option<std::rc::Rc<crate::script::bindings::parameter_variants::ParameterSet>> {
-        Scripted::family(&self.of)
+        Scripted::parameter_set(&self.of)
     }
 }

@@ -40,7 +40,7 @@ impl Scripted for JointHandle {
         Vec::new()
     }
 
-    fn family(&self) -> Option<Rc<ParameterSet>> {
-        self.scene.family()
+    fn parameter_set(&self) -> Option<Rc<ParameterSet>> {
+        self.scene.parameter_set()
     }
 }

@@ -29,14 +29,14 @@ impl Notes {
     }
 
     /// Reports the new warnings of a simulation. A warning is repeated only if it gets worse.
-    pub fn tell(&self, name: &str, simulation: &Simulation, context: &Context) {
+    pub fn report_warnings(&self, name: &str, simulation: &Simulation, context: &Context) {
         if self.printing == Printing::Never || context.is_stopped() {
             return;
         }
         let mut told = self.told.borrow_mut();
         for note in simulation.notes() {
-            if note.is_news_after(&told) {
-                context.tell(&format!("note: simulation '{name}': {note}"));
+            if note.is_new_or_worse(&told) {
+                context.print_message(&format!("note: simulation '{name}': {note}"));
                 told.push(note);
             }
         }

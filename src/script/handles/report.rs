@@ -35,7 +35,7 @@ impl Reporter for SimulationHandle {
                 "force": [force.x, force.y],
                 "state": model.slider_state(index).name(),
                 "most_spans_in_a_step": model.most_spans(index),
-                "blows_in_a_step": model.blows_in_a_step(index),
+                "blows_in_a_step": model.steps_per_impact(index),
             })
         };
         let notes: Vec<String> = simulation.notes().iter().map(ToString::to_string).collect();

@@ -58,7 +58,7 @@ impl Scripted for RigidBodyHandle {
         details::of_rigid_body(&self.scene.scene().borrow(), self.index)
     }
 
-    fn family(&self) -> Option<Rc<ParameterSet>> {
-        self.scene.family()
+    fn parameter_set(&self) -> Option<Rc<ParameterSet>> {
+        self.scene.parameter_set()
     }
 }

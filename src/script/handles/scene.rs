@@ -104,7 +104,7 @@ impl SceneHandle {
     }
 
     /// Parameters that the scene depends on.
-    pub fn family(&self) -> Option<Rc<ParameterSet>> {
+    pub fn parameter_set(&self) -> Option<Rc<ParameterSet>> {
         self.variants.beside.get().map(|beside| Rc::clone(&beside.family))
     }
 
@@ -118,7 +118,7 @@ impl SceneHandle {
         value: f64,
         distance: Option<f64>,
     ) -> Result<VariantValue, ScriptError> {
-        let family = self.family();
+        let family = self.parameter_set();
         let mut declared = self.variants.declared.borrow_mut();
         family
             .as_ref()
@@ -140,7 +140,7 @@ impl SceneHandle {
                 sim.position(…), sim.history.column(…)";
             return Err(ScriptError::new(told).hint(hint));
         }
-        self.expect_unasked_beside()?;
+        self.expect_no_callbacks_with()?;
         let own = self.variants.scene.borrow();
         for scene in scenes.iter().map(|scene| scene.borrow()) {
             let is_one = |(one, other): (&Station, &Station)| one.is_at(other, own.length_at(one));
@@ -163,7 +163,7 @@ impl SceneHandle {
     ///
     /// # Errors
     /// Fails if the length differs between the variants.
-    pub fn expect_length_beside(&self, beam: usize) -> Result<(), ScriptError> {
+    pub fn expect_constant_length(&self, beam: usize) -> Result<(), ScriptError> {
         let Some(Beside { scenes, .. }) = self.variants.beside.get() else { return Ok(()) };
         let own = self.variants.scene.borrow();
         // Variant 0 is created after the side variants.
@@ -187,7 +187,7 @@ impl SceneHandle {
         present().is_none_or(|present| present.variant == 0)
     }
 
-    fn expect_unasked_beside(&self) -> Result<(), ScriptError> {
+    fn expect_no_callbacks_with(&self) -> Result<(), ScriptError> {
         if self.controllers.borrow().is_empty() && self.conditions.borrow().is_empty() {
             return Ok(());
         }
@@ -199,14 +199,14 @@ impl SceneHandle {
     }
 
     /// Stores the function of the last defined column.
-    pub fn keep_function(&self, function: StoredFunction) {
+    pub fn store_function(&self, function: StoredFunction) {
         if self.keeps() {
             self.functions.borrow_mut().push(Rc::new(function));
         }
     }
 
     /// Stores a controller that is called at the start of every step or at samples; returns the cell of its value.
-    pub fn keep_controller(
+    pub fn store_controller(
         &self,
         function: StoredFunction,
         beat: Option<SampleClock>,
@@ -220,7 +220,7 @@ impl SceneHandle {
     }
 
     /// Stores the condition of the last defined release.
-    pub fn keep_condition(&self, function: StoredFunction) {
+    pub fn store_condition(&self, function: StoredFunction) {
         let release = self.scene().borrow().releases.len() - 1;
         let condition = Condition { function: Rc::new(function), release };
         if self.keeps() {
@@ -237,7 +237,7 @@ impl SceneHandle {
     ///
     /// # Errors
     /// Fails if a load or drive has a controller, or a release a condition.
-    pub fn expect_unasked(&self) -> Result<(), ScriptError> {
+    pub fn expect_no_callbacks(&self) -> Result<(), ScriptError> {
         if self.controllers.borrow().is_empty() && self.conditions.borrow().is_empty() {
             return Ok(());
         }
@@ -259,7 +259,7 @@ impl SceneHandle {
     }
 
     /// Station of another handle, if it belongs to this scene.
-    pub fn own(&self, handle: &StationHandle) -> Result<Station, ScriptError> {
+    pub fn own_station(&self, handle: &StationHandle) -> Result<Station, ScriptError> {
         self.expect_same(&handle.scene, "station")?;
         Ok(handle.station)
     }
@@ -301,7 +301,7 @@ impl Scripted for SceneHandle {
         details::of_scene(&self.scene().borrow())
     }
 
-    fn family(&self) -> Option<Rc<ParameterSet>> {
-        Self::family(self)
+    fn parameter_set(&self) -> Option<Rc<ParameterSet>> {
+        Self::parameter_set(self)
     }
 }

@@ -74,8 +74,8 @@ impl<'a> ProgressMonitor<'a> {
 }
 
 impl Monitor for ProgressMonitor<'_> {
-    fn goes_on(&mut self, time: f64) -> bool {
-        self.context.progress().reach(time);
+    fn continues(&mut self, time: f64) -> bool {
+        self.context.progress().report_time(time);
         self.context.meter().count_step();
         let may_step = time >= self.end || self.context.meter().allows_a_step();
         let goes_on = may_step && !self.context.is_stopped();
@@ -88,7 +88,7 @@ impl Monitor for ProgressMonitor<'_> {
 struct Pretence<'a>(&'a Context);
 
 impl Monitor for Pretence<'_> {
-    fn goes_on(&mut self, _time: f64) -> bool {
+    fn continues(&mut self, _time: f64) -> bool {
         !self.0.is_stopped()
     }
 }
@@ -132,14 +132,14 @@ impl SimulationHandle {
         }
         let simulation = self.simulation().fork()?;
         let fork = Self::new(simulation, self.0.scene.clone(), name, self.0.notes.clone(), context);
-        fork.0.sensing.go_on_from(&self.0.sensing);
+        fork.0.sensing.copy_from(&self.0.sensing);
         fork.0.events.replace(self.0.events.borrow().clone());
         fork.0.is_ending_told.set(self.0.is_ending_told.get());
         Ok(fork)
     }
 
     fn is_latest(&self, context: &Context) {
-        context.note_simulation(Dynamic::from(self.clone()));
+        context.set_latest_simulation(Dynamic::from(self.clone()));
     }
 
     /// Lowest natural modes about the current configuration.
@@ -152,8 +152,8 @@ impl SimulationHandle {
     }
 
     /// Sets the memory for snapshots [bytes].
-    pub fn keep_snapshots(&self, limit: usize) {
-        self.0.simulation.borrow_mut().keep_snapshots(limit);
+    pub fn set_snapshot_memory(&self, limit: usize) {
+        self.0.simulation.borrow_mut().enable_snapshots(limit);
     }
 
     /// Number of scheduled functions.
@@ -199,18 +199,18 @@ impl SimulationHandle {
     }
 
     /// Rewinds the simulation to an earlier state; a dry build approximates this.
-    pub fn go_back(&self, call: &Call, goal: &RunTarget) -> Result<(), ScriptError> {
+    pub fn rewind_to(&self, call: &Call, goal: &RunTarget) -> Result<(), ScriptError> {
         self.0.sensing.expect_idle()?;
         let mut simulation = self.0.simulation.borrow_mut();
         match (call.context().mode(), goal) {
             (RunMode::Run, RunTarget::Steps(steps)) => simulation.back(*steps)?,
             (RunMode::Run, RunTarget::Time(time)) => simulation.rewind(*time)?,
-            (RunMode::DryBuild, RunTarget::Steps(steps)) => simulation.pretend_back(*steps),
-            (RunMode::DryBuild, RunTarget::Time(time)) => simulation.pretend_rewind(*time),
+            (RunMode::DryBuild, RunTarget::Steps(steps)) => simulation.dry_run_back(*steps),
+            (RunMode::DryBuild, RunTarget::Time(time)) => simulation.dry_run_rewind(*time),
         }
         drop(simulation);
-        self.sense()?;
-        self.0.events.borrow_mut().go_back(self.time() + self.slack());
+        self.evaluate_columns()?;
+        self.0.events.borrow_mut().reschedule_after(self.time() + self.slack());
         self.0.is_ending_told.set(false);
         self.is_latest(call.context());
         Ok(())
@@ -221,7 +221,7 @@ impl SimulationHandle {
     }
 
     /// Advances the simulation and calls the scheduled functions on the way.
-    pub fn go_on(&self, call: &Call, goal: &RunTarget) -> Result<(), ScriptError> {
+    pub fn advance(&self, call: &Call, goal: &RunTarget) -> Result<(), ScriptError> {
         self.0.sensing.expect_idle()?;
         let context = call.context();
         let dt = self.simulation().dt();
@@ -233,11 +233,11 @@ impl SimulationHandle {
         self.is_latest(context);
         context.progress().begin(&self.0.name, now, end);
         let outcome = match (context.mode(), goal) {
-            (RunMode::DryBuild, _) => self.pretend(call, end),
+            (RunMode::DryBuild, _) => self.dry_run(call, end),
             (RunMode::Run, RunTarget::Steps(steps)) => self.take_steps(call, *steps),
             (RunMode::Run, RunTarget::Time(_)) => {
                 let ran = self.run_to(call, end);
-                self.0.notes.tell(self.name(), &self.simulation(), context);
+                self.0.notes.report_warnings(self.name(), &self.simulation(), context);
                 ran
             }
         };
@@ -249,15 +249,15 @@ impl SimulationHandle {
         for taken in 0..steps {
             // The first step after the end is an error; later ones are only reported.
             if taken > 0 && self.has_ended() {
-                self.tell_ending(call.context(), &format!("before it had taken {steps} steps"));
+                self.report_end(call.context(), &format!("before it had taken {steps} steps"));
                 break;
             }
             let context = call.context();
             if !context.meter().allows_a_step() {
                 context.proceed()?;
             }
-            self.step_and_sense(call)?;
-            self.fire_due()?;
+            self.step_with_callbacks(call)?;
+            self.call_due_functions()?;
         }
         Ok(())
     }
@@ -266,10 +266,13 @@ impl SimulationHandle {
         self.simulation().has_ended()
     }
 
-    fn tell_ending(&self, context: &Context, when: &str) {
+    fn report_end(&self, context: &Context, when: &str) {
         let ending = self.simulation().ending().filter(|_| !self.0.is_ending_told.replace(true));
         if let Some(ending) = ending {
-            context.tell(&format!("note: simulation '{}' ended {when}: {ending}", self.0.name));
+            context.print_message(&format!(
+                "note: simulation '{}' ended {when}: {ending}",
+                self.0.name
+            ));
         }
     }
 
@@ -282,11 +285,11 @@ impl SimulationHandle {
             if self.time() < stop - slack && !context.meter().allows_a_step() {
                 context.proceed()?;
             }
-            self.run_and_sense(call, stop, slack)?;
-            self.fire_due()?;
+            self.run_with_callbacks(call, stop, slack)?;
+            self.call_due_functions()?;
             if self.has_ended() && self.time() < end {
                 let when = format!("before t = {}", format_number(end));
-                self.tell_ending(call.context(), &when);
+                self.report_end(call.context(), &when);
                 return Ok(());
             }
             if self.time() >= end || stop >= end || stop.is_nan() {
@@ -296,17 +299,17 @@ impl SimulationHandle {
     }
 
     /// Replacement of a run in a dry build: time advances, and events are called.
-    fn pretend(&self, call: &Call, end: f64) -> Result<(), ScriptError> {
-        call.context().meter().count_pretended();
+    fn dry_run(&self, call: &Call, end: f64) -> Result<(), ScriptError> {
+        call.context().meter().count_dry_run();
         call.context().proceed()?;
         let mut watch = Pretence(call.context());
-        let pretended = self.0.simulation.borrow_mut().pretend_to(end, &mut watch);
+        let pretended = self.0.simulation.borrow_mut().dry_run_to(end, &mut watch);
         pretended.map_err(|error| explain(error, call.context()))?;
-        self.sense()?;
-        self.fire_due()
+        self.evaluate_columns()?;
+        self.call_due_functions()
     }
 
-    fn fire_due(&self) -> Result<(), ScriptError> {
+    fn call_due_functions(&self) -> Result<(), ScriptError> {
         let slack = self.slack();
         loop {
             let due = self.0.events.borrow_mut().take_due(self.time() + slack);
@@ -367,8 +370,8 @@ impl Scripted for SimulationHandle {
         details::of_simulation(&self.simulation())
     }
 
-    fn family(&self) -> Option<Rc<ParameterSet>> {
+    fn parameter_set(&self) -> Option<Rc<ParameterSet>> {
         let has = self.0.simulation.try_borrow().is_ok_and(|of| of.parameters().next().is_some());
-        self.0.scene.family().filter(|_| has)
+        self.0.scene.parameter_set().filter(|_| has)
     }
 }

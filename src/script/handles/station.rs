@@ -27,7 +27,7 @@ pub struct StationHandle {
 
 impl StationHandle {
     /// Location of the station in a simulation of its scene.
-    pub fn on(&self, handle: &SimulationHandle) -> Result<beams::BodyPoint, ScriptError> {
+    pub fn place_in(&self, handle: &SimulationHandle) -> Result<beams::BodyPoint, ScriptError> {
         let simulation = handle.simulation();
         self.within(handle.scene(), simulation.scene(), simulation.model().meshes())
     }
@@ -39,7 +39,7 @@ impl StationHandle {
         built: &Scene,
         meshes: &[Mesh],
     ) -> Result<beams::BodyPoint, ScriptError> {
-        of.own(self)?;
+        of.own_station(self)?;
         let known = match self.station.body {
             BodyIndex::Beam(beam) => beam < built.beams.len(),
             BodyIndex::Particle(particle) => particle < built.particles.len(),
@@ -71,14 +71,14 @@ impl Scripted for StationHandle {
         details::of_station(&self.scene.scene().borrow(), &self.station)
     }
 
-    fn family(&self) -> Option<Rc<ParameterSet>> {
-        self.scene.family()
+    fn parameter_set(&self) -> Option<Rc<ParameterSet>> {
+        self.scene.parameter_set()
     }
 }
 
 /// The receiver scene, and one of its stations from an argument.
 pub fn here(call: &Call, name: &str) -> Result<(Station, Rc<RefCell<Scene>>), ScriptError> {
     let scene = call.receiver::<SceneHandle>()?;
-    let station = scene.own(&call.get::<StationHandle>(name)?)?;
+    let station = scene.own_station(&call.get::<StationHandle>(name)?)?;
     Ok((station, scene.shared()))
 }

@@ -21,7 +21,7 @@ pub struct TrackHandle {
 
 impl TrackHandle {
     /// Returns the index of the track if it belongs to the given scene.
-    pub fn own(&self, scene: &SceneHandle) -> Result<usize, ScriptError> {
+    pub fn index_in(&self, scene: &SceneHandle) -> Result<usize, ScriptError> {
         scene.expect_same(&self.scene, "track")?;
         Ok(self.index)
     }
@@ -66,7 +66,7 @@ impl Scripted for TrackHandle {
         details::of_track(&self.scene.scene().borrow(), self.index)
     }
 
-    fn family(&self) -> Option<Rc<ParameterSet>> {
-        self.scene.family()
+    fn parameter_set(&self) -> Option<Rc<ParameterSet>> {
+        self.scene.parameter_set()
     }
 }

@@ -7,7 +7,7 @@ mod types;
 
 use std::fmt::Write;
 
-use super::reference::{describe_parameter, gives};
+use super::reference::{describe_parameter, returns_text};
 use crate::script::bindings::built_in::{BuiltIn, BuiltInTable, FunctionForm, NameSuffix};
 use crate::script::bindings::catalog::Catalog;
 use crate::script::bindings::table::{BindingTable, CallSyntax, FunctionBinding};
@@ -108,7 +108,8 @@ fn built_in_declarations(form: &FunctionForm) -> Vec<String> {
 }
 
 fn row_comment(table: &BindingTable, row: &FunctionBinding) -> String {
-    let mut text = format!("`{}`{}\n\n{}\n", row.signature(), gives(&row.returns), row.summary);
+    let mut text =
+        format!("`{}`{}\n\n{}\n", row.signature(), returns_text(&row.returns), row.summary);
     if !row.doc.is_empty() {
         let _ = writeln!(text, "\n{}", row.doc);
     }
@@ -123,8 +124,12 @@ fn row_comment(table: &BindingTable, row: &FunctionBinding) -> String {
 
 fn built_in_comment(built_in: &BuiltIn) -> String {
     let forms: Vec<_> = built_in.forms.iter().map(|form| format!("`{form}`")).collect();
-    let mut text =
-        format!("{}{}\n\n{}\n", forms.join(", "), gives(&built_in.returns), built_in.summary);
+    let mut text = format!(
+        "{}{}\n\n{}\n",
+        forms.join(", "),
+        returns_text(&built_in.returns),
+        built_in.summary
+    );
     if !built_in.doc.is_empty() {
         let _ = writeln!(text, "\n{}", built_in.doc);
     }

@@ -112,7 +112,13 @@ fn describe_table(table: &BindingTable) -> String {
 }
 
 fn describe_row(text: &mut String, row: &FunctionBinding) {
-    let _ = writeln!(text, "\n## `{}`{}\n\n{}", row.signature(), gives(&row.returns), row.summary);
+    let _ = writeln!(
+        text,
+        "\n## `{}`{}\n\n{}",
+        row.signature(),
+        returns_text(&row.returns),
+        row.summary
+    );
     if let Some(setter) = row.setter {
         let [value] = setter.value;
         let _ = writeln!(text, "\nIt can be assigned: {}.", value.expectation());
@@ -138,7 +144,7 @@ fn describe_built_ins(text: &mut String, table: &BuiltInTable) {
             text,
             "- {}{}: {}{doc}\n\n  ```rhai example\n  {}\n  ```\n",
             forms.join(", "),
-            gives(&built_in.returns),
+            returns_text(&built_in.returns),
             built_in.summary,
             built_in.example.replace('\n', "\n  ")
         );
@@ -158,7 +164,7 @@ fn see(text: &mut String, names: &[&str]) {
     }
 }
 
-pub(super) fn gives(returns: &Returns) -> String {
+pub(super) fn returns_text(returns: &Returns) -> String {
     if returns.is_nothing() { String::new() } else { format!(" → {returns}") }
 }
 

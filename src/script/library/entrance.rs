@@ -19,7 +19,7 @@ struct ModuleScope {
 }
 
 /// Wraps the public functions of `module`, which was compiled from `ast`.
-pub fn behind_entrances(module: &Module, ast: &AST, file: &str) -> Module {
+pub fn with_entry_wrappers(module: &Module, ast: &AST, file: &str) -> Module {
     let imports = module.iter_sub_modules().map(|(name, other)| (name.to_owned(), other.clone()));
     let surroundings = ModuleScope {
         file: file.to_owned(),

@@ -6,6 +6,6 @@ mod modules;
 mod pages;
 
 pub use document::document;
-pub use entrance::behind_entrances;
+pub use entrance::with_entry_wrappers;
 pub use modules::{MODULES, Module, find};
 pub use pages::{DocBlock, ModuleFunction, ModulePage, page_of, pages};

@@ -10,20 +10,20 @@ use crate::statics::{InTime, StaticsError, StepFailure};
 use crate::system::{Approach, SliderError, SystemError, TrackError, Turning};
 
 /// Returns a hint for an error, or for the first of its causes with a known hint.
-pub fn on(error: &(dyn Error + 'static)) -> Option<String> {
+pub fn hint_for(error: &(dyn Error + 'static)) -> Option<String> {
     let own = None
-        .or_else(|| error.downcast_ref().and_then(on_simulation))
-        .or_else(|| error.downcast_ref().and_then(on_statics))
-        .or_else(|| error.downcast_ref().and_then(on_model))
-        .or_else(|| error.downcast_ref().and_then(on_archive))
-        .or_else(|| error.downcast_ref().and_then(on_load))
-        .or_else(|| error.downcast_ref().and_then(on_beam));
-    own.or_else(|| on(error.source()?))
+        .or_else(|| error.downcast_ref().and_then(simulation_hint))
+        .or_else(|| error.downcast_ref().and_then(statics_hint))
+        .or_else(|| error.downcast_ref().and_then(system_hint))
+        .or_else(|| error.downcast_ref().and_then(archive_hint))
+        .or_else(|| error.downcast_ref().and_then(load_hint))
+        .or_else(|| error.downcast_ref().and_then(beam_hint));
+    own.or_else(|| hint_for(error.source()?))
 }
 
-fn on_simulation(error: &SimulationError) -> Option<String> {
+fn simulation_hint(error: &SimulationError) -> Option<String> {
     Some(match error {
-        SimulationError::Model(error) => return on_model(error),
+        SimulationError::Model(error) => return system_hint(error),
         SimulationError::End { end, .. } if !end.is_finite() => "give a finite time".into(),
         SimulationError::End { .. } => "give a later time, or go back with sim.rewind(t)".into(),
         SimulationError::Step { .. } | SimulationError::Smallest { .. } => {
@@ -31,7 +31,7 @@ fn on_simulation(error: &SimulationError) -> Option<String> {
             loads, stiffness, units and supports".into()
         }
         SimulationError::Load { source } => {
-            let own = cause_of(source).and_then(on_load);
+            let own = cause_of(source).and_then(load_hint);
             own.unwrap_or_else(|| "loads and drives need a finite value at all times".into())
         }
         SimulationError::Tolerance { .. } => {
@@ -87,11 +87,11 @@ fn on_simulation(error: &SimulationError) -> Option<String> {
     })
 }
 
-fn on_statics(error: &StaticsError) -> Option<String> {
+fn statics_hint(error: &StaticsError) -> Option<String> {
     const AT_REST: &str = "simulate a damped motion until it is at rest: scene.start(#{ integrator: \
         energy_decaying(#{ chi: 1 }), dt: … })";
     Some(match error {
-        StaticsError::Model(error) => return on_model(error),
+        StaticsError::Model(error) => return system_hint(error),
         StaticsError::NoLoad { .. } => {
             "loads are evaluated at one time: select it with the option time; drag, wind and \
             dampers act only on motion"
@@ -142,10 +142,10 @@ fn on_statics(error: &StaticsError) -> Option<String> {
     })
 }
 
-fn on_model(error: &SystemError) -> Option<String> {
+fn system_hint(error: &SystemError) -> Option<String> {
     let advice = match error {
-        SystemError::Slider(error) => return on_slider(error),
-        SystemError::Track(error) => return on_track(error),
+        SystemError::Slider(error) => return slider_hint(error),
+        SystemError::Track(error) => return track_hint(error),
         SystemError::Empty { .. } => {
             "add one with scene.beam(#{ axis: …, section: … }) or scene.particle([x, y], mass)"
         }
@@ -190,7 +190,7 @@ fn on_model(error: &SystemError) -> Option<String> {
     Some(advice.into())
 }
 
-fn on_slider(error: &SliderError) -> Option<String> {
+fn slider_hint(error: &SliderError) -> Option<String> {
     let advice = match error {
         SliderError::Open { nearest: Approach::On { .. }, .. } => {
             "give this value for `at`, or omit `at`"
@@ -207,7 +207,7 @@ fn on_slider(error: &SliderError) -> Option<String> {
     Some(advice.into())
 }
 
-fn on_track(error: &TrackError) -> Option<String> {
+fn track_hint(error: &TrackError) -> Option<String> {
     let advice = match error {
         TrackError::Apart { .. } => {
             "give the beams in the order of the track, each in either direction"
@@ -223,7 +223,7 @@ fn on_track(error: &TrackError) -> Option<String> {
     Some(advice.into())
 }
 
-fn on_archive(error: &ArchiveError) -> Option<String> {
+fn archive_hint(error: &ArchiveError) -> Option<String> {
     let advice = match error {
         ArchiveError::Function { .. } => {
             "use hold_for, ramp, pulse, smooth_pulse, sine or table, or sums and products of \
@@ -252,7 +252,7 @@ fn cause_of(error: &StepError) -> Option<&LoadError> {
     source.downcast_ref()
 }
 
-fn on_load(error: &LoadError) -> Option<String> {
+fn load_hint(error: &LoadError) -> Option<String> {
     let advice = match error {
         LoadError::ManyParts { .. } => "write it as schedule(|t| …)",
         LoadError::ShortTable { .. } => "write [[t, factor], …]",
@@ -263,7 +263,7 @@ fn on_load(error: &LoadError) -> Option<String> {
     Some(advice.into())
 }
 
-fn on_beam(error: &BeamError) -> Option<String> {
+fn beam_hint(error: &BeamError) -> Option<String> {
     match error {
         BeamError::Quadrature { .. } => {
             Some("use quadrature: \"patch\", the default, which sets points and weights".into())
@@ -286,8 +286,8 @@ mod tests {
             &StaticsError::Model(empty()),
             &ArchiveError::Scene(SimulationError::Model(empty())),
         ] {
-            assert!(on(error).is_some_and(|told| told.contains("scene.beam(")), "{error}");
+            assert!(hint_for(error).is_some_and(|told| told.contains("scene.beam(")), "{error}");
         }
-        assert_eq!(on(&LinearError::Singular { unknown: 1, size: 2 }), None);
+        assert_eq!(hint_for(&LinearError::Singular { unknown: 1, size: 2 }), None);
     }
 }

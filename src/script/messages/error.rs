@@ -55,7 +55,7 @@ impl ScriptError {
     }
 
     /// Creates an internal error.
-    pub fn bug(message: impl Into<String>) -> Self {
+    pub fn internal_error(message: impl Into<String>) -> Self {
         Self::Bug(message.into())
     }
 
@@ -69,7 +69,7 @@ impl ScriptError {
 
     /// Adds the hint for the underlying error `cause`, if one is known.
     pub fn advised(self, cause: &(dyn std::error::Error + 'static)) -> Self {
-        match advice::on(cause) {
+        match advice::hint_for(cause) {
             Some(advice) => self.hint(advice),
             None => self,
         }
@@ -109,7 +109,7 @@ impl ScriptError {
 /// Errors of lower layers become failures with their own message and a hint. Errors caused by a script function are passed on unchanged.
 impl<E: std::error::Error + 'static> From<E> for ScriptError {
     fn from(error: E) -> Self {
-        match Raised::behind(&error) {
+        match Raised::script_error_in(&error) {
             Some(raised) => Self::Engine(raised),
             None => Self::new(error.to_string()).advised(&error),
         }

@@ -14,7 +14,7 @@ pub fn as_number(value: &Dynamic) -> Option<f64> {
 }
 
 /// Converts a script value to an integer; numbers without a fractional part are accepted.
-pub fn as_whole(value: &Dynamic) -> Option<INT> {
+pub fn as_integer(value: &Dynamic) -> Option<INT> {
     value.as_int().ok().or_else(|| {
         let x = value.as_float().ok()?;
         (x.fract() == 0.0 && x.abs() <= LARGEST_EXACT).then_some(x as INT)
@@ -75,9 +75,9 @@ mod tests {
 
     #[test]
     fn a_whole_number_may_come_as_a_number_without_fraction() {
-        assert_eq!(as_whole(&Dynamic::from(3.0)), Some(3));
-        assert_eq!(as_whole(&Dynamic::from(3.5)), None);
-        assert_eq!(as_whole(&Dynamic::from(1e300)), None);
+        assert_eq!(as_integer(&Dynamic::from(3.0)), Some(3));
+        assert_eq!(as_integer(&Dynamic::from(3.5)), None);
+        assert_eq!(as_integer(&Dynamic::from(1e300)), None);
         assert_eq!(as_number(&Dynamic::from(3_i64)), Some(3.0));
     }
 }

@@ -5,15 +5,15 @@ pub trait Progress {
     /// Starts the progress of the simulation `name` from time `from` to time `to`.
     fn begin(&self, name: &str, from: f64, to: f64);
     /// Reports the current time `t`. Cheap enough for every step.
-    fn reach(&self, t: f64);
+    fn report_time(&self, t: f64);
     /// Starts the progress of the study `name` with `count` cases.
     fn begin_cases(&self, name: &str, count: usize);
     /// Reports the number of finished cases. Cheap enough for many calls per second.
-    fn reach_case(&self, done: usize);
+    fn report_case(&self, done: usize);
     /// Ends the progress, whether or not the end was reached.
     fn end(&self);
     /// Calls `write`, which writes to the terminal, without mixing its text with the progress display.
-    fn step_aside(&self, write: &mut dyn FnMut()) {
+    fn without_progress_bar(&self, write: &mut dyn FnMut()) {
         write();
     }
 }
@@ -23,8 +23,8 @@ pub struct NoProgress;
 
 impl Progress for NoProgress {
     fn begin(&self, _name: &str, _from: f64, _to: f64) {}
-    fn reach(&self, _t: f64) {}
+    fn report_time(&self, _t: f64) {}
     fn begin_cases(&self, _name: &str, _count: usize) {}
-    fn reach_case(&self, _done: usize) {}
+    fn report_case(&self, _done: usize) {}
     fn end(&self) {}
 }

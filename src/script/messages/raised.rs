@@ -22,7 +22,7 @@ impl Raised {
     }
 
     /// Takes the script error out of `error` or its causes, if there is one.
-    pub fn behind(error: &(dyn Error + 'static)) -> Option<Box<EvalAltResult>> {
+    pub fn script_error_in(error: &(dyn Error + 'static)) -> Option<Box<EvalAltResult>> {
         let mut cause = Some(error);
         while let Some(error) = cause {
             match error.downcast_ref::<Self>() {
@@ -58,8 +58,11 @@ mod tests {
         let step = StepError::Load { interval, load: "force".to_owned(), source: load };
         let error = SimulationError::Load { source: step };
         assert_eq!(error.to_string(), "force: thrown (in the step from t = 0 to 1)");
-        let back = Raised::behind(&error).expect("the error of the script");
+        let back = Raised::script_error_in(&error).expect("the error of the script");
         assert!(matches!(*back, EvalAltResult::ErrorRuntime(value, _) if value.as_int() == Ok(42)));
-        assert!(Raised::behind(&error).is_none() && Raised::behind(&fmt::Error).is_none());
+        assert!(
+            Raised::script_error_in(&error).is_none()
+                && Raised::script_error_in(&fmt::Error).is_none()
+        );
     }
 }

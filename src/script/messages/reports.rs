@@ -51,7 +51,7 @@ impl Reports {
     }
 
     /// Drops all reporters.
-    pub fn forget(&self) {
+    pub fn clear(&self) {
         self.0.borrow_mut().clear();
     }
 

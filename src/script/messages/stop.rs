@@ -40,7 +40,7 @@ impl Stop {
     }
 
     /// Message, and a hint.
-    pub fn words(self) -> (String, Option<String>) {
+    pub fn message_and_hint(self) -> (String, Option<String>) {
         match self {
             Self::Interrupt => ("the run was interrupted".into(), None),
             Self::PipeClosed => ("the output was closed by its reader".into(), None),
@@ -82,7 +82,7 @@ mod tests {
 
     #[test]
     fn messages_name_the_limit_and_its_flag() {
-        let (message, hint) = Stop::Memory(2_000_000).words();
+        let (message, hint) = Stop::Memory(2_000_000).message_and_hint();
         assert!(message.contains("2 MB") && hint.unwrap().contains("--max-memory"));
     }
 }

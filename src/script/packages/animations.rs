@@ -16,7 +16,7 @@ use crate::script::bindings::call::Call;
 use crate::script::bindings::kind::Scripted;
 use crate::script::bindings::options::Options;
 use crate::script::bindings::parameter::{
-    Parameter, Presence, array, number, options, text, whole,
+    Parameter, Presence, array, integer, number, options, text,
 };
 use crate::script::bindings::table::{BindingTable, function};
 use crate::script::handles::simulation::SimulationHandle;
@@ -42,7 +42,7 @@ pub const TABLE: BindingTable = BindingTable {
                 a long motion, or for details, use write_viewer, whose files are smaller.",
             )
             .example("sim.run_to(2);\nwrite_animation(sim, \"spin.png\", #{ frames: 20, fps: 10, width: 320, trace: [rod.end] });")
-            .see(&["write_viewer", "plot_motion"]),
+            .with_related(&["write_viewer", "plot_motion"]),
     ],
 };
 
@@ -50,9 +50,9 @@ const ANIMATION: &[Parameter] = &[
     text("title").doc("title; default: the name of the first simulation").optional(),
     number("from").unit("time").doc("time of the first frame; default: the start").optional(),
     number("to").unit("time").doc("time of the last frame; default: the present").optional(),
-    whole("frames").between(2.0, 1000.0).doc("number of frames").or(Presence::Whole(100)),
-    whole("fps").between(1.0, 60.0).doc("frames per second").or(Presence::Whole(20)),
-    whole("width")
+    integer("frames").between(2.0, 1000.0).doc("number of frames").or(Presence::Whole(100)),
+    integer("fps").between(1.0, 60.0).doc("frames per second").or(Presence::Whole(20)),
+    integer("width")
         .between(200.0, 2000.0)
         .doc("width in pixels; default: 640, or 960 for several simulations")
         .optional(),
@@ -185,7 +185,7 @@ fn reel(
     }
     let (first, last) = (times[0], times[times.len() - 1]);
     let trace = |station: &StationHandle| {
-        let path = simulation.path(&station.on(of)?).into_iter();
+        let path = simulation.path(&station.place_in(of)?).into_iter();
         let inside = path.filter(|(time, _)| (first..=last).contains(time));
         let points = inside.map(|(time, point)| (time, plain(&point))).collect();
         Ok((format!("path of {}", station.show()), points))

@@ -4,8 +4,8 @@ use rhai::{Array, Dynamic};
 
 use crate::elementary::{exp, ln};
 use crate::script::bindings::call::Call;
-use crate::script::bindings::parameter::{Parameter, number, numbers, whole};
-use crate::script::bindings::parameter_variants::{where_largest_changes, where_smallest_changes};
+use crate::script::bindings::parameter::{Parameter, integer, number, numbers};
+use crate::script::bindings::parameter_variants::{at_largest_change, at_smallest_change};
 use crate::script::bindings::returns::Returns;
 use crate::script::bindings::table::{BindingTable, function};
 use crate::script::messages::error::{CallPart, ScriptError};
@@ -19,7 +19,7 @@ pub const TABLE: BindingTable = BindingTable {
     rows: &[
         function(
             "linspace",
-            &[number("from"), number("to"), whole("count").between(2.0, 1e6)],
+            &[number("from"), number("to"), integer("count").between(2.0, 1e6)],
             linspace,
         )
         .returns(Returns::NUMBERS)
@@ -29,7 +29,7 @@ pub const TABLE: BindingTable = BindingTable {
         ),
         function(
             "logspace",
-            &[number("from").positive(), number("to").positive(), whole("count").between(2.0, 1e6)],
+            &[number("from").positive(), number("to").positive(), integer("count").between(2.0, 1e6)],
             logspace,
         )
         .returns(Returns::NUMBERS)
@@ -47,12 +47,12 @@ pub const TABLE: BindingTable = BindingTable {
             .returns(Returns::NUMBER)
             .summary("Returns the smallest number of an array.")
             .example("check(min([3, 1, 2]) == 1);")
-            .corner(where_smallest_changes),
+            .corner(at_smallest_change),
         function("max", &[VALUES], |call| extreme(call, f64::max))
             .returns(Returns::NUMBER)
             .summary("Returns the largest number of an array.")
             .example("check(max([3, 1, 2]) == 3);")
-            .corner(where_largest_changes),
+            .corner(at_largest_change),
     ],
 };
 

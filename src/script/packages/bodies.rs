@@ -9,7 +9,7 @@ use crate::script::bindings::call::Call;
 use crate::script::bindings::kind::Type;
 use crate::script::bindings::options::Options;
 use crate::script::bindings::parameter::{
-    Parameter, Presence, anything, name, number, options, point, points, text,
+    Parameter, Presence, name, number, of_any_type, options, point, points, text,
 };
 use crate::script::bindings::returns::Returns;
 use crate::script::bindings::table::{BindingTable, method, property};
@@ -47,7 +47,7 @@ pub const TABLE: BindingTable = BindingTable {
                  let sim = scene.start(#{ dt: 0.01 });\nsim.run_to(0.5);\n\
                  check_close(sim.position(pendulum.point(\"tip\")).y, -1.5, 1e-12);\nprint(pendulum);",
             )
-            .see(&["point", "centre", "particle", "mass"]),
+            .with_related(&["point", "centre", "particle", "mass"]),
         method(BODY, "point", &[name("point")], |call| {
             let body = call.receiver::<RigidBodyHandle>()?;
             Ok(Dynamic::from(body.point(call.text("point")?.as_str())?))
@@ -55,14 +55,14 @@ pub const TABLE: BindingTable = BindingTable {
         .returns(Returns::object(STATION))
         .summary("Returns the station at a point of the body, by name.")
         .example("scene.hinge(hub.point(\"pin\"));")
-        .see(&["centre", "body"]),
+        .with_related(&["centre", "body"]),
         property(BODY, "centre", |call| {
             Ok(Dynamic::from(call.receiver::<RigidBodyHandle>()?.centre()))
         })
         .returns(Returns::object(STATION))
         .summary("Station at the centre of mass of the body.")
         .example("scene.hinge(hub.centre);")
-        .see(&["point"]),
+        .with_related(&["point"]),
         property(BODY, "name", |call| Ok(call.receiver::<RigidBodyHandle>()?.name().into()))
             .returns(Returns::TEXT)
             .summary("Name of the body.")
@@ -86,7 +86,7 @@ const BODY_KEYS: &[Parameter] = &[
         .unit("rad")
         .or(Presence::Number(0.0))
         .doc("initial rotation of the frame of the body"),
-    anything("points")
+    of_any_type("points")
         .doc("map of points relative to the centre, in the frame of the body [length]")
         .optional(),
     points("outline")
@@ -105,7 +105,7 @@ const BODY_KEYS: &[Parameter] = &[
 fn body(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let scene = call.receiver::<SceneHandle>()?;
     let options = call.options("options")?;
-    let named = options.text_if_given("name")?;
+    let named = options.optional_text("name")?;
     let definition = RigidBodyDefinition {
         name: named.unwrap_or_else(|| scene.scene().borrow().free_name("body")),
         position: options.point("at")?,

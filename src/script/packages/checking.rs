@@ -25,23 +25,23 @@ pub const TABLE: BindingTable = BindingTable {
         function("check", &[boolean("condition"), MESSAGE], check)
             .summary("Records a check of a condition; the message states the requirement.")
             .example("check(1 / 20 == 0.05, \"division is never truncated\");")
-            .see(&["check_close"]),
-        function("check_close", &[number("actual").any_number(), number("expected"), TOLERANCE, MESSAGE], check_close)
+            .with_related(&["check_close"]),
+        function("check_close", &[number("actual").allow_non_finite(), number("expected"), TOLERANCE, MESSAGE], check_close)
             .summary("Records a check that two numbers differ by at most a tolerance, and shows both \
                 if they differ more.")
             .example("check_close(sin(PI), 0, 1e-15, \"a zero of the sine\");")
-            .see(&["check"]),
+            .with_related(&["check"]),
         function("todo", &[text("what").doc("description of the missing expression")], todo)
             .summary("Stops the script with an error at a place that is still to be written.")
             .doc("Exercises use it in place of the expression to be found.")
             .example("try { todo(\"a stiffness\") } catch (problem) { check(problem.message == \"still to do: a stiffness\"); }")
-            .see(&["check"]),
+            .with_related(&["check"]),
         property(PROBLEM, "message", |call| Ok(call.receiver::<Failure>()?.message.into()))
             .returns(Returns::TEXT)
             .summary("Description of the error.")
             .example("try { sqrt(\"two\") } catch (problem) { print(problem.message); }"),
         property(PROBLEM, "hint", |call| Ok(call.receiver::<Failure>()?.hint.unwrap_or_default().into()))
-            .returns(Returns::TEXT.note(", empty if there is nothing to advise"))
+            .returns(Returns::TEXT.with_remark(", empty if there is nothing to advise"))
             .summary("Advice on how to correct the error.")
             .example("try { mean([]) } catch (problem) { print(problem.hint); }"),
     ],
@@ -106,6 +106,6 @@ fn record(call: &Call, holds: bool, detail: &str) {
         (true, true) => "the condition is false".to_owned(),
     };
     let message = brief(message);
-    call.context().remark(&format!("line {}: check failed: {message}", call.line()));
+    call.context().print_debug(&format!("line {}: check failed: {message}", call.line()));
     call.context().with_checks(|checks| checks.fail(FailedCheck { message, line: call.line() }));
 }

@@ -46,7 +46,7 @@ pub const TABLE: BindingTable = BindingTable {
             NAME.svg shows the errors of the positions.",
         )
         .example("check_close(ladder.order(\"positions\", energy_momentum()), 2, 0.1);")
-        .see(&["study_work_precision", "finest_run", "order"]),
+        .with_related(&["study_work_precision", "finest_run", "order"]),
         property(CONVERGENCE, "table", |call| {
             Ok(table(&call.receiver::<ConvergenceStudy>()?.0).into())
         })
@@ -81,7 +81,7 @@ pub const TABLE: BindingTable = BindingTable {
                 sizes; NaN if it cannot be determined.",
             )
             .example("check_close(ladder.order(\"positions\", fourth_order()), 4, 0.1);")
-            .see(&["study_convergence"]),
+            .with_related(&["study_convergence"]),
         method(
             CONVERGENCE,
             "plot",

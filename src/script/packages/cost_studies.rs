@@ -14,7 +14,7 @@ use crate::script::state::settings::RunMode;
 use crate::script::studies::case_runner::print_table;
 use crate::script::studies::cost::{CostStepping, CostTable, cases};
 use crate::script::studies::options::CostOptions;
-use crate::script::studies::plan::{patience, study_name};
+use crate::script::studies::plan::{case_limits, study_name};
 
 pub const TABLE: BindingTable = BindingTable {
     name: "costs",
@@ -45,7 +45,7 @@ pub const TABLE: BindingTable = BindingTable {
                 "let costs = study_cost(#{ name: \"cost\", scene: spinning, dt: 0.05, steps: 10, repeats: 1, features: #{ gravity: |scene| scene.gravity([0, -9.81]) } });\n\
                  let rows = costs.rows;\ncheck(rows[2].feature == \"gravity\" && rows[2].unknowns == rows[0].unknowns);",
             )
-            .see(&["rows", "study_stability", "explain"]),
+            .with_related(&["rows", "study_stability", "explain"]),
         property(COST_TABLE, "rows", |call| {
             let rows = call.receiver::<CostTable>()?.rows();
             Ok(Dynamic::from(rows.into_iter().map(Dynamic::from).collect::<Array>()))
@@ -89,7 +89,7 @@ fn study(call: &mut Call) -> Result<Dynamic, ScriptError> {
         }
         RunMode::Run => context.studies().repeats.unwrap_or(options.repeats),
     };
-    let patience = patience(call, RunLimits::default().wall.as_secs_f64());
+    let patience = case_limits(call, RunLimits::default().wall.as_secs_f64());
     let costs = step_costs(&cases, patience, repeats, &mut || context.stopped_by().is_none());
     let Some(costs) = costs else {
         return Err(context.why_stopped("a study of costs"));

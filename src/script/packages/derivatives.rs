@@ -6,7 +6,7 @@ use super::scenes::SCENE;
 use crate::geometry::Vec2;
 use crate::script::bindings::call::Call;
 use crate::script::bindings::kind::Type;
-use crate::script::bindings::parameter::{Parameter, anything, name, number, options, text};
+use crate::script::bindings::parameter::{Parameter, name, number, of_any_type, options, text};
 use crate::script::bindings::parameter_variants::VariantValue;
 use crate::script::bindings::returns::Returns;
 use crate::script::bindings::table::{BindingTable, function, method};
@@ -48,9 +48,9 @@ pub const TABLE: BindingTable = BindingTable {
              let sim = scene.start(#{ dt: 0.01 });\nsim.run_to(0.1);\n\
              let sag = sim.position(rod.end).y;\nprint(sag);\ncheck(sag < 0 && sag.derivative_by(\"EI\") > 0);",
         )
-        .see(&["derivative_by", "value_of", "fit"]),
+        .with_related(&["derivative_by", "value_of", "fit"]),
         function("derivative_by", &[X, text("parameter").doc("name of the parameter")], derivative_by)
-            .returns(Returns::ANYTHING.words("a number, a vector, or an array of them"))
+            .returns(Returns::ANYTHING.with_description("a number, a vector, or an array of them"))
             .summary("Returns the derivative of a number or a vector by a parameter of a scene; for \
                 an array those of its elements.")
             .doc("Zero for values that do not depend on a parameter, and for all values of a \
@@ -68,14 +68,14 @@ pub const TABLE: BindingTable = BindingTable {
                 "let scene = new_scene(\"two\");\nlet k = scene.parameter(\"k\", 4);\nlet m = scene.parameter(\"m\", 1);\n\
                  let omega = sqrt(k / m);\ncheck_close(omega.derivative_by(\"k\"), 0.25, 1e-9);\ncheck_close(derivative_by(omega, \"m\"), -1, 1e-8);",
             )
-            .see(&["parameter"]),
+            .with_related(&["parameter"]),
         function("value_of", &[X], |call| Ok(plain(&call.value("x")?)))
-            .returns(Returns::ANYTHING.words("the same without derivatives"))
+            .returns(Returns::ANYTHING.with_description("the same without derivatives"))
             .summary("Returns a number, vector, array or map without its derivatives.")
             .example(
                 "let scene = new_scene(\"one\");\nlet k = scene.parameter(\"k\", 4);\ncheck(value_of(2 * k) == 8);",
             )
-            .see(&["derivative_by"]),
+            .with_related(&["derivative_by"]),
     ],
 };
 
@@ -84,13 +84,13 @@ const KEYS: &[Parameter] = &[number("distance").positive().doc(
     of the magnitude (1e-5 for 0)",
 ).optional()];
 const VARIED: Type = Type::of::<VariantValue>();
-const X: Parameter = anything("x");
+const X: Parameter = of_any_type("x");
 /// Minimum relative step of a parameter, so that a derivative has enough digits.
 const LEAST_DISTANCE: f64 = 1e-10;
 
 fn declare(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let (name, value) = (call.text("name")?, call.number("value")?);
-    let distance = call.options_or_defaults("options")?.number_if_given("distance");
+    let distance = call.options_or_defaults("options")?.optional_number("distance");
     if let Some(distance) = distance.filter(|by| *by < LEAST_DISTANCE * value.abs()) {
         let [distance, value] = [distance, value].map(format_number);
         let told = format!(
@@ -111,7 +111,7 @@ fn derivative_by(call: &mut Call) -> Result<Dynamic, ScriptError> {
 
 fn derivative(call: &Call, value: &Dynamic, name: &str) -> Result<Dynamic, ScriptError> {
     if let Some(varied) = value.read_lock::<VariantValue>() {
-        let family = varied.family();
+        let family = varied.parameter_set();
         let Some(number) = family.number_of(name) else {
             let names: Vec<String> =
                 family.parameters().into_iter().map(|(name, _)| name).collect();

@@ -42,7 +42,7 @@ pub const TABLE: BindingTable = BindingTable {
                  let sim = scene.start(#{ dt: 0.01 });\nsim.run_to(1);\ncheck(sim.history.last(\"dissipated.drag1\") > 0);\n\
                  check(sim.history.drift(\"energy\") < 1e-12);",
             )
-            .see(&["damper", "line_load", "particle"]),
+            .with_related(&["damper", "line_load", "particle"]),
     ],
 };
 
@@ -81,10 +81,10 @@ fn drag(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let scene = call.receiver::<SceneHandle>()?;
     let options = call.options("options")?;
     let on = match call.get_if::<BeamHandle>("on") {
-        Some(beam) => of_beam(call, beam.own(&scene)?, &options)?,
+        Some(beam) => of_beam(call, beam.index_in(&scene)?, &options)?,
         None => of_point(call, &scene, &options)?,
     };
-    let name = options.text_if_given("name")?;
+    let name = options.optional_text("name")?;
     let name = name.unwrap_or_else(|| scene.scene().borrow().free_name("drag"));
     let wind = if options.has("wind") { options.point("wind")? } else { Vec2::zeros() };
     let added = scene.scene().borrow_mut().add_drag(Drag { name, on, wind });
@@ -117,8 +117,8 @@ fn of_beam(call: &Call, beam: usize, options: &Options) -> Result<Dragged, Scrip
     }
     let quadratic = options.get_if::<Options>("quadratic");
     let along = |name: &str| SpeedLaw {
-        linear: options.number_if_given(name).unwrap_or(0.0),
-        quadratic: quadratic.as_ref().and_then(|of| of.number_if_given(name)).unwrap_or(0.0),
+        linear: options.optional_number(name).unwrap_or(0.0),
+        quadratic: quadratic.as_ref().and_then(|of| of.optional_number(name)).unwrap_or(0.0),
     };
     Ok(Dragged::Beam { beam, normal: along("normal"), tangent: along("tangent") })
 }
@@ -132,9 +132,9 @@ fn of_point(call: &Call, scene: &SceneHandle, options: &Options) -> Result<Dragg
         let hint = "give quadratic: a number";
         return Err(call.error(told).hint(hint).at(CallPart::Key("quadratic".into())));
     }
-    let station = scene.own(&call.get::<StationHandle>("on")?)?;
+    let station = scene.own_station(&call.get::<StationHandle>("on")?)?;
     let law = SpeedLaw {
-        linear: options.number_if_given("linear").unwrap_or(0.0),
+        linear: options.optional_number("linear").unwrap_or(0.0),
         quadratic: call_number(options, "quadratic").unwrap_or(0.0),
     };
     Ok(Dragged::Point { station, law })

@@ -4,7 +4,8 @@ use rhai::{Dynamic, FnPtr, ImmutableString};
 
 use super::scenes::{JOINT, SCENE, STATION, newest_joint};
 use super::schedules::{
-    DELAY, SAMPLE, SCHEDULE_KINDS, beat_of, controlled_schedule_of, expect_controller, schedule_of,
+    DELAY, SAMPLE, SCHEDULE_KINDS, controlled_schedule_of, expect_controller, sample_clock_of,
+    schedule_of,
 };
 use crate::joints::{Component, Components, JointKind, Partner};
 use crate::loads::{LoadKind, PrescribedMotion, Schedule};
@@ -45,7 +46,7 @@ pub const TABLE: BindingTable = BindingTable {
             .example("scene.hinge(rod.start);\nscene.support(rod.end, #{ y: true });\nlet cart = scene.particle([0, 1], 2);\nscene.support(cart, #{ along: [1, -1] });\n\
                       scene.gravity([0, -9.81]);\nlet sim = scene.start(#{ dt: 0.01 });\nsim.run_to(1);\n\
                       check_close(sim.velocity(cart).norm(), 9.81 * sqrt(0.5), 1e-9);")
-            .see(&["clamp", "hinge", "move"]),
+            .with_related(&["clamp", "hinge", "move"]),
         method(SCENE, "move", &[AT, options("options", MOVE_KEYS)], drive)
             .summary("Prescribes the motion of a station: x, y and angle, or some of them, as \
                 functions of time.")
@@ -66,7 +67,7 @@ pub const TABLE: BindingTable = BindingTable {
                       // A trolley that is driven to x = 3 by its speed.\n\
                       let yard = new_scene(\"yard\");\nlet trolley = yard.particle([0, 0], 1);\n\
                       yard.move(trolley, #{ x_speed: |t, q| 2 * (3 - q.position(trolley).x), y: 0 });")
-            .see(&["motor", "support"]),
+            .with_related(&["motor", "support"]),
         method(SCENE, "motor", &[AT, options("options", MOTOR_KEYS)], motor)
             .summary("Rotates a section relative to the ground: by a prescribed angle, at a \
                 prescribed speed, or with a torque.")
@@ -80,7 +81,7 @@ pub const TABLE: BindingTable = BindingTable {
                       let sim = scene.start(#{ dt: 0.1 });\nsim.run_to(2);\n\
                       check_close(sim.angle(rod.start), 2, 1e-12);\n\
                       print(sim.history.last(\"motor1.torque\"));")
-            .see(&["move", "moment"]),
+            .with_related(&["move", "moment"]),
     ],
 };
 
@@ -151,7 +152,7 @@ fn support(call: &mut Call) -> Result<Dynamic, ScriptError> {
 
 fn drive(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let options = call.options("options")?;
-    let beat = beat_of(&options)?;
+    let beat = sample_clock_of(&options)?;
     let mut motions = [None, None, None];
     for (motion, component) in motions.iter_mut().zip(Component::ALL) {
         let key = component.name();
@@ -218,7 +219,7 @@ fn motor(call: &mut Call) -> Result<Dynamic, ScriptError> {
             .hint(format!("leave out {odd}"))
             .at(CallPart::Key(odd.into())));
     }
-    let beat = beat_of(&options)?;
+    let beat = sample_clock_of(&options)?;
     let schedule = match key {
         "angle" => place_of(call, &options, key, "speed: |t, q| …")?,
         _ => controlled_schedule_of(call, &options, key, &call.receiver::<SceneHandle>()?, beat)?,
@@ -249,7 +250,7 @@ fn motor(call: &mut Call) -> Result<Dynamic, ScriptError> {
             }
             let name = name_of(&options).unwrap_or_else(|| scene.borrow().free_name("motor"));
             let kind = LoadKind::Moment { station, moment: 1.0 };
-            scene.borrow_mut().add_named_load(name, kind, schedule).map_err(blame)?;
+            scene.borrow_mut().add_named_load(name, kind, schedule).map_err(drive_error)?;
             Ok(Dynamic::UNIT)
         }
     }
@@ -268,11 +269,11 @@ fn add(
     let (station, scene) = here(call, "station")?;
     let name = name_of(options).unwrap_or_else(|| scene.borrow().free_name(kind.name()));
     let drive = Drive { name, kind, station, motions };
-    scene.borrow_mut().add_drive(drive).map_err(blame)?;
+    scene.borrow_mut().add_drive(drive).map_err(drive_error)?;
     Ok(Dynamic::UNIT)
 }
 
-pub(super) fn blame(error: SystemError) -> ScriptError {
+pub(super) fn drive_error(error: SystemError) -> ScriptError {
     let place = match &error {
         SystemError::Unnamed { .. } | SystemError::DuplicateName { .. } => {
             CallPart::Key("name".into())

@@ -3,17 +3,19 @@
 use rhai::{Array, Dynamic, INT, Map};
 
 use super::modes::MODES;
-use super::modes::{COUNT, ModesHandle, expect_room, look as look_for_modes, look_for_damped};
+use super::modes::{
+    COUNT, ModesHandle, damped_modes, expect_room, undamped_modes as look_for_modes,
+};
 use super::scenes::{SCENE, STATION};
 use super::simulations::SIMULATION;
-use super::simulations::{START, begin, followed};
+use super::simulations::{START, begin, tracked_angle};
 use super::sliding::{SliderHandle, WHICH};
 use super::vectors::VECTOR;
 use crate::beams::BodyPoint;
 use crate::output::significant;
 use crate::script::bindings::call::Call;
 use crate::script::bindings::kind::{Scripted, Type};
-use crate::script::bindings::parameter::{Parameter, Presence, number, object, options, whole};
+use crate::script::bindings::parameter::{Parameter, Presence, integer, number, object, options};
 use crate::script::bindings::returns::{Returns, ValueKind};
 use crate::script::bindings::table::{
     BindingTable, FunctionBinding, NativeFunction, function, method, property,
@@ -50,12 +52,12 @@ pub const TABLE: BindingTable = BindingTable {
                 "let rest = scene.equilibrium(#{ load_steps: 4 });\n\
                  check_close(rest.angle(rod.end), 3.14159265358979 / 2, 1e-9);",
             )
-            .see(&["load_control", "arc_length", "modes", "start", "plot_equilibrium"]),
+            .with_related(&["load_control", "arc_length", "modes", "start", "plot_equilibrium"]),
         function("load_control", &[], |_| Ok(Dynamic::from(Control::Load)))
             .returns(Returns::object(CONTROL))
             .summary("Selects load control: the load increases by equal parts in each step.")
             .example("let rest = scene.equilibrium(#{ load_steps: 4, control: load_control() });\ncheck(rest.load_factors == [0, 0.25, 0.5, 0.75, 1]);")
-            .see(&["arc_length", "equilibrium"]),
+            .with_related(&["arc_length", "equilibrium"]),
         function("arc_length", &[options("options", ARC_LENGTH).optional()], |call| {
             let options = call.options_or_defaults("options")?;
             let arc = ArcLength { longest: options.number("longest")?, points: options.count("points")? };
@@ -73,26 +75,26 @@ pub const TABLE: BindingTable = BindingTable {
             "let rest = scene.equilibrium(#{ load_steps: 4, control: arc_length(#{ longest: 0.1 }) });\n\
              check(rest.load_factor == 1 && rest.limit_points.len() == 0);",
         )
-        .see(&["load_control", "equilibrium", "limit_points"]),
+        .with_related(&["load_control", "equilibrium", "limit_points"]),
         method(EQUILIBRIUM, "position", &[AT], |call| {
             let (rest, place) = place(call)?;
-            let position = rest.rest().model().position(&place);
+            let position = rest.equilibrium().model().position(&place);
             Ok(Dynamic::from(position))
         })
         .returns(Returns::object(VECTOR).unit("length"))
         .summary("Returns the equilibrium position of a station.")
         .example("let rest = scene.equilibrium();\ncheck(rest.position(rod.end).y > 1);")
-        .see(&["positions", "angle"]),
+        .with_related(&["positions", "angle"]),
         method(EQUILIBRIUM, "positions", &[AT], |call| {
             let (rest, place) = place(call)?;
-            let positions = rest.rest().along_path(|model| model.position(&place))?;
+            let positions = rest.equilibrium().along_path(|model| model.position(&place))?;
             Ok(positions.into_iter().map(Dynamic::from).collect::<Array>().into())
         })
         .returns(Returns::array_of(&ValueKind::Object(VECTOR)).unit("length"))
         .summary("Returns the positions of a station at all points of the path, beginning with the \
             unloaded scene.")
         .example("let rest = scene.equilibrium(#{ load_steps: 4 });\ncheck(rest.positions(rod.end).len() == 5);")
-        .see(&["load_factors", "plot_load_path"]),
+        .with_related(&["load_factors", "plot_load_path"]),
         method(EQUILIBRIUM, "angle", &[AT], angle)
             .returns(Returns::NUMBER.unit("rad"))
             .summary("Returns the angle of the section at a station, counter-clockwise and not \
@@ -107,33 +109,33 @@ pub const TABLE: BindingTable = BindingTable {
                 returned, not the forces of joints between beams.")
             .example("let rest = scene.equilibrium();\ncheck_close(rest.reaction(rod.start).moment, -s.EI * 3.14159265358979 / 4, 1e-6);"),
         method(EQUILIBRIUM, "slider_position", &[WHICH], |call| {
-            asked(call, |model, slider| model.slider_position(slider).into())
+            slider_value(call, |model, slider| model.slider_position(slider).into())
         })
         .returns(Returns::NUMBER)
         .summary("Returns the equilibrium position of a slider on its beam or track, by undeformed \
             length: 0 at the start, 1 at the end.")
         .example(SLID)
-        .see(&["slider_arc_length", "contact_force", "leans_on"]),
+        .with_related(&["slider_arc_length", "contact_force", "leans_on"]),
         method(EQUILIBRIUM, "slider_arc_length", &[WHICH], |call| {
-            asked(call, |model, slider| model.slider_arc_length(slider).into())
+            slider_value(call, |model, slider| model.slider_arc_length(slider).into())
         })
         .returns(Returns::NUMBER.unit("length"))
         .summary("Returns the undeformed arc length from the start of the beam or track to the \
             slider.")
         .example(SLID)
-        .see(&["slider_position"]),
+        .with_related(&["slider_position"]),
         method(EQUILIBRIUM, "contact_force", &[WHICH], |call| {
-            asked(call, |model, slider| Dynamic::from(model.contact_force(slider)))
+            slider_value(call, |model, slider| Dynamic::from(model.contact_force(slider)))
         })
         .returns(Returns::object(VECTOR).unit("force"))
         .summary("Returns the contact force of a slider on its beam in equilibrium; the force on its \
             station is the opposite.")
         .example(SLID)
-        .see(&["slider_position"]),
+        .with_related(&["slider_position"]),
         method(EQUILIBRIUM, "leans_on", &[WHICH], |call| {
-            asked(call, |model, slider| model.slider_leans_on(slider).unwrap_or_default().into())
+            slider_value(call, |model, slider| model.slider_held_by(slider).unwrap_or_default().into())
         })
-        .returns(Returns::TEXT.note(", empty if the slider is not in contact with an end stop"))
+        .returns(Returns::TEXT.with_remark(", empty if the slider is not in contact with an end stop"))
         .summary("Returns the end of the beam or track whose stop a slider is in contact with, \
             \"start\" or \"end\", or a \"seam\" of its track.")
         .doc("A stop only pushes. Sliders with ends: \"stop\" and ends: \"bounce\" can be in \
@@ -141,35 +143,35 @@ pub const TABLE: BindingTable = BindingTable {
             equilibrium. In modes about the equilibrium a slider in contact with a stop is \
             fixed.")
         .example(SLID)
-        .see(&["slider_position"]),
+        .with_related(&["slider_position"]),
         method(EQUILIBRIUM, "modes", &[COUNT], |call| {
             let handle = call.receiver::<EquilibriumHandle>()?;
-            expect_room(call, handle.rest().model())?;
+            expect_room(call, handle.equilibrium().model())?;
             let modes = look_for_modes(call, |count, goes_on| {
-                handle.rest_mut().modes(count, goes_on)
+                handle.equilibrium_mut().modes(count, goes_on)
             })?;
-            Ok(Dynamic::from(ModesHandle::new(handle.scene().clone(), handle.rest().scene(), modes)))
+            Ok(Dynamic::from(ModesHandle::new(handle.scene().clone(), handle.equilibrium().scene(), modes)))
         })
         .returns(Returns::object(MODES))
         .summary("Computes the lowest natural frequencies and mode shapes about the equilibrium.")
         .doc("An unstable equilibrium has growing modes; see growth_rates. Refused with an error \
             if a follower load acts.")
         .example("let rest = scene.equilibrium();\ncheck(rest.modes(2).is_stable);")
-        .see(&["modes", "plot_modes"]),
+        .with_related(&["modes", "plot_modes"]),
         method(EQUILIBRIUM, "damped_modes", &[COUNT], |call| {
             let handle = call.receiver::<EquilibriumHandle>()?;
-            look_for_damped(call, handle.rest().model())
+            damped_modes(call, handle.equilibrium().model())
         })
         .returns(Returns::ARRAY)
         .summary("Computes the lowest damped vibrations about the equilibrium: maps of decay_rate, \
             angular_frequency and damping_ratio.")
         .doc("See scene.damped_modes for accuracy and restrictions.")
         .example("let rest = scene.equilibrium();\ncheck_close(rest.damped_modes(1)[0].angular_frequency, rest.modes(1).angular_frequencies[0], 1e-6);")
-        .see(&["modes"]),
+        .with_related(&["modes"]),
         method(EQUILIBRIUM, "start", &[options("options", START)], |call| {
             let handle = call.receiver::<EquilibriumHandle>()?;
             begin(call, handle.scene().clone(), |settings| {
-                Simulation::start_at_rest(&handle.rest(), settings)
+                Simulation::start_at_rest(&handle.equilibrium(), settings)
             })
         })
         .returns(Returns::object(SIMULATION))
@@ -185,34 +187,34 @@ pub const TABLE: BindingTable = BindingTable {
             "let rest = scene.equilibrium();\nlet sim = rest.start(#{ dt: 0.01 });\nsim.run_to(0.1);\n\
              check(norm(sim.position(rod.end) - rest.position(rod.end)) < 1e-9);",
         )
-        .see(&["hold_for"]),
-        told("is_stable", Returns::TRUTH, is_stable)
+        .with_related(&["hold_for"]),
+        binding("is_stable", Returns::TRUTH, is_stable)
         .summary("True if the equilibrium is stable: every small disturbance increases the potential \
             energy.")
         .example("check(scene.equilibrium().is_stable);")
-        .see(&["modes", "limit_points"]),
-        told("load_factor", Returns::NUMBER.unit("-"), |call| look(call, |of| of.path().load_factor().into()))
+        .with_related(&["modes", "limit_points"]),
+        binding("load_factor", Returns::NUMBER.unit("-"), |call| read(call, |of| of.path().load_factor().into()))
             .summary("Fraction of the loads that acts: the requested one, unless the path ended \
                 earlier.")
             .example("check(scene.equilibrium().load_factor == 1);"),
-        told("load_factors", Returns::NUMBERS.unit("-"), |call| look(call, |of| {
+        binding("load_factors", Returns::NUMBERS.unit("-"), |call| read(call, |of| {
             of.path().points().iter().map(|point| point.load_factor.into()).collect::<Array>().into()
         }))
         .summary("Load factors at all points of the path, beginning with 0.")
         .example("check(scene.equilibrium(#{ load_steps: 2 }).load_factors == [0, 0.5, 1]);"),
-        told("limit_points", Returns::NUMBERS.unit("-"), |call| look(call, |of| {
+        binding("limit_points", Returns::NUMBERS.unit("-"), |call| read(call, |of| {
             of.path().limit_points().into_iter().map(Dynamic::from).collect::<Array>().into()
         }))
         .summary("Load factors at the limit points of the path, where the structure would snap \
             through.")
         .example("check(scene.equilibrium().limit_points.len() == 0);")
-        .see(&["arc_length"]),
-        told("strain", Returns::NUMBER.unit("energy"), |call| look(call, |of| {
+        .with_related(&["arc_length"]),
+        binding("strain", Returns::NUMBER.unit("energy"), |call| read(call, |of| {
             of.path().points().last().map_or(0.0, |point| point.strain_energy).into()
         }))
         .summary("Strain energy of the equilibrium.")
         .example("check_close(scene.equilibrium().strain, (s.EI * 3.14159265358979 / 4)^2 * rod.length / s.EI / 2, 1e-6);"),
-        told("iterations", Returns::WHOLE, |call| look(call, |of| {
+        binding("iterations", Returns::WHOLE, |call| read(call, |of| {
             let taken = of.path().points().iter().map(|point| point.iterations).sum::<usize>();
             Dynamic::from(taken as INT)
         }))
@@ -245,7 +247,7 @@ const CONTROL: Type = Type::of::<Control>();
 
 const AT: Parameter = object("station", STATION);
 const LOADING: &[Parameter] = &[
-    whole("load_steps").between(1.0, 100_000.0).or(Presence::Whole(10)).doc(
+    integer("load_steps").between(1.0, 100_000.0).or(Presence::Whole(10)).doc(
         "number of load steps; with arc_length() the first step applies 1/load_steps of the \
             load",
     ),
@@ -263,7 +265,7 @@ const ARC_LENGTH: &[Parameter] = &[
         "largest step: root mean square of displacements divided by the length of the longest \
         beam, and of rotations in rad",
     ),
-    whole("points")
+    integer("points")
         .between(3.0, 100_000.0)
         .or(Presence::Whole(1000))
         .doc("largest number of points of the path, which ends there"),
@@ -283,12 +285,12 @@ impl Scripted for Control {
     }
 }
 
-const fn told(name: &'static str, returns: Returns, body: NativeFunction) -> FunctionBinding {
+const fn binding(name: &'static str, returns: Returns, body: NativeFunction) -> FunctionBinding {
     property(EQUILIBRIUM, name, body).returns(returns)
 }
 
-fn look(call: &Call, read: fn(&Equilibrium) -> Dynamic) -> Result<Dynamic, ScriptError> {
-    Ok(read(&call.receiver::<EquilibriumHandle>()?.rest()))
+fn read(call: &Call, read: fn(&Equilibrium) -> Dynamic) -> Result<Dynamic, ScriptError> {
+    Ok(read(&call.receiver::<EquilibriumHandle>()?.equilibrium()))
 }
 
 fn find(call: &mut Call) -> Result<Dynamic, ScriptError> {
@@ -304,12 +306,12 @@ fn find(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let description = scene.scene().borrow().clone();
     let context = call.context();
     let found = match context.mode() {
-        RunMode::DryBuild => Equilibrium::pretend(description, loading),
+        RunMode::DryBuild => Equilibrium::dry_run(description, loading),
         RunMode::Run => {
             let name = description.name.clone();
             context.progress().begin(&name, 0.0, loading.factor);
             let found = Equilibrium::find(description, loading, &mut |reached| {
-                context.progress().reach(reached);
+                context.progress().report_time(reached);
                 context.meter().count_step();
                 context.meter().allows_a_step() && !context.is_stopped()
             });
@@ -327,13 +329,13 @@ fn find(call: &mut Call) -> Result<Dynamic, ScriptError> {
         |rest: &Equilibrium| rest.stability(&mut || !context.is_stopped()) == Stability::Unstable;
     if context.mode() == RunMode::Run && is_unstable(&rest) {
         let name = &rest.scene().name;
-        context.tell(&format!("note: the equilibrium of '{name}' is not stable"));
+        context.print_message(&format!("note: the equilibrium of '{name}' is not stable"));
     }
     let path = rest.path();
     if path.load_factor() != loading.factor {
         let (points, factor) = (path.points().len(), significant(path.load_factor(), 6));
         let name = &rest.scene().name;
-        context.tell(&format!(
+        context.print_message(&format!(
             "note: the path of '{name}' ends after {points} points, at load factor {factor}"
         ));
     }
@@ -343,7 +345,7 @@ fn find(call: &mut Call) -> Result<Dynamic, ScriptError> {
 fn is_stable(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let handle = call.receiver::<EquilibriumHandle>()?;
     let context = call.context();
-    let stability = handle.rest_mut().stability(&mut || !context.is_stopped());
+    let stability = handle.equilibrium_mut().stability(&mut || !context.is_stopped());
     let unknown = |why: &str| {
         let hint = "simulate it with a disturbance: rest.start(#{ dt: … })";
         Err(call.error(format!("the stability of the equilibrium is unknown: {why}")).hint(hint))
@@ -356,9 +358,12 @@ fn is_stable(call: &mut Call) -> Result<Dynamic, ScriptError> {
     }
 }
 
-fn asked(call: &Call, ask: impl FnOnce(&System, usize) -> Dynamic) -> Result<Dynamic, ScriptError> {
+fn slider_value(
+    call: &Call,
+    ask: impl FnOnce(&System, usize) -> Dynamic,
+) -> Result<Dynamic, ScriptError> {
     let handle = call.receiver::<EquilibriumHandle>()?;
-    let rest = handle.rest();
+    let rest = handle.equilibrium();
     let slider = call.get::<SliderHandle>("slider")?.among(handle.scene(), rest.scene())?;
     Ok(ask(rest.model(), slider))
 }
@@ -372,13 +377,13 @@ fn place(call: &Call) -> Result<(EquilibriumHandle, BodyPoint), ScriptError> {
 fn angle(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let (handle, _) = place(call)?;
     let station = call.get::<StationHandle>("station")?;
-    let rest = handle.rest();
-    followed(call, &station, rest.model().angle(rest.scene(), &station.station))
+    let rest = handle.equilibrium();
+    tracked_angle(call, &station, rest.model().angle(rest.scene(), &station.station))
 }
 
 fn reaction(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let (handle, place) = place(call)?;
-    let reaction = handle.rest_mut().reaction(&place);
+    let reaction = handle.equilibrium_mut().reaction(&place);
     let Some((force, moment)) = reaction else {
         let station = call.get::<StationHandle>("station")?;
         return Err(call

@@ -6,7 +6,7 @@ use super::language;
 use super::scenes::SCENE;
 use super::simulations::{SIMULATION, SPINNING};
 use crate::output::TextTable;
-use crate::script::bindings::parameter::{anything, object};
+use crate::script::bindings::parameter::{object, of_any_type};
 use crate::script::bindings::returns::Returns;
 use crate::script::bindings::table::{BindingTable, function, method};
 use crate::script::handles::scene::SceneHandle;
@@ -23,7 +23,7 @@ pub const TABLE: BindingTable = BindingTable {
     setup: SPINNING,
     constants: &[],
     rows: &[
-        function("describe", &[anything("value")], |call| {
+        function("describe", &[of_any_type("value")], |call| {
             let shown = present(&language(), &call.value("value")?, WIDTH);
             Ok(if shown.is_empty() { "nothing".into() } else { shown.into() })
         })
@@ -34,7 +34,7 @@ pub const TABLE: BindingTable = BindingTable {
         )
         .doc("Numbers have up to ten digits; long arrays and maps are shortened.")
         .example("print(describe(rod));\ncheck(describe(0.1 + 0.2) == \"0.3\");")
-        .see(&["explain"]),
+        .with_related(&["explain"]),
         method(SCENE, "is_like", &[object("other", SCENE)], |call| {
             let (own, other) = (call.receiver::<SceneHandle>()?, call.get::<SceneHandle>("other")?);
             let is_like = own.scene().borrow().is_like(&other.scene().borrow());
@@ -54,7 +54,7 @@ pub const TABLE: BindingTable = BindingTable {
              for one in pair { one.particle([0, 0], 1); }\ncheck(pair[0].is_like(pair[1]));\n\
              pair[1].gravity([0, -9.81]);\ncheck(!pair[0].is_like(pair[1]));",
         )
-        .see(&["beam", "start"]),
+        .with_related(&["beam", "start"]),
         method(SCENE, "explain", &[], |call| {
             let parts = call.receiver::<SceneHandle>()?.scene().borrow().explain()?;
             Ok(written(&parts))
@@ -69,14 +69,14 @@ pub const TABLE: BindingTable = BindingTable {
             in the same way as by scene.start(…).",
         )
         .example("print(scene.explain());\ncheck(scene.explain().contains(\"plain band\"));")
-        .see(&["start", "describe"]),
+        .with_related(&["start", "describe"]),
         method(SIMULATION, "explain", &[], |call| {
             Ok(written(&call.receiver::<SimulationHandle>()?.simulation().explain()))
         })
         .returns(Returns::TEXT)
         .summary("Returns the same table for a simulation, with its integrator and its steps.")
         .example("print(sim.explain());\ncheck(sim.explain().contains(\"energy_momentum\"));")
-        .see(&["invariants"]),
+        .with_related(&["invariants"]),
     ],
 };
 

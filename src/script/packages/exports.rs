@@ -2,7 +2,7 @@
 
 use rhai::Dynamic;
 
-use super::recording::{Missing, expect_near, tell_another_run};
+use super::recording::{Missing, expect_near, report_diverged_rerun};
 use super::simulations::{SIMULATION, SPINNING};
 use super::sweeps::SWEEP_TABLE;
 use super::tables::{TABULAR, table};
@@ -11,7 +11,7 @@ use crate::script::bindings::call::Call;
 use crate::script::bindings::kind::Kind;
 use crate::script::bindings::options::Options;
 use crate::script::bindings::parameter::{
-    Parameter, boolean, choice, either, number, object, options, text, whole,
+    Parameter, boolean, choice, either, integer, number, object, options, text,
 };
 use crate::script::bindings::table::{BindingTable, function};
 use crate::script::handles::simulation::{SimulationHandle, Visited};
@@ -48,7 +48,7 @@ pub const TABLE: BindingTable = BindingTable {
                 an earlier, longer export are not deleted, but the .pvd does not list them.",
             )
             .example("sim.run_to(2);\nwrite_vtk(sim, \"spin.pvd\", #{ every: 0.5 });\nwrite_vtk(sim, \"shape.pvd\", #{ frames: 3, fields: \"shape\" });")
-            .see(&["write_npz", "plot_motion", "save"]),
+            .with_related(&["write_npz", "plot_motion", "save"]),
         function("write_npz", &[ARRAYED, NPZ_FILE], write_npz)
             .summary("Writes all recorded data as arrays for NumPy.")
             .doc(
@@ -60,7 +60,7 @@ pub const TABLE: BindingTable = BindingTable {
                 doubles with full accuracy.",
             )
             .example("sim.run_to(1);\nwrite_npz(sim, \"spin.npz\");")
-            .see(&["write_vtk", "write_states", "write_csv"]),
+            .with_related(&["write_vtk", "write_states", "write_csv"]),
         function("write_csv", &[TABULAR, CSV_FILE, options("options", HEADER).optional()], write_csv)
             .summary("Writes a table as plain CSV for other programs: column names in the first \
                 line, no comments.")
@@ -75,7 +75,7 @@ pub const TABLE: BindingTable = BindingTable {
                 "sim.run_to(1);\nwrite_csv(sim, \"spin.csv\");\nwrite_csv(sim.history.after(0.5), \"late.csv\", #{ units: true });\n\
                  write_csv([#{ mesh: 8, error: 0.1 }, #{ mesh: 16, error: 0.02 }], \"errors.csv\");",
             )
-            .see(&["write_parquet", "write_history", "cells"]),
+            .with_related(&["write_parquet", "write_history", "cells"]),
         function("write_parquet", &[TABULAR, PARQUET_FILE], write_parquet)
             .summary("Writes a table as Apache Parquet, if withy was built with this feature.")
             .doc(
@@ -85,7 +85,7 @@ pub const TABLE: BindingTable = BindingTable {
                 texts; `dimension.NAME` of the metadata is the dimension of a column.",
             )
             .example("sim.run_to(1);\ntry { write_parquet(sim, \"spin.parquet\"); } catch (error) { print(error); }")
-            .see(&["write_csv", "write_npz"]),
+            .with_related(&["write_csv", "write_npz"]),
     ],
 };
 
@@ -105,7 +105,7 @@ const FRAMES: &[Parameter] = &[
         .unit("time")
         .doc("time between frames; the last one is always written")
         .optional(),
-    whole("frames")
+    integer("frames")
         .between(2.0, MOST_FRAMES)
         .doc("largest number of frames, evenly spaced in time; default: 101")
         .optional(),
@@ -176,7 +176,7 @@ fn write_vtk(call: &mut Call) -> Result<Dynamic, ScriptError> {
         wish => match write_states(call, &of, &frames, (&grids, &files))? {
             Visited::All => false,
             Visited::Another(time) => {
-                tell_another_run(call, &of, time, (MISSING, wish.is_some()))?;
+                report_diverged_rerun(call, &of, time, (MISSING, wish.is_some()))?;
                 true
             }
         },
@@ -206,7 +206,7 @@ fn write_states(
         let simulation = of.simulation();
         frames.iter().map(|frame| simulation.trajectory().times()[*frame]).collect()
     };
-    of.visit(&times, call.context(), &mut |number, state| {
+    of.for_each_state(&times, call.context(), &mut |number, state| {
         call.proceed()?;
         let grid = grids.of_state(state).to_vtu()?;
         call.context().write_file(&files.of_frame(number), grid.as_bytes()).map(|_| ())
@@ -220,8 +220,8 @@ fn frames(
 ) -> Result<Vec<usize>, ScriptError> {
     let simulation = of.simulation();
     let trajectory = simulation.trajectory();
-    let from = options.number_if_given("from").unwrap_or(0.0);
-    let to = options.number_if_given("to").unwrap_or(f64::INFINITY).min(simulation.time());
+    let from = options.optional_number("from").unwrap_or(0.0);
+    let to = options.optional_number("to").unwrap_or(f64::INFINITY).min(simulation.time());
     let slack = simulation.slack();
     let first = trajectory.times().partition_point(|time| *time < from - slack);
     let end = trajectory.times().partition_point(|time| *time <= to + slack);
@@ -232,7 +232,7 @@ fn frames(
     };
     let at = |index: usize| trajectory.times()[index];
     let span = at(last) - at(first);
-    let (every, count) = match (options.number_if_given("every"), options.has("frames")) {
+    let (every, count) = match (options.optional_number("every"), options.has("frames")) {
         (Some(_), true) => {
             return Err(call
                 .error(

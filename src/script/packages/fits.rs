@@ -11,7 +11,8 @@ use crate::script::bindings::kind::{Scripted, Type};
 use crate::script::bindings::option_set::option_set;
 use crate::script::bindings::options::Options;
 use crate::script::bindings::parameter::{
-    Parameter, Presence, anything, callback, choice, name, number, numbers, options, text, whole,
+    Parameter, Presence, callback, choice, integer, name, number, numbers, of_any_type, options,
+    text,
 };
 use crate::script::bindings::returns::{Returns, ValueKind};
 use crate::script::bindings::table::{
@@ -64,7 +65,7 @@ pub const TABLE: BindingTable = BindingTable {
                  model: |p| times.map(|t| p.height * exp(-p.rate * t)), measured: measured, over: times,\n});\n\
                  check_close(found.parameters.height, 3, 0.01);\ncheck_close(found.parameters.rate, 0.5, found.half_widths.rate * 2);\nfound.plot();",
             )
-            .see(&["minimise", "find_root", "read_csv", "study_sweep"]),
+            .with_related(&["minimise", "find_root", "read_csv", "study_sweep"]),
         of_fit("parameters", |call| Ok(named(&*fit(call)?, |fit, at| Some(fit.fitted.parameters[at]))))
             .returns(Returns::MAP)
             .summary("Map of the fitted parameters by name.")
@@ -76,13 +77,13 @@ pub const TABLE: BindingTable = BindingTable {
         .summary("Map of the standard errors of the parameters by name; () if the residuals do not \
             determine them, or do not depend on one of them.")
         .example("check(found.errors.slope < 1e-8);")
-        .see(&["half_widths", "covariance"]),
+        .with_related(&["half_widths", "covariance"]),
         of_fit("half_widths", |call| Ok(named(&*fit(call)?, Fit::half_width)))
             .returns(Returns::MAP)
             .summary("Map of half the widths of the confidence intervals of the parameters, with the \
                 option `confidence`, default: 0.95; () if they are not determined.")
             .example("let p = found.parameters;\nprint(`${p.slope} ± ${found.half_widths.slope}`);")
-            .see(&["errors"]),
+            .with_related(&["errors"]),
         of_fit("covariance", |call| {
             let rows = fit(call)?.fitted.estimate.as_ref().map(|of| of.covariance.clone());
             let row = |row: Vec<f64>| Dynamic::from(row.into_iter().map(Dynamic::from).collect::<Array>());
@@ -139,7 +140,7 @@ pub const TABLE: BindingTable = BindingTable {
                  run: |p| #{ rim: 2 * (p.width + p.height), area: p.width * p.height },\n    least: \"rim\", constraints: #{ area: [4, ()] },\n});\n\
                  check_close(best.results.rim, 8, 1e-2);",
             )
-            .see(&["fit", "find_root"]),
+            .with_related(&["fit", "find_root"]),
         of_design("parameters", |call| Ok(pairs(&design(call)?.parameters)))
             .returns(Returns::MAP)
             .summary("Map of the parameters of the best design by name.")
@@ -169,7 +170,7 @@ pub const TABLE: BindingTable = BindingTable {
                 1e-9 of the interval. The function is called on this thread and may use \
                 everything.")
             .example("check_close(find_root(|x| cos(x) * cosh(x) + 1, 1, 3), 1.875104068711961, 1e-8);")
-            .see(&["fit", "minimise"]),
+            .with_related(&["fit", "minimise"]),
     ],
 };
 
@@ -185,7 +186,7 @@ const PLACE_TOLERANCE: Parameter = number("tolerance")
     .positive()
     .doc("accuracy of the argument; default: 1e-9 of the interval")
     .optional();
-const RANGES: Parameter = anything("parameters").doc(
+const RANGES: Parameter = of_any_type("parameters").doc(
     "names with initial, lowest and highest value: #{ EI: [10, 1, 100] }, or the initial \
         value alone",
 );
@@ -202,9 +203,9 @@ option_set! {
         parameters: Dynamic = RANGES,
         residuals: Option<FnPtr> = callback("residuals").doc("|p| …, returns an array of differences").optional(),
         model: Option<FnPtr> = callback("model").doc("|p| …, returns an array of values to be compared with measured").optional(),
-        measured: Option<Vec<f64>> = numbers("measured").doc("measured values").optional().beside("model"),
-        over: Option<Vec<f64>> = numbers("over").doc("places or times of the measured values, for the picture").optional().beside("measured"),
-        data: Option<Dynamic> = anything("data").doc("second argument of the function: read_csv(\"measured.csv\")").optional(),
+        measured: Option<Vec<f64>> = numbers("measured").doc("measured values").optional().requires_key("model"),
+        over: Option<Vec<f64>> = numbers("over").doc("places or times of the measured values, for the picture").optional().requires_key("measured"),
+        data: Option<Dynamic> = of_any_type("data").doc("second argument of the function: read_csv(\"measured.csv\")").optional(),
         weights: Option<Vec<f64>> = numbers("weights").doc("weights of the squares, one for each: 1 over the variance of the measured value").optional(),
         confidence: f64 = number("confidence").between(0.5, 0.9999).or(Presence::Number(0.95)).doc("confidence of the intervals of the parameters"),
         step: f64 = number("step").between(1e-8, 0.1).or(Presence::Number(RELATIVE_STEP)).doc("step of differences, as a fraction of the size of a parameter"),
@@ -221,9 +222,9 @@ option_set! {
         run: FnPtr = callback("run").doc("|p| …, returns a map of numbers"),
         least: Option<String> = text("least").doc("name of the result to minimise").optional(),
         largest: Option<String> = text("largest").doc("name of the result to maximise").optional(),
-        constraints: Option<Dynamic> = anything("constraints").doc("lower and upper limits of results: #{ sag: [-1e-3, 1e-3], mass: [(), 5] }").optional(),
+        constraints: Option<Dynamic> = of_any_type("constraints").doc("lower and upper limits of results: #{ sag: [-1e-3, 1e-3], mass: [(), 5] }").optional(),
         tolerance: f64 = number("tolerance").positive().or(Presence::Number(1e-4)).doc("accuracy of parameters, as a fraction of their ranges"),
-        most_runs: usize = whole("most_runs").positive().or(Presence::Whole(500)),
+        most_runs: usize = integer("most_runs").positive().or(Presence::Whole(500)),
         derivatives: String = choice("derivatives", &["known", "none"]).or(Presence::Text("known")).doc("\"known\": derivatives of the runs if available; \"none\": no derivatives"),
         patience: f64 = PATIENCE,
     }
@@ -353,8 +354,8 @@ fn make_fit(call: &mut Call) -> Result<Dynamic, ScriptError> {
         wall: wall(options.patience),
     };
     let fit = match call.context().mode() {
-        RunMode::Run => order.make(call)?,
-        RunMode::DryBuild => order.pretend(call)?,
+        RunMode::Run => order.run(call)?,
+        RunMode::DryBuild => order.dry_run(call)?,
     };
     print_table(call.context(), &fit.text());
     Ok(Dynamic::from(FitHandle(Rc::new(fit))))
@@ -391,8 +392,8 @@ fn minimise(call: &mut Call) -> Result<Dynamic, ScriptError> {
         wall: wall(options.patience),
     };
     let design = match call.context().mode() {
-        RunMode::Run => order.make(call)?,
-        RunMode::DryBuild => order.pretend(call)?,
+        RunMode::Run => order.run(call)?,
+        RunMode::DryBuild => order.dry_run(call)?,
     };
     print_table(call.context(), &design.text());
     Ok(Dynamic::from(DesignHandle(Rc::new(design))))

@@ -11,7 +11,7 @@ use rhai::{Array, Dynamic};
 
 use crate::geometry::{Basis, GeometryError, MAX_DEGREE, Vec2};
 use crate::script::bindings::call::Call;
-use crate::script::bindings::parameter::{Parameter, Presence, number, whole};
+use crate::script::bindings::parameter::{Parameter, Presence, integer, number};
 use crate::script::messages::error::{CallPart, ScriptError};
 use crate::script::messages::numbers::format_number;
 
@@ -20,19 +20,19 @@ pub use knots::KNOTS;
 
 const XI: Parameter = number("xi").doc("parameter ξ, inside the domain");
 
-const ORDER: Parameter = whole("order")
+const ORDER: Parameter = integer("order")
     .between(0.0, MAX_DEGREE as f64)
     .doc("order of the derivative by ξ; 0 for the value itself");
 
 const TIMES: Parameter =
-    whole("times").non_negative().doc("number of insertions").or(Presence::Whole(1));
+    integer("times").non_negative().doc("number of insertions").or(Presence::Whole(1));
 
 /// Components below this fraction of a vector print as 0.
 const ROUNDING: f64 = 1e-14;
 
 /// Derivatives of all functions of `basis` for the arguments `xi` and `order` of `call`.
 pub fn all_functions(basis: &Basis, call: &Call) -> Result<Dynamic, ScriptError> {
-    let local = blame(0, basis.evaluate(call.number("xi")?))?;
+    let local = at_argument(0, basis.evaluate(call.number("xi")?))?;
     let mut row = vec![0.0; basis.functions()];
     let derivatives = local.derivatives(call.count("order")?);
     row[local.first..][..derivatives.len()].copy_from_slice(derivatives);
@@ -55,7 +55,7 @@ fn count(n: usize) -> Dynamic {
     Dynamic::from(n as i64)
 }
 
-fn blame<T>(argument: usize, result: Result<T, GeometryError>) -> Result<T, ScriptError> {
+fn at_argument<T>(argument: usize, result: Result<T, GeometryError>) -> Result<T, ScriptError> {
     result.map_err(|error| ScriptError::from(error).at(CallPart::Argument(argument)))
 }
 

@@ -4,7 +4,7 @@ use rhai::Dynamic;
 
 use super::language;
 use crate::script::bindings::call::Call;
-use crate::script::bindings::parameter::anything;
+use crate::script::bindings::parameter::of_any_type;
 use crate::script::bindings::table::{BindingTable, function};
 use crate::script::help::lookup::{WIDTH, page};
 use crate::script::messages::error::{CallPart, ScriptError};
@@ -18,7 +18,9 @@ pub const TABLE: BindingTable = BindingTable {
     constants: &[],
     rows: &[function(
         "help",
-        &[anything("name").doc("a name in quotes, or a value whose type is explained").optional()],
+        &[of_any_type("name")
+            .doc("a name in quotes, or a value whose type is explained")
+            .optional()],
         help,
     )
     .summary("Prints the help on a name, with an example; without a name an overview.")

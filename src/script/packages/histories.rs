@@ -30,7 +30,7 @@ pub const TABLE: BindingTable = BindingTable {
             .returns(Returns::object(HISTORY))
             .summary("Returns the rows from a time on.")
             .example("sim.run_to(1);\ncheck(sim.history.after(0.5).first(\"t\") == 0.5);")
-            .see(&["before", "between"]),
+            .with_related(&["before", "between"]),
         method(HISTORY, "before", &[T], |call| window(call, |call| Ok((f64::NEG_INFINITY, call.number("t")?))))
             .returns(Returns::object(HISTORY))
             .summary("Returns the rows up to a time.")
@@ -51,12 +51,12 @@ pub const TABLE: BindingTable = BindingTable {
                 allows; gap: the largest gap of a joint, a length.",
             )
             .example("sim.run_to(1);\ncheck(sim.history.drift(\"energy\") < 1e-12);")
-            .see(&["invariants"]),
+            .with_related(&["invariants"]),
         method(HISTORY, "column", &[COLUMN], |call| Ok(numbers(column(call, History::column)?)))
             .returns(Returns::NUMBERS)
             .summary("Returns the values of a column as an array.")
             .example("sim.step(4);\ncheck(sim.history.column(\"t\").len() == 5);")
-            .see(&["averaged"]),
+            .with_related(&["averaged"]),
         method(HISTORY, "averaged", &[COLUMN], averaged)
             .returns(Returns::NUMBERS)
             .summary("Returns a column in which each value is the mean of itself and the value in \
@@ -68,7 +68,7 @@ pub const TABLE: BindingTable = BindingTable {
                 exist at the start.",
             )
             .example("sim.step(2);\nlet h = sim.history;\ncheck(h.column(\"t\") == [0, 0.1, 0.2]);\ncheck_close(h.averaged(\"t\")[2], 0.15, 1e-14);")
-            .see(&["column", "plot_history"]),
+            .with_related(&["column", "plot_history"]),
         statistic("first", "Returns the value of a column in the first row.", |call| pick(call, |column| column.first().copied())),
         statistic("last", "Returns the value of a column in the last row.", |call| pick(call, |column| column.last().copied())),
         statistic("largest", "Returns the largest value of a column.", |call| pick(call, |column| column.into_iter().reduce(larger))),
@@ -91,7 +91,7 @@ pub const TABLE: BindingTable = BindingTable {
         .summary("Names of the columns: first those of every history, then those of springs, drives, \
             sliders and recorded quantities of the scene.")
         .example("check(sim.history.columns.contains(\"energy\"));")
-        .see(&["column", "record"]),
+        .with_related(&["column", "record"]),
     ],
 };
 
@@ -129,8 +129,8 @@ fn window(
 fn drift(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let name = call.text("invariant")?;
     let known = Invariant::ALL.iter().find(|(other, _)| *other == name.as_str());
-    let (_, invariant) =
-        known.ok_or_else(|| ScriptError::bug(format!("there is no invariant '{name}'")))?;
+    let (_, invariant) = known
+        .ok_or_else(|| ScriptError::internal_error(format!("there is no invariant '{name}'")))?;
     let history = call.receiver::<HistoryHandle>()?;
     let drift = history.read(|rows| (!rows.samples().is_empty()).then(|| rows.drift(*invariant)));
     Ok(drift.ok_or_else(|| history.no_rows(call))?.into())
@@ -144,7 +144,7 @@ pub(super) fn column(
     let name = history.expect_column(call, &call.value("column")?, 0)?;
     history
         .read(|history| read(history, &name))
-        .ok_or_else(|| ScriptError::bug(format!("the history has no column '{name}'")))
+        .ok_or_else(|| ScriptError::internal_error(format!("the history has no column '{name}'")))
 }
 
 fn averaged(call: &mut Call) -> Result<Dynamic, ScriptError> {

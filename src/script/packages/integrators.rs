@@ -24,7 +24,7 @@ pub const TABLE: BindingTable = BindingTable {
                 momenta to rounding at any step size.")
             .doc("Second order. Stander & Stein, Eng. Comput. 13 (1996) 60-85.")
             .example("print(`thrown with ${energy_momentum()}`);")
-            .see(&["fourth_order", "energy_decaying", "trapezoidal", "start"]),
+            .with_related(&["fourth_order", "energy_decaying", "trapezoidal", "start"]),
         function("trapezoidal", &[], |_| Ok(Dynamic::from(Method::Trapezoidal)))
             .returns(Returns::object(INTEGRATOR))
             .summary(
@@ -33,7 +33,7 @@ pub const TABLE: BindingTable = BindingTable {
             )
             .doc("Second order. Newmark, J. Eng. Mech. Div. ASCE 85 (1959) 67-94.")
             .example("print(trapezoidal());")
-            .see(&["energy_momentum", "generalized_alpha"]),
+            .with_related(&["energy_momentum", "generalized_alpha"]),
         function("energy_decaying", &[options("options", CHI).optional()], |call| {
             let chi = call.options_or_defaults("options")?.number("chi")?;
             Ok(Dynamic::from(Method::EnergyDecaying { chi }))
@@ -48,7 +48,7 @@ pub const TABLE: BindingTable = BindingTable {
             (2001) 2603-2649.",
         )
         .example("let damped = scene.start(#{ integrator: energy_decaying(#{ chi: 0.2 }), dt: 0.1 });\nprint(energy_decaying());")
-        .see(&["energy_momentum", "generalized_alpha"]),
+        .with_related(&["energy_momentum", "generalized_alpha"]),
         function("fourth_order", &[], |_| Ok(Dynamic::from(Method::FourthOrder)))
             .returns(Returns::object(INTEGRATOR))
             .summary("Selects a fourth-order composition of seven energy-momentum steps, which keeps \
@@ -64,7 +64,7 @@ pub const TABLE: BindingTable = BindingTable {
                 16 (1995) 151-168.",
             )
             .example("print(fourth_order());")
-            .see(&["energy_momentum"]),
+            .with_related(&["energy_momentum"]),
         function("generalized_alpha", &[options("options", RHO_INFINITY).optional()], |call| {
             let rho_infinity = call.options_or_defaults("options")?.number("rho_infinity")?;
             Ok(Dynamic::from(Method::GeneralizedAlpha { rho_infinity }))
@@ -76,7 +76,7 @@ pub const TABLE: BindingTable = BindingTable {
             forces act in the middle of a step and not at the point where the method balances \
             forces. Chung & Hulbert, J. Appl. Mech. 60 (1993) 371-375.")
         .example("let damped = scene.start(#{ integrator: generalized_alpha(#{ rho_infinity: 0.8 }), dt: 0.1 });\nprint(generalized_alpha());")
-        .see(&["trapezoidal", "energy_decaying"]),
+        .with_related(&["trapezoidal", "energy_decaying"]),
     ],
 };
 

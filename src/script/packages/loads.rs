@@ -4,10 +4,10 @@ use std::cell::RefCell;
 
 use rhai::Dynamic;
 
-use super::drives::blame;
+use super::drives::drive_error;
 use super::scenes::{BEAM, SCENE, STATION};
 use super::schedules::{
-    DELAY, SAMPLE, SCHEDULE_KINDS, beat_of, controlled_schedule_of, expect_controller,
+    DELAY, SAMPLE, SCHEDULE_KINDS, controlled_schedule_of, expect_controller, sample_clock_of,
 };
 use crate::loads::{LoadFrame, LoadKind, Schedule};
 use crate::script::bindings::call::Call;
@@ -57,7 +57,7 @@ pub const TABLE: BindingTable = BindingTable {
                  scene.force(rod.middle, [0, 1], |t, q| -q.velocity(rod.middle).y, #{ sample: 0.1, delay: 0.02 });\n\
                  let sim = scene.start(#{ dt: 0.05 });\nsim.run_to(1);\n\
                  check(sim.history.last(\"work.brake\") < 0);")
-        .see(&["moment", "line_load", "hold_for"]),
+        .with_related(&["moment", "line_load", "hold_for"]),
         method(SCENE, "moment", &[AT, number("moment").unit("force·length"), WHEN, NAMED], |call| {
             let (station, scene) = here(call, "station")?;
             let kind = LoadKind::Moment { station, moment: call.number("moment")? };
@@ -66,10 +66,10 @@ pub const TABLE: BindingTable = BindingTable {
         })
         .summary("Adds a moment at a station, positive counter-clockwise.")
         .example("scene.moment(rod.end, -80, hold_for(2.5));")
-        .see(&["force"]),
+        .with_related(&["force"]),
         method(SCENE, "line_load", &[object("beam", BEAM), point("force").unit("force/length"), WHEN, FRAME], |call| {
             let scene = call.receiver::<SceneHandle>()?;
-            let beam = call.get::<BeamHandle>("beam")?.own(&scene)?;
+            let beam = call.get::<BeamHandle>("beam")?.index_in(&scene)?;
             let kind = LoadKind::Line { beam, force: call.point("force")?, frame: frame(call)? };
             let schedule = when(call)?;
             add(&scene.shared(), call, kind, schedule)
@@ -77,7 +77,7 @@ pub const TABLE: BindingTable = BindingTable {
         .summary("Adds a force per length on a whole beam that keeps its direction or follows the \
             sections like a pressure.")
         .example("scene.line_load(rod, [0, -2], ramp(0, 1));\nscene.line_load(rod, [0, 1], 1, #{ frame: \"follower\" });")
-        .see(&["force", "gravity"]),
+        .with_related(&["force", "gravity"]),
     ],
 };
 
@@ -94,7 +94,7 @@ const FRAME_KEY: Parameter = choice("frame", &["dead", "follower"])
     .or(Presence::Text("dead"));
 
 fn when(call: &Call) -> Result<Schedule, ScriptError> {
-    let beat = beat_of(&*call.options_or_defaults("options")?)?;
+    let beat = sample_clock_of(&*call.options_or_defaults("options")?)?;
     let scene = call.receiver::<SceneHandle>()?;
     let schedule = controlled_schedule_of(call, call, "schedule", &scene, beat)?;
     expect_controller(call, beat, std::iter::once(&schedule))?;
@@ -107,8 +107,10 @@ fn add(
     kind: LoadKind,
     schedule: Schedule,
 ) -> Result<Dynamic, ScriptError> {
-    match call.options_or_defaults("options")?.text_if_given("name")? {
-        Some(name) => scene.borrow_mut().add_named_load(name, kind, schedule).map_err(blame)?,
+    match call.options_or_defaults("options")?.optional_text("name")? {
+        Some(name) => {
+            scene.borrow_mut().add_named_load(name, kind, schedule).map_err(drive_error)?
+        }
         None => scene.borrow_mut().add_load(kind, schedule),
     }
     Ok(Dynamic::UNIT)

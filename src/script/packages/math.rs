@@ -4,10 +4,10 @@ use rhai::{Dynamic, INT};
 
 use crate::elementary;
 use crate::script::bindings::call::Call;
-use crate::script::bindings::parameter::{Parameter, number, numeric, whole};
+use crate::script::bindings::parameter::{Parameter, integer, number, numeric};
 use crate::script::bindings::parameter_variants::{
-    at_cut, at_origin, at_whole_numbers, at_zero, near_ends_of_logarithm, near_one, near_quarters,
-    near_zero, where_equal, where_rounded_differs,
+    at_branch_cut, at_digit_changes, at_equality, at_integers, at_origin, at_zero,
+    near_ends_of_logarithm, near_one, near_quarters, near_zero,
 };
 use crate::script::bindings::returns::Returns;
 use crate::script::bindings::table::{
@@ -78,7 +78,7 @@ pub const TABLE: BindingTable = BindingTable {
             "Returns the arc tangent.",
             "check(4 * atan(1) == PI);",
         )
-        .see(&["atan2"]),
+        .with_related(&["atan2"]),
         of_x(
             "sinh",
             |call| map(call, elementary::sinh),
@@ -150,7 +150,7 @@ pub const TABLE: BindingTable = BindingTable {
         .returns(Returns::NUMBER)
         .summary("Returns the logarithm to a given base; the base is required.")
         .example("check_close(log(81, 3), 4, 1e-15);")
-        .see(&["ln", "log10", "log2"])
+        .with_related(&["ln", "log10", "log2"])
         .corner(near_ends_of_logarithm),
         of_x(
             "sqrt",
@@ -158,7 +158,7 @@ pub const TABLE: BindingTable = BindingTable {
             "Returns the square root.",
             "check(sqrt(16) == 4);",
         )
-        .see(&["hypot"])
+        .with_related(&["hypot"])
         .corner(near_zero),
         of_x(
             "radians",
@@ -193,15 +193,15 @@ pub const TABLE: BindingTable = BindingTable {
             "check(int(2.7) == 2 && int(-2.7) == -2);",
         )
         .returns(WHOLE)
-        .see(&["floor", "fraction"]),
+        .with_related(&["floor", "fraction"]),
         of_x(
             "fraction",
             |call| map(call, f64::fract),
             "Returns the fractional part of x, x - int(x).",
             "check(fraction(2.75) == 0.75);",
         )
-        .see(&["int"])
-        .corner(at_whole_numbers),
+        .with_related(&["int"])
+        .corner(at_integers),
         of_x(
             "round",
             |call| round(call, f64::round),
@@ -209,7 +209,7 @@ pub const TABLE: BindingTable = BindingTable {
             "check(round(2.6) == 3);",
         )
         .returns(WHOLE)
-        .see(&["round_to"]),
+        .with_related(&["round_to"]),
         of_x(
             "is_nan",
             |call| Ok(x(call)?.is_nan().into()),
@@ -232,7 +232,7 @@ pub const TABLE: BindingTable = BindingTable {
         )
         .returns(Returns::TRUTH),
         function("abs", &[numeric("x")], absolute)
-            .returns(Returns::NUMBER.note(", whole if x is"))
+            .returns(Returns::NUMBER.with_remark(", whole if x is"))
             .summary("Returns the absolute value of a number.")
             .example("check(abs(-3) == 3);")
             .corner(at_zero),
@@ -242,44 +242,44 @@ pub const TABLE: BindingTable = BindingTable {
         .returns(Returns::NUMBER)
         .summary("Returns the length of the vector with components x and y, without overflow.")
         .example("check(hypot(3, 4) == 5);")
-        .see(&["norm"])
+        .with_related(&["norm"])
         .corner(at_origin),
         function("atan2", &[ANY_Y, ANY_X], |call| {
             Ok(elementary::atan2(call.number("y")?, x(call)?).into())
         })
-        .returns(Returns::NUMBER.words("an angle from -PI to PI"))
+        .returns(Returns::NUMBER.with_description("an angle from -PI to PI"))
         .summary(
             "Returns the angle of the vector with components x and y; y is the first argument.",
         )
         .example("check(atan2(1, 0) == PI / 2);")
-        .see(&["angle"])
-        .corner(at_cut),
+        .with_related(&["angle"])
+        .corner(at_branch_cut),
         function("min", &[numeric("x"), numeric("y")], |call| choose(call, |x, y| x < y))
             .returns(Returns::NUMBER)
             .summary("Returns the smaller of two numbers; nan if one of them is nan.")
             .example("check(min(2, 0.5) == 0.5);")
-            .corner(where_equal),
+            .corner(at_equality),
         function("max", &[numeric("x"), numeric("y")], |call| choose(call, |x, y| x > y))
             .returns(Returns::NUMBER)
             .summary("Returns the larger of two numbers; nan if one of them is nan.")
             .example("check(max(2, 0.5) == 2);")
-            .corner(where_equal),
-        function("quotient", &[whole("n"), whole("d")], quotient)
+            .corner(at_equality),
+        function("quotient", &[integer("n"), integer("d")], quotient)
             .returns(Returns::WHOLE)
             .summary("Returns the quotient n/d rounded down to a whole number, for indices.")
             .example("check(quotient(7, 2) == 3);\ncheck(7 / 2 == 3.5);"),
-        function("round_to", &[ANY_X, whole("digits").between(0.0, 15.0)], round_to)
+        function("round_to", &[ANY_X, integer("digits").between(0.0, 15.0)], round_to)
             .returns(Returns::NUMBER)
             .summary("Rounds x to this many digits after the decimal point.")
             .example("check(round_to(PI, 2) == 3.14);")
-            .see(&["round", "fixed"])
-            .corner(where_rounded_differs),
+            .with_related(&["round", "fixed"])
+            .corner(at_digit_changes),
     ],
 };
 
-const WHOLE: Returns = Returns::WHOLE.note(", or x itself if it is too large for one");
-const ANY_X: Parameter = number("x").any_number();
-const ANY_Y: Parameter = number("y").any_number();
+const WHOLE: Returns = Returns::WHOLE.with_remark(", or x itself if it is too large for one");
+const ANY_X: Parameter = number("x").allow_non_finite();
+const ANY_Y: Parameter = number("y").allow_non_finite();
 
 const fn of_x(
     name: &'static str,
@@ -320,7 +320,7 @@ fn choose(call: &Call, prefers_first: fn(f64, f64) -> bool) -> Result<Dynamic, S
 }
 
 fn quotient(call: &mut Call) -> Result<Dynamic, ScriptError> {
-    let (n, d) = (call.whole("n")?, call.whole("d")?);
+    let (n, d) = (call.integer("n")?, call.integer("d")?);
     match n.checked_div_euclid(d) {
         Some(quotient) => Ok(quotient.into()),
         None => Err(call

@@ -25,7 +25,7 @@ pub const TABLE: BindingTable = BindingTable {
             .example(
                 "write_csv([#{ t: 0, x: 1 }, #{ t: 0.5, x: 0.25 }], \"measured.csv\");\nlet measured = read_csv(\"measured.csv\");\ncheck(measured.x == [1, 0.25]);",
             )
-            .see(&["fit", "write_csv"]),
+            .with_related(&["fit", "write_csv"]),
     ],
 };
 

@@ -11,7 +11,7 @@ use crate::geometry::Vec2;
 use crate::output::{Cell, TextTable, significant};
 use crate::script::bindings::call::Call;
 use crate::script::bindings::kind::{Scripted, Type};
-use crate::script::bindings::parameter::{Parameter, Presence, object, whole};
+use crate::script::bindings::parameter::{Parameter, Presence, integer, object};
 use crate::script::bindings::returns::Returns;
 use crate::script::bindings::table::{
     BindingTable, FunctionBinding, NativeFunction, method, property,
@@ -36,7 +36,7 @@ pub const TABLE: BindingTable = BindingTable {
             let scene = handle.scene().borrow().clone();
             let model = System::assemble(&scene)?;
             expect_room(call, &model)?;
-            let modes = look(call, |count, goes_on| Modes::of(&model, count, goes_on))?;
+            let modes = undamped_modes(call, |count, goes_on| Modes::of(&model, count, goes_on))?;
             Ok(Dynamic::from(ModesHandle::drawn(handle, &scene, modes)))
         })
         .returns(Returns::object(MODES))
@@ -52,11 +52,11 @@ pub const TABLE: BindingTable = BindingTable {
             equilibrium or sim.modes(n) of a simulation.",
         )
         .example("let modes = scene.modes(3);\nprint(modes);\ncheck_close(modes.angular_frequencies[0], 0.35160 * 2.5^2, 0.01);")
-        .see(&["plot_modes", "equilibrium"]),
+        .with_related(&["plot_modes", "equilibrium"]),
         method(SIMULATION, "modes", &[COUNT], |call| {
             let handle = call.receiver::<SimulationHandle>()?;
             expect_room(call, handle.simulation().model())?;
-            let modes = look(call, |count, goes_on| handle.modes(count, goes_on))?;
+            let modes = undamped_modes(call, |count, goes_on| handle.modes(count, goes_on))?;
             let simulation = handle.simulation();
             Ok(Dynamic::from(ModesHandle::new(handle.scene().clone(), simulation.scene(), modes)))
         })
@@ -70,7 +70,7 @@ pub const TABLE: BindingTable = BindingTable {
         method(SCENE, "damped_modes", &[COUNT], |call| {
             let handle = call.receiver::<SceneHandle>()?;
             let model = System::assemble(&handle.scene().borrow())?;
-            look_for_damped(call, &model)
+            damped_modes(call, &model)
         })
         .returns(Returns::ARRAY)
         .summary("Computes the lowest damped vibrations of the undeformed scene: maps of decay_rate, \
@@ -86,23 +86,23 @@ pub const TABLE: BindingTable = BindingTable {
              oscillator.spring([0, 0], bead, #{ stiffness: 18, damping: 20 });\nlet damped = oscillator.damped_modes(2);\n\
              check_close(damped[0].decay_rate, 1, 1e-12);\ncheck_close(damped[1].decay_rate, 9, 1e-12);",
         )
-        .see(&["damping_ratios", "modes"]),
-        told("angular_frequencies", Returns::NUMBERS.unit("rad/time"), |call| list(call, Mode::angular_frequency))
+        .with_related(&["damping_ratios", "modes"]),
+        binding("angular_frequencies", Returns::NUMBERS.unit("rad/time"), |call| list(call, Mode::angular_frequency))
             .summary("Angular frequency ω of each mode; 0 for modes that do not vibrate.")
             .example("let modes = scene.modes(2);\ncheck(modes.angular_frequencies[1] > modes.angular_frequencies[0]);")
-            .see(&["frequencies", "periods"]),
-        told("frequencies", Returns::NUMBERS.unit("1/time"), |call| list(call, Mode::frequency))
+            .with_related(&["frequencies", "periods"]),
+        binding("frequencies", Returns::NUMBERS.unit("1/time"), |call| list(call, Mode::frequency))
             .summary("Frequency ω/2π of each mode, in cycles per unit of time.")
             .example("let modes = scene.modes(1);\ncheck_close(modes.frequencies[0] * modes.periods[0], 1, 1e-12);"),
-        told("periods", Returns::NUMBERS.unit("time"), |call| list(call, Mode::period))
+        binding("periods", Returns::NUMBERS.unit("time"), |call| list(call, Mode::period))
             .summary("Period 2π/ω of each mode; infinite for modes that do not vibrate.")
             .example("let half = scene.modes(1).periods[0] / 2;\nlet sim = scene.start(#{ dt: half / 20 });\nsim.run_to(half);"),
-        told("growth_rates", Returns::NUMBERS.unit("1/time"), |call| list(call, Mode::growth_rate))
+        binding("growth_rates", Returns::NUMBERS.unit("1/time"), |call| list(call, Mode::growth_rate))
             .summary("Growth rate of each mode of an unstable configuration; 0 for modes that \
                 vibrate.")
             .example("check(scene.modes(1).growth_rates == [0]);")
-            .see(&["is_stable"]),
-        told("damping_ratios", Returns::NUMBERS.unit("-"), |call| {
+            .with_related(&["is_stable"]),
+        binding("damping_ratios", Returns::NUMBERS.unit("-"), |call| {
             Ok(modes(call)?.0.modes.damping_ratios().map(Dynamic::from).collect::<Array>().into())
         })
         .summary("Damping ratio of each mode due to dampers, damped materials and drag, as a \
@@ -118,8 +118,8 @@ pub const TABLE: BindingTable = BindingTable {
              let arm = scene.beam(#{ axis: line([0, 0], [4, 0]), basis: bspline(8), section: s });\nscene.clamp(arm.start);\n\
              let modes = scene.modes(2);\ncheck_close(modes.damping_ratios[1], 1e-3 * modes.angular_frequencies[1] / 2, 1e-9);",
         )
-        .see(&["section", "damper"]),
-        told("residuals", Returns::NUMBERS.unit("-"), |call| list(call, |mode| mode.residual))
+        .with_related(&["section", "damper"]),
+        binding("residuals", Returns::NUMBERS.unit("-"), |call| list(call, |mode| mode.residual))
             .summary("Residual of each mode: an upper bound of the relative error of ω² + σ.")
             .doc(
                 "σ is about the square of the lowest bending frequency. The residual is the \
@@ -128,14 +128,14 @@ pub const TABLE: BindingTable = BindingTable {
                 not included: compare with twice the number of spans.",
             )
             .example("check(scene.modes(3).residuals.all(|residual| residual < 1e-6));")
-            .see(&["angular_frequencies"]),
-        told("is_stable", Returns::TRUTH, |call| Ok(modes(call)?.0.modes.is_stable().into()))
+            .with_related(&["angular_frequencies"]),
+        binding("is_stable", Returns::TRUTH, |call| Ok(modes(call)?.0.modes.is_stable().into()))
             .summary("True if no mode grows.")
             .example("check(scene.modes(1).is_stable);"),
-        told("count", Returns::WHOLE, |call| Ok(Dynamic::from(modes(call)?.0.modes.all().len() as INT)))
+        binding("count", Returns::WHOLE, |call| Ok(Dynamic::from(modes(call)?.0.modes.all().len() as INT)))
             .summary("Number of modes.")
             .example("check(scene.modes(4).count == 4);"),
-        method(MODES, "displacement", &[whole("mode").non_negative(), object("station", STATION)], |call| {
+        method(MODES, "displacement", &[integer("mode").non_negative(), object("station", STATION)], |call| {
             let handle = modes(call)?;
             let (mode, count) = (call.count("mode")?, handle.0.modes.all().len());
             if mode >= count {
@@ -158,7 +158,7 @@ const VIBRATING: &str = "let scene = new_scene(\"example\");\n\
     let rod = scene.beam(#{ name: \"rod\", axis: line([0, 0], [4, 0]), basis: bspline(8), section: s });\n\
     scene.clamp(rod.start);";
 
-pub(super) const COUNT: Parameter = whole("count").positive().or(Presence::Whole(6));
+pub(super) const COUNT: Parameter = integer("count").positive().or(Presence::Whole(6));
 
 pub const MODES: Type = Type::of::<ModesHandle>();
 
@@ -240,7 +240,7 @@ pub(super) fn expect_room(call: &Call, model: &System) -> Result<(), ScriptError
     call.context().expect_room("so many modes of so large a scene", needed)
 }
 
-pub(super) fn look(
+pub(super) fn undamped_modes(
     call: &Call,
     find: impl FnOnce(usize, &mut dyn FnMut() -> bool) -> Result<Modes, VibrationError>,
 ) -> Result<Modes, ScriptError> {
@@ -251,7 +251,7 @@ pub(super) fn look(
     }
 }
 
-pub(super) fn look_for_damped(call: &Call, model: &System) -> Result<Dynamic, ScriptError> {
+pub(super) fn damped_modes(call: &Call, model: &System) -> Result<Dynamic, ScriptError> {
     let context = call.context();
     let found = match DampedMode::of(model, call.count("count")?, &mut || !context.is_stopped()) {
         Err(VibrationError::Interrupted) => {
@@ -271,7 +271,7 @@ pub(super) fn look_for_damped(call: &Call, model: &System) -> Result<Dynamic, Sc
     Ok(found.iter().map(told).collect::<Array>().into())
 }
 
-const fn told(name: &'static str, returns: Returns, body: NativeFunction) -> FunctionBinding {
+const fn binding(name: &'static str, returns: Returns, body: NativeFunction) -> FunctionBinding {
     property(MODES, name, body).returns(returns)
 }
 

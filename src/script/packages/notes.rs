@@ -37,7 +37,7 @@ pub const TABLE: BindingTable = BindingTable {
          let coarse = scene.start(#{ dt: 1, notes: \"keep\" });\ncoarse.run_to(4);\n\
          check(coarse.notes.len() == 1 && coarse.notes[0].contains(\"rad per step\"));",
     )
-    .see(&["start", "explain", "run_to"])],
+    .with_related(&["start", "explain", "run_to"])],
 };
 
 pub(super) const PRINTING: [(&str, Printing); 2] =

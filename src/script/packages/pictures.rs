@@ -45,7 +45,7 @@ pub const TABLE: BindingTable = BindingTable {
                 same options.",
             )
             .example("sim.run_to(2);\nplot_motion(sim, \"spin.svg\", #{ every: 0.5, trace: [rod.end] });\nplot_motion(sim, \"large.svg\", #{ magnify: 10, every: 1, x_limits: [-1, 3] });")
-            .see(&["plot", "plot_history", "plot_along", "plot_field"]),
+            .with_related(&["plot", "plot_history", "plot_along", "plot_field"]),
         function("plot_history", &[RECORDED, COLUMNS, FILE, options("options", HISTORY_OPTIONS).optional()], plot_history)
             .summary("Plots columns of the history over time.")
             .doc("Each of several histories must have the named columns. Use `plot` for other \
@@ -56,19 +56,19 @@ pub const TABLE: BindingTable = BindingTable {
                  let other = scene.start(#{ name: \"trapezoidal\", dt: 0.1, integrator: trapezoidal() });\nother.run_to(2);\n\
                  plot_history([sim, other], [\"strain\"], \"two.svg\", #{ axes: \"shared\", x_limits: [0, 1] });",
             )
-            .see(&["plot", "plot_drift", "plot_along", "column", "averaged"]),
+            .with_related(&["plot", "plot_drift", "plot_along", "column", "averaged"]),
         function("plot_drift", &[RECORDED, FILE], plot_drift)
             .summary("Plots the drift of energy and momenta on a logarithmic axis.")
             .example("sim.run_to(2);\nplot_drift(sim, \"drift.png\");")
-            .see(&["drift"]),
+            .with_related(&["drift"]),
         function("write_history", &[RECORDED, FILE], write_history)
             .summary("Writes all columns of the history as CSV with all digits.")
             .example("sim.run_to(1);\nwrite_history(sim, \"spin.csv\");")
-            .see(&["write_csv", "write_npz"]),
+            .with_related(&["write_csv", "write_npz"]),
         function("write_states", &[either("of", &[Kind::Object(SIMULATION)]), FILE], write_states)
             .summary("Writes the control points (or nodes) of all beams, and the particles, over \
                 time as CSV.")
             .example("sim.run_to(1);\nwrite_states(sim, \"points.csv\");")
-            .see(&["write_npz", "write_vtk"]),
+            .with_related(&["write_npz", "write_vtk"]),
     ],
 };

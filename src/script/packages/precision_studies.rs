@@ -50,7 +50,7 @@ pub const TABLE: BindingTable = BindingTable {
              integrators: [energy_momentum(), fourth_order()], dts: [0.2, 0.1], times: [1], repeats: 1,\n});\n\
              check(study.rows.len() == 8);",
         )
-        .see(&["finest_run", "study_convergence", "cheapest", "front"]),
+        .with_related(&["finest_run", "study_convergence", "cheapest", "front"]),
         function("finest_run", &[options("options", FinestOptions::KEYS).optional()], finest_run)
             .returns(Returns::object(FINEST_RUN))
             .summary("Creates a reference of a study by a fine run, which the results mark as such.")
@@ -70,7 +70,7 @@ pub const TABLE: BindingTable = BindingTable {
                  reference: finest_run(#{ mesh: bspline(8), integrator: fourth_order(), dt: 0.1 }),\n});\n\
                  check(study.reference.contains(\"own finest run\"));",
             )
-            .see(&["study_work_precision", "study_convergence"]),
+            .with_related(&["study_work_precision", "study_convergence"]),
         of_study("table", |call| Ok(table(&call.receiver::<PrecisionStudy>()?.0).into()))
             .returns(Returns::TEXT)
             .summary("Table of all combinations, mesh by mesh: errors, times, work and the drift of \
@@ -92,31 +92,31 @@ pub const TABLE: BindingTable = BindingTable {
         .summary("Array of the Pareto-optimal combinations, for which no other one is both faster \
             and more accurate, the fastest first.")
         .example("check(study.front[0].on_front);")
-        .see(&["cheapest"]),
+        .with_related(&["cheapest"]),
         of_study("reference", |call| Ok(call.receiver::<PrecisionStudy>()?.0.truth.source.clone().into()))
             .returns(Returns::TEXT)
             .summary("Description of the reference of the errors.")
             .example("print(study.reference);"),
         method(PRECISION, "cheapest", &[ERRORS], cheapest)
-            .returns(Returns::one_of(&[ValueKind::Map, ValueKind::Nothing, ValueKind::Text]).words("a map, () or a text"))
+            .returns(Returns::one_of(&[ValueKind::Map, ValueKind::Nothing, ValueKind::Text]).with_description("a map, () or a text"))
             .summary("Returns the fastest combination with at most this error; for several errors a \
                 table, with the other programs of the option rivals for comparison.")
             .doc("For one error the result is a map like those of rows, or () if no combination \
                 reaches the error.")
             .example("let best = study.cheapest(0.5);\nprint(best.run_time);\nprint(study.cheapest([0.5, 0.01]));")
-            .see(&["front", "cheapest_confirmed"]),
+            .with_related(&["front", "cheapest_confirmed"]),
         method(PRECISION, "cheapest_confirmed", &[ERROR], |call| {
             let PrecisionStudy(study) = call.receiver()?;
             let found = study.cheapest_confirmed(call.number("error")?);
             Ok(found.map_or(Dynamic::UNIT, |row| map_of(&study, row).into()))
         })
-        .returns(Returns::one_of(&[ValueKind::Map, ValueKind::Nothing]).words("a map or ()"))
+        .returns(Returns::one_of(&[ValueKind::Map, ValueKind::Nothing]).with_description("a map or ()"))
         .summary("Returns the fastest combination with at most this error for which all smaller \
             steps on its mesh have no larger error.")
         .doc("Errors of mesh and step size can cancel; a small error that smaller steps do not \
             confirm is a coincidence. The result is () if there is no such combination.")
         .example("print(study.cheapest_confirmed(0.5));")
-        .see(&["cheapest"]),
+        .with_related(&["cheapest"]),
     ],
 };
 

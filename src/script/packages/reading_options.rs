@@ -5,7 +5,7 @@ use rhai::{Array, Dynamic, Map};
 use crate::geometry::Vec2;
 use crate::script::bindings::call::Call;
 use crate::script::bindings::kind::{Kind, NumberRange};
-use crate::script::bindings::parameter::{anything, text};
+use crate::script::bindings::parameter::{of_any_type, text};
 use crate::script::bindings::returns::Returns;
 use crate::script::bindings::table::{BindingTable, function};
 use crate::script::messages::error::{CallPart, ScriptError};
@@ -25,8 +25,8 @@ pub const TABLE: BindingTable = BindingTable {
             "read_options",
             &[
                 text("owner").doc("name of the function that takes the options, for messages"),
-                anything("options").doc("the options, a map"),
-                anything("known").doc("map of the kind of each option, in words; [words, default] for optional \
+                of_any_type("options").doc("the options, a map"),
+                of_any_type("known").doc("map of the kind of each option, in words; [words, default] for optional \
                     ones"),
             ],
             read_options,
@@ -43,13 +43,13 @@ pub const TABLE: BindingTable = BindingTable {
              spans: [\"a positive whole number\", 8],\n    });\n    \
              `${given.height} with ${given.spans} spans`\n}\ncheck(mast(#{ height: 3 }) == \"3 with 8 spans\");",
         )
-        .see(&["read_argument"]),
+        .with_related(&["read_argument"]),
         function(
             "read_argument",
             &[
                 text("owner").doc("name of the function that takes the argument, for messages"),
                 text("name").doc("name of the argument"),
-                anything("value").doc("value of the argument"),
+                of_any_type("value").doc("value of the argument"),
                 text("kind").doc("expected kind, in words"),
             ],
             read_argument,
@@ -72,7 +72,7 @@ pub const TABLE: BindingTable = BindingTable {
              check(half(3) == 1.5);\n\
              try { half(-1) } catch (problem) { print(problem.message); }",
         )
-        .see(&["read_options"]),
+        .with_related(&["read_options"]),
     ],
 };
 

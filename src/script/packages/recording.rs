@@ -7,7 +7,7 @@ use rhai::Dynamic;
 use super::simulations::SPINNING;
 use crate::script::bindings::call::Call;
 use crate::script::bindings::kind::{Scripted, Type};
-use crate::script::bindings::parameter::whole;
+use crate::script::bindings::parameter::integer;
 use crate::script::bindings::returns::Returns;
 use crate::script::bindings::table::{BindingTable, function};
 use crate::script::handles::simulation::SimulationHandle;
@@ -27,19 +27,19 @@ pub const TABLE: BindingTable = BindingTable {
     setup: SPINNING,
     constants: &[],
     rows: &[
-        function("every", &[whole("steps").positive()], |call| {
+        function("every", &[integer("steps").positive()], |call| {
             let steps = NonZeroUsize::new(call.count("steps")?).unwrap_or(NonZeroUsize::MIN);
             Ok(Dynamic::from(Recording::Every(steps)))
         })
         .returns(Returns::object(RECORDING))
         .summary("Records every n-th step.")
         .example("let long = scene.start(#{ dt: 0.1, record: every(10) });\nlong.run_to(5);\ncheck(long.steps == 50 && long.history.rows == 6);")
-        .see(&["nothing", "start"]),
+        .with_related(&["nothing", "start"]),
         function("nothing", &[], |_| Ok(Dynamic::from(Recording::Nothing)))
             .returns(Returns::object(RECORDING))
             .summary("Records only the start and the ends of runs.")
             .example("let quiet = scene.start(#{ dt: 0.1, record: nothing() });\nquiet.run_to(5);\ncheck(quiet.history.rows == 2 && quiet.history.drift(\"energy\") < 1e-12);")
-            .see(&["every", "start"]),
+            .with_related(&["every", "start"]),
     ],
 };
 
@@ -91,7 +91,7 @@ pub(super) struct Missing {
 
 /// Reports that the states of a run cannot be reproduced from `time` on: as an error if the data was requested explicitly, otherwise as a
 /// note.
-pub(super) fn tell_another_run(
+pub(super) fn report_diverged_rerun(
     call: &Call,
     of: &SimulationHandle,
     time: f64,
@@ -107,7 +107,8 @@ pub(super) fn tell_another_run(
         let hint = format!("{more}, or write #{{ {} }}", missing.instead);
         return Err(call.error(told).hint(hint).at(CallPart::Key("fields".into())));
     }
-    call.context().tell(&format!("note: {told}: {} are not written; {more}", missing.what));
+    call.context()
+        .print_message(&format!("note: {told}: {} are not written; {more}", missing.what));
     Ok(())
 }
 

@@ -47,13 +47,13 @@ pub const TABLE: BindingTable = BindingTable {
                       let sim = scene.start(#{ dt: 0.01 });\nsim.run_to(0.5);\n\
                       check(sim.releases[0].t == 0.25 && sim.releases.len == 2);\n\
                       check(sim.history.drift(\"energy\") < 1e-10);")
-            .see(&["joint_force", "hinge", "releases"]),
+            .with_related(&["joint_force", "hinge", "releases"]),
         property(SIMULATION, "releases", releases)
-            .returns(Returns::array_of(&ValueKind::Map).note(" #{ t, name }"))
+            .returns(Returns::array_of(&ValueKind::Map).with_remark(" #{ t, name }"))
             .summary("Releases made so far by scene.release, with their times.")
             .example("let pin = scene.hinge(rod.start);\nscene.release(pin, #{ at: 0.1 });\n\
                       let sim = scene.start(#{ dt: 0.05 });\nsim.run_to(0.2);\nprint(sim.releases);")
-            .see(&["release", "events"]),
+            .with_related(&["release", "events"]),
     ],
 };
 
@@ -105,7 +105,7 @@ fn release(call: &mut Call) -> Result<Dynamic, ScriptError> {
         ScriptError::from(error).at(place)
     })?;
     if let Some(function) = condition {
-        handle.keep_condition(call.store(function, "the condition of a release"));
+        handle.store_condition(call.store(function, "the condition of a release"));
     }
     Ok(Dynamic::UNIT)
 }
@@ -121,7 +121,7 @@ fn hold(call: &Call, handle: &SceneHandle) -> Result<Releasable, ScriptError> {
     if let Some(spring) = call.get_if::<SpringHandle>("what") {
         return Ok(Releasable::Spring(spring.within(handle)?));
     }
-    let (name, holds) = (call.text("what")?, handle.scene().borrow().holds());
+    let (name, holds) = (call.text("what")?, handle.scene().borrow().releasables());
     if let Some((_, hold)) = holds.iter().find(|(known, _)| *known == name.as_str()) {
         return Ok(*hold);
     }
@@ -153,8 +153,8 @@ fn releases(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let handle = call.receiver::<SimulationHandle>()?;
     let simulation = handle.simulation();
     let scene = simulation.scene();
-    let told = simulation.let_go().iter().map(|gone| {
-        let name = scene.name_of_hold(scene.releases[gone.release].hold);
+    let told = simulation.releases().iter().map(|gone| {
+        let name = scene.releasable_name(scene.releases[gone.release].hold);
         let entries = [("t", Dynamic::from(gone.time)), ("name", name.into())];
         Dynamic::from(entries.into_iter().map(|(key, value)| (key.into(), value)).collect::<Map>())
     });

@@ -5,7 +5,7 @@ use rhai::Dynamic;
 use crate::sampling::Distribution;
 use crate::script::bindings::call::Call;
 use crate::script::bindings::kind::{Scripted, Type};
-use crate::script::bindings::parameter::{Parameter, Presence, number, whole};
+use crate::script::bindings::parameter::{Parameter, Presence, integer, number};
 use crate::script::bindings::returns::Returns;
 use crate::script::bindings::table::{BindingTable, FunctionBinding, NativeFunction, function};
 use crate::script::messages::error::{CallPart, ScriptError};
@@ -83,7 +83,7 @@ pub const TABLE: BindingTable = BindingTable {
             )
             .doc("M. D. McKay, R. J. Beckman, W. J. Conover, Technometrics 21 (1979) 239-245.")
             .example("print(latin_hypercube(2000));")
-            .see(&["study_sweep", "sobol"]),
+            .with_related(&["study_sweep", "sobol"]),
         points("sobol", &[COUNT, SEED], |call| samples(call, SampleKind::Sobol))
             .summary(
                 "Creates a plan of evenly distributed points for a sweep from a Sobol' \
@@ -95,11 +95,11 @@ pub const TABLE: BindingTable = BindingTable {
                 of the seed (a digital shift).",
             )
             .example("print(sobol(4096, 7));")
-            .see(&["study_sweep", "saltelli"]),
+            .with_related(&["study_sweep", "saltelli"]),
         points(
             "saltelli",
             &[
-                whole("blocks")
+                integer("blocks")
                     .positive()
                     .doc("number of blocks, each with two runs more than the number of parameters"),
                 SEED,
@@ -115,7 +115,7 @@ pub const TABLE: BindingTable = BindingTable {
             of a Sobol' sequence, in blocks of two more than the number of parameters.",
         )
         .example("print(saltelli(1024));")
-        .see(&["sensitivity", "sobol"]),
+        .with_related(&["sensitivity", "sobol"]),
     ],
 };
 
@@ -124,15 +124,17 @@ pub(super) const SAMPLES: Type = Type::of::<Samples>();
 const FROM: Parameter = number("from");
 const TO: Parameter = number("to");
 const DEVIATION: Parameter = number("deviation").positive();
-const COUNT: Parameter = whole("count").positive();
-const SEED: Parameter = whole("seed").non_negative().or(Presence::Whole(0));
+const COUNT: Parameter = integer("count").positive();
+const SEED: Parameter = integer("seed").non_negative().or(Presence::Whole(0));
 
 const fn spread(
     name: &'static str,
     parameters: &'static [Parameter],
     body: NativeFunction,
 ) -> FunctionBinding {
-    function(name, parameters, body).returns(Returns::object(DISTRIBUTION)).see(&["study_sweep"])
+    function(name, parameters, body)
+        .returns(Returns::object(DISTRIBUTION))
+        .with_related(&["study_sweep"])
 }
 
 const fn points(

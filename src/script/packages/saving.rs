@@ -44,7 +44,7 @@ pub const TABLE: BindingTable = BindingTable {
                 function cannot be saved. Equal runs write equal files.",
             )
             .example("sim.run_to(1);\nsim.save(\"spinning.withy\");\nlet again = load_simulation(\"spinning.withy\");\ncheck(again.t == 1 && again.energy == sim.energy);")
-            .see(&["load_simulation", "fork"]),
+            .with_related(&["load_simulation", "fork"]),
         function("load_simulation", &[text("file")], load)
             .returns(Returns::object(SIMULATION))
             .summary("Loads a simulation from a file written by sim.save, in the output folder or \
@@ -52,14 +52,14 @@ pub const TABLE: BindingTable = BindingTable {
             .doc("Files that are truncated, damaged, of a later version of withy or of another \
                 kind are refused with an error that gives the reason.")
             .example("sim.run_to(1);\nsim.save(\"half.withy\");\nlet on = load_simulation(\"half.withy\");\non.run_to(2);\nprint(on.position(on.scene.beam_named(\"rod\").end));")
-            .see(&["save", "scene", "beam_named"]),
+            .with_related(&["save", "scene", "beam_named"]),
         function("simulations_among", &[array("values")], |call| Ok(simulations_among(&call.array("values")?).into()))
             .returns(Returns::array_of(&ValueKind::Object(SIMULATION)))
             .summary("Returns each simulation in an array of any values, including nested arrays, \
                 once.")
             .doc("`withy view` uses it to find the simulations in the variables of a script.")
             .example("let other = sim.fork();\ncheck(simulations_among([1, sim, [other, sim]]).len() == 2);")
-            .see(&["latest_simulation", "write_viewer"]),
+            .with_related(&["latest_simulation", "write_viewer"]),
         function("latest_simulation", &[], |call| {
             call.context().latest_simulation().ok_or_else(|| {
                 call.error("there is no simulation yet").hint("start one: let sim = scene.start(#{ dt: 0.01 });")
@@ -69,12 +69,12 @@ pub const TABLE: BindingTable = BindingTable {
         .summary("Returns the simulation that was most recently started, loaded, forked, stepped or \
             taken back.")
         .example("check(latest_simulation().name == sim.name);")
-        .see(&["start", "load_simulation"]),
+        .with_related(&["start", "load_simulation"]),
         property(SIMULATION, "scene", |call| Ok(Dynamic::from(call.receiver::<SimulationHandle>()?.scene().clone())))
             .returns(Returns::object(SCENE))
             .summary("Scene of the simulation; for a loaded simulation, the scene saved with it.")
             .example("check(sim.scene.name == \"example\");")
-            .see(&["beam_named", "particle_named", "body_named", "slider_named"]),
+            .with_related(&["beam_named", "particle_named", "body_named", "slider_named"]),
         method(SCENE, "beam_named", &[NAME], |call| {
             let scene = call.receiver::<SceneHandle>()?;
             let index = find(call, "beam", |held| held.beams.iter().map(|beam| &beam.name).collect())?;
@@ -83,7 +83,7 @@ pub const TABLE: BindingTable = BindingTable {
         .returns(Returns::object(BEAM))
         .summary("Returns the beam with a name.")
         .example("check(scene.beam_named(\"rod\").length == 2);")
-        .see(&["beam", "scene"]),
+        .with_related(&["beam", "scene"]),
         method(SCENE, "particle_named", &[NAME], |call| {
             let scene = call.receiver::<SceneHandle>()?;
             let index = find(call, "particle", |held| held.particles.iter().map(|particle| &particle.name).collect())?;
@@ -92,7 +92,7 @@ pub const TABLE: BindingTable = BindingTable {
         .returns(Returns::object(STATION))
         .summary("Returns the particle with a name.")
         .example("scene.particle([0, 3], 0.5, #{ name: \"stone\" });\nprint(scene.particle_named(\"stone\"));")
-        .see(&["particle", "scene"]),
+        .with_related(&["particle", "scene"]),
         method(SCENE, "body_named", &[NAME], |call| {
             let scene = call.receiver::<SceneHandle>()?;
             let index = find(call, "body", |held| held.rigid_bodies.iter().map(|body| &body.name).collect())?;
@@ -101,7 +101,7 @@ pub const TABLE: BindingTable = BindingTable {
         .returns(Returns::object(BODY))
         .summary("Returns the rigid body with a name.")
         .example("scene.body(#{ name: \"hub\", at: [0, 1], mass: 1, inertia: 1 });\nprint(scene.body_named(\"hub\"));")
-        .see(&["body", "scene"]),
+        .with_related(&["body", "scene"]),
         method(SCENE, "slider_named", &[NAME], |call| {
             let scene = call.receiver::<SceneHandle>()?;
             let index = find(call, "slider", |held| held.sliders.iter().map(|slider| &slider.name).collect())?;
@@ -110,7 +110,7 @@ pub const TABLE: BindingTable = BindingTable {
         .returns(Returns::object(SLIDER))
         .summary("Returns the slider with a name.")
         .example("scene.slider(scene.particle([1, 0], 1), rod, #{ name: \"ring\" });\nprint(scene.slider_named(\"ring\"));")
-        .see(&["slider", "scene"]),
+        .with_related(&["slider", "scene"]),
         method(SCENE, "track_named", &[NAME], |call| {
             let scene = call.receiver::<SceneHandle>()?;
             let index = find(call, "track", |held| held.tracks.iter().map(|track| &track.name).collect())?;
@@ -119,7 +119,7 @@ pub const TABLE: BindingTable = BindingTable {
         .returns(Returns::object(TRACK))
         .summary("Returns the track with a name.")
         .example("scene.track([rod], #{ name: \"course\" });\nprint(scene.track_named(\"course\"));")
-        .see(&["track", "scene"]),
+        .with_related(&["track", "scene"]),
     ],
 };
 
@@ -149,14 +149,14 @@ fn save(call: &mut Call) -> Result<Dynamic, ScriptError> {
     written.map_err(|error| error.at(CallPart::Argument(0)))?;
     let waiting = handle.events_waiting();
     if waiting > 0 {
-        call.context().tell(&format!(
+        call.context().print_message(&format!(
             "note: simulation '{}' was saved without its pending functions of sim.at \
             ({waiting}); register them again after load_simulation",
             handle.name()
         ));
     }
     if handle.simulation().parameters().next().is_some() {
-        call.context().tell(&format!(
+        call.context().print_message(&format!(
             "note: simulation '{}' was saved without the derivatives by the parameters of its \
             scene; load_simulation returns a simulation without derivatives",
             handle.name()
@@ -173,7 +173,7 @@ fn load(call: &mut Call) -> Result<Dynamic, ScriptError> {
         let refused = call.error(format!("cannot load \"{name}\": {error}"));
         refused.advised(&error).at(CallPart::Argument(0))
     })?;
-    simulation.keep_snapshots(call.context().snapshots());
+    simulation.enable_snapshots(call.context().snapshots());
     let scene = SceneHandle::new(simulation.scene().clone());
     Ok(Dynamic::from(SimulationHandle::new(
         simulation,

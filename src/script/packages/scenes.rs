@@ -43,7 +43,7 @@ pub const TABLE: BindingTable = BindingTable {
         .returns(Returns::object(SCENE))
         .summary("Creates an empty scene; its name appears in messages and reports.")
         .example("let scene = new_scene(\"pendulum\");")
-        .see(&["beam", "start"]),
+        .with_related(&["beam", "start"]),
         method(SCENE, "beam", &[options("options", BEAM_KEYS)], beam)
             .returns(Returns::object(BEAM))
             .summary("Adds a beam that is free of stress in its undeformed shape.")
@@ -53,7 +53,7 @@ pub const TABLE: BindingTable = BindingTable {
                 point `about`, default: the centre of mass. Default names: beam1, beam2, …",
             )
             .example("let mast = scene.beam(#{ name: \"mast\", axis: line([0, 0], [0, 3]), section: s });\nprint(mast);")
-            .see(&["section", "bspline", "line"]),
+            .with_related(&["section", "bspline", "line"]),
         method(SCENE, "particle", &[point("position").unit("length"), number("mass").unit("mass"), options("options", PARTICLE_KEYS).optional()], particle)
             .returns(Returns::object(STATION))
             .summary("Adds a point mass with its own position and returns its only station.")
@@ -66,7 +66,7 @@ pub const TABLE: BindingTable = BindingTable {
                 "let stone = scene.particle([0, 3], 0.5, #{ name: \"stone\", velocity: [1, 0] });\n\
                  scene.gravity([0, -9.81]);\nprint(stone);",
             )
-            .see(&["slider", "mass"]),
+            .with_related(&["slider", "mass"]),
         property(BEAM, "start", |call| station(call, |_| 0.0))
             .returns(Returns::object(STATION))
             .summary("Start station of the beam.")
@@ -104,13 +104,13 @@ pub const TABLE: BindingTable = BindingTable {
             .doc("At an interior station the mesh becomes C0, so that the shear force can jump \
                 there.")
             .example("scene.clamp(rod.start);")
-            .see(&["hinge", "rigid"]),
+            .with_related(&["hinge", "rigid"]),
         method(SCENE, "hinge", &[AT, OTHER], |call| join(call, JointKind::Hinge))
             .returns(Returns::object(JOINT))
             .summary("Fixes the position of a station, or joins two stations so that they can rotate \
                 relative to each other.")
             .example("scene.hinge(rod.start);")
-            .see(&["clamp", "rigid", "release"]),
+            .with_related(&["clamp", "rigid", "release"]),
         method(SCENE, "rigid", &[AT, object("other", STATION)], |call| join(call, JointKind::Rigid))
             .returns(Returns::object(JOINT))
             .summary("Joins two stations rigidly: their relative position and angle stay as in the \
@@ -119,7 +119,7 @@ pub const TABLE: BindingTable = BindingTable {
                 "let arm = scene.beam(#{ axis: line([2, 0], [2, 1]), basis: bspline(4), section: s });\n\
                  scene.rigid(rod.end, arm.start);",
             )
-            .see(&["hinge"]),
+            .with_related(&["hinge"]),
         method(SCENE, "mass", &[AT, number("mass").unit("mass"), ROTARY], |call| {
             let (station, scene) = here(call, "station")?;
             let (mass, rotary_inertia) = (call.number("mass")?, call.number("rotary_inertia")?);
@@ -130,11 +130,11 @@ pub const TABLE: BindingTable = BindingTable {
         .example("scene.mass(rod.end, 1.5);"),
         method(SCENE, "velocity", &[AT, point("velocity").unit("length/time"), SPIN], |call| {
             let (station, scene) = here(call, "station")?;
-            let (velocity, spin) = (call.point("velocity")?, call.number_if_given("spin"));
+            let (velocity, spin) = (call.point("velocity")?, call.optional_number("spin"));
             let earlier = scene.borrow().velocities.iter().rev().find(|one| one.station == station).copied();
             if let Some(earlier) = earlier.filter(|one| (one.velocity, one.spin) != (velocity, spin)) {
                 let at = scene.borrow().describe(&station);
-                tell_replaced(call, &format!("the velocity at {at}"), (earlier.velocity, velocity));
+                report_replaced(call, &format!("the velocity at {at}"), (earlier.velocity, velocity));
             }
             scene.borrow_mut().velocities.push(StationVelocity { station, velocity, spin });
             Ok(Dynamic::UNIT)
@@ -144,14 +144,14 @@ pub const TABLE: BindingTable = BindingTable {
             whole beam. Where a moving body is joined to a beam at rest, the node of the beam \
             needs the velocity of the joined point of the body: set it with this function.")
         .example("scene.velocity(rod.end, [0, -1]);")
-        .see(&["beam"]),
+        .with_related(&["beam"]),
         method(SCENE, "gravity", &[point("acceleration").unit("length/time²")], |call| {
             let gravity = call.point("acceleration")?;
             let handle = call.receiver::<SceneHandle>()?;
             let earlier = std::mem::replace(&mut handle.scene().borrow_mut().gravity, gravity);
             if earlier != Vec2::zeros() && earlier != gravity {
                 let name = handle.scene().borrow().name.clone();
-                tell_replaced(call, &format!("the gravity of '{name}'"), (earlier, gravity));
+                report_replaced(call, &format!("the gravity of '{name}'"), (earlier, gravity));
             }
             Ok(Dynamic::UNIT)
         })
@@ -162,10 +162,10 @@ pub const TABLE: BindingTable = BindingTable {
     ],
 };
 
-fn tell_replaced(call: &Call, what: &str, (earlier, now): (Vec2, Vec2)) {
+fn report_replaced(call: &Call, what: &str, (earlier, now): (Vec2, Vec2)) {
     let [earlier, now] = [earlier, now]
         .map(|vector| format!("({}, {})", format_number(vector.x), format_number(vector.y)));
-    call.context().tell(&format!("note: {what} was {earlier} and is now {now}"));
+    call.context().print_message(&format!("note: {what} was {earlier} and is now {now}"));
 }
 
 pub(super) const ROD: &str = "let scene = new_scene(\"example\");\n\
@@ -195,7 +195,7 @@ pub(super) const START_SPIN: Parameter =
 pub(super) const START_ABOUT: Parameter = point("about")
     .unit("length")
     .doc("centre of the initial rotation; default: the centre of mass")
-    .beside("spin")
+    .requires_key("spin")
     .optional();
 const BEAM_KEYS: &[Parameter] = &[
     object("axis", CURVE).doc("undeformed centroid line"),
@@ -215,7 +215,7 @@ pub(super) fn start_motion(options: &Options) -> Result<StartMotion, ScriptError
     let given = |key: &str| options.has(key).then(|| options.point(key)).transpose();
     Ok(StartMotion {
         velocity: given("velocity")?.unwrap_or_default(),
-        spin: options.number_if_given("spin").unwrap_or(0.0),
+        spin: options.optional_number("spin").unwrap_or(0.0),
         about: given("about")?,
     })
 }
@@ -223,7 +223,7 @@ pub(super) fn start_motion(options: &Options) -> Result<StartMotion, ScriptError
 fn beam(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let scene = call.receiver::<SceneHandle>()?;
     let options = call.options("options")?;
-    let named = options.text_if_given("name")?;
+    let named = options.optional_text("name")?;
     let mesh = match mesh_of(&options, "basis") {
         Some(mesh) => mesh,
         None => Mesh::bspline(SPANS, 3, 2)?,
@@ -242,14 +242,14 @@ fn beam(call: &mut Call) -> Result<Dynamic, ScriptError> {
     if let Some(relaxation) = relaxation {
         scene.scene().borrow_mut().add_damping(index, relaxation)?;
     }
-    tell_of_taper(call, &scene, index)?;
+    warn_about_taper(call, &scene, index)?;
     // Variant 0 is evaluated last, after the beams of the side variants exist.
-    scene.expect_length_beside(index).map_err(|error| error.at(CallPart::Key("axis".into())))?;
+    scene.expect_constant_length(index).map_err(|error| error.at(CallPart::Key("axis".into())))?;
     Ok(Dynamic::from(BeamHandle { scene, index }))
 }
 
 /// Warns if the quadrature points of the mesh do not resolve the variation of the section.
-fn tell_of_taper(call: &Call, scene: &SceneHandle, index: usize) -> Result<(), ScriptError> {
+fn warn_about_taper(call: &Call, scene: &SceneHandle, index: usize) -> Result<(), ScriptError> {
     let scene = scene.scene().borrow();
     let BeamDefinition { name, section, mesh, .. } = &scene.beams[index];
     let seen = TaperQuadrature::of(section, mesh)?;
@@ -264,7 +264,7 @@ fn tell_of_taper(call: &Call, scene: &SceneHandle, index: usize) -> Result<(), S
     let off = parts.into_iter().filter(|(_, part)| *part >= MISSED);
     let told: Vec<String> =
         off.map(|(what, part)| format!("{what} by {} %", significant(100.0 * part, 2))).collect();
-    call.context().tell(&format!(
+    call.context().print_message(&format!(
         "note: the mesh of beam '{name}' is too coarse for its varying section; errors at the \
         quadrature points: {}. Place knots where the section jumps or bends, knots(3, […]), \
         use more spans, or join separate beams there",
@@ -276,7 +276,7 @@ fn tell_of_taper(call: &Call, scene: &SceneHandle, index: usize) -> Result<(), S
 fn particle(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let scene = call.receiver::<SceneHandle>()?;
     let options = call.options_or_defaults("options")?;
-    let name = options.text_if_given("name")?;
+    let name = options.optional_text("name")?;
     let definition = ParticleDefinition {
         name: name.unwrap_or_else(|| scene.scene().borrow().free_name("particle")),
         position: call.point("position")?,

@@ -39,12 +39,12 @@ pub const TABLE: BindingTable = BindingTable {
         .summary("Creates a schedule with the same factor at all times; constant(1) is the default \
             of loads.")
         .example("check(constant(2).at(5) == 2);")
-        .see(&["hold_for"]),
+        .with_related(&["hold_for"]),
         function("hold_for", &[TIME], |call| schedule(Schedule::hold_for(call.number("time")?)?))
             .returns(Returns::object(SCHEDULE))
             .summary("Creates a schedule that is 1 up to a time, then 0; a step ends there.")
             .example("let torque = hold_for(2.5);\ncheck(torque.at(2.4) == 1 && torque.at(2.5) == 0);")
-            .see(&["pulse", "ramp"]),
+            .with_related(&["pulse", "ramp"]),
         function("ramp", &[FROM, TO], |call| {
             schedule(Schedule::ramp(call.number("from")?, call.number("to")?)?)
         })
@@ -52,14 +52,14 @@ pub const TABLE: BindingTable = BindingTable {
         .summary("Creates a schedule that is 0 before the first time, 1 after the second, and linear \
             between.")
         .example("check(ramp(0, 4).at(1) == 0.25);")
-        .see(&["table"]),
+        .with_related(&["table"]),
         function("pulse", &[FROM, TO], |call| {
             schedule(Schedule::pulse(call.number("from")?, call.number("to")?)?)
         })
         .returns(Returns::object(SCHEDULE))
         .summary("Creates a schedule that is 1 between two times, else 0.")
         .example("check(pulse(1, 2).at(1.5) == 1);")
-        .see(&["smooth_pulse", "hold_for"]),
+        .with_related(&["smooth_pulse", "hold_for"]),
         function("smooth_pulse", &[number("duration").positive().unit("time")], |call| {
             schedule(Schedule::smooth_pulse(call.number("duration")?)?)
         })
@@ -67,7 +67,7 @@ pub const TABLE: BindingTable = BindingTable {
         .summary("Creates a schedule 16/5 sin(PI t / duration)^6 up to the duration, then 0: unit \
             mean, five continuous derivatives.")
         .example("check_close(smooth_pulse(2).at(1), 3.2, 1e-15);")
-        .see(&["pulse"]),
+        .with_related(&["pulse"]),
         function("sine", &[number("amplitude"), number("rate").unit("rad/time"), PHASE], |call| {
             schedule(Schedule::sine(call.number("amplitude")?, call.number("rate")?, call.number("phase")?)?)
         })
@@ -79,7 +79,7 @@ pub const TABLE: BindingTable = BindingTable {
             .summary("Creates a piecewise linear schedule through [time, factor] points, constant \
                 before the first and after the last.")
             .example("let load = table([[0, 0], [1, 1], [1, 0.5], [3, 0]]);\ncheck(load.at(2) == 0.25);")
-            .see(&["ramp"]),
+            .with_related(&["ramp"]),
         function("schedule", &[callback("function"), BREAKS], closure)
             .returns(Returns::object(SCHEDULE))
             .summary("Creates a schedule from a function of time, with optional times of its jumps \
@@ -153,7 +153,7 @@ pub(super) const DELAY: Parameter = number("delay")
         "dead time of the controller: a value acts this much later; before the first value nothing \
     acts",
     )
-    .beside("sample")
+    .requires_key("sample")
     .optional();
 
 const TIME: Parameter = number("time").positive().unit("time");
@@ -241,7 +241,7 @@ pub(super) fn schedule_of(
     if let Some(schedule) = arguments.get_if::<Schedule>(name) {
         return Ok(schedule);
     }
-    match (arguments.get_if::<FnPtr>(name), arguments.number_if_given(name)) {
+    match (arguments.get_if::<FnPtr>(name), arguments.optional_number(name)) {
         (Some(function), _) => stored(call, function, Vec::new()),
         (None, factor) => Ok(Schedule::constant(factor.unwrap_or(1.0))?),
     }
@@ -265,16 +265,16 @@ pub(super) fn controlled_schedule_of(
         return schedule_of(call, arguments, name);
     }
     let function = call.store(function, "the function of a controller");
-    let value = scene.keep_controller(function, beat);
+    let value = scene.store_controller(function, beat);
     Ok(match beat {
         Some(beat) => Schedule::Clocked { value, beat },
         None => Schedule::Sampled(value),
     })
 }
 
-pub(super) fn beat_of(options: &Arguments) -> Result<Option<SampleClock>, ScriptError> {
-    let delay = options.number_if_given("delay").unwrap_or(0.0);
-    let beat = options.number_if_given("sample").map(|period| SampleClock::new(period, delay));
+pub(super) fn sample_clock_of(options: &Arguments) -> Result<Option<SampleClock>, ScriptError> {
+    let delay = options.optional_number("delay").unwrap_or(0.0);
+    let beat = options.optional_number("sample").map(|period| SampleClock::new(period, delay));
     Ok(beat.transpose()?)
 }
 

@@ -16,7 +16,7 @@ use crate::script::bindings::key_sets::{KeySet, KeySets};
 use crate::script::bindings::kind::{Details, Kind, NumberRange, Scripted, Type};
 use crate::script::bindings::options::Options;
 use crate::script::bindings::parameter::{
-    Parameter, Presence, choice, either, number, options, whole,
+    Parameter, Presence, choice, either, integer, number, options,
 };
 use crate::script::bindings::returns::Returns;
 use crate::script::bindings::table::{BindingTable, function, property};
@@ -51,7 +51,7 @@ pub const TABLE: BindingTable = BindingTable {
                  let steel = section(#{ E: 210e9, nu: 0.3, density: 7850, shape: \"rectangle\", width: 0.02, height: 0.01 });\n\
                  check_close(steel.EA, 210e9 * 0.02 * 0.01, 1);",
             )
-            .see(&["taper", "beam"]),
+            .with_related(&["taper", "beam"]),
         property(SECTION, "EA", |call| of_uniform(call, |section| section.axial_stiffness))
             .returns(Returns::NUMBER)
             .summary("Axial stiffness [force].")
@@ -86,12 +86,12 @@ pub const TABLE: BindingTable = BindingTable {
                 "let mesh = bspline(14);\ncheck(mesh.spans == 14);\n\
                  let paper = bspline(#{ spans: 7, continuity: 1, quadrature: 3 });\nprint(paper); // … 3 points for the strain: locks",
             )
-            .see(&["lagrange", "knots", "beam"]),
+            .with_related(&["lagrange", "knots", "beam"]),
         function("lagrange", &[either("elements", &[COUNT, Kind::Options(LAGRANGE)])], lagrange)
             .returns(Returns::object(MESH))
             .summary("Creates a mesh of Lagrange elements of degree 1 (default), 2 or 3.")
             .example("let mesh = lagrange(#{ elements: 5, degree: 3 });\ncheck(mesh.degree == 3);")
-            .see(&["bspline"]),
+            .with_related(&["bspline"]),
         property(MESH, "spans", |call| whole_number(call.receiver::<Mesh>()?.spans()))
             .returns(Returns::WHOLE)
             .summary("Number of spans or elements.")
@@ -182,17 +182,17 @@ const QUADRATURE: Parameter = either("quadrature", &[Kind::Choice(&["patch"]), C
     .doc("points for axial and shear strain")
     .or(Presence::Text("patch"));
 const BSPLINE: &[Parameter] = &[
-    whole("spans").positive().doc("number of equal spans"),
-    whole("degree").positive().or(Presence::Whole(3)),
-    whole("continuity")
+    integer("spans").positive().doc("number of equal spans"),
+    integer("degree").positive().or(Presence::Whole(3)),
+    integer("continuity")
         .non_negative()
         .doc("number of continuous derivatives between spans; default: degree - 1")
         .optional(),
     QUADRATURE,
 ];
 const LAGRANGE: &[Parameter] = &[
-    whole("elements").positive().doc("number of equal elements"),
-    whole("degree").between(1.0, 3.0).or(Presence::Whole(1)),
+    integer("elements").positive().doc("number of equal elements"),
+    integer("degree").between(1.0, 3.0).or(Presence::Whole(1)),
     QUADRATURE,
 ];
 
@@ -254,7 +254,7 @@ fn section_of(options: &Options) -> Result<(Section, Option<Solid>), ScriptError
     };
     let (young, poisson, density) = (number("E")?, number("nu")?, number("density")?);
     let solid = Solid { young, poisson, density, shape };
-    Ok((Section::from_solid(solid).map_err(blamed)?, Some(solid)))
+    Ok((Section::from_solid(solid).map_err(section_error)?, Some(solid)))
 }
 
 fn from_stiffness(options: &Options) -> Result<Section, ScriptError> {
@@ -265,10 +265,10 @@ fn from_stiffness(options: &Options) -> Result<Section, ScriptError> {
         mass_per_length: options.number("rho_A")?,
         rotary_inertia: options.number("rho_I")?,
     };
-    section.validated().map_err(blamed)
+    section.validated().map_err(section_error)
 }
 
-fn blamed(error: BeamError) -> ScriptError {
+fn section_error(error: BeamError) -> ScriptError {
     let key = match &error {
         BeamError::SectionValue { name, .. } => Some(*name),
         BeamError::PoissonRatio { .. } => Some("nu"),

@@ -59,14 +59,14 @@ pub const TABLE: BindingTable = BindingTable {
                 "scene.record(\"rod.end.x\");\nscene.record(\"height\", |q| q.position(rod.end).y + 3);\nlet sim = scene.start(#{ dt: 0.05 });\nsim.run_to(1);\n\
                  check(sim.history.column(\"rod.end.x\").len() == 21);\ncheck_close(sim.history.last(\"height\"), sim.position(rod.end).y + 3, 1e-15);",
             )
-            .see(&["statistics", "spectrum", "column", "every", "plot_history"]),
+            .with_related(&["statistics", "spectrum", "column", "every", "plot_history"]),
         method(SIMULATION, "section_forces", &[object("beam", BEAM), S], |call| {
             let (beam, handle) = (call.get::<BeamHandle>("beam")?, call.receiver::<SimulationHandle>()?);
-            let index = beam.own(handle.scene())?;
+            let index = beam.index_in(handle.scene())?;
             let simulation = handle.simulation();
             known(call, simulation.scene(), index, &beam)?;
             match wanted(call, simulation.scene(), index)? {
-                Some(at) => Ok(told(&simulation.section_forces(&at)?).into()),
+                Some(at) => Ok(section_forces_map(&simulation.section_forces(&at)?).into()),
                 None => Ok(along(&simulation.section_forces_along(index)?)),
             }
         })
@@ -95,14 +95,14 @@ pub const TABLE: BindingTable = BindingTable {
             "let sim = scene.start(#{ dt: 0.01 });\nsim.step();\nlet along = sim.section_forces(rod);\ncheck(along[0].s == 0 && along.len() == 17);\n\
              check_close(sim.section_forces(rod, 2).M, 0, 1e-2);",
         )
-        .see(&["reaction", "record"]),
+        .with_related(&["reaction", "record"]),
         method(EQUILIBRIUM, "section_forces", &[object("beam", BEAM), S], |call| {
             let (beam, handle) = (call.get::<BeamHandle>("beam")?, call.receiver::<EquilibriumHandle>()?);
-            let index = beam.own(handle.scene())?;
-            let rest = handle.rest();
+            let index = beam.index_in(handle.scene())?;
+            let rest = handle.equilibrium();
             known(call, rest.scene(), index, &beam)?;
             match wanted(call, rest.scene(), index)? {
-                Some(at) => Ok(told(&rest.section_forces(&at)?).into()),
+                Some(at) => Ok(section_forces_map(&rest.section_forces(&at)?).into()),
                 None => Ok(along(&rest.section_forces_along(index)?)),
             }
         })
@@ -114,13 +114,13 @@ pub const TABLE: BindingTable = BindingTable {
             "scene.hinge(rod.end);\nlet rest = scene.equilibrium();\nlet middle = rest.section_forces(rod, 1);\n\
              check_close(middle.Q, 0, 1e-6);\ncheck_close(middle.M, 9.81 * 2^2 / 8, 0.06);",
         )
-        .see(&["reaction"]),
+        .with_related(&["reaction"]),
         method(SIMULATION, "reaction", &[AT], |call| {
             let (handle, station) = (call.receiver::<SimulationHandle>()?, call.get::<StationHandle>("station")?);
-            let place = station.on(&handle)?;
-            let reaction = handle.look(|simulation| {
+            let place = station.place_in(&handle)?;
+            let reaction = handle.with_simulation_mut(|simulation| {
                 let now = simulation.instant()?;
-                Ok::<_, SystemError>(simulation.model().reaction(now.given(), &place))
+                Ok::<_, SystemError>(simulation.model().reaction(now.reactions(), &place))
             })?;
             reaction.map(force_and_moment).ok_or_else(|| holds_nothing(call, &station))
         })
@@ -134,7 +134,7 @@ pub const TABLE: BindingTable = BindingTable {
             the change of the columns impulse_x and impulse_y divided by the step size.",
         )
         .example("let sim = scene.start(#{ dt: 0.01 });\nsim.run_to(1);\nlet given = sim.reaction(rod.start);\ncheck(norm(given.force) > 1 && given.moment == 0);")
-        .see(&["mean_reaction", "joint_force", "section_forces", "record"]),
+        .with_related(&["mean_reaction", "joint_force", "section_forces", "record"]),
         method(SIMULATION, "joint_force", &[WHICH], joint_force)
             .returns(Returns::MAP)
             .summary("Returns the present force and moment of a joint on its first station: force, a \
@@ -144,11 +144,11 @@ pub const TABLE: BindingTable = BindingTable {
                 return value of scene.hinge or by its name, the kind and its number. A \
                 released joint has zero force.")
             .example("let sim = scene.start(#{ dt: 0.01 });\ncheck(sim.joint_force(\"hinge1\").force == sim.reaction(rod.start).force);")
-            .see(&["mean_joint_force", "reaction"]),
+            .with_related(&["mean_joint_force", "reaction"]),
         method(SIMULATION, "mean_reaction", &[AT], |call| {
             let (handle, station) = (call.receiver::<SimulationHandle>()?, call.get::<StationHandle>("station")?);
-            let place = station.on(&handle)?;
-            let given = given_in_step(call, &handle)?;
+            let place = station.place_in(&handle)?;
+            let given = mean_reactions(call, &handle)?;
             let reaction = handle.simulation().model().reaction(&given, &place);
             reaction.map(force_and_moment).ok_or_else(|| holds_nothing(call, &station))
         })
@@ -161,10 +161,10 @@ pub const TABLE: BindingTable = BindingTable {
              let change = (momentum[100] - momentum[99]) / 0.01;\n\
              check_close(sim.mean_reaction(rod.start).force.y - 2 * 9.81, change, 1e-9);",
         )
-        .see(&["reaction", "mean_joint_force", "record"]),
+        .with_related(&["reaction", "mean_joint_force", "record"]),
         method(SIMULATION, "mean_joint_force", &[WHICH], |call| {
             let (handle, joint) = (call.receiver::<SimulationHandle>()?, joint_index(call)?);
-            let given = given_in_step(call, &handle)?;
+            let given = mean_reactions(call, &handle)?;
             let simulation = handle.simulation();
             let joint = simulation.model().transmission(simulation.scene(), joint)?;
             Ok(force_and_moment(joint.read(&given)))
@@ -178,11 +178,11 @@ pub const TABLE: BindingTable = BindingTable {
              let given = sim.mean_joint_force(\"hinge1\").force;\n\
              check(given.y == sim.history.last(\"hinge1.mean_fy\"));",
         )
-        .see(&["joint_force", "mean_reaction", "record"]),
+        .with_related(&["joint_force", "mean_reaction", "record"]),
         method(SIMULATION, "present_contact_force", &[object("slider", SLIDER)], |call| {
             let handle = call.receiver::<SimulationHandle>()?;
             let slider = call.get::<SliderHandle>("slider")?.on(&handle)?;
-            let now = handle.look(|simulation| simulation.instant())?;
+            let now = handle.with_simulation_mut(|simulation| simulation.instant())?;
             Ok(Dynamic::from(now.contact(slider)))
         })
         .returns(Returns::object(VECTOR).unit("force"))
@@ -197,11 +197,11 @@ pub const TABLE: BindingTable = BindingTable {
             "let bead = scene.slider(scene.particle([1, 0], 0.5), rod, #{ at: 0.5 });\nlet sim = scene.start(#{ dt: 0.001 });\nsim.run_to(0.1);\n\
              print(sim.present_contact_force(bead));",
         )
-        .see(&["contact_force", "joint_force"]),
+        .with_related(&["contact_force", "joint_force"]),
         method(SIMULATION, "acceleration", &[AT], |call| {
             let (handle, station) = (call.receiver::<SimulationHandle>()?, call.get::<StationHandle>("station")?);
-            let place = station.on(&handle)?;
-            let acceleration = handle.look(|simulation| {
+            let place = station.place_in(&handle)?;
+            let acceleration = handle.with_simulation_mut(|simulation| {
                 let now = simulation.instant()?;
                 Ok::<_, SystemError>(simulation.model().acceleration(&now, &place))
             })?;
@@ -211,10 +211,10 @@ pub const TABLE: BindingTable = BindingTable {
         .summary("Returns the present acceleration of a station, computed from the equations of \
             motion.")
         .example("let sim = scene.start(#{ dt: 0.01 });\ncheck(norm(sim.acceleration(rod.start)) == 0);\ncheck_close(sim.acceleration(rod.end).y, -9.81, 0.5);")
-        .see(&["velocity", "spin"]),
+        .with_related(&["velocity", "spin"]),
         method(SIMULATION, "spin", &[AT], |call| {
             let (handle, station) = (call.receiver::<SimulationHandle>()?, call.get::<StationHandle>("station")?);
-            let place = station.on(&handle)?;
+            let place = station.place_in(&handle)?;
             if !station.station.turns() {
                 let told = format!("{} has no spin, because a particle does not rotate", station.show());
                 return Err(call.error(told).hint("read the spin at a station of a beam or a body"));
@@ -225,12 +225,12 @@ pub const TABLE: BindingTable = BindingTable {
         .summary("Returns the angular velocity of the section at a station, positive \
             counter-clockwise.")
         .example("let sim = scene.start(#{ dt: 0.01 });\nsim.run_to(0.1);\ncheck(sim.spin(rod.end) < 0);")
-        .see(&["angle", "acceleration"]),
+        .with_related(&["angle", "acceleration"]),
         method(SIMULATION, "energy", &[object("beam", BEAM)], |call| {
             let (beam, handle) = (call.get::<BeamHandle>("beam")?, call.receiver::<SimulationHandle>()?);
-            let index = beam.own(handle.scene())?;
+            let index = beam.index_in(handle.scene())?;
             known(call, handle.simulation().scene(), index, &beam)?;
-            let energy = handle.look(|simulation| simulation.energy_of(index));
+            let energy = handle.with_simulation_mut(|simulation| simulation.energy_of(index));
             Ok(map(&[
                 ("energy", energy.total()),
                 ("kinetic", energy.kinetic),
@@ -247,7 +247,7 @@ pub const TABLE: BindingTable = BindingTable {
             over all bodies and the energy of springs is the energy of the scene. Without a \
             beam, use sim.energy for the energy of the scene.")
         .example("let sim = scene.start(#{ dt: 0.01 });\nsim.run_to(0.1);\ncheck_close(sim.energy(rod).energy, sim.energy, 1e-12);")
-        .see(&["record"]),
+        .with_related(&["record"]),
     ],
 };
 
@@ -283,7 +283,7 @@ fn record(call: &mut Call) -> Result<Dynamic, ScriptError> {
         call.expect_arguments(&function, 1, "|q| …, a function of the simulation")?;
         let function = call.store(function, &format!("the function of the column '{column}'"));
         scene.scene().borrow_mut().record_outside(&column)?;
-        scene.keep_function(function);
+        scene.store_function(function);
         return Ok(Dynamic::UNIT);
     }
     let recorded = scene.scene().borrow_mut().record(&column);
@@ -303,11 +303,11 @@ fn record(call: &mut Call) -> Result<Dynamic, ScriptError> {
 
 fn joint_force(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let (handle, joint) = (call.receiver::<SimulationHandle>()?, joint_index(call)?);
-    let (now, joint) = handle.look(|simulation| {
+    let (now, joint) = handle.with_simulation_mut(|simulation| {
         let joint = simulation.model().transmission(simulation.scene(), joint)?;
         Ok::<_, SystemError>((simulation.instant()?, joint))
     })?;
-    Ok(force_and_moment(joint.read(now.given())))
+    Ok(force_and_moment(joint.read(now.reactions())))
 }
 
 fn joint_index(call: &mut Call) -> Result<usize, ScriptError> {
@@ -325,8 +325,8 @@ fn joint_index(call: &mut Call) -> Result<usize, ScriptError> {
 }
 
 /// Mean forces of joints and supports over the last step, if they are accumulated.
-fn given_in_step(call: &Call, handle: &SimulationHandle) -> Result<Reactions, ScriptError> {
-    handle.simulation().model().given_in_step().ok_or_else(|| {
+fn mean_reactions(call: &Call, handle: &SimulationHandle) -> Result<Reactions, ScriptError> {
+    handle.simulation().model().mean_reactions().ok_or_else(|| {
         let names = handle.simulation().scene().joint_names();
         let joint = names.first().map_or("hinge1", String::as_str);
         call.error("mean forces of joints and supports were not recorded")
@@ -363,7 +363,7 @@ fn known(call: &Call, built: &Scene, index: usize, beam: &BeamHandle) -> Result<
 }
 
 fn wanted(call: &Call, scene: &Scene, beam: usize) -> Result<Option<Station>, ScriptError> {
-    let Some(station) = call.number_if_given("s") else { return Ok(None) };
+    let Some(station) = call.optional_number("s") else { return Ok(None) };
     let length = scene.beams[beam].axis.length();
     if !is_on_length(station, length) {
         let beam = scene.beams[beam].name.clone();
@@ -378,7 +378,7 @@ fn force_and_moment((force, moment): (Vec2, f64)) -> Dynamic {
     map.into_iter().map(|(name, value)| (name.into(), value)).collect::<Map>().into()
 }
 
-fn told(forces: &SectionForces) -> Map {
+fn section_forces_map(forces: &SectionForces) -> Map {
     let entries = [
         ("N", forces.axial),
         ("Q", forces.shear),
@@ -392,7 +392,7 @@ fn told(forces: &SectionForces) -> Map {
 
 fn along(samples: &[SectionSample]) -> Dynamic {
     let row = |sample: &SectionSample| {
-        let mut row = told(&sample.forces);
+        let mut row = section_forces_map(&sample.forces);
         row.insert("s".into(), sample.arc_length.into());
         Dynamic::from(row)
     };

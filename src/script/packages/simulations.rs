@@ -18,7 +18,7 @@ use crate::output::{Cell, TextTable, scientific};
 use crate::script::bindings::call::Call;
 use crate::script::bindings::kind::{Kind, NumberRange, Scripted, Type};
 use crate::script::bindings::parameter::{
-    Parameter, Presence, callback, choice, either, name, number, object, options, whole,
+    Parameter, Presence, callback, choice, either, integer, name, number, object, options,
 };
 use crate::script::bindings::returns::Returns;
 use crate::script::bindings::table::{BindingTable, FunctionBinding, method, property};
@@ -46,22 +46,22 @@ pub const TABLE: BindingTable = BindingTable {
             .doc("Later changes of the scene do not affect the simulation; call start again for \
                 a new one.")
             .example("let again = scene.start(#{ integrator: trapezoidal(), dt: 0.05 });\nprint(again);")
-            .see(&["energy_momentum", "trapezoidal", "every", "step", "run_to", "back"]),
-        method(SIMULATION, "step", &[whole("count").non_negative().or(Presence::Whole(1))], |call| {
-            call.receiver::<SimulationHandle>()?.go_on(call, &RunTarget::Steps(call.count("count")?))?;
+            .with_related(&["energy_momentum", "trapezoidal", "every", "step", "run_to", "back"]),
+        method(SIMULATION, "step", &[integer("count").non_negative().or(Presence::Whole(1))], |call| {
+            call.receiver::<SimulationHandle>()?.advance(call, &RunTarget::Steps(call.count("count")?))?;
             Ok(Dynamic::UNIT)
         })
         .summary("Takes one step, or the given number of steps; a step is shorter where a schedule \
             requires the end of a step.")
         .example("sim.step();\nsim.step(3);\ncheck(sim.steps == 4);")
-        .see(&["run_to"]),
-        method(SIMULATION, "run_to", &[number("t").any_number().unit("time")], |call| {
-            call.receiver::<SimulationHandle>()?.go_on(call, &RunTarget::Time(call.number("t")?))?;
+        .with_related(&["run_to"]),
+        method(SIMULATION, "run_to", &[number("t").allow_non_finite().unit("time")], |call| {
+            call.receiver::<SimulationHandle>()?.advance(call, &RunTarget::Time(call.number("t")?))?;
             Ok(Dynamic::UNIT)
         })
         .summary("Takes steps until a time; the last step ends exactly there.")
         .example("sim.run_to(1);\ncheck(sim.t == 1);")
-        .see(&["step", "at"]),
+        .with_related(&["step", "at"]),
         method(SIMULATION, "at", &[number("t").unit("time"), callback("function")], |call| {
             let function = call.callback("function")?;
             call.expect_arguments(&function, 1, "|sim| …, a function of the simulation")?;
@@ -110,7 +110,7 @@ pub const TABLE: BindingTable = BindingTable {
             .doc("The conserved values are E - W + D, p - ∫F dt and L - ∫M dt, in which the \
                 contributions of loads, gravity and supports are subtracted.")
             .example("sim.run_to(1);\nprint(sim.invariants());\ncheck(sim.invariants().energy < 1e-12);")
-            .see(&["drift"]),
+            .with_related(&["drift"]),
         invariant("energy", |call| Ok(drift(call)?[0].into())).summary("Largest relative change of E - W + D."),
         invariant("momentum", |call| Ok(drift(call)?[1].into())).summary("Largest relative change of p - ∫F dt."),
         invariant("angular_momentum", |call| Ok(drift(call)?[2].into())).summary("Largest relative change of L - ∫M dt."),
@@ -148,14 +148,14 @@ pub const TABLE: BindingTable = BindingTable {
         count("rejected", |call| counted(call, |simulation| simulation.counts().rejected))
             .summary("Number of adaptive steps whose error exceeded the tolerance and that were \
                 repeated.")
-            .see(&["adaptive"]),
+            .with_related(&["adaptive"]),
         count("unknowns", |call| counted(call, Simulation::unknowns)).summary("Number of unknowns of a step."),
         property(SIMULATION, "dt", |call| Ok(call.receiver::<SimulationHandle>()?.simulation().dt().into()))
             .returns(Returns::NUMBER.unit("time"))
             .summary("Step size of the grid; with adaptive steps the size of the next step, unless \
                 it must end earlier.")
             .example("check(sim.dt == 0.1);")
-            .see(&["adaptive"]),
+            .with_related(&["adaptive"]),
         property(SIMULATION, "name", |call| Ok(call.receiver::<SimulationHandle>()?.name().into()))
             .returns(Returns::TEXT)
             .summary("Name of the simulation; default: the name of the scene.")
@@ -275,21 +275,22 @@ pub(super) fn begin(
     let options = call.options("options")?;
     let settings = SimulationSettings {
         method: options.get_if::<Method>("integrator").unwrap_or_default(),
-        dt: step_size(&options.value("dt")?)
-            .ok_or_else(|| ScriptError::bug("a step size is neither a number nor adaptive"))?,
+        dt: step_size(&options.value("dt")?).ok_or_else(|| {
+            ScriptError::internal_error("a step size is neither a number nor adaptive")
+        })?,
         tolerance: Tolerance::default(),
     };
     let mut simulation = start(settings)?;
-    let name = options.text_if_given("name")?;
+    let name = options.optional_text("name")?;
     let name = name.unwrap_or_else(|| simulation.scene().name.clone());
-    let limit = options.number_if_given("snapshots").map(bytes);
+    let limit = options.optional_number("snapshots").map(bytes);
     simulation.record(options.get_if::<Recording>("record").unwrap_or_default());
-    simulation.keep_snapshots(limit.unwrap_or_else(|| call.context().snapshots()));
+    simulation.enable_snapshots(limit.unwrap_or_else(|| call.context().snapshots()));
     let printing =
-        options.text_if_given("notes")?.map(|word| meant(&PRINTING, &word)).unwrap_or_default();
+        options.optional_text("notes")?.map(|word| meant(&PRINTING, &word)).unwrap_or_default();
     let notes = Notes::new(printing);
     let started = SimulationHandle::new(simulation, of, name, notes, call.context());
-    started.sense()?;
+    started.evaluate_columns()?;
     Ok(Dynamic::from(started))
 }
 
@@ -314,7 +315,7 @@ fn counted(call: &Call, read: fn(&Simulation) -> usize) -> Result<Dynamic, Scrip
 fn place(call: &Call) -> Result<(SimulationHandle, BodyPoint), ScriptError> {
     let handle = call.receiver::<SimulationHandle>()?;
     let station = call.get::<StationHandle>("station")?;
-    let place = station.on(&handle)?;
+    let place = station.place_in(&handle)?;
     Ok((handle, place))
 }
 
@@ -322,11 +323,11 @@ fn angle(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let (handle, _) = place(call)?;
     let station = call.get::<StationHandle>("station")?;
     let simulation = handle.simulation();
-    followed(call, &station, simulation.model().angle(simulation.scene(), &station.station))
+    tracked_angle(call, &station, simulation.model().angle(simulation.scene(), &station.station))
 }
 
 /// Angle of the section at a station [rad], if it was tracked from the start.
-pub(super) fn followed(
+pub(super) fn tracked_angle(
     call: &Call,
     station: &StationHandle,
     angle: Option<f64>,

@@ -45,7 +45,7 @@ pub const TABLE: BindingTable = BindingTable {
                 gap at any step size.")
             .doc("With energy_momentum(): keeps energy, linear momentum, angular momentum and \
                 the gap to rounding. withy, docs/theory.md, section 10.")
-            .see(&["kinked", "exact", "relaxed", "slider"]),
+            .with_related(&["kinked", "exact", "relaxed", "slider"]),
         rule("kinked", |_| Ok(Dynamic::from(SlidingRule::Kinked)))
             .summary("Selects the conserving rule with the kink of the beam at the contact force: \
                 second order in the mesh, where conserving() is first order.")
@@ -55,19 +55,19 @@ pub const TABLE: BindingTable = BindingTable {
                 speed of the beam, sqrt(GA/rho_A). Use conserving() for sliders with repeated \
                 impacts on soft beams: with kinked() a step may have no solution. withy, \
                 docs/theory.md, section 10.1.")
-            .see(&["conserving", "exact", "relaxed"]),
+            .with_related(&["conserving", "exact", "relaxed"]),
         rule("exact", |_| Ok(Dynamic::from(SlidingRule::Exact)))
             .summary("Selects a rule for comparison: the slave is exactly on the beam at the end of \
                 a step; the error of the angular momentum is of second order.")
             .doc("With energy_momentum(): keeps energy, linear momentum and the gap to rounding. \
                 Sibileau & Muñoz, equations 15 and 17.")
-            .see(&["conserving", "relaxed"]),
+            .with_related(&["conserving", "relaxed"]),
         rule("relaxed", |_| Ok(Dynamic::from(SlidingRule::Relaxed)))
             .summary("Selects a rule for comparison: the slave is on the beam in the mean of a step; \
                 the gap drifts, and a step may have no solution.")
             .doc("With energy_momentum(): keeps energy, linear momentum and angular momentum to \
                 rounding. Sibileau & Muñoz, equations 11 to 14.")
-            .see(&["conserving", "exact"]),
+            .with_related(&["conserving", "exact"]),
         method(SCENE, "slider", &[object("station", STATION), ON, options("options", SLIDER_KEYS).optional()], slider)
             .returns(Returns::object(SLIDER))
             .summary("Adds a slider: a station of another beam or a particle moves along a beam or a \
@@ -94,13 +94,13 @@ pub const TABLE: BindingTable = BindingTable {
                  let runner = scene.slider(hook.start, rod, #{ at: 0.5, rule: conserving(), ends: \"bounce\" });\n\
                  print(runner);",
             )
-            .see(&["particle", "track", "conserving", "contact_force"]),
+            .with_related(&["particle", "track", "conserving", "contact_force"]),
         property(SLIDER, "name", |call| Ok(call.receiver::<SliderHandle>()?.name().into()))
             .returns(Returns::TEXT)
             .summary("Name of the slider.")
             .example("check(ring.name == \"ring\");"),
         method(SIMULATION, "contact_force", &[WHICH], |call| {
-            asked(call, |model, slider| Dynamic::from(model.contact_force(slider)))
+            slider_value(call, |model, slider| Dynamic::from(model.contact_force(slider)))
         })
         .returns(Returns::object(VECTOR).unit("force"))
         .summary("Returns the contact force of a slider on its beam, as the mean of the last step; \
@@ -117,9 +117,9 @@ pub const TABLE: BindingTable = BindingTable {
             end, or at a corner of a track, are not included.",
         )
         .example("check(norm(sim.contact_force(ring)) == 0);\nsim.step();\ncheck(sim.contact_force(ring).y < 0);")
-        .see(&["present_contact_force", "slider_position", "averaged"]),
+        .with_related(&["present_contact_force", "slider_position", "averaged"]),
         method(SIMULATION, "slider_position", &[WHICH], |call| {
-            asked(call, |model, slider| model.slider_position(slider).into())
+            slider_value(call, |model, slider| model.slider_position(slider).into())
         })
         .returns(Returns::NUMBER)
         .summary("Returns the position of a slider on its beam or track, by undeformed length: 0 at \
@@ -131,9 +131,9 @@ pub const TABLE: BindingTable = BindingTable {
             third time, -0.5 half-way back.",
         )
         .example("check_close(sim.slider_position(ring), 0.25, 1e-12);")
-        .see(&["slider_arc_length", "slider_speed"]),
+        .with_related(&["slider_arc_length", "slider_speed"]),
         method(SIMULATION, "slider_arc_length", &[WHICH], |call| {
-            asked(call, |model, slider| model.slider_arc_length(slider).into())
+            slider_value(call, |model, slider| model.slider_arc_length(slider).into())
         })
         .returns(Returns::NUMBER.unit("length"))
         .summary("Returns the undeformed arc length from the start of the beam or track to the \
@@ -142,31 +142,31 @@ pub const TABLE: BindingTable = BindingTable {
             "check_close(sim.slider_arc_length(ring), 0.5, 1e-12);\n\
              check_close(sim.slider_arc_length(ring) / rod.length, sim.slider_position(ring), 1e-12);",
         )
-        .see(&["slider_speed", "slider_position"]),
+        .with_related(&["slider_speed", "slider_position"]),
         method(SIMULATION, "slider_speed", &[WHICH], |call| {
-            asked(call, |model, slider| model.slider_speed(slider).into())
+            slider_value(call, |model, slider| model.slider_speed(slider).into())
         })
         .returns(Returns::NUMBER.unit("length/time"))
         .summary("Returns the speed of a slider along its undeformed beam or track, positive towards \
             the end.")
         .example("check_close(sim.slider_speed(ring), 1, 1e-12);")
-        .see(&["slider_arc_length", "slider_position"]),
+        .with_related(&["slider_arc_length", "slider_position"]),
         property(SIMULATION, "ended", |call| Ok(call.receiver::<SimulationHandle>()?.simulation().has_ended().into()))
             .returns(Returns::TRUTH)
             .summary("True if a slider has reached the end of its beam and ended the run.")
             .doc("After that run_to returns at once, step is refused with an error, and \
                 functions registered for later times are not called.")
             .example("while !sim.ended {\n    sim.step();\n}\ncheck(sim.ended);\ncheck_close(sim.slider_position(ring), 1, 1e-12);")
-            .see(&["ending", "slider"]),
+            .with_related(&["ending", "slider"]),
         property(SIMULATION, "ending", |call| {
             Ok(call.receiver::<SimulationHandle>()?.simulation().ending().unwrap_or_default().into())
         })
-        .returns(Returns::TEXT.note(", empty while the run goes on"))
+        .returns(Returns::TEXT.with_remark(", empty while the run goes on"))
         .summary("Reason for which the run has ended.")
         .example("check(sim.ending == \"\");\nsim.run_to(5);\nprint(sim.ending);")
-        .see(&["ended", "events"]),
+        .with_related(&["ended", "events"]),
         property(SIMULATION, "events", events)
-            .returns(Returns::array_of(&ValueKind::Map).note(" #{ t, slider, end, what, impulse }"))
+            .returns(Returns::array_of(&ValueKind::Map).with_remark(" #{ t, slider, end, what, impulse }"))
             .summary("Events of sliders so far, at the ends of their beams and the seams of their \
                 tracks.")
             .doc(
@@ -179,7 +179,7 @@ pub const TABLE: BindingTable = BindingTable {
                 has beam, the name of the beam at whose end the event was.",
             )
             .example("sim.run_to(5);\nfor event in sim.events {\n    print(`${event.slider} ${event.what} at ${event.end}, t = ${event.t}`);\n}")
-            .see(&["ended", "slider"]),
+            .with_related(&["ended", "slider"]),
     ],
 };
 
@@ -279,10 +279,10 @@ impl Scripted for SliderHandle {
         details::of_slider(&self.scene.scene().borrow(), self.index)
     }
 
-    fn family(
+    fn parameter_set(
         &self,
     ) -> Option<std::rc::Rc<crate::script::bindings::parameter_variants::ParameterSet>> {
-        self.scene.family()
+        self.scene.parameter_set()
     }
 }
 
@@ -314,10 +314,10 @@ fn slider(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let handle = call.receiver::<SceneHandle>()?;
     let guide = SliderGuide::of(call, "beam", &handle)?;
     let options = call.options_or_defaults("options")?;
-    let at = options.number_if_given("at");
-    let name = options.text_if_given("name")?;
+    let at = options.optional_number("at");
+    let name = options.optional_text("name")?;
     let ends = meant(&ENDS, &options.text("ends")?);
-    let restitution = options.number_if_given("restitution");
+    let restitution = options.optional_number("restitution");
     if restitution.is_some() && ends != EndAction::Bounce {
         let told = "slider: 'restitution' is allowed only with ends: \"bounce\"";
         return Err(ScriptError::new(told).at(CallPart::Key("restitution".into())));
@@ -336,7 +336,7 @@ fn slider(call: &mut Call) -> Result<Dynamic, ScriptError> {
         velocities: meant(&VELOCITIES, &options.text("velocities")?),
     };
     let added = scene.borrow_mut().add_slider(definition);
-    let index = added.map_err(|error| blame(error, at.is_some()))?;
+    let index = added.map_err(|error| slider_error(error, at.is_some()))?;
     Ok(Dynamic::from(SliderHandle { scene: handle, index }))
 }
 
@@ -345,7 +345,7 @@ pub(super) fn meant<T: Copy + Default>(words: &[(&str, T)], word: &str) -> T {
     found.map(|(_, meaning)| *meaning).unwrap_or_default()
 }
 
-fn blame(error: SystemError, is_placed: bool) -> ScriptError {
+fn slider_error(error: SystemError, is_placed: bool) -> ScriptError {
     let place = match &error {
         SystemError::Unnamed { .. } | SystemError::DuplicateName { .. } => {
             CallPart::Key("name".into())
@@ -360,7 +360,10 @@ fn blame(error: SystemError, is_placed: bool) -> ScriptError {
     ScriptError::from(error).at(place)
 }
 
-fn asked(call: &Call, ask: impl FnOnce(&System, usize) -> Dynamic) -> Result<Dynamic, ScriptError> {
+fn slider_value(
+    call: &Call,
+    ask: impl FnOnce(&System, usize) -> Dynamic,
+) -> Result<Dynamic, ScriptError> {
     let handle = call.receiver::<SimulationHandle>()?;
     let slider = call.get::<SliderHandle>("slider")?.on(&handle)?;
     let simulation = handle.simulation();

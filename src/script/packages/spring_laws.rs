@@ -52,14 +52,14 @@ pub(super) fn law(
         let points = options.points("table")?.iter().map(|at: &Vec2| (at.x, at.y)).collect();
         return Ok((Some(SpringLaw::Table { points }), Origin::Zero));
     }
-    let Some(stiffness) = options.number_if_given("stiffness") else {
-        if damping(call, options)?.acts() && !options.has(ease) {
+    let Some(stiffness) = options.optional_number("stiffness") else {
+        if damping(call, options)?.is_active() && !options.has(ease) {
             return Ok((None, Origin::Zero));
         }
         let hint = format!("give stiffness: a number, or table: [[{ease}, …], …]");
         return Err(call.error("the stiffness, law or table is missing").hint(hint));
     };
-    let (natural, origin) = match options.number_if_given(ease) {
+    let (natural, origin) = match options.optional_number(ease) {
         Some(natural) => (natural, Origin::Zero),
         None => (0.0, Origin::AsBuilt),
     };
@@ -113,7 +113,7 @@ pub(super) fn damping(call: &Call, options: &Options) -> Result<DampingLaw, Scri
 fn sampled(call: &Call, options: &Options, ease: &str) -> Result<ParsedLaw, ScriptError> {
     let function = options.callback("law")?;
     call.expect_arguments(&function, 1, "law: |e| 100 * e, where e is the elongation")?;
-    let odd = options.given().find(|key| ["stiffness", "table"].contains(key));
+    let odd = options.present_names().find(|key| ["stiffness", "table"].contains(key));
     if let Some(odd) = odd {
         let told = format!("both a law and {odd} are given, but the law determines the force");
         let hint = format!("leave out {odd}, or the law");
@@ -133,7 +133,7 @@ fn sampled(call: &Call, options: &Options, ease: &str) -> Result<ParsedLaw, Scri
     let force = force_of(call, &function, ("law", "elongation"));
     let law = SpringLaw::sampled((range.x, range.y), force)?;
     expect_smooth(call, &law, ("law", "replace a jump by a short ramp"))?;
-    Ok(match options.number_if_given(ease) {
+    Ok(match options.optional_number(ease) {
         Some(natural) => (Some(law.shifted(natural)), Origin::Zero),
         None => (Some(law), Origin::AsBuilt),
     })
@@ -159,7 +159,7 @@ fn expect_smooth(
     polygon: &SpringLaw,
     (key, hint): (&'static str, &'static str),
 ) -> Result<(), ScriptError> {
-    let Some((error, largest)) = polygon.missed() else { return Ok(()) };
+    let Some((error, largest)) = polygon.sampling_error() else { return Ok(()) };
     let [error, largest] = [error, largest].map(|force| significant(force, 3));
     let told = format!(
         "the {key} has a jump or varies too fast: the finest polygon has an error of {error} at \

@@ -42,7 +42,7 @@ pub const TABLE: BindingTable = BindingTable {
     rows: &[
         method(SCENE, "spring", &[FROM, TO, options("options", SPRING_KEYS)], |call| {
             let anchors = vec![anchor(call, "from")?, anchor(call, "to")?];
-            resist(call, SpringKind::Way(anchors), &call.options("options")?)
+            add_damper(call, SpringKind::Way(anchors), &call.options("options")?)
         })
         .returns(Returns::object(SPRING))
         .summary("Adds a spring, optionally with a parallel damper, between two stations or between \
@@ -60,7 +60,7 @@ pub const TABLE: BindingTable = BindingTable {
                   scene.spring([0, 1], bead, #{ law: |e| 20 * e + 5 * e * e * e, range: [-2, 2] });\n\
                   let sim = scene.start(#{ dt: 0.01 });\nsim.run_to(1);\n\
                   check(sim.history.drift(\"energy\") < 1e-12);\ncheck(sim.history.last(\"dissipated\") > 0);")
-        .see(&["damper", "tendon", "torsion_spring", "spring_force"]),
+        .with_related(&["damper", "tendon", "torsion_spring", "spring_force"]),
         method(SCENE, "damper", &[FROM, TO, options("options", DAMPER_KEYS)], |call| {
             let anchors = vec![anchor(call, "from")?, anchor(call, "to")?];
             let options = call.options("options")?;
@@ -82,7 +82,7 @@ pub const TABLE: BindingTable = BindingTable {
                   scene.damper(rod.end, [2, 2], #{ damping: [[-1, -4], [1, 4], [2, 4]] });\n\
                   scene.damper(bead, [2, -3], #{ damping: [[-1, 0], [0, 0], [1, 5]] });\n\
                   let sim = scene.start(#{ dt: 0.01 });\nsim.run_to(1);\ncheck(sim.history.drift(\"energy\") < 1e-12);")
-        .see(&["spring"]),
+        .with_related(&["spring"]),
         method(SCENE, "tendon", &[array("places").doc("stations and points of the ground"), options("options", SPRING_KEYS)], tendon)
             .returns(Returns::object(SPRING))
             .summary("Adds a rope over three or more places with uniform tension; it slides over the \
@@ -90,7 +90,7 @@ pub const TABLE: BindingTable = BindingTable {
             .doc("The tension depends on the total length. With acts: \"pull\" the rope is slack \
                 where it is shorter than `length`.")
             .example("let rope = scene.tendon([[0, 1], rod.end, bead], #{ stiffness: 1e4, acts: \"pull\" });\nprint(rope);")
-            .see(&["spring"]),
+            .with_related(&["spring"]),
         method(SCENE, "torsion_spring", &[object("from", STATION), either("to", TURNED), options("options", TORSION_KEYS).optional()], torsion)
             .returns(Returns::object(SPRING))
             .summary("Adds a torsion spring, optionally with a parallel damper, between two sections \
@@ -102,12 +102,12 @@ pub const TABLE: BindingTable = BindingTable {
                       scene.hinge(rod.end, arm.start);\n\
                       scene.torsion_spring(rod.end, arm.start, #{ stiffness: 3, damping: 0.1 });\n\
                       scene.torsion_spring(arm.end, #{ stiffness: 0.1 });")
-            .see(&["spring", "hinge"]),
+            .with_related(&["spring", "hinge"]),
         property(SPRING, "name", |call| Ok(call.receiver::<SpringHandle>()?.name().into()))
             .returns(Returns::TEXT)
             .summary("Name of the spring.")
             .example("check(scene.spring(rod.end, bead, #{ stiffness: 1 }).name == \"spring1\");"),
-        method(SIMULATION, "spring_force", &[WHICH], |call| asked(call, |spring| spring.force))
+        method(SIMULATION, "spring_force", &[WHICH], |call| spring_value(call, |spring| spring.force))
             .returns(Returns::NUMBER.unit("force"))
             .summary("Returns the force of a spring and its damper, positive in tension, as the mean \
                 of the last step; for a torsion spring the moment.")
@@ -115,14 +115,14 @@ pub const TABLE: BindingTable = BindingTable {
                 with them it is the force at the end of the last step.")
             .example("let s1 = scene.spring(rod.end, bead, #{ stiffness: 100, length: 0.9 });\nlet sim = scene.start(#{ dt: 0.01 });\n\
                       check_close(sim.spring_force(s1), 10, 1e-9);")
-            .see(&["spring_length", "spring"]),
-        method(SIMULATION, "spring_length", &[WHICH], |call| asked(call, |spring| spring.elongation))
+            .with_related(&["spring_length", "spring"]),
+        method(SIMULATION, "spring_length", &[WHICH], |call| spring_value(call, |spring| spring.elongation))
             .returns(Returns::NUMBER.unit("length"))
             .summary("Returns the current length of a spring or tendon; for a torsion spring the \
                 angle.")
             .example("let s1 = scene.spring(rod.end, bead, #{ stiffness: 100 });\nlet sim = scene.start(#{ dt: 0.01 });\n\
                       check_close(sim.spring_length(s1), 1, 1e-9);")
-            .see(&["spring_force", "spring"]),
+            .with_related(&["spring_force", "spring"]),
     ],
 };
 
@@ -149,7 +149,7 @@ const RATES: Parameter = point("rates")
         "range of rates in which a function is sampled, such as [-1, 1]; linear extrapolation \
         beyond it",
     )
-    .beside("damping")
+    .requires_key("damping")
     .optional();
 const SPRING_KEYS: &[Parameter] = &[
     STIFFNESS,
@@ -172,7 +172,7 @@ const SPRING_KEYS: &[Parameter] = &[
     point("range")
         .unit("length")
         .doc("range of elongations in which the law is sampled; linear extrapolation beyond it")
-        .beside("law")
+        .requires_key("law")
         .optional(),
     DAMPING,
     RATES,
@@ -202,7 +202,7 @@ const TORSION_KEYS: &[Parameter] = &[
     point("range")
         .unit("rad")
         .doc("range of angles in which the law is sampled")
-        .beside("law")
+        .requires_key("law")
         .optional(),
     either("damping", DAMPING_KINDS)
         .unit("force·length·time/rad")
@@ -214,7 +214,7 @@ const TORSION_KEYS: &[Parameter] = &[
     point("rates")
         .unit("rad/time")
         .doc("range of rates in which a function is sampled")
-        .beside("damping")
+        .requires_key("damping")
         .optional(),
     text("name").optional(),
 ];
@@ -276,21 +276,23 @@ impl Scripted for SpringHandle {
         self.described(of).unwrap_or_default()
     }
 
-    fn family(
+    fn parameter_set(
         &self,
     ) -> Option<std::rc::Rc<crate::script::bindings::parameter_variants::ParameterSet>> {
-        self.scene.family()
+        self.scene.parameter_set()
     }
 }
 
 fn anchor(call: &Call, name: &str) -> Result<Anchor, ScriptError> {
     match call.get_if::<StationHandle>(name) {
-        Some(station) => Ok(Anchor::Station(call.receiver::<SceneHandle>()?.own(&station)?)),
+        Some(station) => {
+            Ok(Anchor::Station(call.receiver::<SceneHandle>()?.own_station(&station)?))
+        }
         None => Ok(Anchor::Ground(call.point(name)?)),
     }
 }
 
-fn resist(call: &Call, kind: SpringKind, options: &Options) -> Result<Dynamic, ScriptError> {
+fn add_damper(call: &Call, kind: SpringKind, options: &Options) -> Result<Dynamic, ScriptError> {
     let law = law(call, options, &kind)?;
     add(call, kind, law, options)
 }
@@ -308,7 +310,7 @@ fn add(
     let name = name.unwrap_or_else(|| scene.borrow().free_name(prefix));
     let damping = damping(call, options)?;
     let spring = Spring { name, kind, law, origin, damping };
-    scene.borrow_mut().add_spring(spring).map_err(blame)?;
+    scene.borrow_mut().add_spring(spring).map_err(spring_error)?;
     let index = scene.borrow().springs().count() - 1;
     Ok(Dynamic::from(SpringHandle { scene: handle, index }))
 }
@@ -320,7 +322,7 @@ fn tendon(call: &mut Call) -> Result<Dynamic, ScriptError> {
         let wanted = (&Kind::Either(PLACE), "a station, or a point [x, y] of the ground");
         let accepted = call.accept("tendon", &format!("place {}", index + 1), wanted, place)?;
         anchors.push(match accepted.read_lock::<StationHandle>() {
-            Some(station) => Anchor::Station(scene.own(&station)?),
+            Some(station) => Anchor::Station(scene.own_station(&station)?),
             None => Anchor::Ground(accepted.clone().cast::<Vec2>()),
         });
     }
@@ -331,26 +333,26 @@ fn tendon(call: &mut Call) -> Result<Dynamic, ScriptError> {
             .hint("use scene.spring between two places")
             .at(CallPart::Argument(0)));
     }
-    resist(call, SpringKind::Way(anchors), &call.options("options")?)
+    add_damper(call, SpringKind::Way(anchors), &call.options("options")?)
 }
 
 fn torsion(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let scene = call.receiver::<SceneHandle>()?;
-    let from = Anchor::Station(scene.own(&call.get::<StationHandle>("from")?)?);
+    let from = Anchor::Station(scene.own_station(&call.get::<StationHandle>("from")?)?);
     match call.get_if::<StationHandle>("to") {
         Some(to) => {
-            let to = Anchor::Station(scene.own(&to)?);
+            let to = Anchor::Station(scene.own_station(&to)?);
             let options = call.options_or_defaults("options")?;
-            resist(call, SpringKind::Torsion([from, to]), &options)
+            add_damper(call, SpringKind::Torsion([from, to]), &options)
         }
         None => {
             let ground = Anchor::Ground(Vec2::zeros());
-            resist(call, SpringKind::Torsion([ground, from]), &call.options("to")?)
+            add_damper(call, SpringKind::Torsion([ground, from]), &call.options("to")?)
         }
     }
 }
 
-fn blame(error: SystemError) -> ScriptError {
+fn spring_error(error: SystemError) -> ScriptError {
     let place = match &error {
         SystemError::Unnamed { .. } | SystemError::DuplicateName { .. } => {
             CallPart::Key("name".into())
@@ -366,7 +368,10 @@ fn blame(error: SystemError) -> ScriptError {
     ScriptError::from(error).at(place)
 }
 
-fn asked(call: &Call, ask: impl FnOnce(&SpringState) -> f64) -> Result<Dynamic, ScriptError> {
+fn spring_value(
+    call: &Call,
+    ask: impl FnOnce(&SpringState) -> f64,
+) -> Result<Dynamic, ScriptError> {
     let handle = call.receiver::<SimulationHandle>()?;
     let spring = call.get::<SpringHandle>("spring")?;
     handle.scene().expect_same(&spring.scene, "spring")?;

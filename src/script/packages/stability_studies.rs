@@ -13,7 +13,7 @@ use crate::script::messages::error::ScriptError;
 use crate::script::state::settings::RunMode;
 use crate::script::studies::case_runner::{CaseRunner, CaseTask, print_table};
 use crate::script::studies::options::StabilityOptions;
-use crate::script::studies::plan::patience;
+use crate::script::studies::plan::case_limits;
 use crate::script::studies::stability::{MapColouring, StabilityMap, StabilityPlan};
 
 pub const TABLE: BindingTable = BindingTable {
@@ -47,7 +47,7 @@ pub const TABLE: BindingTable = BindingTable {
                 "let map = study_stability(#{\n    name: \"spin\", scene: spinning, end: 0.5,\n    rows: #{ dt: [0.05, 0.1] },\n    columns: #{ integrator: [energy_momentum(), trapezoidal()] },\n});\n\
                  check(map.cells.all(|cell| cell.finished));\ncheck(map.cells[0].energy_growth < 1e-12);",
             )
-            .see(&["cells", "study_cost"]),
+            .with_related(&["cells", "study_cost"]),
         property(STABILITY_MAP, "cells", |call| {
             let cells = call.receiver::<StabilityMap>()?.cells();
             Ok(Dynamic::from(cells.into_iter().map(Dynamic::from).collect::<Array>()))
@@ -84,13 +84,13 @@ fn study(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let plan = StabilityPlan::read(call, &options)?;
     let made = plan.cases(call, &options)?;
     let context = call.context();
-    let patience = patience(call, options.patience);
+    let patience = case_limits(call, options.patience);
     let shown = MapColouring::ALL.iter().find(|(name, _)| *name == options.show);
     let shown = shown.map_or(MapColouring::EnergyGrowth, |(_, shown)| *shown);
     let desk = CaseRunner::open(context, &plan.name)?;
     let verdicts = match context.mode() {
         RunMode::DryBuild => {
-            vec![StabilityVerdict::without_a_run(CaseOutcome::Finished); made.len()]
+            vec![StabilityVerdict::not_started(CaseOutcome::Finished); made.len()]
         }
         RunMode::Run => {
             let task = CaseTask { name: "cells", parts: &[] };
@@ -99,15 +99,15 @@ fn study(call: &mut Call) -> Result<Dynamic, ScriptError> {
             let verdicts =
                 desk.in_parallel(task, &cases, |verdict: &StabilityVerdict| verdict.steps, work)?;
             let pretended =
-                || vec![Ok(StabilityVerdict::without_a_run(CaseOutcome::Finished)); cases.len()];
+                || vec![Ok(StabilityVerdict::not_started(CaseOutcome::Finished)); cases.len()];
             let verdicts = verdicts.unwrap_or_else(pretended);
             let panicked =
-                |message| StabilityVerdict::without_a_run(CaseOutcome::Panicked { message });
+                |message| StabilityVerdict::not_started(CaseOutcome::Panicked { message });
             let mut ran = verdicts.into_iter().map(|verdict| verdict.unwrap_or_else(panicked));
             let of = |made: Result<Case, String>| match made {
                 Ok(_) => ran.next(),
                 Err(reason) => {
-                    Some(StabilityVerdict::without_a_run(CaseOutcome::Failed { time: 0.0, reason }))
+                    Some(StabilityVerdict::not_started(CaseOutcome::Failed { time: 0.0, reason }))
                 }
             };
             made.into_iter().filter_map(of).collect()

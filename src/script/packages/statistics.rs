@@ -5,7 +5,7 @@ use rhai::{Array, Dynamic, Map};
 use super::histories::{HISTORY, column};
 use super::simulations::SPINNING;
 use crate::script::bindings::call::Call;
-use crate::script::bindings::parameter::{Parameter, Presence, number, text, whole};
+use crate::script::bindings::parameter::{Parameter, Presence, integer, number, text};
 use crate::script::bindings::returns::{Returns, ValueKind};
 use crate::script::bindings::table::{BindingTable, method};
 use crate::script::handles::history::HistoryHandle;
@@ -31,7 +31,7 @@ pub const TABLE: BindingTable = BindingTable {
                  check(t.min == 0 && t.max == 1 && t.max_at == 1);\n\
                  check_close(t.mean, 0.5, 1e-12);\ncheck_close(t.rms, sqrt(1 / 3.0), 1e-12);",
             )
-            .see(&["largest", "spectrum", "crossings", "derivative"]),
+            .with_related(&["largest", "spectrum", "crossings", "derivative"]),
         method(HISTORY, "derivative", &[COLUMN], |call| Ok(numbers(series(call)?.derivative())))
             .returns(Returns::NUMBERS)
             .summary("Returns the time derivative of a column at each row.")
@@ -41,15 +41,15 @@ pub const TABLE: BindingTable = BindingTable {
                 has the one-sided difference quotient.",
             )
             .example("sim.run_to(1);\ncheck_close(sim.history.derivative(\"t\")[5], 1, 1e-12);")
-            .see(&["column", "crossings"]),
+            .with_related(&["column", "crossings"]),
         method(HISTORY, "crossings", &[COLUMN, number("level").or(Presence::Number(0.0))], |call| {
             Ok(numbers(series(call)?.crossings(call.number("level")?)))
         })
         .returns(Returns::NUMBERS.unit("time"))
         .summary("Returns the times at which a column crosses a level, upwards or downwards.")
         .example("sim.run_to(1);\ncheck_close(sim.history.crossings(\"t\", 0.25)[0], 0.25, 1e-12);")
-        .see(&["statistics", "spectrum"]),
-        method(HISTORY, "spectrum", &[COLUMN, whole("most").positive().or(Presence::Whole(5))], spectrum)
+        .with_related(&["statistics", "spectrum"]),
+        method(HISTORY, "spectrum", &[COLUMN, integer("most").positive().or(Presence::Whole(5))], spectrum)
             .returns(Returns::array_of(&ValueKind::Map))
             .summary("Returns frequency and amplitude of the strongest vibrations in a column, in \
                 descending order of amplitude.")
@@ -66,7 +66,7 @@ pub const TABLE: BindingTable = BindingTable {
                  swing.hinge(bob.start);\nswing.record(\"bob.end.x\");\nlet run = swing.start(#{ dt: 0.02 });\nrun.run_to(10);\n\
                  let turning = run.history.spectrum(\"bob.end.x\")[0];\ncheck_close(turning.frequency, 8 / 6.283185307, 0.01);\ncheck_close(turning.amplitude, 1, 0.05);",
             )
-            .see(&["statistics", "modes"]),
+            .with_related(&["statistics", "modes"]),
     ],
 };
 
@@ -84,8 +84,9 @@ fn series(call: &Call) -> Result<TimeSeries, ScriptError> {
 
 fn statistics(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let of = series(call)?;
-    let summary =
-        of.summary().ok_or_else(|| ScriptError::bug("a column without rows".to_owned()))?;
+    let summary = of
+        .summary()
+        .ok_or_else(|| ScriptError::internal_error("a column without rows".to_owned()))?;
     Ok(map(&[
         ("min", summary.min),
         ("min_at", summary.min_at),

@@ -19,7 +19,7 @@ pub const TABLE: BindingTable = BindingTable {
     constants: &[],
     rows: &[function("adaptive", &[options("options", ADAPTIVE).optional()], |call| {
         let options = call.options_or_defaults("options")?;
-        let bound = |name| options.number_if_given(name);
+        let bound = |name| options.optional_number(name);
         let control = StepControl {
             tolerance: options.number("tolerance")?,
             first: bound("first"),
@@ -52,7 +52,7 @@ pub const TABLE: BindingTable = BindingTable {
          check(careful.invariants().energy < 1e-12);\n\
          print(careful.dt);",
     )
-    .see(&["start", "rejected", "fourth_order"])],
+    .with_related(&["start", "rejected", "fourth_order"])],
 };
 
 const ADAPTIVE: &[Parameter] = &[

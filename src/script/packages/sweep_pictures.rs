@@ -54,7 +54,7 @@ const fn plot(of: Type) -> FunctionBinding {
             cell with their mean.",
         )
         .example("sweep.plot(\"speed\", \"energy\");\nsweep.plot(\"speed\", \"mass\", \"energy\");\nsweep.table.where(|row| row.mass == 2).plot(\"speed\", \"energy\");")
-        .see(&["plot_matrix", "plot_histogram", "sensitivity"])
+        .with_related(&["plot_matrix", "plot_histogram", "sensitivity"])
 }
 
 const fn matrix(of: Type) -> FunctionBinding {
@@ -65,7 +65,7 @@ const fn matrix(of: Type) -> FunctionBinding {
             histograms contain all rows.",
         )
         .example("sweep.plot_matrix();\nsweep.table.plot_matrix();")
-        .see(&["plot"])
+        .with_related(&["plot"])
 }
 
 const fn histogram(of: Type) -> FunctionBinding {
@@ -77,7 +77,7 @@ const fn histogram(of: Type) -> FunctionBinding {
             otherwise classes have equal width.",
         )
         .example("sweep.plot_histogram(\"energy\");\nsweep.table.plot_histogram(\"energy\");")
-        .see(&["plot", "plot_matrix"])
+        .with_related(&["plot", "plot_matrix"])
 }
 
 fn table(call: &Call) -> Result<SweepTable, ScriptError> {
@@ -160,7 +160,7 @@ fn expect_columns(call: &Call, table: &SweepTable, names: &[&str]) -> Result<(),
 
 fn draw(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let (table, x, y) = (table(call)?, call.text("x")?, call.text("y")?);
-    let z = call.text_if_given("z")?;
+    let z = call.optional_text("z")?;
     let names: Vec<&str> = [x.as_str(), y.as_str()].into_iter().chain(z.as_deref()).collect();
     expect_columns(call, &table, &names)?;
     let picture = Picture { table: &table, title: table.sweep().name.clone() };
@@ -169,7 +169,7 @@ fn draw(call: &mut Call) -> Result<Dynamic, ScriptError> {
         None => picture.over(&x, &y).map(|chart| chart.figure()),
         Some(z) => picture.map(&x, &y, z).map(|map| map.figure()),
     };
-    let drawn = drawn.ok_or_else(|| ScriptError::bug("a column of a sweep is lost"))?;
+    let drawn = drawn.ok_or_else(|| ScriptError::internal_error("a column of a sweep is lost"))?;
     write(call, &table, &names, &drawn?.to_svg()?)
 }
 

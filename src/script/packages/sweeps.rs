@@ -14,7 +14,7 @@ use crate::script::bindings::kind::{Details, Scripted, Type};
 use crate::script::bindings::option_set::{FromOption, option_set};
 use crate::script::bindings::options::Options;
 use crate::script::bindings::parameter::{
-    Parameter, Presence, anything, callback, name, number, object, options, text,
+    Parameter, Presence, callback, name, number, object, of_any_type, options, text,
 };
 use crate::script::bindings::returns::{Returns, ValueKind};
 use crate::script::bindings::table::{BindingTable, function, method, property};
@@ -62,7 +62,7 @@ pub const TABLE: BindingTable = BindingTable {
                  run: |p| #{ range: p.speed ** 2 * sin(2 * p.angle) / 9.81 },\n});\n\
                  check(sweep.table.count == 14);\ncheck_close(max(sweep.table.column(\"range\")), 100 / 9.81, 0.01);",
             )
-            .see(&["latin_hypercube", "sobol", "sensitivity", "study_stability"]),
+            .with_related(&["latin_hypercube", "sobol", "sensitivity", "study_stability"]),
         property(SWEEP, "table", |call| Ok(Dynamic::from(table_of(call)?)))
             .returns(Returns::object(SWEEP_TABLE))
             .summary("Table of all rows: parameters, results, and the reasons of failed runs.")
@@ -71,7 +71,7 @@ pub const TABLE: BindingTable = BindingTable {
             .returns(Returns::object(SWEEP_TABLE))
             .summary("Table of the failed rows, with their reasons.")
             .example("check(sweep.failures.count == 0);")
-            .see(&["where"]),
+            .with_related(&["where"]),
         method(SWEEP, "sensitivity", &[RESULT], sensitivity)
             .returns(Returns::array_of(&ValueKind::Map))
             .summary("Returns the share of the variance of a result that each parameter explains \
@@ -89,13 +89,13 @@ pub const TABLE: BindingTable = BindingTable {
                 those of sweeps are.",
             )
             .example("let main = sweep.sensitivity(\"energy\")[0];\ncheck(main.parameter == \"speed\" && main.first < main.total);")
-            .see(&["saltelli", "study_sweep"]),
+            .with_related(&["saltelli", "study_sweep"]),
         method(SWEEP_TABLE, "where", &[callback("condition").doc("|row| …, true or false")], rows_where)
             .returns(Returns::object(SWEEP_TABLE))
             .summary("Returns the rows for which a function of the row, a map, returns true; failed \
                 rows have a `failure` and no results.")
             .example("check(sweep.table.where(|row| row.mass == 2 && row.energy > 2).count == 2);")
-            .see(&["failures", "column"]),
+            .with_related(&["failures", "column"]),
         method(SWEEP_TABLE, "column", &[text("name")], |call| {
             let (table, name) = (call.receiver::<SweepTable>()?, call.text("name")?);
             let numbers = table.numbers(&name).ok_or_else(|| no_column(call, table.sweep(), (&name, 0)))?;
@@ -133,7 +133,7 @@ option_set! {
     /// The options of `study_sweep`.
     pub struct SweepOptions {
         name: String = name("name").doc("name of the study and its files"),
-        parameters: Dynamic = anything("parameters").doc("names with values or distributions: #{ speed: linspace(0.1, 2, 20), mass: [1, 2] }"),
+        parameters: Dynamic = of_any_type("parameters").doc("names with values or distributions: #{ speed: linspace(0.1, 2, 20), mass: [1, 2] }"),
         run: FnPtr = callback("run").doc("|p| …, a function of the values of a row that returns a map of numbers"),
         samples: Option<Samples> = object("samples", SAMPLES).doc("sampling plan in place of a grid: latin_hypercube(2000), sobol(4096), \
             saltelli(1024)").optional(),
@@ -237,8 +237,8 @@ fn study(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let wall = Duration::from_secs_f64(options.patience.min(1e9));
     let order = SweepRequest { name, plan, function: &options.run, wall };
     let swept = match context.mode() {
-        RunMode::DryBuild => pretended(call, order)?,
-        RunMode::Run => order.make(call)?,
+        RunMode::DryBuild => dry_run(call, order)?,
+        RunMode::Run => order.run(call)?,
     };
     expect_other_names(call, &swept.sweep)?;
     print_table(context, &swept.summary());
@@ -264,7 +264,7 @@ fn expect_other_names(call: &Call, sweep: &Sweep) -> Result<(), ScriptError> {
 }
 
 /// Result of a dry build: the function is called for the first row, whose results are used for all rows.
-fn pretended(call: &Call, order: SweepRequest) -> Result<FinishedSweep, ScriptError> {
+fn dry_run(call: &Call, order: SweepRequest) -> Result<FinishedSweep, ScriptError> {
     RunFunction::read(call, "run", order.function)?;
     let given = order.invoked(call, 0)?;
     let (names, values) = match found(&given) {
@@ -304,7 +304,7 @@ fn sensitivity(call: &mut Call) -> Result<Dynamic, ScriptError> {
         pairs.into_iter().map(|(name, value)| (name.into(), value)).collect::<Map>().into()
     };
     let names = sweep.design.parameters.iter().map(|of| of.name.as_str());
-    let Some(shares) = sweep.shares(&result) else {
+    let Some(shares) = sweep.variance_fractions(&result) else {
         // A dry build has no runs.
         if call.context().mode() == RunMode::DryBuild {
             let none = VarianceShare { first: 0.0, total: Some(0.0) };
@@ -338,7 +338,7 @@ fn sensitivity(call: &mut Call) -> Result<Dynamic, ScriptError> {
             RowLayout::Saltelli => ", and their blocks are left out",
             RowLayout::Grid | RowLayout::Points => "",
         };
-        call.context().tell(&(told + blocks));
+        call.context().print_message(&(told + blocks));
     }
     let mut shares: Vec<(&str, VarianceShare)> = names.zip(shares).collect();
     let size = |share: &VarianceShare| share.total.unwrap_or(share.first);

@@ -36,7 +36,7 @@ pub const TABLE: BindingTable = BindingTable {
                  check_close(blade.at(0.5).EI, 12e9 * 0.02 * 0.006^3 / 12, 1e-9);\n\
                  let scene = new_scene(\"blade\");\nlet beam = scene.beam(#{ axis: line([0, 0], [1, 0]), section: blade });\nscene.clamp(beam.start);",
             )
-            .see(&["section", "beam"]),
+            .with_related(&["section", "beam"]),
         method(SECTION, "at", &[number("part").between(0.0, 1.0).doc("fraction of the length, from the start")], |call| {
             let handle = call.receiver::<SectionHandle>()?;
             let section = handle.variation.at(call.number("part")?);
@@ -45,7 +45,7 @@ pub const TABLE: BindingTable = BindingTable {
         .returns(Returns::object(SECTION))
         .summary("Returns the section of a taper at a fraction of the length.")
         .example("fn of(bending) { section(#{ EA: 1e4, GA: 1e4, EI: bending, rho_A: 1, rho_I: 1 }) }\ncheck(taper([[0, of(4)], [1, of(2)]]).at(0.25).EI == 3.5);")
-        .see(&["taper"]),
+        .with_related(&["taper"]),
     ],
 };
 
@@ -73,7 +73,7 @@ fn variation(all: &[(f64, SectionHandle)]) -> SectionVariation {
     let solids: Option<Vec<(f64, Solid)>> =
         all.iter().map(|(place, section)| Some((*place, section.solid?))).collect();
     let alike = |all: &Vec<(f64, Solid)>| {
-        all.windows(2).all(|pair| pair[0].1.is_of_one_kind_with(&pair[1].1))
+        all.windows(2).all(|pair| pair[0].1.has_same_shape_as(&pair[1].1))
     };
     match solids.filter(alike) {
         Some(solids) => SectionVariation::Dimensions(solids),

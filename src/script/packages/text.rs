@@ -4,7 +4,7 @@ use rhai::{Array, Dynamic};
 
 use crate::output::{Cell, TextTable};
 use crate::script::bindings::call::Call;
-use crate::script::bindings::parameter::{Parameter, Presence, array, number, whole};
+use crate::script::bindings::parameter::{Parameter, Presence, array, integer, number};
 use crate::script::bindings::returns::Returns;
 use crate::script::bindings::table::{BindingTable, function};
 use crate::script::messages::error::{CallPart, ScriptError};
@@ -23,23 +23,24 @@ pub const TABLE: BindingTable = BindingTable {
             .summary("Formats a number with an exponent; default: two digits after the decimal \
                 point.")
             .example("check(sci(1.234e-13) == \"1.23e-13\");\ncheck(sci(1250, 1) == \"1.2e3\");")
-            .see(&["fixed"]),
+            .with_related(&["fixed"]),
         function("fixed", &[X, DIGITS.or(Presence::Whole(3))], |call| write(call, format_fixed))
             .returns(Returns::TEXT)
             .summary("Formats a number with a fixed number of digits after the decimal point; \
                 default: three.")
             .example("check(fixed(0.05) == \"0.050\");\ncheck(fixed(PI, 1) == \"3.1\");")
-            .see(&["sci", "round_to", "tabulate"]),
+            .with_related(&["sci", "round_to", "tabulate"]),
         function("tabulate", &[array("headings"), array("rows").doc("arrays of numbers, texts or other printable values")], tabulate)
             .returns(Returns::TEXT)
             .summary("Formats a table with aligned columns: texts to the left, numbers to the right.")
             .example("print(tabulate([\"rule\", \"drift\"], [[\"conserving\", sci(2e-14)], [\"exact\", sci(3e-4)]]));")
-            .see(&["sci", "fixed"]),
+            .with_related(&["sci", "fixed"]),
     ],
 };
 
-const X: Parameter = number("x").any_number();
-const DIGITS: Parameter = whole("digits").between(0.0, 17.0).doc("digits after the decimal point");
+const X: Parameter = number("x").allow_non_finite();
+const DIGITS: Parameter =
+    integer("digits").between(0.0, 17.0).doc("digits after the decimal point");
 
 fn write(call: &Call, format: fn(f64, usize) -> String) -> Result<Dynamic, ScriptError> {
     Ok(format(call.number("x")?, call.count("digits")?).into())

@@ -4,7 +4,7 @@ use rhai::Dynamic;
 
 use super::simulations::{SIMULATION, SPINNING};
 use crate::script::bindings::call::Call;
-use crate::script::bindings::parameter::{Presence, name, number, whole};
+use crate::script::bindings::parameter::{Presence, integer, name, number};
 use crate::script::bindings::returns::Returns;
 use crate::script::bindings::table::{BindingTable, method};
 use crate::script::handles::simulation::{RunTarget, SimulationHandle};
@@ -21,8 +21,8 @@ pub const TABLE: BindingTable = BindingTable {
     setup: SPINNING,
     constants: &[],
     rows: &[
-        method(SIMULATION, "back", &[whole("count").non_negative().or(Presence::Whole(1))], |call| {
-            go_back(call, RunTarget::Steps(call.count("count")?))
+        method(SIMULATION, "back", &[integer("count").non_negative().or(Presence::Whole(1))], |call| {
+            rewind(call, RunTarget::Steps(call.count("count")?))
         })
         .summary("Goes back by one step or the given number of steps.")
         .doc(
@@ -32,17 +32,17 @@ pub const TABLE: BindingTable = BindingTable {
             again. Variables of the script do not change.",
         )
         .example("sim.step(10);\nlet energy = sim.energy;\nsim.step(5);\nsim.back(5);\ncheck(sim.steps == 10 && sim.energy == energy);\nsim.back();\ncheck(sim.steps == 9);")
-        .see(&["rewind", "fork", "keep_snapshots"]),
-        method(SIMULATION, "rewind", &[number("t").any_number().unit("time")], |call| {
-            go_back(call, RunTarget::Time(call.number("t")?))
+        .with_related(&["rewind", "fork", "keep_snapshots"]),
+        method(SIMULATION, "rewind", &[number("t").allow_non_finite().unit("time")], |call| {
+            rewind(call, RunTarget::Time(call.number("t")?))
         })
         .summary("Goes back to a time: to the end of the last step at or before it.")
         .doc("sim.rewind(0) goes to the start, at any start time; the start is always stored.")
         .example("sim.run_to(1);\nsim.rewind(0.55);\ncheck(sim.t == 0.5);\nsim.rewind(0);\ncheck(sim.t == 0);")
-        .see(&["back", "run_to"]),
+        .with_related(&["back", "run_to"]),
         method(SIMULATION, "fork", &[name("name").optional()], |call| {
             let handle = call.receiver::<SimulationHandle>()?;
-            let name = call.text_if_given("name")?.unwrap_or_else(|| format!("{} fork", handle.name()));
+            let name = call.optional_text("name")?.unwrap_or_else(|| format!("{} fork", handle.name()));
             Ok(Dynamic::from(handle.fork(name, call.context())?))
         })
         .returns(Returns::object(SIMULATION))
@@ -50,16 +50,16 @@ pub const TABLE: BindingTable = BindingTable {
         .doc("It has its own history, can go back as far, and calls the functions registered \
             with sim.at. Stations, beams and sliders of the scene are valid for both.")
         .example("sim.run_to(0.5);\nlet other = sim.fork(\"what if\");\nother.run_to(1);\ncheck(sim.t == 0.5 && other.t == 1);\nsim.run_to(1);\ncheck(sim.energy == other.energy);")
-        .see(&["back", "save"]),
+        .with_related(&["back", "save"]),
         method(SIMULATION, "keep_snapshots", &[number("megabytes").non_negative()], |call| {
             let limit = bytes(call.number("megabytes")?);
-            call.receiver::<SimulationHandle>()?.keep_snapshots(limit);
+            call.receiver::<SimulationHandle>()?.set_snapshot_memory(limit);
             Ok(Dynamic::UNIT)
         })
         .summary("Sets the memory limit for stored states from now on; 0 deletes all of them.")
         .doc("A megabyte is a million bytes. A smaller limit deletes states at once.")
         .example("sim.keep_snapshots(1);\nsim.step(20);\nsim.keep_snapshots(0);")
-        .see(&["back", "start"]),
+        .with_related(&["back", "start"]),
     ],
 };
 
@@ -67,7 +67,7 @@ pub(super) fn bytes(megabytes: f64) -> usize {
     (megabytes * 1e6) as usize
 }
 
-fn go_back(call: &Call, goal: RunTarget) -> Result<Dynamic, ScriptError> {
-    call.receiver::<SimulationHandle>()?.go_back(call, &goal)?;
+fn rewind(call: &Call, goal: RunTarget) -> Result<Dynamic, ScriptError> {
+    call.receiver::<SimulationHandle>()?.rewind_to(call, &goal)?;
     Ok(Dynamic::UNIT)
 }

@@ -64,7 +64,7 @@ pub const TABLE: BindingTable = BindingTable {
                  check(sim.slider_arc_length(ring) > ramp.length);\n\
                  check(sim.events[0].what == \"passed\" && sim.history.drift(\"energy\") < 1e-10);",
         )
-        .see(&["slider", "rigid", "events"]),
+        .with_related(&["slider", "rigid", "events"]),
         property(TRACK, "name", |call| Ok(call.receiver::<TrackHandle>()?.name().into()))
             .returns(Returns::TEXT)
             .summary("Name of the track.")
@@ -73,7 +73,7 @@ pub const TABLE: BindingTable = BindingTable {
             .returns(Returns::NUMBER.unit("length"))
             .summary("Total undeformed length of the beams of the track.")
             .example("check_close(track.length, ramp.length + floor.length, 1e-12);")
-            .see(&["slider_arc_length"]),
+            .with_related(&["slider_arc_length"]),
         property(TRACK, "closed", |call| Ok(call.receiver::<TrackHandle>()?.is_closed().into()))
             .returns(Returns::TRUTH)
             .summary("True if the last beam leads back to the first one.")
@@ -102,8 +102,8 @@ pub(super) enum SliderGuide {
 impl SliderGuide {
     pub(super) fn of(call: &Call, name: &str, scene: &SceneHandle) -> Result<Self, ScriptError> {
         match call.get_if::<TrackHandle>(name) {
-            Some(track) => track.own(scene).map(Self::Track),
-            None => call.get::<BeamHandle>(name)?.own(scene).map(Self::Beam),
+            Some(track) => track.index_in(scene).map(Self::Track),
+            None => call.get::<BeamHandle>(name)?.index_in(scene).map(Self::Beam),
         }
     }
 
@@ -138,12 +138,12 @@ fn track(call: &mut Call) -> Result<Dynamic, ScriptError> {
     for (index, given) in call.array("beams")?.into_iter().enumerate() {
         let wanted = (&Kind::Object(BEAM), "a beam");
         let beam = call.accept("track", &format!("beam {}", index + 1), wanted, given)?;
-        beams.push(beam.cast::<BeamHandle>().own(&scene)?);
+        beams.push(beam.cast::<BeamHandle>().index_in(&scene)?);
     }
     let options = call.options_or_defaults("options")?;
     let is_closed = options.get_if("closed").unwrap_or(false);
     let course = if is_closed { TrackEnd::Closed } else { TrackEnd::Open };
-    let name = options.text_if_given("name")?;
+    let name = options.optional_text("name")?;
     let name = name.unwrap_or_else(|| scene.scene().borrow().free_name("track"));
     let added = scene.scene().borrow_mut().add_track(name, &beams, course);
     let index = added.map_err(|error| {

@@ -9,7 +9,7 @@ use crate::script::bindings::call::Call;
 use crate::script::bindings::kind::{Details, Scripted, Type};
 use crate::script::bindings::parameter::{Parameter, number, object, point};
 use crate::script::bindings::parameter_variants::{
-    at_cut_of_vector, at_zero_vector, near_zero_divisor, where_points_meet,
+    at_branch_cut_of_vector, at_coinciding_points, at_zero_vector, near_zero_divisor,
 };
 use crate::script::bindings::returns::Returns;
 use crate::script::bindings::table::{BindingTable, function, operator, property};
@@ -31,7 +31,7 @@ pub const TABLE: BindingTable = BindingTable {
                 added and multiplied by a number.",
             )
             .example("let a = vec(1, 2) + [3, 4];\ncheck(a == vec(4, 6));")
-            .see(&["polar", "norm"]),
+            .with_related(&["polar", "norm"]),
         function(
             "polar",
             &[number("length").doc("length of the vector"), number("angle").unit("rad")],
@@ -40,7 +40,7 @@ pub const TABLE: BindingTable = BindingTable {
         .returns(Returns::object(VECTOR))
         .summary("Creates a vector from its length and its angle from the x axis.")
         .example("check(norm(polar(2, PI / 2) - [0, 2]) < 1e-15);")
-        .see(&["angle"]),
+        .with_related(&["angle"]),
         property(VECTOR, "x", |call| Ok(call.receiver::<Vec2>()?.x.into()))
             .writable(&[number("value")], |call| set(call, |vector, x| vector.x = x))
             .returns(Returns::NUMBER)
@@ -63,19 +63,19 @@ pub const TABLE: BindingTable = BindingTable {
             .returns(Returns::NUMBER)
             .summary("Returns the length of a vector.")
             .example("check(norm([3, 4]) == 5);\ncheck(vec(3, 4).norm() == 5);")
-            .see(&["hypot", "distance"])
+            .with_related(&["hypot", "distance"])
             .corner(at_zero_vector),
         function("angle", &[A], angle)
-            .returns(Returns::NUMBER.words("an angle from -PI to PI"))
+            .returns(Returns::NUMBER.with_description("an angle from -PI to PI"))
             .summary("Returns the angle of a vector from the x axis, counter-clockwise.")
             .example("check(angle([0, 2]) == PI / 2);")
-            .see(&["polar", "atan2"])
-            .corner(at_cut_of_vector),
+            .with_related(&["polar", "atan2"])
+            .corner(at_branch_cut_of_vector),
         function("distance", &[A, B], |call| Ok((b(call)? - a(call)?).norm().into()))
             .returns(Returns::NUMBER)
             .summary("Returns the distance of two points.")
             .example("check(distance([1, 1], [4, 5]) == 5);")
-            .corner(where_points_meet),
+            .corner(at_coinciding_points),
         operator("+", &[A, B], |call| vector(a(call)? + b(call)?))
             .returns(Returns::object(VECTOR))
             .summary("Adds vectors; one of the two may be an array [x, y].")

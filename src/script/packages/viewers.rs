@@ -4,14 +4,14 @@ use rhai::Dynamic;
 
 use super::pictures::files::FILE;
 use super::pictures::subjects::{MOVING, simulations, stations};
-use super::recording::{Missing, tell_another_run};
+use super::recording::{Missing, report_diverged_rerun};
 use super::simulations::SPINNING;
 use crate::beams::Station;
 use crate::output::viewer::{ColourField, Viewer};
 use crate::script::bindings::call::Call;
 use crate::script::bindings::options::Options;
 use crate::script::bindings::parameter::{
-    Parameter, Presence, array, number, options, text, whole,
+    Parameter, Presence, array, integer, number, options, text,
 };
 use crate::script::bindings::table::{BindingTable, function};
 use crate::script::handles::simulation::{SimulationHandle, Visited};
@@ -51,7 +51,7 @@ pub const TABLE: BindingTable = BindingTable {
                  let fine = scene.start(#{ dt: 0.05, name: \"half the step\" });\nfine.run_to(2);\n\
                  write_viewer([sim, fine], \"steps.html\", #{ labels: [\"dt = 0.1\", \"dt = 0.05\"] });",
             )
-            .see(&["write_animation", "plot_motion", "plot_history"]),
+            .with_related(&["write_animation", "plot_motion", "plot_history"]),
     ],
 };
 
@@ -60,7 +60,7 @@ const VIEWER: &[Parameter] = &[
     array("labels").doc("labels of the simulations; default: their names").optional(),
     number("from").unit("time").doc("time of the first frame; default: the start").optional(),
     number("to").unit("time").doc("time of the last frame; default: the present").optional(),
-    whole("frames")
+    integer("frames")
         .between(2.0, 20_000.0)
         .doc("largest number of frames, evenly spaced in time")
         .or(Presence::Whole(1000)),
@@ -143,15 +143,15 @@ fn inside(
     };
     let times = of.simulation().trajectory().times().to_vec();
     let times: Vec<f64> = frames.iter().map(|&frame| times[frame]).collect();
-    let visited = of.visit(&times, call.context(), &mut |frame, state| {
+    let visited = of.for_each_state(&times, call.context(), &mut |frame, state| {
         call.proceed()?;
-        taken.take(frame, state);
+        taken.store_frame(frame, state);
         Ok(())
     })?;
     match visited {
         Visited::All => Ok(taken.fields()),
         Visited::Another(time) => {
-            tell_another_run(call, of, time, (MISSING, is_asked))?;
+            report_diverged_rerun(call, of, time, (MISSING, is_asked))?;
             Ok(Vec::new())
         }
     }
@@ -182,8 +182,8 @@ pub(super) fn span(
     options: &Options,
 ) -> Result<(f64, f64), ScriptError> {
     let simulation = of.simulation();
-    let from = options.number_if_given("from").unwrap_or(0.0);
-    let to = options.number_if_given("to").unwrap_or(f64::INFINITY).min(simulation.time());
+    let from = options.optional_number("from").unwrap_or(0.0);
+    let to = options.optional_number("to").unwrap_or(f64::INFINITY).min(simulation.time());
     if simulation.frames_between(from, to, 2).is_empty() {
         let [from, to, now] = [from, to, simulation.time()].map(format_number);
         let told = format!("'{}' has no recorded state from t = {from} to {to}", of.name());
@@ -198,13 +198,13 @@ fn assigned(
     simulations: &[SimulationHandle],
 ) -> Result<Vec<Vec<Station>>, ScriptError> {
     for station in given {
-        let mut on = simulations.iter().map(|of| station.on(of));
+        let mut on = simulations.iter().map(|of| station.place_in(of));
         if let (false, Some(first)) = (on.clone().any(|at| at.is_ok()), on.next()) {
             first?;
         }
     }
     let of = |simulation| {
-        given.iter().filter(|at| at.on(simulation).is_ok()).map(|at| at.station).collect()
+        given.iter().filter(|at| at.place_in(simulation).is_ok()).map(|at| at.station).collect()
     };
     Ok(simulations.iter().map(of).collect())
 }

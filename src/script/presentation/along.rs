@@ -81,7 +81,7 @@ impl SectionForceProfile {
     }
 
     /// Removes the symbols of supports and loads.
-    pub fn without_symbols(mut self) -> Self {
+    pub fn hide_symbols(mut self) -> Self {
         self.scenery.symbols.clear();
         self
     }

@@ -158,7 +158,7 @@ impl MotionView {
             let is_last = index + 1 == count;
             let MotionFrame { time, lines, particles, bodies, .. } = snapshot;
             for line in lines.into_iter().chain(bodies) {
-                picture = if is_last { picture.line(line) } else { picture.ghost(line) };
+                picture = if is_last { picture.line(line) } else { picture.reference_beam(line) };
             }
             if is_last {
                 picture = particles.into_iter().fold(picture.time(time), |picture, at| {
@@ -166,7 +166,10 @@ impl MotionView {
                 });
             }
         }
-        picture = self.traces.into_iter().fold(picture, |picture, (_, path)| picture.ghost(path));
+        picture = self
+            .traces
+            .into_iter()
+            .fold(picture, |picture, (_, path)| picture.reference_beam(path));
         marked(picture, &self.symbols).text(style)
     }
 }
@@ -174,7 +177,7 @@ impl MotionView {
 /// Adds symbols to a terminal picture: springs as lines; supports, joints and sliders as marks.
 pub fn marked(picture: ConfigurationPicture, symbols: &[PlacedSymbol]) -> ConfigurationPicture {
     let links = symbols.iter().filter_map(PlacedSymbol::link);
-    let picture = links.fold(picture, |picture, link| picture.ghost(link.to_vec()));
+    let picture = links.fold(picture, |picture, link| picture.reference_beam(link.to_vec()));
     let marks = symbols.iter().filter_map(|placed| Some((mark(placed)?, placed.at)));
     marks.fold(picture, |picture, (mark, at)| picture.mark(mark, at))
 }

@@ -93,7 +93,7 @@ pub fn configuration_picture(
     if let Some(start) = simulation.configuration_near(0.0)?.filter(|start| start.time < shown.time)
     {
         let lines = start.lines.iter().chain(&start.bodies);
-        picture = lines.fold(picture, |picture, line| picture.ghost(plain(line)));
+        picture = lines.fold(picture, |picture, line| picture.reference_beam(plain(line)));
     }
     let lines = shown.lines.iter().chain(&shown.bodies);
     picture = lines.fold(picture, |picture, line| picture.line(plain(line)));

@@ -70,7 +70,7 @@ impl<'a> SceneAt<'a> {
     /// Scene of a simulation at a time, without released connections.
     pub fn of(simulation: &'a Simulation, time: f64) -> Self {
         let scene = simulation.scene();
-        let holds = scene.holds().into_iter().map(|(_, hold)| hold);
+        let holds = scene.releasables().into_iter().map(|(_, hold)| hold);
         let is_gone = |hold: &Releasable| simulation.release_of(*hold).is_some_and(|at| at < time);
         Self { scene, time, released: holds.filter(is_gone).collect() }
     }
@@ -123,7 +123,7 @@ const MOST_HOLDING: usize = 60;
 
 /// Removes the symbols of supports, joints and sliders if there are too many.
 pub fn uncrowded(symbols: Vec<PlacedSymbol>) -> Vec<PlacedSymbol> {
-    let holds = |placed: &PlacedSymbol| placed.symbol.holds();
+    let holds = |placed: &PlacedSymbol| placed.symbol.is_constraint();
     match symbols.iter().filter(|placed| holds(placed)).count() > MOST_HOLDING {
         true => symbols.into_iter().filter(|placed| !holds(placed)).collect(),
         false => symbols,

@@ -91,7 +91,7 @@ fn opening(tokens: &[Lexeme], after: usize) -> Option<usize> {
 }
 
 /// Inserts the scoping statement after the brace at `column`, from 0, of a line, in place of blanks if there are any.
-pub fn put(line: &mut Vec<char>, column: usize, letter: char) {
+pub fn insert_scope(line: &mut Vec<char>, column: usize, letter: char) {
     const LENGTH: usize = 2;
     let is_blank = |letter: &&char| matches!(letter, ' ' | '\t');
     let Some((before, [_, behind @ ..])) = line.split_at_checked(column) else { return };
@@ -125,7 +125,7 @@ mod tests {
         let put_into = |text: &str| {
             let mut line: Vec<char> = text.chars().collect();
             let column = text.find('{').expect("a brace");
-            put(&mut line, column, ONE);
+            insert_scope(&mut line, column, ONE);
             line.into_iter().collect::<String>()
         };
         assert_eq!(put_into("in a {  b"), format!("in a {{{ONE};b"));

@@ -41,7 +41,7 @@ pub fn words(tokens: &[Lexeme]) -> impl Iterator<Item = Position> + '_ {
 }
 
 /// Inserts the wrapper after the keyword at `column`, from 0, of a line, in place of a blank if there is one.
-pub fn put(line: &mut Vec<char>, column: usize) {
+pub fn insert_wrapper(line: &mut Vec<char>, column: usize) {
     let behind = column + WORD;
     match line.get_mut(behind) {
         Some(blank @ (' ' | '\t')) => *blank = CHOICE,
@@ -57,7 +57,7 @@ mod tests {
     fn columns_stay_where_there_is_a_blank() {
         let put_into = |text: &str| {
             let mut line: Vec<char> = text.chars().collect();
-            put(&mut line, 0);
+            insert_wrapper(&mut line, 0);
             line.into_iter().collect::<String>()
         };
         assert_eq!(put_into("switch x { }"), format!("switch{CHOICE}x {{ }}"));

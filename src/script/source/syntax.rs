@@ -171,8 +171,8 @@ pub fn mark(source: &Source) -> Cow<'_, str> {
         let (Some(line), Some(column)) = (at.line(), at.position()) else { continue };
         let Some(line) = lines.get_mut(line - 1) else { continue };
         match mark {
-            InsertedMark::Round(letter) => loop_scoping::put(line, column - 1, letter),
-            InsertedMark::Choice => switch_rewrite::put(line, column - 1),
+            InsertedMark::Round(letter) => loop_scoping::insert_scope(line, column - 1, letter),
+            InsertedMark::Choice => switch_rewrite::insert_wrapper(line, column - 1),
             InsertedMark::Assign(halves) => {
                 if let Some(target) = line.get_mut(column - 1..column - 1 + halves.len()) {
                     target.copy_from_slice(halves);

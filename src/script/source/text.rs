@@ -97,7 +97,7 @@ pub fn position(line: usize, column: usize) -> Position {
 }
 
 /// Moves a position down by some lines.
-pub fn behind(at: Position, lines: usize) -> Position {
+pub fn moved_down(at: Position, lines: usize) -> Position {
     match (at.line(), at.position()) {
         (Some(line), column) if lines > 0 => position(line + lines, column.unwrap_or(1)),
         _ => at,
@@ -165,8 +165,8 @@ mod tests {
 
     #[test]
     fn places_are_counted_from_the_lines_before() {
-        assert_eq!(behind(Position::new(2, 3), 10), Position::new(12, 3));
-        assert_eq!(behind(Position::NONE, 10), Position::NONE);
+        assert_eq!(moved_down(Position::new(2, 3), 10), Position::new(12, 3));
+        assert_eq!(moved_down(Position::NONE, 10), Position::NONE);
         assert_eq!(source("ab\nξc").offset(2, 2), "ab\nξ".len());
     }
 }

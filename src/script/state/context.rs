@@ -150,7 +150,7 @@ impl Context {
     pub fn why_stopped(&self, what: &str) -> ScriptError {
         match self.proceed() {
             Err(stopped) => stopped,
-            Ok(()) => ScriptError::bug(format!("{what} was stopped by nobody")),
+            Ok(()) => ScriptError::internal_error(format!("{what} was stopped by nobody")),
         }
     }
 
@@ -197,23 +197,23 @@ impl Context {
         if self.0.is_silent.get() || !self.meter().allows_to_write(text.len() as u64 + 1) {
             return;
         }
-        self.0.progress.step_aside(&mut || {
+        self.0.progress.without_progress_bar(&mut || {
             let text = printable_in_colours(text);
-            self.notice(writeln!(self.0.printed.borrow_mut(), "{text}"));
+            self.check_write(writeln!(self.0.printed.borrow_mut(), "{text}"));
         });
     }
 
     /// Prints a message for the user that is not script output.
-    pub fn tell(&self, text: &str) {
-        self.tell_drawn(&printable(text));
+    pub fn print_message(&self, text: &str) {
+        self.print_styled_message(&printable(text));
     }
 
     /// Prints a message for the user; the colour sequences of this program are kept.
-    pub fn tell_drawn(&self, text: &str) {
+    pub fn print_styled_message(&self, text: &str) {
         if self.0.is_silent.get() {
             return;
         }
-        self.0.progress.step_aside(&mut || {
+        self.0.progress.without_progress_bar(&mut || {
             // Errors are ignored; the exit code still reports the result.
             let _ = writeln!(self.0.told.borrow_mut(), "{}", printable_in_colours(text));
         });
@@ -228,7 +228,7 @@ impl Context {
     }
 
     /// Calls `work` without printing anything and without writing files; `refusal` is the message for attempts to write.
-    pub fn tracelessly<T>(&self, refusal: &'static str, work: impl FnOnce() -> T) -> T {
+    pub fn without_output_or_files<T>(&self, refusal: &'static str, work: impl FnOnce() -> T) -> T {
         let refused_before = self.0.refuses_files.replace(Some(refusal));
         let result = self.silently(work);
         self.0.refuses_files.set(refused_before);
@@ -236,20 +236,20 @@ impl Context {
     }
 
     /// Prints a message that the script requested besides its output, and counts it as output.
-    pub fn remark(&self, text: &str) {
+    pub fn print_debug(&self, text: &str) {
         if self.meter().allows_to_write(text.len() as u64 + 1) {
-            self.tell(text);
+            self.print_message(text);
         }
     }
 
     /// Flushes the printed text.
     pub fn flush(&self) {
         let written = self.0.printed.borrow_mut().flush();
-        self.notice(written);
+        self.check_write(written);
     }
 
     /// A closed pipe ends the run quietly; other write failures are errors.
-    fn notice(&self, written: io::Result<()>) {
+    fn check_write(&self, written: io::Result<()>) {
         match written {
             Err(error) if error.kind() == io::ErrorKind::BrokenPipe => {
                 self.0.pipe_closed.set(true);
@@ -270,7 +270,7 @@ impl Context {
     }
 
     /// Sets the last used simulation.
-    pub fn note_simulation(&self, simulation: Dynamic) {
+    pub fn set_latest_simulation(&self, simulation: Dynamic) {
         self.0.latest_simulation.replace(Some(simulation));
     }
 
@@ -280,13 +280,13 @@ impl Context {
     }
 
     /// Clears the last simulation and the reporters.
-    pub fn forget_simulations(&self) {
+    pub fn clear_simulations(&self) {
         self.0.latest_simulation.take();
-        self.forget_reporters();
+        self.clear_reporters();
     }
 
     /// Sets the engine for calls of stored functions; the caller keeps it alive.
-    pub fn lend(&self, engine: &Rc<Engine>) {
+    pub fn set_engine(&self, engine: &Rc<Engine>) {
         self.0.engine.replace(Rc::downgrade(engine));
     }
 
@@ -319,7 +319,7 @@ impl Context {
     }
 
     /// Registers a function that detects values in use.
-    pub fn know(&self, busy: BusyCheck) {
+    pub fn register_busy_check(&self, busy: BusyCheck) {
         self.0.busy.borrow_mut().push(busy);
     }
 
@@ -335,21 +335,21 @@ impl Context {
 
     /// Writes the rescue files of the simulations, after a script that failed.
     pub fn save_remains(&self) {
-        let (files, note) = self.0.reports.remains(self.meter().left_for_remains());
+        let (files, note) = self.0.reports.remains(self.meter().rescue_budget());
         for (name, content) in files {
             if let Err(ScriptError::Failure(failure)) =
                 self.write_remains(&name, content.as_bytes())
             {
-                self.tell(&failure.message);
+                self.print_message(&failure.message);
             }
         }
-        note.inspect(|note| self.tell(note));
+        note.inspect(|note| self.print_message(note));
     }
 
     /// Drops the reporters and the names of studies. A session writes no report, and its next input may repeat a study.
-    pub fn forget_reporters(&self) {
+    pub fn clear_reporters(&self) {
         self.0.study_names.borrow_mut().clear();
-        self.0.reports.forget();
+        self.0.reports.clear();
     }
 
     /// Report entries of all simulations; the reporters are dropped.

@@ -71,7 +71,7 @@ impl OutputFolder {
         if self.mode == RunMode::DryBuild {
             return Ok(WrittenFile { path, kept: None });
         }
-        let kept = self.put(name, write).map_err(|source| {
+        let kept = self.open_folder(name, write).map_err(|source| {
             self.refused(match source.kind() {
                 ErrorKind::InvalidInput => OutputError::NotAFile { path: path.clone() },
                 _ => OutputError::Write { path: path.clone(), source },
@@ -85,12 +85,12 @@ impl OutputFolder {
     }
 
     /// Opens the folder for each file, because it may be moved while a session waits.
-    fn put(
+    fn open_folder(
         &self,
         name: &str,
         write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
     ) -> io::Result<Option<PathBuf>> {
-        let folder = Folder::make(&self.folder)?;
+        let folder = Folder::open_or_create(&self.folder)?;
         let record = self.record.get_or_init(|| RefCell::new(WrittenFiles::of(&folder)));
         let mut record = record.borrow_mut();
         let path = Path::new(name);
@@ -102,18 +102,18 @@ impl OutputFolder {
             let mut file = ChecksumWriter::new(BufWriter::new(file));
             write(&mut file)?;
             file.flush()?;
-            written = Some(file.imprint());
+            written = Some(file.checksum());
             Ok(())
         })?;
         // If a later call fails, the existing file is recorded or kept under another name.
         let is_ours = record.may_replace(&folder, name);
-        written.map_or(Ok(()), |written| record.note(&folder, name, written))?;
+        written.map_or(Ok(()), |written| record.record(&folder, name, written))?;
         let kept = if is_ours {
             None
         } else {
             Some(folder.keep_as(path, |number| kept_name(path, number))?)
         };
-        if let Err(error) = prepared.place() {
+        if let Err(error) = prepared.rename_to_final() {
             return Err(match &kept {
                 Some(kept) if folder.restore_name(kept, path).is_err() => {
                     let kept = self.folder.join(kept);
@@ -148,7 +148,7 @@ impl OutputFolder {
         }
         let folders = [
             InputFolder { word: "output folder", path: self.folder.clone(), open: Folder::find },
-            InputFolder::beside(&self.beside),
+            InputFolder::in_folder_of(&self.beside),
         ];
         let most = most.unwrap_or(LARGEST_INPUT).min(LARGEST_INPUT);
         InputFolders::new(folders).read(name, most).map_err(|error| match self.mode {
@@ -213,7 +213,7 @@ pub struct InputFolder {
 
 impl InputFolder {
     /// The folder of a script, given by the user.
-    pub fn beside(path: &Path) -> Self {
+    pub fn in_folder_of(path: &Path) -> Self {
         Self { word: "script's own folder", path: path.to_owned(), open: Folder::open }
     }
 }
@@ -283,7 +283,7 @@ mod tests {
         symlink(other.join("secret.txt"), own.join("file.txt")).expect("a link");
         symlink(other.join("new.txt"), own.join("nowhere.txt")).expect("a link");
 
-        let inputs = InputFolders::new([InputFolder::beside(&own)]);
+        let inputs = InputFolders::new([InputFolder::in_folder_of(&own)]);
         for name in ["way/secret.txt", "file.txt"] {
             assert!(inputs.read(name, 100).is_err(), "{name}");
         }
@@ -305,7 +305,7 @@ mod tests {
             fs::write(file, "found").expect("a file");
         }
         let out = InputFolder { word: "output folder", path: out, open: Folder::find };
-        let inputs = InputFolders::new([InputFolder::beside(&own), out]);
+        let inputs = InputFolders::new([InputFolder::in_folder_of(&own), out]);
         assert_eq!(inputs.read("below/a", 10).expect("a file"), b"found");
         assert!(inputs.read("b", 10).is_ok());
         for name in ["c", "../c", "below/../../c", "/etc/passwd", "", "below/./../../c"] {

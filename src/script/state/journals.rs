@@ -57,7 +57,7 @@ impl Journals {
             journal.begin().map_err(refused)?;
             self.has_parts.set(true);
         }
-        Ok(Some(self.keep(journal, lasting)))
+        Ok(Some(self.store(journal, lasting)))
     }
 
     /// Opens the files of parts as one read-only journal.
@@ -68,10 +68,10 @@ impl Journals {
         &self,
         paths: impl IntoIterator<Item = PathBuf>,
     ) -> Result<JournalNumber, ScriptError> {
-        Ok(self.keep(Journal::of_files(paths).map_err(refused)?, JournalLifetime::Longer))
+        Ok(self.store(Journal::of_files(paths).map_err(refused)?, JournalLifetime::Longer))
     }
 
-    fn keep(&self, journal: Journal, lasting: JournalLifetime) -> JournalNumber {
+    fn store(&self, journal: Journal, lasting: JournalLifetime) -> JournalNumber {
         let mut open = self.open.borrow_mut();
         open.push((journal, lasting));
         JournalNumber(open.len() - 1)
@@ -138,13 +138,13 @@ impl Journals {
         self.kept.set(self.kept.get() + known);
         let mut keeper = RowKeeper { path, journal };
         if !is_same {
-            keeper.put(&about)?;
+            keeper.append(&about)?;
         }
         Ok(Some(keeper))
     }
 
     /// Number of finished cases of this run that are kept for the next one.
-    pub fn kept(&self) -> usize {
+    pub fn stored_cases(&self) -> usize {
         self.kept.get()
     }
 
@@ -181,10 +181,10 @@ impl RowKeeper {
         if matches!(entry, RowEntry::Found(..) | RowEntry::Failed(..)) {
             journals.kept.set(journals.kept.get() + 1);
         }
-        self.put(entry)
+        self.append(entry)
     }
 
-    fn put(&mut self, entry: &RowEntry) -> Result<u64, ScriptError> {
+    fn append(&mut self, entry: &RowEntry) -> Result<u64, ScriptError> {
         self.journal.write(entry).map_err(|error| refused_rows(&self.path, &error))
     }
 
@@ -192,8 +192,8 @@ impl RowKeeper {
     ///
     /// # Errors
     /// Fails if it cannot be written.
-    pub fn beat(&mut self) -> Result<(), ScriptError> {
-        self.journal.beat().map_err(|error| refused_rows(&self.path, &error))
+    pub fn sync_periodically(&mut self) -> Result<(), ScriptError> {
+        self.journal.flush_periodically().map_err(|error| refused_rows(&self.path, &error))
     }
 
     /// Syncs the file.
@@ -239,17 +239,17 @@ mod tests {
         let bytes = first.write(a.unwrap(), 1, &0.5).unwrap();
         assert_eq!(bytes, std::fs::metadata(path("a")).unwrap().len());
         first.write(b.unwrap(), 1, &0.25).unwrap();
-        assert_eq!(first.kept(), 2);
+        assert_eq!(first.stored_cases(), 2);
         drop(first);
 
         let (second, [a, b]) = begin(JournalPreference::GoOn);
-        assert_eq!(second.kept(), 0, "nothing of it is known to be of use yet");
+        assert_eq!(second.stored_cases(), 0, "nothing of it is known to be of use yet");
         assert_eq!(second.find::<f64>(a.unwrap(), 1), Some(0.5));
         assert_eq!(second.find::<f64>(b.unwrap(), 1), Some(0.25));
         assert_eq!(second.find::<f64>(b.unwrap(), 2), None);
-        assert_eq!(second.kept(), 2);
+        assert_eq!(second.stored_cases(), 2);
         second.finish().unwrap();
-        assert!(!path("a").exists() && !path("b").exists() && second.kept() == 0);
+        assert!(!path("a").exists() && !path("b").exists() && second.stored_cases() == 0);
 
         let (third, [a, _]) = begin(JournalPreference::Anew);
         assert_eq!(third.find::<f64>(a.unwrap(), 1), None);

@@ -146,12 +146,12 @@ impl Meter {
     }
 
     /// Counts a skipped simulation advance of a dry build.
-    pub fn count_pretended(&self) {
+    pub fn count_dry_run(&self) {
         self.pretended.set(self.pretended.get() + 1);
     }
 
     /// Returns true if the script depends on results that a dry build does not compute.
-    pub fn has_pretended(&self) -> bool {
+    pub fn depends_on_dry_run(&self) -> bool {
         self.pretended.get() > 0
     }
 
@@ -200,7 +200,7 @@ impl Meter {
     }
 
     /// Bytes that rescue files may still use: the remaining budget and a twentieth of the limit.
-    pub fn left_for_remains(&self) -> u64 {
+    pub fn rescue_budget(&self) -> u64 {
         let left = |limit: u64| (limit + limit / 20).saturating_sub(self.written.get());
         self.limits.written.map_or(u64::MAX, left)
     }
@@ -297,7 +297,7 @@ mod tests {
         assert!(meter.allows_to_write(6) && meter.allows_a_file(4) && meter.passed().is_none());
         assert!(!meter.allows_to_write(1));
         assert_eq!(meter.passed(), Some(Stop::Written(10)));
-        assert_eq!(meter.left_for_remains(), 0);
+        assert_eq!(meter.rescue_budget(), 0);
         let _watchdog = meter.watch().unwrap();
         assert!(meter.allows_a_file(1) && meter.allows_a_file(1) && !meter.allows_a_file(1));
         assert_eq!(meter.passed(), Some(Stop::Files(2)));

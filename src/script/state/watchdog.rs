@@ -43,7 +43,7 @@ impl Watchdog {
             while let Err(RecvTimeoutError::Timeout) = held.recv_timeout(INTERVAL) {
                 let (stop, since) = match passed {
                     Some(passed) => passed,
-                    None => match first_passed(&limits, begun) {
+                    None => match first_exceeded(&limits, begun) {
                         Some((stop, word)) => {
                             alarm.store(word, Ordering::Relaxed);
                             *passed.insert((stop, Clocks::now()))
@@ -53,7 +53,7 @@ impl Watchdog {
                 };
                 let Some(resort) = &resort else { return };
                 let grows = limits.memory.is_some_and(|limit| occupied() > limit + limit / 2);
-                if grows || since.are_over(patience(&limits)) {
+                if grows || since.are_over(next_wait(&limits)) {
                     return resort(stop);
                 }
             }
@@ -100,14 +100,14 @@ fn processor_time() -> Option<Duration> {
     None
 }
 
-fn first_passed(limits: &Limits, begun: Instant) -> Option<(Stop, u8)> {
+fn first_exceeded(limits: &Limits, begun: Instant) -> Option<(Stop, u8)> {
     let late = limits.time.filter(|limit| begun.elapsed() > *limit);
     let large = || limits.memory.filter(|limit| occupied() > *limit);
     late.map(|limit| (Stop::Time(limit), TOO_LATE))
         .or_else(|| large().map(|limit| (Stop::Memory(limit), TOO_LARGE)))
 }
 
-fn patience(limits: &Limits) -> Duration {
+fn next_wait(limits: &Limits) -> Duration {
     let part = limits.time.map_or(LEAST_PATIENCE, |limit| limit.mul_f64(PATIENCE));
     part.clamp(LEAST_PATIENCE, MOST_PATIENCE)
 }

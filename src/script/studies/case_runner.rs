@@ -130,7 +130,7 @@ impl<'c> CaseRunner<'c> {
         self.expect_parts(task, cases, &results)?;
         let unknown: Vec<usize> = (0..cases.len()).filter(|at| results[*at].is_none()).collect();
         let known = cases.len() - unknown.len();
-        self.tell_known(task, known, cases.len());
+        self.report_known(task, known, cases.len());
         self.context.progress().begin_cases(&self.name, cases.len());
         let asked: Vec<Case> = unknown.iter().map(|at| cases[*at].clone()).collect();
         let (mut done, mut trouble) = (known, None);
@@ -143,7 +143,7 @@ impl<'c> CaseRunner<'c> {
             |news| {
                 if let Some((number, result)) = news {
                     done += 1;
-                    context.progress().reach_case(done);
+                    context.progress().report_case(done);
                     if let Ok(result) = result {
                         context.meter().count_steps(steps_of(result));
                         trouble = self.write(task, &asked[number], result).err();
@@ -162,7 +162,7 @@ impl<'c> CaseRunner<'c> {
         let all: Option<Vec<_>> = results.into_iter().collect();
         all.ok_or_else(|| match context.proceed() {
             Err(stopped) => stopped,
-            Ok(()) => ScriptError::bug("a study lost a case"),
+            Ok(()) => ScriptError::internal_error("a study lost a case"),
         })
     }
 
@@ -171,7 +171,7 @@ impl<'c> CaseRunner<'c> {
     ///
     /// # Errors
     /// Fails if the run is stopped; finished cases are in the journal.
-    pub fn one_by_one<R: Finding>(
+    pub fn run_sequentially<R: Finding>(
         &self,
         task: CaseTask,
         cases: &[Case],
@@ -180,7 +180,7 @@ impl<'c> CaseRunner<'c> {
         let context = self.context;
         context.progress().begin_cases(&format!("{}, {}", self.name, task.name), cases.len());
         let results = cases.iter().enumerate().map(|(number, case)| {
-            context.progress().reach_case(number);
+            context.progress().report_case(number);
             if let Some(known) = self.recall(task, case) {
                 return Ok(known);
             }
@@ -250,7 +250,7 @@ impl<'c> CaseRunner<'c> {
         Ok(())
     }
 
-    fn tell_known(&self, task: CaseTask, known: usize, all: usize) {
+    fn report_known(&self, task: CaseTask, known: usize, all: usize) {
         if known > 0 {
             let name = &self.name;
             let what = task.name;
@@ -258,7 +258,7 @@ impl<'c> CaseRunner<'c> {
                 "study '{name}' continues: {known} of {all} {what} are known from an earlier \
                 run"
             );
-            self.context.tell(&told);
+            self.context.print_message(&told);
         }
     }
 }

@@ -50,7 +50,7 @@ pub fn case(
             )
             .at(CallPart::Key("scene".into()))
     })?;
-    scene.expect_unasked()?;
+    scene.expect_no_callbacks()?;
     let missing = |name: &str| {
         call.error(format!("the setting '{name}' is missing")).hint(format!(
             "give it as an option of the study, among its values, or in the result of the \

@@ -41,7 +41,7 @@ pub fn chart(study: &Convergence, quantity: &str) -> LineChart {
         let points: Vec<(f64, f64)> = (0..ladder.sizes.len()).filter_map(point).collect();
         let slope = match study.claimed_order(&ladder.method) {
             Some(order) => claimed(ladder, order, &points),
-            None => seen(ladder),
+            None => observed_order_line(ladder),
         };
         let (ink, marker) = (SeriesColour::OfSeries(number), Marker::of_index(number));
         let name = labels::method(&ladder.method);
@@ -55,7 +55,7 @@ pub fn chart(study: &Convergence, quantity: &str) -> LineChart {
         if !noted.iter().any(is_near) {
             noted.push((told.clone(), large));
             let middle = ((coarse * fine).sqrt(), (large * small).sqrt());
-            chart = chart.note(middle, told);
+            chart = chart.annotate(middle, told);
         }
         chart = chart.series(Series::new("", ends.to_vec()).ink(ink).stroke(Stroke::Dotted).thin());
     }
@@ -63,13 +63,13 @@ pub fn chart(study: &Convergence, quantity: &str) -> LineChart {
 }
 
 /// Rungs usable for an order, from coarse to fine.
-fn told(ladder: &Ladder) -> impl DoubleEndedIterator<Item = usize> {
+fn usable_rungs(ladder: &Ladder) -> impl DoubleEndedIterator<Item = usize> {
     (0..ladder.sizes.len()).filter(|rung| ladder.tells_an_order(*rung))
 }
 
 /// Line of an order through the last usable point, over all sizes.
 fn claimed(ladder: &Ladder, order: u32, points: &[(f64, f64)]) -> Option<Slope> {
-    let last = told(ladder).next_back()?;
+    let last = usable_rungs(ladder).next_back()?;
     let line = through(ladder, last, f64::from(order));
     Some(Slope {
         told: format!("order {order}"),
@@ -79,8 +79,8 @@ fn claimed(ladder: &Ladder, order: u32, points: &[(f64, f64)]) -> Option<Slope> 
 
 /// Line of the order observed for the finest sizes, over the range where neighbours agree; `None` if the errors are not in the asymptotic
 /// range.
-fn seen(ladder: &Ladder) -> Option<Slope> {
-    let last = told(ladder).next_back()?;
+fn observed_order_line(ladder: &Ladder) -> Option<Slope> {
+    let last = usable_rungs(ladder).next_back()?;
     let mut orders = vec![ladder.order(last)?];
     for rung in (1..last).rev() {
         match ladder.order(rung) {
@@ -131,9 +131,9 @@ mod tests {
 
     #[test]
     fn a_line_is_drawn_where_neighbouring_orders_agree() {
-        assert!(seen(&ladder(&[6.8, 4.6, 3.5])).is_none(), "not yet at any order");
-        assert!(seen(&ladder(&[1.0])).is_none(), "a single order agrees with none");
-        let slope = seen(&ladder(&[0.71, 1.08, 0.9])).unwrap();
+        assert!(observed_order_line(&ladder(&[6.8, 4.6, 3.5])).is_none(), "not yet at any order");
+        assert!(observed_order_line(&ladder(&[1.0])).is_none(), "a single order agrees with none");
+        let slope = observed_order_line(&ladder(&[0.71, 1.08, 0.9])).unwrap();
         assert_eq!(slope.told, "order 1.0");
         let [(coarse, large), (fine, small)] = slope.ends;
         assert_eq!((coarse, fine), (0.5, 0.125));

@@ -72,7 +72,7 @@ pub fn cases(
     };
     let fresh = || {
         let handle = handle()?;
-        handle.expect_unasked()?;
+        handle.expect_no_callbacks()?;
         Ok::<_, ScriptError>(handle.scene().borrow().clone())
     };
     let mut cases = Vec::new();
@@ -193,7 +193,7 @@ impl CostTable {
             ]);
         }
         let table = table.to_string();
-        [Some(table.trim_end().to_owned()), self.failures(), self.doubt()]
+        [Some(table.trim_end().to_owned()), self.failures(), self.warning()]
             .into_iter()
             .flatten()
             .collect::<Vec<_>>()
@@ -210,7 +210,7 @@ impl CostTable {
         (some > 0).then(|| format!("\n{some} of {all} did not finish:{lines}"))
     }
 
-    fn doubt(&self) -> Option<String> {
+    fn warning(&self) -> Option<String> {
         let ratio = self.ratio(self.costs.get(1).filter(|cost| cost.name == PLAIN[1])?);
         (!(1.0 / TRUSTED_RATIO..=TRUSTED_RATIO).contains(&ratio)).then(|| {
             format!(

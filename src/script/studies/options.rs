@@ -8,8 +8,8 @@ use crate::script::bindings::arguments::Arguments;
 use crate::script::bindings::kind::{Kind, Type};
 use crate::script::bindings::option_set::{FromOption, both, option_set};
 use crate::script::bindings::parameter::{
-    Parameter, Presence, anything, array, callback, choice, either, name, number, numbers, object,
-    text, whole,
+    Parameter, Presence, array, callback, choice, either, integer, name, number, numbers, object,
+    of_any_type, text,
 };
 use crate::script::messages::error::ScriptError;
 
@@ -24,12 +24,12 @@ option_set! {
         /// Function that makes the scene of a cell.
         scene: FnPtr = callback("scene").doc("|cell| …, a function that returns the scene of a cell"),
         /// Map with a name and its values.
-        rows: Dynamic = anything("rows").doc("a name and its values: #{ stiffness: [1e4, 1e8] }"),
+        rows: Dynamic = of_any_type("rows").doc("a name and its values: #{ stiffness: [1e4, 1e8] }"),
         /// Map with a name and its values.
-        columns: Dynamic = anything("columns").doc("a name and its values: #{ dt: [0.1, 0.2] }"),
+        columns: Dynamic = of_any_type("columns").doc("a name and its values: #{ dt: [0.1, 0.2] }"),
         /// Map with a name and its values.
         maps: Option<Dynamic> =
-            anything("maps").doc("a name and its values, with one map for each").optional(),
+            of_any_type("maps").doc("a name and its values, with one map for each").optional(),
         /// Default integrator of the cells.
         integrator: Option<Method> =
             object("integrator", INTEGRATOR).doc("integrator; default: energy_momentum()").optional(),
@@ -63,14 +63,14 @@ option_set! {
         dt: f64 = number("dt").positive().unit("time").doc("step size"),
         /// Map of names and functions that add a feature to a scene.
         features: Option<Dynamic> =
-            anything("features").doc("names and functions: #{ gravity: |scene| … }").optional(),
+            of_any_type("features").doc("names and functions: #{ gravity: |scene| … }").optional(),
         /// Integrator of all rows that do not vary it.
         integrator: Option<Method> =
             object("integrator", INTEGRATOR).doc("integrator; default: energy_momentum()").optional(),
         /// Number of steps of each run.
-        steps: usize = whole("steps").positive().or(Presence::Whole(200)).doc("number of steps of each run"),
+        steps: usize = integer("steps").positive().or(Presence::Whole(200)).doc("number of steps of each run"),
         /// Number of timed repetitions.
-        repeats: usize = whole("repeats")
+        repeats: usize = integer("repeats")
             .positive()
             .or(Presence::Whole(5))
             .doc("number of timed runs; every step is recorded unless the row says otherwise"),
@@ -99,7 +99,7 @@ option_set! {
             .doc("name of a table, or finest_run(…); default: finest_run()")
             .optional(),
         /// Map of reference columns to history columns.
-        columns: Option<Dynamic> = anything("columns")
+        columns: Option<Dynamic> = of_any_type("columns")
             .doc("columns of the reference with the columns of the history: #{ S: \
                 \"slider1.position\" }, or with a factor: [\"…\", 3.2]")
             .optional(),
@@ -125,7 +125,7 @@ option_set! {
         rivals: Option<String> =
             text("rivals").doc("name of a table with the run times of other programs").optional(),
         /// Number of timed repetitions.
-        repeats: usize = whole("repeats").positive().or(Presence::Whole(5)).doc(
+        repeats: usize = integer("repeats").positive().or(Presence::Whole(5)).doc(
             "number of timed runs, with every step recorded; fewer if they take more than 10 s",
         ),
     }
@@ -138,7 +138,7 @@ option_set! {
     /// Options of `finest_run`.
     pub struct FinestOptions {
         /// Argument of the scene function.
-        mesh: Option<Dynamic> = anything("mesh").doc("mesh, the argument of `scene`").optional(),
+        mesh: Option<Dynamic> = of_any_type("mesh").doc("mesh, the argument of `scene`").optional(),
         /// Step size [time].
         dt: Option<f64> = number("dt").positive().unit("time").doc("step size").optional(),
         /// Integrator.

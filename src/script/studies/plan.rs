@@ -60,11 +60,13 @@ impl ErrorStudyPlan {
         };
         let named: Vec<(String, Option<Mesh>)> = meshes.iter().map(named).collect();
         expect_all_different(call, "meshes", &named, |(label, _)| label.clone())?;
-        let subjects: Vec<ObservedScene> =
-            meshes.iter().map(|mesh| subject_on(call, scene_of, mesh)).collect::<Result<_, _>>()?;
+        let subjects: Vec<ObservedScene> = meshes
+            .iter()
+            .map(|mesh| scene_on_mesh(call, scene_of, mesh))
+            .collect::<Result<_, _>>()?;
         expect_same_observables(call, &subjects[0], &subjects[1..])?;
         let length = options.length.unwrap_or_else(|| size_of(&subjects[0].scene));
-        let patience = patience(call, options.patience);
+        let patience = case_limits(call, options.patience);
         Ok(Self { name, subjects, methods, dts, times, length, patience })
     }
 
@@ -213,7 +215,7 @@ fn all_of<T: Clone + 'static>(
 }
 
 /// Limits of a case: time in seconds, and the step limit of the run.
-pub fn patience(call: &Call, seconds: f64) -> RunLimits {
+pub fn case_limits(call: &Call, seconds: f64) -> RunLimits {
     let steps = call.context().meter().limits().steps;
     RunLimits {
         steps: steps.map_or(usize::MAX, |limit| usize::try_from(limit).unwrap_or(usize::MAX)),
@@ -251,7 +253,7 @@ fn label_of(call: &Call, mesh: &Dynamic) -> String {
 }
 
 /// Scene on a mesh, made by the function of the study.
-pub fn subject_on(
+pub fn scene_on_mesh(
     call: &Call,
     scene_of: &FnPtr,
     mesh: &Dynamic,
@@ -272,7 +274,7 @@ fn subject(call: &Call, mesh: String, made: &Dynamic) -> Result<ObservedScene, S
         Some(map) => map.get("scene").and_then(|scene| scene.clone().try_cast()),
     };
     let handle = handle.ok_or_else(refused)?;
-    handle.expect_unasked()?;
+    handle.expect_no_callbacks()?;
     if let Some(unknown) =
         map.iter().flat_map(Map::keys).find(|key| !["scene", "stations"].contains(&key.as_str()))
     {
@@ -291,7 +293,7 @@ fn subject(call: &Call, mesh: String, made: &Dynamic) -> Result<ObservedScene, S
                 })?;
                 let name = readable("stations", name)
                     .map_err(|error| error.at(CallPart::Key("scene".into())))?;
-                Ok((name, handle.own(&station)?))
+                Ok((name, handle.own_station(&station)?))
             };
             stations.iter().map(own).collect::<Result<_, ScriptError>>()?
         }

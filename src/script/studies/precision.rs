@@ -35,7 +35,7 @@ pub fn study(
         })
     };
     // Reports errors in the table of other programs before anything runs.
-    compared(&reference.foreseen(call, &plan)?)?;
+    compared(&reference.placeholder(call, &plan)?)?;
     let desk = CaseRunner::open(call.context(), &plan.name)?;
     let combinations = all_combinations(&plan.subjects, &plan.all_settings());
     let cases: Vec<Case> =
@@ -84,7 +84,7 @@ fn timings(
     let both = cases.iter().zip(trials).filter(|(_, trial)| is_finished(trial));
     let finished: Vec<Case> = both.map(|(case, _)| case.clone()).collect();
     let task = CaseTask { name: "run times", parts: &repeats.to_le_bytes() };
-    let timed = desk.one_by_one(task, &finished, |case, may_go_on| {
+    let timed = desk.run_sequentially(task, &finished, |case, may_go_on| {
         Timing::of(case, plan.patience, repeats, may_go_on)
     })?;
     let mut timed = timed.into_iter();

@@ -46,15 +46,15 @@ pub fn chart(study: &Precision) -> LineChart {
         let mut of_mesh: Vec<(&str, Vec<(f64, f64)>)> = Vec::new();
         for row in own.clone() {
             match of_mesh.last_mut() {
-                Some((mesh, points)) if *mesh == row.mesh => points.push(row.price_and_error()),
-                _ => of_mesh.push((&row.mesh, vec![row.price_and_error()])),
+                Some((mesh, points)) if *mesh == row.mesh => points.push(row.cost_and_error()),
+                _ => of_mesh.push((&row.mesh, vec![row.cost_and_error()])),
             }
         }
         for (_, points) in of_mesh {
             let points = points.into_iter().filter(finite).collect();
-            chart = chart.series(look(Series::new("", points)).stroke(Stroke::Marked).faint());
+            chart = chart.series(look(Series::new("", points)).stroke(Stroke::Marked).pale());
         }
-        let best = own.filter(|row| row.is_on_front).map(PrecisionRow::price_and_error);
+        let best = own.filter(|row| row.is_on_front).map(PrecisionRow::cost_and_error);
         chart = chart.series(look(Series::new(name, best.collect())).stroke(Stroke::Unjoined));
     }
     let mut series: Vec<&str> = Vec::new();
@@ -78,11 +78,11 @@ pub fn chart(study: &Precision) -> LineChart {
             points.iter().zip(is_best).filter(|(_, is_best)| *is_best).map(|(at, _)| *at).collect();
         best.sort_by(|a, b| a.0.total_cmp(&b.0));
         chart = chart
-            .series(look(points, "").stroke(Stroke::Unjoined).faint())
+            .series(look(points, "").stroke(Stroke::Unjoined).pale())
             .series(look(best.clone(), name).stroke(Stroke::Unjoined))
             .series(look(best, "").stroke(Stroke::Dashed).thin());
     }
-    let front = study.front().into_iter().map(PrecisionRow::price_and_error).collect();
+    let front = study.front().into_iter().map(PrecisionRow::cost_and_error).collect();
     chart.series(
         Series::new("our front", front).ink(SeriesColour::Black).stroke(Stroke::Solid).thin(),
     )

@@ -23,16 +23,16 @@ pub fn comparison(study: &Precision, errors: &[f64]) -> String {
     let mut table = TextTable::new(if study.rivals.is_empty() { &heads[..5] } else { &heads });
     let none = || labels::number("-".to_owned());
     let number = |text: String| labels::number(text);
-    let pairs = errors
-        .iter()
-        .flat_map(|error| able_peers(study, *error).into_iter().map(move |of| (error, of)));
+    let pairs = errors.iter().flat_map(|error| {
+        programs_with_error(study, *error).into_iter().map(move |of| (error, of))
+    });
     for (error, peer) in pairs {
         let ours = study.cheapest(*error);
         let rival = peer.and_then(|peer| study.cheapest_of(peer, *error));
         let mut cells = vec![number(format_number(*error))];
         cells.extend(match ours {
             Some(row) => [
-                number(labels::milliseconds(row.price_and_error().0)),
+                number(labels::milliseconds(row.cost_and_error().0)),
                 number(labels::deviation(row.error)),
                 number(labels::drift(row.trial.free_energy_drift)),
                 Cell::Text(with(row)),
@@ -50,8 +50,7 @@ pub fn comparison(study: &Precision, errors: &[f64]) -> String {
                 ],
                 None => [none(), none(), none(), Cell::Text("no run".to_owned())],
             });
-            let ratio =
-                ours.zip(rival).map(|(row, rival)| rival.run_time / row.price_and_error().0);
+            let ratio = ours.zip(rival).map(|(row, rival)| rival.run_time / row.cost_and_error().0);
             cells.push(ratio.map_or_else(none, |ratio| number(format!("{ratio:.1}"))));
         }
         table.row(cells);
@@ -70,7 +69,7 @@ fn confirmation(study: &Precision, error: f64) -> Option<String> {
     let fastest = study.cheapest(error)?;
     let told = match study.cheapest_confirmed(error) {
         Some(row) if row == fastest => return None,
-        Some(row) => format!("{} ms, {}", labels::milliseconds(row.price_and_error().0), with(row)),
+        Some(row) => format!("{} ms, {}", labels::milliseconds(row.cost_and_error().0), with(row)),
         None => "none".to_owned(),
     };
     let error = format_number(error);
@@ -78,8 +77,8 @@ fn confirmation(study: &Precision, error: f64) -> Option<String> {
 }
 
 /// Other programs with a run of at most this error, or the first one; `None` without other programs.
-fn able_peers(study: &Precision, error: f64) -> Vec<Option<&str>> {
-    let peers = study.peers();
+fn programs_with_error(study: &Precision, error: f64) -> Vec<Option<&str>> {
+    let peers = study.program_names();
     let able = peers.iter().copied().filter(|peer| study.cheapest_of(peer, error).is_some());
     match able.map(Some).collect::<Vec<_>>() {
         able if able.is_empty() => vec![peers.first().copied()],

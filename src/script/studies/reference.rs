@@ -5,7 +5,7 @@ use rhai::{Dynamic, Map};
 use super::case_runner::{CaseRunner, CaseTask};
 use super::labels;
 use super::options::{ErrorOptions, ReferenceOption};
-use super::plan::{ErrorStudyPlan, at_key, expect_same_observables, subject_on};
+use super::plan::{ErrorStudyPlan, at_key, expect_same_observables, scene_on_mesh};
 use crate::analysis::{
     Case, CaseOutcome, PART_OF_THE_SMALLEST_STEP, ParsedCsv, ReferenceSolution, RunResult,
     finest_mesh, highest_order,
@@ -63,7 +63,7 @@ fn finer(dts: &[StepSize]) -> StepSize {
 }
 
 /// Twice the step, or the tolerance that has about this effect with a second-order method.
-fn doubled(dt: StepSize) -> StepSize {
+fn doubled_step(dt: StepSize) -> StepSize {
     match dt {
         StepSize::Fixed(dt) => StepSize::Fixed(2.0 * dt),
         StepSize::Adaptive(control) => {
@@ -191,7 +191,7 @@ impl Reference {
         let subject = match run.mesh {
             None => plan.subjects[finest].clone(),
             Some(mesh) => {
-                let own = [subject_on(call, &options.scene, &mesh)?];
+                let own = [scene_on_mesh(call, &options.scene, &mesh)?];
                 expect_same_observables(call, &plan.subjects[0], &own)?;
                 let [own] = own;
                 own
@@ -211,7 +211,7 @@ impl Reference {
         if !is_common {
             expect_other_steps_if_doubled(call, &finest)?;
         }
-        let coarser = (!is_common).then(|| case(doubled(dt)));
+        let coarser = (!is_common).then(|| case(doubled_step(dt)));
         Ok(Self::OwnRun(told, [finest].into_iter().chain(coarser).collect()))
     }
 
@@ -250,12 +250,14 @@ impl Reference {
                 let truth = ReferenceSolution::of_run(told, &finest.readings);
                 Ok(coarser.iter().fold(truth, |truth, other| truth.as_far_as(&other.readings)))
             }
-            (Self::OwnRun(..), []) => Err(ScriptError::bug("a study has lost its reference")),
+            (Self::OwnRun(..), []) => {
+                Err(ScriptError::internal_error("a study has lost its reference"))
+            }
         }
     }
 
     /// Reference values with placeholder numbers, for checks before the run.
-    pub fn foreseen(
+    pub fn placeholder(
         &self,
         call: &Call,
         plan: &ErrorStudyPlan,
@@ -284,7 +286,7 @@ impl Reference {
         let work = |case: &Case, stop: &_| RunResult::of(case, observables, patience, stop);
         let steps_of = |trial: &RunResult| trial.steps + trial.retries;
         let Some(results) = desk.in_parallel(task, &all, steps_of, work)? else { return Ok(None) };
-        let panicked = |message| RunResult::without_a_run(CaseOutcome::Panicked { message });
+        let panicked = |message| RunResult::not_started(CaseOutcome::Panicked { message });
         let mut own: Vec<RunResult> =
             results.into_iter().map(|result| result.unwrap_or_else(panicked)).collect();
         let trials = own.split_off(self.cases().len());
@@ -295,7 +297,7 @@ impl Reference {
     /// Results of a dry build.
     pub fn no_trials(cases: &[Case]) -> (Vec<RunResult>, ReferenceSolution) {
         let reason = "nothing is run here".to_owned();
-        let trial = RunResult::without_a_run(CaseOutcome::Failed { time: 0.0, reason });
+        let trial = RunResult::not_started(CaseOutcome::Failed { time: 0.0, reason });
         (vec![trial; cases.len()], ReferenceSolution::of_run("none", &Vec::new()))
     }
 }

@@ -17,7 +17,7 @@ fn at(number: usize) -> TuiState {
 fn judged(number: usize, outcome: AttemptOutcome, printed: &[&str]) -> TuiState {
     let mut state = at(number);
     let lines = printed.iter().map(|line| (*line).to_owned()).collect();
-    state.tell(AttemptReport { outcome, printed: CapturedOutput { lines, more: 0 } });
+    state.set_report(AttemptReport { outcome, printed: CapturedOutput { lines, more: 0 } });
     state
 }
 
@@ -181,7 +181,7 @@ fn passing_says_so_and_what_comes_next() {
     assert!(!text(&at(1), (80, 24)).contains("s solution"));
     let mut state = judged(1, AttemptOutcome::Passed, &[]);
     for exercise in EXERCISES {
-        state.progress.note(exercise, true);
+        state.progress.record(exercise, true);
     }
     let all = text(&state, (80, 24));
     assert!(all.contains("All 23 exercises are passed. Congratulations!"), "{all}");

@@ -12,7 +12,7 @@ fn press(state: &mut TuiState, keys: &str) -> KeyAction {
 }
 
 fn pass(state: &mut TuiState) {
-    state.tell(AttemptReport {
+    state.set_report(AttemptReport {
         outcome: AttemptOutcome::Passed,
         printed: CapturedOutput::default(),
     });
@@ -38,7 +38,7 @@ fn next_goes_round_and_ends_when_all_is_passed() {
     pass(&mut state);
     assert_eq!(state.next(), Some(&EXERCISES[0]));
     for exercise in EXERCISES {
-        state.progress.note(exercise, true);
+        state.progress.record(exercise, true);
     }
     assert_eq!((state.next(), press(&mut state, "n")), (None, KeyAction::Nothing));
     assert!(state.notice.unwrap().contains("all exercises are passed"));

@@ -80,7 +80,7 @@ fn the_kink_length_is_that_of_dense_algebra_on_every_mesh_straight_or_curved() {
     for axis in [line(), arc()] {
         for mesh in meshes() {
             let points = interpolate(&axis, mesh.basis()).unwrap();
-            let kink = missed_kink(&mesh, &points).unwrap().expect("it is positive").length;
+            let kink = unresolved_kink(&mesh, &points).unwrap().expect("it is positive").length;
             for (xi, expected) in places().iter().zip(dense(&mesh, &points, &places())) {
                 let found = value(&mesh, &kink, *xi);
                 assert!(
@@ -99,7 +99,7 @@ fn a_straight_beam_has_what_its_mesh_lacks_with_both_ends_held() {
     for mesh in meshes().into_iter().filter(|mesh| mesh.basis().functions() > 2) {
         let (basis, length) = (mesh.basis(), line().length());
         let points = interpolate(&line(), basis).unwrap();
-        let kink = missed_kink(&mesh, &points).unwrap().unwrap().length;
+        let kink = unresolved_kink(&mesh, &points).unwrap().unwrap().length;
         let count = points.len();
         let mut stiffness = DMatrix::zeros(count, count);
         for quadrature in mesh.quadrature_spans().unwrap() {
@@ -129,7 +129,7 @@ fn a_straight_beam_has_what_its_mesh_lacks_with_both_ends_held() {
 fn the_kink_length_is_positive_but_where_the_mesh_itself_may_kink() {
     for mesh in meshes() {
         let points = interpolate(&line(), mesh.basis()).unwrap();
-        let kink = missed_kink(&mesh, &points).unwrap().unwrap().length;
+        let kink = unresolved_kink(&mesh, &points).unwrap().unwrap().length;
         let spans = mesh.basis().spans();
         for (at, span) in spans.iter().enumerate() {
             let width = span.end - span.start;
@@ -154,7 +154,7 @@ fn inside_long_uniform_cubic_meshes_it_is_a_known_part_of_a_span() {
     for spans in [40, 4000] {
         let mesh = Mesh::bspline(spans, 3, 2).unwrap();
         let points = interpolate(&line(), mesh.basis()).unwrap();
-        let kink = missed_kink(&mesh, &points).unwrap().unwrap().length;
+        let kink = unresolved_kink(&mesh, &points).unwrap().unwrap().length;
         let (n, span) = (spans as f64, spans / 2);
         let part = |xi: f64| kink.in_span(span, xi / n)[0] * n / line().length();
         let (knot, middle) = (part(span as f64), part(span as f64 + 0.5));
@@ -169,7 +169,7 @@ fn inside_long_uniform_cubic_meshes_it_is_a_known_part_of_a_span() {
 fn a_mesh_with_too_few_points_has_no_missed_kink() {
     let mesh = Mesh::bspline(4, 3, 1).unwrap().with_quadrature(Quadrature::Points(2)).unwrap();
     let points = interpolate(&line(), mesh.basis()).unwrap();
-    assert!(missed_kink(&mesh, &points).unwrap().is_none());
+    assert!(unresolved_kink(&mesh, &points).unwrap().is_none());
 }
 
 /// Missing energy of a resting and a moving kink on equal spans without an end, averaged over its places, by Fourier sums: the waves of the exact
@@ -204,18 +204,18 @@ fn a_kink_on_its_way_is_as_heavy_as_what_the_mesh_misses_of_its_motion() {
     for degree in 2..=6 {
         let mesh = Mesh::bspline(400, degree, degree - 1).unwrap();
         let points = interpolate(&line(), mesh.basis()).unwrap();
-        let found = missed_kink(&mesh, &points).unwrap().unwrap().inertia;
+        let found = unresolved_kink(&mesh, &points).unwrap().unwrap().inertia;
         // The sums converge slowly for quadratic splines.
         let rounding = if degree == 2 { 4e-3 } else { 2e-4 };
         assert!((found - fourier(degree, false)).abs() < rounding, "{degree}: {found}");
         let exact = mesh.with_quadrature(Quadrature::Points(degree + 1)).unwrap();
-        let found = missed_kink(&exact, &points).unwrap().unwrap().inertia;
+        let found = unresolved_kink(&exact, &points).unwrap().unwrap().inertia;
         let expected = fourier(degree, true);
         assert!((expected - 1.0).abs() < 1e-4 && (found - 1.0).abs() < 1e-4, "{degree}: {found}");
     }
     for mesh in meshes() {
         let points = interpolate(&arc(), mesh.basis()).unwrap();
-        let found = missed_kink(&mesh, &points).unwrap().unwrap().inertia;
+        let found = unresolved_kink(&mesh, &points).unwrap().unwrap().inertia;
         println!("{} {found:.4}", mesh.describe());
         assert!(found > 0.5 && found < 2.0, "{}: {found}", mesh.describe());
     }

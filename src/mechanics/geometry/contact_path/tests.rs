@@ -13,7 +13,7 @@ fn lagrange(elements: usize, degree: usize) -> Basis {
 
 fn passage(basis: &Basis, from: f64, to: f64) -> ContactPath {
     let mut passage = ContactPath::new(basis.clone());
-    passage.go(from, to);
+    passage.set_interval(from, to);
     passage
 }
 
@@ -180,15 +180,15 @@ fn what_is_not_finite_gives_nan_and_leaves_nothing_behind() {
     for (from, to, first) in
         bad.into_iter().flat_map(|bad| [(0.6, bad, Some(2)), (1.0, bad, Some(3)), (bad, 0.6, None)])
     {
-        on.go(from, to);
+        on.set_interval(from, to);
         assert!(rows(&on).iter().all(|row| row.len() == 4 && row.iter().all(|n| n.is_nan())));
         assert!(first.is_none_or(|first| first == on.first()));
     }
     for to in [1e300, -1e300, f64::MAX, f64::MIN] {
-        on.go(0.6, to);
+        on.set_interval(0.6, to);
         assert_eq!(rows(&on).map(<[f64]>::len), [if to > 0.0 { 5 } else { 6 }; 6]);
     }
-    on.go(0.3, 0.4);
+    on.set_interval(0.3, 0.4);
     assert_eq!(rows(&on), rows(&passage(&basis, 0.3, 0.4)));
 }
 

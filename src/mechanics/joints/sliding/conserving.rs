@@ -20,9 +20,9 @@ pub struct Conserving;
 impl SlidingLaw for Conserving {
     fn equations(&self, contact: &Contact<'_>) -> [Equation; CONTACT_UNKNOWNS] {
         let [gap_x, gap_y] = contact.closed();
-        let (tangent, swing) = (contact.tangent(), contact.swing());
+        let (tangent, swing) = (contact.tangent(), contact.tangent_change());
         let [couple_x, couple_y] = balanced_moment(contact, tangent, swing);
-        [gap_x, gap_y, couple_x, couple_y, kept_energy(contact, tangent, swing)]
+        [gap_x, gap_y, couple_x, couple_y, work_free(contact, tangent, swing)]
     }
 }
 
@@ -48,7 +48,7 @@ fn balanced_moment(contact: &Contact<'_>, tangent: PathVector, swing: PathVector
 }
 
 /// `(λ·τ + 4 η·d)/ℓ = 0`: the contact does no work.
-fn kept_energy(contact: &Contact<'_>, tangent: PathVector, swing: PathVector) -> Equation {
+fn work_free(contact: &Contact<'_>, tangent: PathVector, swing: PathVector) -> Equation {
     let ContactUnknowns { force, couple, .. } = contact.unknowns;
     let scale = 1.0 / contact.length;
     let mut equation = contact.frictionless(tangent);

@@ -140,7 +140,7 @@ impl Contact<'_> {
     }
 
     /// Outward push of the slave at the end of the step: `λ·x'(ξ1)` times the sign of `dξ` towards an end [force·length].
-    pub fn push(&self, outward: f64) -> f64 {
+    pub fn outward_push(&self, outward: f64) -> f64 {
         self.unknowns.force.dot(&self.end_point().by_way) * outward
     }
 
@@ -164,7 +164,7 @@ impl Contact<'_> {
 
     /// Swing `d = ¼ Σ D_i Δx_i` of the master along the path: a quarter of the change of its tangent [length].
     #[inline]
-    pub fn swing(&self) -> PathVector {
+    pub fn tangent_change(&self) -> PathVector {
         let value = self.movement(self.passage.difference()) * 0.25;
         PathVector { value, by_way: self.movement(self.passage.change()) * 0.25 }
     }
@@ -176,14 +176,14 @@ impl Contact<'_> {
 
     /// Factor of the couple in the forces on the master: the sliding increment `Δξ`, or one with a kink, because the offset of the slave is a moment
     /// arm for paths of any length.
-    fn couple_share(&self) -> f64 {
+    fn couple_factor(&self) -> f64 {
         self.kink.map_or(self.unknowns.way, |_| 1.0)
     }
 
     /// Contact forces on the control points of the master in the window of the path [force].
     pub fn master_forces(&self) -> impl Iterator<Item = Vec2> + '_ {
         let ContactUnknowns { force, couple, .. } = self.unknowns;
-        let share = self.couple_share();
+        let share = self.couple_factor();
         let weights = self.passage.mean().iter().zip(self.passage.difference());
         weights.map(move |(mean, difference)| force * *mean - couple * (share * difference))
     }
@@ -191,7 +191,7 @@ impl Contact<'_> {
     /// Derivatives of the contact forces on the control points of the master: factors with respect to `λ` and `η`, and a force with respect to `Δξ`.
     pub fn master_force_slopes(&self) -> impl Iterator<Item = (f64, f64, Vec2)> + '_ {
         let ContactUnknowns { force, couple, .. } = self.unknowns;
-        let share = self.couple_share();
+        let share = self.couple_factor();
         let weights = self.passage.mean().iter().zip(self.passage.difference());
         let slopes = self.passage.slope().iter().zip(self.passage.change());
         weights.zip(slopes).map(move |((mean, difference), (slope, change))| {
@@ -254,7 +254,7 @@ impl Contact<'_> {
     }
 
     /// Equation `Δξ = 0`, scaled by the length `ℓ`.
-    pub(super) fn no_way(&self) -> Equation {
+    pub(super) fn no_increment(&self) -> Equation {
         Equation {
             by_unknowns: ContactUnknowns { way: self.length, ..NONE },
             ..Equation::new(self.length * self.unknowns.way, Unit::Length)

@@ -58,10 +58,10 @@ impl<const SLOPES: usize> ContactDuals<SLOPES> {
         Self {
             offset: DualVector::variable(offset, OFFSET),
             tangent: DualVector::variable(contact.tangent(), TANGENT),
-            swing: DualVector::variable(contact.swing(), SWING),
+            swing: DualVector::variable(contact.tangent_change(), SWING),
             force: DualVector::variable(constant(force), FORCE),
             couple: DualVector::variable(constant(couple), COUPLE),
-            way: Dual::along_way(way, 1.0),
+            way: Dual::path_dual(way, 1.0),
         }
     }
 }
@@ -72,7 +72,7 @@ impl<const SLOPES: usize> Dual<SLOPES> {
     }
 
     /// Number that depends on the path only, with its derivative.
-    pub fn along_way(value: f64, by_way: f64) -> Self {
+    pub fn path_dual(value: f64, by_way: f64) -> Self {
         let mut jet = Self::constant(value);
         jet.add_slope(WAY, by_way);
         jet
@@ -156,7 +156,7 @@ impl<const SLOPES: usize> DualVector<SLOPES> {
 
     fn variable(vector: PathVector, first: usize) -> Self {
         let component = |value: f64, by_way: f64, at: usize| {
-            let mut jet = Dual::along_way(value, by_way);
+            let mut jet = Dual::path_dual(value, by_way);
             jet.add_slope(at, 1.0);
             jet
         };

@@ -11,7 +11,7 @@ impl SlidingLaw for HeldSlider {
     fn equations(&self, contact: &Contact<'_>) -> [Equation; CONTACT_UNKNOWNS] {
         let [gap_x, gap_y] = contact.closed_on_kink(jump_at_end(contact), 2.0);
         let [couple_x, couple_y] = contact.no_couple();
-        [gap_x, gap_y, couple_x, couple_y, contact.no_way()]
+        [gap_x, gap_y, couple_x, couple_y, contact.no_increment()]
     }
 
     fn kink_at_end(&self, contact: &Contact<'_>) -> KinkState {

@@ -36,9 +36,9 @@ impl<const SLOPES: usize> KinkOnPath<SLOPES> {
         let (along, arc) = (&kink.along, &kink.motion.arc);
         let offset_before = DualVector::constant(kink.before * (along.start * kink.compliance));
         Self {
-            length: Dual::along_way(along.end, along.slope),
-            difference: Dual::along_way(along.difference, along.change),
-            stretch: Dual::along_way(arc.difference, arc.change),
+            length: Dual::path_dual(along.end, along.slope),
+            difference: Dual::path_dual(along.difference, along.change),
+            stretch: Dual::path_dual(arc.difference, arc.change),
             over_square: jets.tangent.dot(&jets.tangent).inverse(),
             offset_before,
             arm: jets.swing * jets.way + (offset_before + jets.offset) * 0.5,

@@ -10,6 +10,6 @@ impl SlidingLaw for Released {
     fn equations(&self, contact: &Contact<'_>) -> [Equation; CONTACT_UNKNOWNS] {
         let [force_x, force_y] = contact.no_force();
         let [couple_x, couple_y] = contact.no_couple();
-        [force_x, force_y, couple_x, couple_y, contact.no_way()]
+        [force_x, force_y, couple_x, couple_y, contact.no_increment()]
     }
 }

@@ -34,7 +34,7 @@ impl SlidingLaw for AtStop {
     fn equations(&self, contact: &Contact<'_>) -> [Equation; CONTACT_UNKNOWNS] {
         let [gap_x, gap_y] = contact.closed_on_kink(contact.unknowns.force, 1.0);
         let [couple_x, couple_y] = contact.no_couple();
-        let mut arrived = contact.no_way();
+        let mut arrived = contact.no_increment();
         arrived.value -= contact.length * self.way;
         [gap_x, gap_y, couple_x, couple_y, arrived]
     }

@@ -19,19 +19,19 @@ impl Schedule {
 
     /// Clock of a digital controller, if the schedule is one. Steps should end at its samples and actions. Controllers are never combined with other
     /// schedules.
-    pub fn beat(&self) -> Option<SampleClock> {
+    pub fn sample_clock(&self) -> Option<SampleClock> {
         if let Self::Clocked { beat, .. } = self { Some(*beat) } else { None }
     }
 
     /// Returns true if a time is a declared break.
-    pub fn may_bend_at(&self, time: f64) -> bool {
+    pub fn is_break(&self, time: f64) -> bool {
         match self {
             Self::Constant(_) | Self::Sine { .. } | Self::Sampled(_) => false,
-            Self::Clocked { beat, .. } => beat.acts_at(time),
+            Self::Clocked { beat, .. } => beat.is_active_at(time),
             Self::Table(rows) => rows.iter().any(|(bend, _)| *bend == time),
             Self::SmoothPulse { duration } => time == 0.0 || time == *duration,
             Self::Function { breaks, .. } => breaks.contains(&time),
-            Self::Combined { parts, .. } => parts.0.may_bend_at(time) || parts.1.may_bend_at(time),
+            Self::Combined { parts, .. } => parts.0.is_break(time) || parts.1.is_break(time),
         }
     }
 
@@ -41,7 +41,7 @@ impl Schedule {
             Self::Constant(_) | Self::Sine { .. } | Self::SmoothPulse { .. } | Self::Sampled(_) => {
                 false
             }
-            Self::Clocked { beat, .. } => beat.acts_at(time),
+            Self::Clocked { beat, .. } => beat.is_active_at(time),
             Self::Table(rows) => rows.windows(2).any(|pair| pair[0].0 == time && pair[1].0 == time),
             Self::Function { breaks, .. } => breaks.contains(&time),
             Self::Combined { parts, .. } => parts.0.may_jump_at(time) || parts.1.may_jump_at(time),

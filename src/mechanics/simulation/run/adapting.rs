@@ -41,7 +41,7 @@ impl Simulation {
             controller.restart(&mut pace);
         }
         loop {
-            let (plan, tried) = match self.end_step_half_way(adaptive) {
+            let (plan, tried) = match self.finish_paused_step(adaptive) {
                 Some(ended) => ended,
                 None => {
                     let now = self.time();
@@ -49,9 +49,9 @@ impl Simulation {
                     let tried = self.try_step(adaptive, &plan);
                     match (tried, &mut adaptive.resampling) {
                         (Ok(doubled), Some(resampling)) if doubled.trial.error <= 1.0 => {
-                            resampling.wait_half_way(&mut self.model, plan, doubled);
+                            resampling.pause_at_middle(&mut self.model, plan, doubled);
                             self.clock.pace = Some(pace);
-                            self.ask(monitor)?;
+                            self.query_monitor(monitor)?;
                             continue;
                         }
                         (tried, _) => (plan, tried),
@@ -69,11 +69,11 @@ impl Simulation {
                     }
                     self.clock.pace = Some(pace);
                     self.count_step(interval, report, tries);
-                    self.keep_present();
-                    return self.ask(monitor);
+                    self.store_present();
+                    return self.query_monitor(monitor);
                 }
                 Ok(DoubledStep { report, trial, .. }) => {
-                    adaptive.doubling.take_back(&mut self.model);
+                    adaptive.doubling.restore_start(&mut self.model);
                     self.progress.count_rejection(report.iterations);
                     controller.reject(&mut pace, trial);
                     if is_least {
@@ -94,7 +94,7 @@ impl Simulation {
                     let half = StepRetry::new(Interval::between(start, start + 0.5 * dt));
                     return self.cover_uncompared(half, controller.first, monitor);
                 }
-                Err(FailedStep { source, .. }) if !source.may_be_cured_by_a_smaller_step() => {
+                Err(FailedStep { source, .. }) if !source.is_step_size_dependent() => {
                     return Err(SimulationError::Load { source });
                 }
                 Err(FailedStep { source, before }) => {
@@ -114,7 +114,7 @@ impl Simulation {
                 }
             }
             self.clock.pace = Some(pace);
-            self.ask(monitor)?;
+            self.query_monitor(monitor)?;
         }
     }
 
@@ -124,7 +124,7 @@ impl Simulation {
         adaptive: &mut Adaptive,
         plan: &StepPlan,
     ) -> Result<DoubledStep, FailedStep> {
-        self.model.let_kinks_follow();
+        self.model.unfreeze_kinks();
         match self.try_step_as_it_is(adaptive, plan) {
             Err(FailedStep { source, before }) if self.keeps_kinks_for(&source) => {
                 self.progress.count_failure(before + source.factorisations());
@@ -146,30 +146,30 @@ impl Simulation {
         Ok(if plan.is_least { doubled.judged_by_places() } else { doubled })
     }
 
-    fn end_step_half_way(
+    fn finish_paused_step(
         &mut self,
         adaptive: &mut Adaptive,
     ) -> Option<(StepPlan, Result<DoubledStep, FailedStep>)> {
         let Adaptive { doubling, resampling, controller, .. } = adaptive;
         let order = controller.order;
-        resampling.as_mut()?.go_on(doubling, &mut *self.stepper.integrator, &mut self.model, order)
+        resampling.as_mut()?.resume(doubling, &mut *self.stepper.integrator, &mut self.model, order)
     }
 
     /// Returns true if a step is paused in its middle to sample controllers. A stopped run may continue or [restore the start of the
     /// step](Self::go_back_to_start_of_step).
-    pub fn is_half_way(&self) -> bool {
+    pub fn is_paused_in_step(&self) -> bool {
         let adaptive = self.adaptive.as_ref();
         adaptive
             .and_then(|adaptive| adaptive.resampling.as_ref())
-            .is_some_and(Resampling::is_half_way)
+            .is_some_and(Resampling::is_paused)
     }
 
     /// Restores the start of a paused step, if there is one.
-    pub fn go_back_to_start_of_step(&mut self) {
+    pub fn restore_step_start(&mut self) {
         if let Some(adaptive) = &mut self.adaptive
             && adaptive.resampling.as_mut().is_some_and(Resampling::abandon)
         {
-            adaptive.doubling.take_back(&mut self.model);
+            adaptive.doubling.restore_start(&mut self.model);
         }
     }
 
@@ -182,7 +182,7 @@ impl Simulation {
     ) -> Result<(), SimulationError> {
         let has_rattled = self.progress.arrivals.iter().nth_back(MOST_ARRIVALS - 1);
         if has_rattled.is_some_and(|arrival| arrival.time > self.time() - first) {
-            return Err(self.rattles());
+            return Err(self.too_many_arrivals());
         }
         self.cover(halving, monitor).map(|_| ())
     }

@@ -11,7 +11,7 @@ use crate::system::SystemState;
 impl Simulation {
     /// Keeps snapshots after every step within a memory limit in bytes. When the limit is exceeded, the oldest snapshots except the first are
     /// discarded. Zero disables snapshots. A reduced limit applies immediately.
-    pub fn keep_snapshots(&mut self, limit: usize) {
+    pub fn enable_snapshots(&mut self, limit: usize) {
         let mut snapshots = std::mem::take(&mut self.snapshots);
         snapshots.set_limit(limit, || self.snapshot(self.model.state()));
         self.snapshots = snapshots;
@@ -23,7 +23,7 @@ impl Simulation {
     }
 
     /// Number of snapshots and their memory [bytes].
-    pub fn snapshots_kept(&self) -> (usize, usize) {
+    pub fn stored_snapshots(&self) -> (usize, usize) {
         (self.snapshots.count(), self.snapshots.bytes())
     }
 
@@ -34,7 +34,7 @@ impl Simulation {
     pub fn back(&mut self, steps: usize) -> Result<(), SimulationError> {
         let taken = self.progress.counts.steps;
         match taken.checked_sub(steps) {
-            Some(rest) => self.go_back_to(rest),
+            Some(rest) => self.restore_step(rest),
             None => Err(SimulationError::FewerSteps { steps, taken }),
         }
     }
@@ -55,12 +55,12 @@ impl Simulation {
             return Ok(());
         }
         match self.steps_until(time + slack) {
-            Some(steps) => self.go_back_to(steps),
+            Some(steps) => self.restore_step(steps),
             None => {
                 let first = self.snapshots.first();
                 let is_earlier = first.is_some_and(|first| time < first.time);
                 let steps = if is_earlier { 0 } else { self.progress.counts.steps };
-                Err(self.forgotten(format!("t = {time}"), steps))
+                Err(self.missing_snapshot_error(format!("t = {time}"), steps))
             }
         }
     }
@@ -75,30 +75,30 @@ impl Simulation {
     }
 
     /// Rewinds a dry run by a number of steps, as [`back`](Self::back) does.
-    pub fn pretend_back(&mut self, steps: usize) {
-        self.pretend_back_to(self.progress.counts.steps.saturating_sub(steps));
+    pub fn dry_run_back(&mut self, steps: usize) {
+        self.dry_run_back_to(self.progress.counts.steps.saturating_sub(steps));
     }
 
     /// Rewinds a dry run to a time, as [`rewind`](Self::rewind) does.
-    pub fn pretend_rewind(&mut self, time: f64) {
-        self.pretend_back_to(self.steps_until(time + self.slack()).unwrap_or(0));
+    pub fn dry_run_rewind(&mut self, time: f64) {
+        self.dry_run_back_to(self.steps_until(time + self.slack()).unwrap_or(0));
     }
 
-    fn pretend_back_to(&mut self, steps: usize) {
+    fn dry_run_back_to(&mut self, steps: usize) {
         let Some(first) = self.snapshots.first().map(Snapshot::steps) else { return };
-        if self.go_back_to(steps.max(first)).is_err() {
+        if self.restore_step(steps.max(first)).is_err() {
             // The first snapshot is always kept.
-            let _: Result<(), SimulationError> = self.go_back_to(first);
+            let _: Result<(), SimulationError> = self.restore_step(first);
         }
     }
 
-    fn go_back_to(&mut self, steps: usize) -> Result<(), SimulationError> {
+    fn restore_step(&mut self, steps: usize) -> Result<(), SimulationError> {
         let back = self.progress.counts.steps - steps;
         if back == 0 {
             return Ok(());
         }
         let snapshots = std::mem::take(&mut self.snapshots);
-        let found = snapshots.find(steps).map(|snapshot| self.stand_at(snapshot));
+        let found = snapshots.find(steps).map(|snapshot| self.restore_snapshot(snapshot));
         self.snapshots = snapshots;
         let Some(stood) = found else {
             let target = match self.has_all_rows() {
@@ -108,7 +108,7 @@ impl Simulation {
                 ),
                 false => format!("the state {back} steps ago"),
             };
-            return Err(self.forgotten(target, steps));
+            return Err(self.missing_snapshot_error(target, steps));
         };
         stood?;
         self.snapshots.truncate(steps);
@@ -120,13 +120,13 @@ impl Simulation {
     ///
     /// # Errors
     /// Fails if the scene cannot be built, which succeeded before.
-    pub(super) fn stand_at(&mut self, snapshot: &Snapshot) -> Result<(), SimulationError> {
-        self.leave_derivatives("going back");
-        self.stand_released(&snapshot.let_go)?;
+    pub(super) fn restore_snapshot(&mut self, snapshot: &Snapshot) -> Result<(), SimulationError> {
+        self.end_derivatives("going back");
+        self.restore_releases(&snapshot.let_go)?;
         self.model.restore(&snapshot.state);
-        self.clock.grid.go_back(snapshot.passed);
+        self.clock.grid.restore(snapshot.passed);
         self.progress.last_step = snapshot.last_step;
-        self.record.go_back(snapshot.rows);
+        self.record.truncate(snapshot.rows);
         self.progress.arrivals.truncate(snapshot.arrivals);
         self.progress.counts = WorkCounts { wall: self.progress.counts.wall, ..snapshot.counts };
         self.clock.under_way = snapshot.under_way;
@@ -135,7 +135,7 @@ impl Simulation {
     }
 
     /// Error for a state that is not stored, with the fewest steps that may lead to it.
-    fn forgotten(&self, target: String, steps: usize) -> SimulationError {
+    fn missing_snapshot_error(&self, target: String, steps: usize) -> SimulationError {
         let now = self.progress.counts.steps;
         let kept = self.snapshots.first().zip(self.snapshots.unbroken_from(now));
         let time = |steps: usize| self.snapshots.find(steps).map_or(self.time(), |of| of.time);
@@ -155,9 +155,9 @@ impl Simulation {
     }
 
     /// Stores a snapshot of the present if enabled.
-    pub(super) fn remember(&mut self) {
+    pub(super) fn store_snapshot(&mut self) {
         let Some(blank) = self.snapshots.blank() else { return };
-        self.clock.grid.reach(self.time());
+        self.clock.grid.mark_reached(self.time());
         let snapshot = self.snapshot(blank);
         self.snapshots.push(snapshot);
     }
@@ -194,7 +194,7 @@ impl Simulation {
     /// Fails if the scene cannot be built, which succeeded before.
     pub(super) fn fork_without_snapshots(&self) -> Result<Self, SimulationError> {
         let mut fork = Self::start(self.scene.clone(), self.settings)?;
-        fork.stand_released(&self.progress.let_go)?;
+        fork.restore_releases(&self.progress.let_go)?;
         fork.model.restore(&self.model.state());
         fork.clock = StepClock { goal: f64::INFINITY, ..self.clock.clone() };
         fork.progress = self.progress.clone();

@@ -64,7 +64,7 @@ impl Simulation {
         }
         let waiting = (0..self.scene.releases.len()).find(|at| self.waits_for_release(*at));
         if let Some(release) = waiting {
-            let name = self.scene.name_of_hold(self.scene.releases[release].hold);
+            let name = self.scene.releasable_name(self.scene.releases[release].hold);
             return Err(ArchiveError::Release { name });
         }
         let content = Content {
@@ -80,7 +80,7 @@ impl Simulation {
             times: self.record.trajectory.times().into(),
             numbers: self.record.trajectory.numbers().into(),
             arrivals: self.progress.arrivals.as_slice().into(),
-            let_go: self.let_go().into(),
+            let_go: self.releases().into(),
             counts: self.progress.counts,
             cuts: self.clock.grid.cuts().into(),
             under_way: self.clock.under_way.map(StepRetry::to_parts),
@@ -160,7 +160,7 @@ impl Content<'_> {
 
     fn into_simulation(self) -> Result<(String, Simulation), ArchiveError> {
         let mut simulation = Simulation::start(self.scene.into_owned(), self.settings)?;
-        simulation.stand_released(&Rc::from(&*self.let_go))?;
+        simulation.restore_releases(&Rc::from(&*self.let_go))?;
         let restored = simulation.model.restore_checked(&self.state);
         restored.map_err(|error| refused(&error.to_string()))?;
         let now = simulation.time();

@@ -34,42 +34,46 @@ impl Simulation {
     ///
     /// # Errors
     /// Fails if there are no derivatives.
-    pub fn beside(&self, parameter: usize, side: PerturbedSide) -> Result<&Self, DerivativeError> {
+    pub fn perturbed(
+        &self,
+        parameter: usize,
+        side: PerturbedSide,
+    ) -> Result<&Self, DerivativeError> {
         let known = self.stepper.sensitivities.as_ref().ok_or(DerivativeError::None)?;
-        known.beside(parameter, side)
+        known.perturbed(parameter, side)
     }
 
     /// Mutable access to a perturbed run, for queries that need it.
     ///
     /// # Errors
     /// Fails if there are no derivatives.
-    pub fn beside_mut(
+    pub fn perturbed_mut(
         &mut self,
         parameter: usize,
         side: PerturbedSide,
     ) -> Result<&mut Self, DerivativeError> {
         let known = self.stepper.sensitivities.as_mut().ok_or(DerivativeError::None)?;
-        known.beside_mut(parameter, side)
+        known.perturbed_mut(parameter, side)
     }
 
     /// History of a perturbed run between two times, also if derivatives ended later.
     ///
     /// # Errors
     /// Fails if some of these rows have no derivatives.
-    pub fn history_beside(
+    pub fn perturbed_history(
         &self,
         parameter: usize,
         side: PerturbedSide,
         (from, to): (f64, f64),
     ) -> Result<History, DerivativeError> {
         let known = self.stepper.sensitivities.as_ref().ok_or(DerivativeError::None)?;
-        let beside = known.beside_so_far(parameter, side)?.history().between(from, to);
+        let beside = known.perturbed_with_history(parameter, side)?.history().between(from, to);
         let times = |of: &History| -> Vec<f64> {
             of.samples().iter().map(|row| row.measures.time).collect()
         };
         match times(&beside) == times(&self.history().between(from, to)) {
             true => Ok(beside),
-            false => Err(known.beside(parameter, side).err().unwrap_or(DerivativeError::None)),
+            false => Err(known.perturbed(parameter, side).err().unwrap_or(DerivativeError::None)),
         }
     }
 
@@ -83,7 +87,7 @@ impl Simulation {
         number: impl Fn(&Self) -> f64,
     ) -> Result<f64, DerivativeError> {
         let [plus, minus] =
-            [PerturbedSide::Plus, PerturbedSide::Minus].map(|side| self.beside(parameter, side));
+            [PerturbedSide::Plus, PerturbedSide::Minus].map(|side| self.perturbed(parameter, side));
         let distance = self.parameters().nth(parameter).map_or(f64::NAN, |(_, distance)| distance);
         Ok((number(plus?) - number(minus?)) / (2.0 * distance))
     }
@@ -98,16 +102,16 @@ impl Simulation {
     }
 
     /// Ends the derivatives at an event that they cannot pass.
-    pub(super) fn lose_derivatives(&mut self, event: &'static str) {
+    pub(super) fn disable_derivatives(&mut self, event: &'static str) {
         let time = self.time();
         if let Some(sensitivities) = &mut self.stepper.sensitivities {
-            sensitivities.lose(DerivativeError::Event { time, event });
+            sensitivities.disable(DerivativeError::Event { time, event });
         }
     }
 
-    pub(super) fn leave_derivatives(&mut self, way: &'static str) {
+    pub(super) fn end_derivatives(&mut self, way: &'static str) {
         if let Some(sensitivities) = &mut self.stepper.sensitivities {
-            sensitivities.lose(DerivativeError::Way { way });
+            sensitivities.disable(DerivativeError::Way { way });
         }
     }
 }

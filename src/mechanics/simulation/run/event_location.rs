@@ -81,12 +81,12 @@ impl TimeBracket {
         self.last = Some(side);
     }
 
-    fn is_closed(&self) -> bool {
+    fn is_converged(&self) -> bool {
         self.after.0 - self.before.0 <= 4.0 * f64::EPSILON * self.after.0
     }
 
     /// Next duration to try: false position with a halved weight of a retained end (Illinois; Dowell & Jarratt 1971).
-    fn guess(&self) -> f64 {
+    fn next_duration(&self) -> f64 {
         let ((t0, f0), (t1, f1)) = (self.before, self.after);
         let t = t1 - f1 * (t1 - t0) / (f1 - f0);
         // Rounding may give an end.
@@ -96,13 +96,13 @@ impl TimeBracket {
 
 impl Simulation {
     /// Takes a step that ends at the arrival of the slider that overshoots in the whole interval.
-    pub(super) fn land(
+    pub(super) fn locate_arrival(
         &mut self,
         interval: Interval,
         overshoot: Overshoot,
     ) -> Result<EventStep, StepError> {
         let landing = self.search(interval, overshoot);
-        self.model.aim_at(None);
+        self.model.set_target_limit(None);
         landing
     }
 
@@ -115,14 +115,14 @@ impl Simulation {
             if let SliderState::Held(_) = self.model.slider_state(limit.slider) {
                 return Ok(EventStep { step: None, event: Event::Leaves });
             }
-            self.model.aim_at(Some(limit));
-            let mut bracket = match self.prospect(cut, limit, overshoot.distance)? {
+            self.model.set_target_limit(Some(limit));
+            let mut bracket = match self.bracket_arrival(cut, limit, overshoot.distance)? {
                 ArrivalEstimate::Between(bracket) => bracket,
                 ArrivalEstimate::Landed(landing) => return Ok(landing),
             };
             loop {
-                if bracket.is_closed() {
-                    self.model.aim_at(None);
+                if bracket.is_converged() {
+                    self.model.set_target_limit(None);
                     let short = Interval::lasting(interval.start, bracket.before.0);
                     let report = self.stepper.integrator.step(&mut self.model, short)?;
                     return Ok(EventStep { step: Some((short, report)), event: Event::JustBefore });
@@ -130,7 +130,7 @@ impl Simulation {
                 if tries.next().is_none() {
                     return Err(StepError::Overshoot { interval, overshoot: first, iterations: 0 });
                 }
-                let duration = bracket.guess();
+                let duration = bracket.next_duration();
                 cut = Interval::lasting(interval.start, duration);
                 overshoot = match self.attempt(cut)? {
                     Ok(report) => {
@@ -148,7 +148,7 @@ impl Simulation {
     }
 
     /// Searches for a step that ends before the arrival, given one that ends after it.
-    fn prospect(
+    fn bracket_arrival(
         &mut self,
         interval: Interval,
         limit: MasterLimit,
@@ -158,7 +158,7 @@ impl Simulation {
         let left = self.model.distance_to(limit);
         let at_once = EventStep { step: None, event: Event::Reaches(limit) };
         let is_near = self.model.leads_beyond(limit) && left <= NEAR;
-        if is_near && (!self.model.is_at(limit) || self.strikes(limit)) {
+        if is_near && (!self.model.is_at(limit) || self.has_impact(limit)) {
             return Ok(ArrivalEstimate::Landed(at_once));
         }
         if !self.model.is_at(limit) {
@@ -205,32 +205,32 @@ impl Simulation {
     }
 
     /// Returns true if a slider at a limit has an event other than being held: in the motion resolved by the steps it strikes.
-    fn strikes(&mut self, limit: MasterLimit) -> bool {
+    fn has_impact(&mut self, limit: MasterLimit) -> bool {
         let dt = self.dt();
         !self.model.end_action(limit.slider).has_stop()
-            || self.model.goes_on(limit)
+            || self.model.continues_beyond(limit)
             || self.model.approaches(limit, dt).unwrap_or(true)
     }
 
     /// Executes the events of all simultaneous arrivals: the run stops, or sliders bounce, are held, or are released.
-    pub(super) fn arrive(&mut self, landing: &EventStep) -> Result<(), SimulationError> {
+    pub(super) fn execute_arrivals(&mut self, landing: &EventStep) -> Result<(), SimulationError> {
         let limit = match landing.event {
             Event::Reaches(limit) => limit,
             Event::JustBefore => return Ok(()),
-            Event::Leaves => return Ok(self.model.leave_stops()?),
+            Event::Leaves => return Ok(self.model.leave_tensile_stops()?),
         };
         let dt = self.dt();
         let mut arriving = Arriving::default();
         let mut arrivals = Vec::new();
-        for limit in self.model.arriving_with(limit) {
+        for limit in self.model.simultaneous_arrivals(limit) {
             let strikes = self.model.leads_beyond(limit);
             let kind = match self.model.end_action(limit.slider) {
-                _ if self.model.goes_on(limit) => {
+                _ if self.model.continues_beyond(limit) => {
                     // The slider only touched the seam, or its velocity reversed just there.
                     if landing.step.is_some() && !strikes {
                         continue;
                     }
-                    let (group, kind) = match self.stays_at_seam(limit, landing, dt) {
+                    let (group, kind) = match self.is_held_at_seam(limit, landing, dt) {
                         true => (&mut arriving.lean, ArrivalKind::Rested),
                         false => (&mut arriving.pass, ArrivalKind::Passed),
                     };
@@ -239,12 +239,12 @@ impl Simulation {
                 }
                 EndAction::Stop => ArrivalKind::Stopped,
                 EndAction::Release => {
-                    self.model.release(limit.slider);
+                    self.model.release_slider(limit.slider);
                     ArrivalKind::Released
                 }
                 // The slider only touched the stop, or its velocity reversed just there.
                 _ if landing.step.is_some() && !strikes => ArrivalKind::Bounced,
-                _ if self.leans(limit, landing, dt)? => {
+                _ if self.stays_held(limit, landing, dt)? => {
                     arriving.lean.push(limit);
                     ArrivalKind::Rested
                 }
@@ -260,7 +260,7 @@ impl Simulation {
             arrivals.push(self.arrival(limit, kind));
         }
         if !arriving.is_empty() {
-            self.model.meet(&arriving, dt)?;
+            self.model.solve_impact(&arriving, dt)?;
             for arrival in &mut arrivals {
                 arrival.impulse = self.model.impulse_of(arrival.limit.slider);
             }
@@ -273,23 +273,23 @@ impl Simulation {
 
     /// Returns true if a slider at a limit stays at its stop instead of bouncing: repeated impacts within few steps, an elastic contact that the
     /// next steps resolve, or steps that pass the limit although the slider does not approach it.
-    fn leans(
+    fn stays_held(
         &mut self,
         limit: MasterLimit,
         landing: &EventStep,
         dt: f64,
     ) -> Result<bool, SimulationError> {
         let is_contact = self.model.end_action(limit.slider) == EndAction::Contact;
-        if self.chatters(limit, dt) || (is_contact && self.model.resolves_blow(limit, dt)?) {
+        if self.chatters(limit, dt) || (is_contact && self.model.resolves_impact(limit, dt)?) {
             return Ok(true);
         }
         Ok(landing.step.is_none() && !self.model.approaches(limit, dt)?)
     }
 
     /// Returns true if a slider at a seam becomes held instead of passing: both sides lead it back at once, or it oscillates within few steps.
-    fn stays_at_seam(&self, limit: MasterLimit, landing: &EventStep, dt: f64) -> bool {
-        let is_led_back = landing.step.is_none() && self.model.came_to_seam_now(limit.slider);
-        is_led_back || self.passes_to_and_fro(limit, dt)
+    fn is_held_at_seam(&self, limit: MasterLimit, landing: &EventStep, dt: f64) -> bool {
+        let is_led_back = landing.step.is_none() && self.model.is_at_seam_event(limit.slider);
+        is_led_back || self.oscillates_at_seam(limit, dt)
     }
 
     /// Time in which repeated impacts or oscillations are not resolved by steps of a length [time]. Variable steps grow with the flights, so for them
@@ -303,7 +303,7 @@ impl Simulation {
     }
 
     /// Returns true if a slider has passed the same seam back and forth so often within as many steps that the motion in between is not resolved.
-    fn passes_to_and_fro(&self, limit: MasterLimit, dt: f64) -> bool {
+    fn oscillates_at_seam(&self, limit: MasterLimit, dt: f64) -> bool {
         let since = self.time() - self.unresolved(dt);
         let own = self.progress.arrivals.iter().rev();
         let own = own.filter(|arrival| arrival.limit.slider == limit.slider);
@@ -333,11 +333,11 @@ impl Simulation {
     }
 
     /// Records arrivals of all sliders at the ends of their masters in a dry run, because scripts may wait for them.
-    pub(super) fn pretend_arrivals(&mut self) {
+    pub(super) fn dry_run_arrivals(&mut self) {
         let arrival = |slider: usize| {
             let limit = MasterLimit { slider, end: MasterEnd::End };
             let kind = match self.model.end_action(slider) {
-                _ if self.scene.goes_round(slider) => ArrivalKind::Passed,
+                _ if self.scene.is_on_closed_track(slider) => ArrivalKind::Passed,
                 EndAction::Stop => ArrivalKind::Stopped,
                 EndAction::Bounce | EndAction::Contact => ArrivalKind::Bounced,
                 EndAction::Release => ArrivalKind::Released,

@@ -11,7 +11,7 @@ impl Simulation {
         let method = self.settings().method;
         let mut parts = self.model().explain(self.scene(), &[method]);
         let entry = method.entry();
-        let kept = match entry.claims.kept().collect::<Vec<_>>().join(", ") {
+        let kept = match entry.claims.conserved_quantities().collect::<Vec<_>>().join(", ") {
             none if none.is_empty() => "nothing exactly".to_owned(),
             kept => kept,
         };
@@ -35,7 +35,7 @@ impl Simulation {
             self.record.recording.describe()
         );
         match self.record.recording {
-            Recording::Nothing => SystemFeature::left_out(
+            Recording::Nothing => SystemFeature::omitted(
                 "recording",
                 "only the ends of a run; energies are computed on request",
             ),
@@ -44,9 +44,9 @@ impl Simulation {
     }
 
     fn explain_snapshots(&self) -> SystemFeature {
-        let (kept, bytes) = self.snapshots_kept();
+        let (kept, bytes) = self.stored_snapshots();
         match self.snapshot_limit() {
-            0 => SystemFeature::left_out("snapshots", "no stored states, and no stepping back"),
+            0 => SystemFeature::omitted("snapshots", "no stored states, and no stepping back"),
             limit => {
                 let (used, most) = (bytes as f64 / 1e6, limit as f64 / 1e6);
                 let how = format!("{kept} snapshots in {used:.1} of {most} MB; one per step");
@@ -60,7 +60,7 @@ impl Simulation {
         let WorkCounts { rejected, retries, .. } = self.counts();
         match &self.adaptive {
             None => {
-                SystemFeature::left_out("error control", "fixed step size; failed steps are halved")
+                SystemFeature::omitted("error control", "fixed step size; failed steps are halved")
             }
             Some(adaptive) => {
                 let StepController { first, smallest, .. } = adaptive.controller;

@@ -28,27 +28,27 @@ impl Simulation {
     }
 
     pub(in crate::simulation) fn keep_row(&mut self) {
-        self.record.keep_row(&mut self.model, self.progress.last_step);
+        self.record.store_row(&mut self.model, self.progress.last_step);
         if let Some(sensitivities) = &mut self.stepper.sensitivities {
-            sensitivities.keep_row();
+            sensitivities.store_row();
         }
     }
 
-    pub(super) fn keep_present(&mut self) {
+    pub(super) fn store_present(&mut self) {
         if self.is_worth_a_row() {
             self.keep_row();
         }
-        self.remember();
+        self.store_snapshot();
     }
 
     /// Adds a temporary row for the present state, unless it has one or a step is paused in its middle.
     pub(in crate::simulation) fn show_present(&mut self) {
-        if self.is_half_way() {
+        if self.is_paused_in_step() {
             return;
         }
-        self.record.show_present(&mut self.model, self.progress.last_step);
+        self.record.append_present(&mut self.model, self.progress.last_step);
         if let Some(sensitivities) = &mut self.stepper.sensitivities {
-            sensitivities.show_present();
+            sensitivities.append_present();
         }
     }
 }

@@ -11,7 +11,7 @@ use crate::simulation::{ReleaseEvent, SimulationError};
 
 impl Simulation {
     /// Releases so far, in their order.
-    pub fn let_go(&self) -> &[ReleaseEvent] {
+    pub fn releases(&self) -> &[ReleaseEvent] {
         &self.progress.let_go
     }
 
@@ -19,11 +19,11 @@ impl Simulation {
     pub fn waits_for_release(&self, release: usize) -> bool {
         let described = self.scene.releases.get(release);
         described.is_some_and(|described| described.trigger == Trigger::Outside)
-            && !self.has_let_go(release)
+            && !self.is_released(release)
     }
 
-    fn has_let_go(&self, release: usize) -> bool {
-        self.let_go().iter().any(|gone| gone.release == release)
+    fn is_released(&self, release: usize) -> bool {
+        self.releases().iter().any(|gone| gone.release == release)
     }
 
     /// Executes a release of the scene at the present time, once.
@@ -34,15 +34,15 @@ impl Simulation {
         let Some(Release { hold, .. }) = self.scene.releases.get(release).copied() else {
             return Ok(());
         };
-        if self.has_let_go(release) {
+        if self.is_released(release) {
             return Ok(());
         }
-        self.lose_derivatives("a joint, spring or support is released");
-        let before = self.holds_released(&self.progress.let_go);
-        self.model.let_go(&self.scene, &before, hold)?;
+        self.disable_derivatives("a joint, spring or support is released");
+        let before = self.released_objects(&self.progress.let_go);
+        self.model.release(&self.scene, &before, hold)?;
         let gone = ReleaseEvent { release, time: self.time() };
-        self.progress.let_go = self.let_go().iter().copied().chain([gone]).collect();
-        self.take_up_model()?;
+        self.progress.let_go = self.releases().iter().copied().chain([gone]).collect();
+        self.adapt_to_model()?;
         if let (Some(adaptive), Some(pace)) = (&self.adaptive, &mut self.clock.pace) {
             adaptive.controller.restart(pace);
         }
@@ -50,7 +50,7 @@ impl Simulation {
     }
 
     /// Executes the releases due at the present time, before the next step.
-    pub(super) fn let_go_due(&mut self) -> Result<(), SimulationError> {
+    pub(super) fn execute_due_releases(&mut self) -> Result<(), SimulationError> {
         for release in 0..self.scene.releases.len() {
             if let Trigger::Time(time) = self.scene.releases[release].trigger
                 && self.has_reached(time)
@@ -62,31 +62,31 @@ impl Simulation {
     }
 
     /// Marks the given objects released, before a state is restored.
-    pub(super) fn stand_released(
+    pub(super) fn restore_releases(
         &mut self,
         let_go: &Rc<[ReleaseEvent]>,
     ) -> Result<(), SimulationError> {
         if self.progress.let_go == *let_go {
             return Ok(());
         }
-        self.model.stand_released(&self.scene, &self.holds_released(let_go))?;
+        self.model.restore_releases(&self.scene, &self.released_objects(let_go))?;
         self.progress.let_go = Rc::clone(let_go);
-        self.take_up_model()
+        self.adapt_to_model()
     }
 
-    fn holds_released(&self, let_go: &[ReleaseEvent]) -> Vec<Releasable> {
+    fn released_objects(&self, let_go: &[ReleaseEvent]) -> Vec<Releasable> {
         let_go.iter().map(|gone| self.scene.releases[gone.release].hold).collect()
     }
 
     /// Adapts the work space of the method and the sensors to the renumbered model.
-    fn take_up_model(&mut self) -> Result<(), SimulationError> {
+    fn adapt_to_model(&mut self) -> Result<(), SimulationError> {
         let Self { settings, model, record, scene, stepper, .. } = self;
         stepper.integrator = settings.method.build(model, settings.tolerance);
-        Ok(record.look_again(scene, model)?)
+        Ok(record.relocate_sensors(scene, model)?)
     }
 
     /// Executes all pending triggered releases in a dry run, because scripts may wait for them.
-    pub(super) fn pretend_releases(&mut self) -> Result<(), SimulationError> {
+    pub(super) fn dry_run_releases(&mut self) -> Result<(), SimulationError> {
         for release in 0..self.scene.releases.len() {
             if self.waits_for_release(release) {
                 self.release(release)?;

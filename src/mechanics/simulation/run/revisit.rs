@@ -10,14 +10,14 @@ struct PauseTime<'m> {
 }
 
 impl Monitor for PauseTime<'_> {
-    fn goes_on(&mut self, time: f64) -> bool {
-        self.monitor.goes_on(time) && time < self.time
+    fn continues(&mut self, time: f64) -> bool {
+        self.monitor.continues(time) && time < self.time
     }
 }
 
 impl Simulation {
     /// Steps and times of the contiguous stored states up to the present, inclusive.
-    pub fn states_kept(&self) -> Vec<(usize, f64)> {
+    pub fn stored_states(&self) -> Vec<(usize, f64)> {
         let steps = self.progress.counts.steps;
         let from = self.snapshots.unbroken_from(steps).unwrap_or(steps);
         let kept = self.snapshots.places().filter(|(place, _)| (from..steps).contains(place));
@@ -34,7 +34,7 @@ impl Simulation {
         }
         let found = of.snapshots.find(steps).filter(|_| steps < self.progress.counts.steps);
         let Some(snapshot) = found else { return Ok(false) };
-        self.stand_at(snapshot)?;
+        self.restore_snapshot(snapshot)?;
         self.show_present();
         Ok(true)
     }
@@ -54,10 +54,10 @@ impl Simulation {
     pub fn copy_at_start(&self) -> Result<Self, SimulationError> {
         let mut copy = self.fork_without_snapshots()?;
         match self.snapshots.find(0) {
-            Some(first) => copy.stand_at(first)?,
+            Some(first) => copy.restore_snapshot(first)?,
             None => {
                 let start = Self::start(self.scene.clone(), self.settings)?;
-                copy.stand_at(&start.snapshot(start.model.state()))?;
+                copy.restore_snapshot(&start.snapshot(start.model.state()))?;
             }
         }
         copy.show_present();

@@ -29,11 +29,11 @@ impl Simulation {
             }
             halving = StepRetry::new(Interval::between(self.time(), end));
         }
-        Err(self.rattles())
+        Err(self.too_many_arrivals())
     }
 
     /// Error of a slider with too many arrivals in one step.
-    pub(super) fn rattles(&self) -> SimulationError {
+    pub(super) fn too_many_arrivals(&self) -> SimulationError {
         let arrival = self.progress.arrivals.last().map_or_else(
             || format!("a slider is about to reach an end of its beam after t = {}", self.time()),
             |last| self.describe(last),
@@ -48,25 +48,27 @@ impl Simulation {
     ) -> Result<IntervalProgress, SimulationError> {
         while !halving.is_done() {
             let interval = halving.next();
-            let mut stepped = self.step_or_keep_kinks(interval);
+            let mut stepped = self.step_or_freeze_kinks(interval);
             if let Err(StepError::Overshoot { overshoot, iterations, .. }) = stepped {
                 self.progress.count_try(iterations);
-                self.lose_derivatives("a slider reaches an end of its beam or leaves a stop");
-                match self.land(interval, overshoot) {
+                self.disable_derivatives("a slider reaches an end of its beam or leaves a stop");
+                match self.locate_arrival(interval, overshoot) {
                     Ok(landing) => {
-                        self.model.let_kinks_follow();
+                        self.model.unfreeze_kinks();
                         self.clock.under_way = None;
                         if let Some((interval, report)) = landing.step {
                             self.count_step(interval, report, halving.retries);
                             self.keep_row();
                         }
-                        let arrived = self.arrive(&landing);
+                        let arrived = self.execute_arrivals(&landing);
                         // An arrival without a step has no snapshot. Continuing from the previous step leads here again.
                         if landing.step.is_some() {
-                            self.remember();
+                            self.store_snapshot();
                         }
                         arrived?;
-                        return self.ask(monitor).map(|()| IntervalProgress::UntilAnArrival);
+                        return self
+                            .query_monitor(monitor)
+                            .map(|()| IntervalProgress::UntilAnArrival);
                     }
                     Err(source) => stepped = Err(source),
                 }
@@ -75,10 +77,10 @@ impl Simulation {
                 Ok(report) => {
                     self.count_step(interval, report, halving.retries);
                     halving.succeed();
-                    self.clock.under_way = halving.rest();
-                    self.keep_present();
+                    self.clock.under_way = halving.remaining();
+                    self.store_present();
                 }
-                Err(source) if !source.may_be_cured_by_a_smaller_step() => {
+                Err(source) if !source.is_step_size_dependent() => {
                     return Err(SimulationError::Load { source });
                 }
                 Err(source) => {
@@ -87,17 +89,17 @@ impl Simulation {
                     if !halving.fail() {
                         return Err(self.no_step(halving.whole.duration(), divisions, source));
                     }
-                    self.clock.under_way = halving.rest();
+                    self.clock.under_way = halving.remaining();
                 }
             }
-            self.ask(monitor)?;
+            self.query_monitor(monitor)?;
         }
         Ok(IntervalProgress::All)
     }
 
-    fn step_or_keep_kinks(&mut self, interval: Interval) -> Result<NewtonReport, StepError> {
+    fn step_or_freeze_kinks(&mut self, interval: Interval) -> Result<NewtonReport, StepError> {
         // Resets the law only here, because queries of the last step depend on it.
-        self.model.let_kinks_follow();
+        self.model.unfreeze_kinks();
         let stepped = self.stepper.step(&mut self.model, interval);
         let stepped = match stepped {
             Err(source) if self.keeps_kinks_for(&source) => {
@@ -106,9 +108,9 @@ impl Simulation {
             }
             other => other,
         };
-        if self.stepper.sensitivities.is_some() && self.model.has_kept_kinks() {
+        if self.stepper.sensitivities.is_some() && self.model.has_frozen_kinks() {
             // The perturbed runs may use the other law.
-            self.lose_derivatives("the kink under a slider is not adapted to the contact force");
+            self.disable_derivatives("the kink under a slider is not adapted to the contact force");
         }
         stepped
     }
@@ -117,7 +119,7 @@ impl Simulation {
     pub(super) fn keeps_kinks_for(&mut self, source: &StepError) -> bool {
         match source {
             StepError::Overshoot { .. } | StepError::Load { .. } => false,
-            _ => self.model.keep_kinks(),
+            _ => self.model.freeze_kinks(),
         }
     }
 
@@ -134,9 +136,9 @@ impl Simulation {
         }
     }
 
-    pub(super) fn ask(&self, monitor: &mut dyn Monitor) -> Result<(), SimulationError> {
+    pub(super) fn query_monitor(&self, monitor: &mut dyn Monitor) -> Result<(), SimulationError> {
         let time = self.time();
-        if monitor.goes_on(time) { Ok(()) } else { Err(SimulationError::Interrupted { time }) }
+        if monitor.continues(time) { Ok(()) } else { Err(SimulationError::Interrupted { time }) }
     }
 
     fn no_step(&self, dt: f64, divisions: u64, source: StepError) -> SimulationError {

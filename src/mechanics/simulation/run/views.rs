@@ -81,7 +81,7 @@ impl Simulation {
         };
         let left = self.arrivals().iter().find(is_release).map(|arrival| arrival.time);
         let is_it = |gone: &&ReleaseEvent| self.scene.releases[gone.release].hold == hold;
-        left.or_else(|| self.let_go().iter().find(is_it).map(|gone| gone.time))
+        left.or_else(|| self.releases().iter().find(is_it).map(|gone| gone.time))
     }
 
     /// Present positions of stations [length].

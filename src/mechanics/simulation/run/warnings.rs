@@ -60,12 +60,12 @@ impl Simulation {
         if self.is_unresolved(resolution) {
             let share = resolution.unresolved_share();
             let period = TAU / resolution.angular_frequency();
-            let (lowest, suspects) = (self.lowest_period(), self.suspects());
+            let (lowest, suspects) = (self.lowest_period(), self.possible_causes());
             let damping = self.damping_method();
             notes.push(Warning::Motion { dt, share, period, lowest, suspects, damping });
         }
         if notes.is_empty() {
-            notes.extend(self.beams_not_followed(dt));
+            notes.extend(self.unresolved_beams(dt));
         }
         notes.extend(self.uneven_steps());
         if resolution.rotation() > LARGEST_ROTATION {
@@ -77,7 +77,7 @@ impl Simulation {
             if spans > MOST_SPANS {
                 notes.push(Warning::Way { slider: slider.clone(), dt, spans });
             }
-            if let Some(limit) = self.model.fastest_on_kink(index) {
+            if let Some(limit) = self.model.kink_speed_limit(index) {
                 let speeds = self.history().column(&format!("{slider}.speed"));
                 let fastest = |speeds: Vec<f64>| speeds.into_iter().map(f64::abs).fold(0.0, larger);
                 let speed = speeds.map_or(0.0, fastest);
@@ -85,17 +85,17 @@ impl Simulation {
                     notes.push(Warning::Fast { slider: slider.clone(), speed, limit });
                 }
             }
-            let blows = self.model.blows_in_a_step(index);
+            let blows = self.model.steps_per_impact(index);
             if blows > RESOLVED_BLOW {
                 notes.push(Warning::Bounce { slider, dt, blows });
             }
         }
-        if let Some(drift) = self.broken_promise() {
+        if let Some(drift) = self.excess_energy_drift() {
             let stiffest = self.model.stiffest_spring();
             let stiffest = stiffest.map(|(name, stiffness)| (name.to_owned(), stiffness));
             notes.push(Warning::Drift { drift, stiffest });
         }
-        notes.extend(self.fed_back());
+        notes.extend(self.energy_gain());
         let bends = self.model.bends();
         notes.extend(bends.map(|(drive, bend)| Warning::Bend { drive: drive.to_owned(), bend }));
         let bounces = self.model.short_bounces();
@@ -116,7 +116,7 @@ impl Simulation {
     }
 
     /// Damped beams whose motion is unresolved at a step size [time] although that of the scene is resolved.
-    fn beams_not_followed(&self, dt: f64) -> impl Iterator<Item = Warning> {
+    fn unresolved_beams(&self, dt: f64) -> impl Iterator<Item = Warning> {
         let least = NOTHING * self.model.resolution().kinetic();
         let beams = self.model.resolution_by_beam();
         let shaken = beams.filter(move |(_, own)| self.is_unresolved(own) && own.kinetic() > least);
@@ -157,7 +157,7 @@ impl Simulation {
     }
 
     /// Energy drift that contradicts the claims of the method and exceeds rounding. Sliders are excluded, because their rules make their own claims.
-    fn broken_promise(&self) -> Option<f64> {
+    fn excess_energy_drift(&self) -> Option<f64> {
         let keeps = self.settings.method.entry().claims.energy == EnergyClaim::Kept;
         let rows = self.history().samples();
         let (first, last) = (rows.first()?.measures, rows.last()?.measures);
@@ -187,7 +187,7 @@ impl Simulation {
 
     /// Largest energy gained from a dissipative element in a step of the fourth-order method, which has a backward substep; `None` if explained by
     /// rounding.
-    fn fed_back(&self) -> Option<Warning> {
+    fn energy_gain(&self) -> Option<Warning> {
         if self.settings.method != Method::FourthOrder {
             return None;
         }
@@ -205,7 +205,7 @@ impl Simulation {
     }
 
     /// Possible causes of a large change of kinetic energy within a step: the strongest damping, and controllers.
-    fn suspects(&self) -> Vec<RateChangeCause> {
+    fn possible_causes(&self) -> Vec<RateChangeCause> {
         let rows = self.history().samples();
         let others = rows.last().map(|row| row.measures).unwrap_or_default().dissipated;
         // A damper may release stored energy arbitrarily slowly, so only kinetic energy lost within a step counts.
@@ -214,7 +214,8 @@ impl Simulation {
         let is_much = |energy: f64| larger(energy, others) > MUCH * (larger(energy, others) + left);
         let most = most.filter(|(_, energy)| is_much(*energy));
         let dampers = most.map(|(name, _)| RateChangeCause::Damping(name.to_owned()));
-        let sampled = self.scene.schedules().filter(|(_, schedule)| schedule.is_asked_every_step());
+        let sampled =
+            self.scene.schedules().filter(|(_, schedule)| schedule.is_sampled_every_step());
         let controllers = sampled
             .map(|(name, _)| RateChangeCause::Controller(self.scene.source_of_schedule(name)));
         dampers.into_iter().chain(controllers.take(1)).collect()

@@ -48,7 +48,7 @@ impl PerturbedRuns {
     }
 
     /// Sets both runs to a state plus and minus the derivative times the perturbation.
-    pub(super) fn stand_beside(&mut self, state: &SystemState) {
+    pub(super) fn set_perturbed_states(&mut self, state: &SystemState) {
         let Self { runs, states, derivative, distance, .. } = self;
         for ((run, beside), amount) in
             runs.iter_mut().zip(states.iter_mut()).zip([*distance, -*distance])

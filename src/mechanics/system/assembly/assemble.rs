@@ -33,7 +33,7 @@ impl System {
     /// Fails if the scene is empty, a beam does not fit its mesh, or start velocities contradict the joints.
     pub fn assemble(scene: &Scene) -> Result<Self, SystemError> {
         let mut model = Self::as_drawn(scene)?;
-        model.settle_start_velocities(scene)?;
+        model.project_start_velocities(scene)?;
         model.begin();
         Ok(model)
     }

@@ -18,7 +18,7 @@ impl Numbering {
         }
         let mut coupled = Ties::new(self.unknowns);
         for pair in self.groups.iter().flat_map(|group| group.windows(2)) {
-            coupled.tie(pair[0], pair[1]);
+            coupled.unite(pair[0], pair[1]);
         }
         let component: Vec<usize> = (0..self.unknowns).map(|at| coupled.root(at)).collect();
         let mut sizes = vec![0_usize; self.unknowns];

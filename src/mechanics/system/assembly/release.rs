@@ -14,15 +14,15 @@ impl System {
     ///
     /// # Errors
     /// Fails if a station lies off its beam, which the scene excludes.
-    pub fn let_go(
+    pub fn release(
         &mut self,
         scene: &Scene,
         released: &[Releasable],
         hold: Releasable,
     ) -> Result<(), SystemError> {
         match hold {
-            Releasable::Slider(slider) => self.release(slider),
-            Releasable::Spring(spring) => self.let_go_of_spring(spring),
+            Releasable::Slider(slider) => self.release_slider(slider),
+            Releasable::Spring(spring) => self.release_spring(spring),
             Releasable::Joint(_) | Releasable::Drive(_) => {
                 let all: Vec<Releasable> = released.iter().copied().chain([hold]).collect();
                 let numbers = self.numbers(scene, &all)?;
@@ -36,7 +36,7 @@ impl System {
     ///
     /// # Errors
     /// Fails if a station lies off its beam, which the scene excludes.
-    pub fn stand_released(
+    pub fn restore_releases(
         &mut self,
         scene: &Scene,
         released: &[Releasable],

@@ -3,7 +3,7 @@
 use super::{Assembly, Numbering};
 use std::sync::Arc;
 
-use crate::beams::{MissedKink, Station, missed_kink};
+use crate::beams::{MissedKink, Station, unresolved_kink};
 use crate::geometry::{ContactPath, PiecewisePolynomial, Span};
 use crate::joints::{Slider, SlidingRule, StartVelocities, Track, TrackBeam};
 use crate::system::elements::AssemblyContext;
@@ -48,44 +48,45 @@ impl Assembly<'_> {
             let beam = &self.scene.beams[slider.master];
             let bars = (bar(beam), self.scene.beams.get(slave.0).map(bar));
             let parameter = self.slider_parameter(slider)?;
-            let rail = self.rail(slider.master);
-            let passage = self.passage(slider.master, &mut passages);
+            let rail = self.master_curve(slider.master);
+            let passage = self.contact_path(slider.master, &mut passages);
             let axis = self.kinked_axis(slider, &mut kink_lengths)?;
             let mut new =
                 SliderContact::new(slider, connection, passage, parameter, rail, bars, axis);
             if let Some(track) = slider.track {
                 let Track { legs, course, .. } = &self.scene.tracks[track];
                 let route = &mut routes[track];
-                let route = route.get_or_insert_with(|| self.route(legs, &mut passages)).clone();
+                let route =
+                    route.get_or_insert_with(|| self.track_path(legs, &mut passages)).clone();
                 let own = legs.iter().position(|leg| leg.beam == slider.master).unwrap_or(0);
-                new.follow(TrackPath::new(route, *course, own));
+                new.set_track(TrackPath::new(route, *course, own));
             }
             sliders.push(new);
         }
         Ok(sliders)
     }
 
-    fn rail(&self, beam: usize) -> MasterCurve {
+    fn master_curve(&self, beam: usize) -> MasterCurve {
         MasterCurve::new(self.scene.beams[beam].axis.clone(), self.mesh(beam).basis().domain())
     }
 
     /// Contact path of a beam, cached in `found`.
-    fn passage(&self, beam: usize, found: &mut [Option<ContactPath>]) -> ContactPath {
+    fn contact_path(&self, beam: usize, found: &mut [Option<ContactPath>]) -> ContactPath {
         let basis = || ContactPath::new(self.mesh(beam).basis().clone());
         found[beam].get_or_insert_with(basis).clone()
     }
 
-    fn route(
+    fn track_path(
         &self,
         legs: &[TrackBeam],
         passages: &mut [Option<ContactPath>],
     ) -> Arc<[TrackPathSegment]> {
         let leg = |&TrackBeam { beam, heading }: &TrackBeam| {
-            let passage = self.passage(beam, passages);
+            let passage = self.contact_path(beam, passages);
             TrackPathSegment::new(
                 beam,
                 heading,
-                self.rail(beam),
+                self.master_curve(beam),
                 passage,
                 bar(&self.scene.beams[beam]),
             )
@@ -110,7 +111,7 @@ impl Assembly<'_> {
         if found[master].is_none() {
             let points = self.bodies[master].control_points();
             let wrap = |source| SystemError::Beam { beam: beam.name.clone(), source };
-            let missed = missed_kink(self.mesh(master), points).map_err(wrap)?;
+            let missed = unresolved_kink(self.mesh(master), points).map_err(wrap)?;
             let arc = || {
                 let speed = |span: &Span, xi| basis.evaluate_in(span, xi).combine(1, points).norm();
                 PiecewisePolynomial::integral(&basis.spans(), basis.degree(), speed)
@@ -142,7 +143,7 @@ impl System {
     /// Adjusts start velocities across the masters as each slider specifies.
     ///
     /// Speeds across a master count as zero if their strain wave is below rounding: `w/c < ε`.
-    pub(super) fn settle_start_velocities(&mut self, scene: &Scene) -> Result<(), SystemError> {
+    pub(super) fn project_start_velocities(&mut self, scene: &Scene) -> Result<(), SystemError> {
         let negligible = self.negligible_velocity(scene);
         let mut is_projected = false;
         for (index, described) in scene.sliders.iter().enumerate() {
@@ -163,10 +164,10 @@ impl System {
     /// # Errors
     /// Fails if a function has no value at that time, or velocities contradict the sliders.
     pub(super) fn begin_at(&mut self, time: f64, scene: &Scene) -> Result<(), SystemError> {
-        self.pass_time_to(time);
-        self.set_given_in_motion(time)
+        self.set_time(time);
+        self.set_prescribed_motion(time)
             .map_err(|(drive, source)| SystemError::DriveValue { drive, source })?;
-        self.settle_start_velocities(scene)
+        self.project_start_velocities(scene)
     }
 
     fn negligible_velocity(&self, scene: &Scene) -> f64 {

@@ -18,7 +18,7 @@ const COMPONENTS: [&str; 3] = ["velocity along x", "velocity along y", "spin"];
 
 const GROUND: &str = "the ground is at rest there";
 
-fn given_there(rate: f64) -> String {
+fn given_rate_text(rate: f64) -> String {
     format!("its motion is prescribed there and begins with {}", rounded(rate))
 }
 
@@ -53,7 +53,7 @@ impl InitialDriveRates<'_> {
 
 impl SharedRates<'_> {
     /// Sets the rate of a degree of freedom. Returns a different rate set earlier by another body or the ground.
-    fn take(
+    fn set_rate(
         &mut self,
         at: usize,
         beam: usize,
@@ -75,7 +75,7 @@ impl SharedRates<'_> {
 }
 
 impl RequestedRate<'_> {
-    fn told(&self, scene: &Scene) -> String {
+    fn description(&self, scene: &Scene) -> String {
         format!(
             "{}, joined there, has the start velocity {}",
             scene.name_of_body(self.at),
@@ -96,19 +96,19 @@ impl Assembly<'_> {
     ) -> Result<Vec<f64>, SystemError> {
         let begun =
             InitialDriveRates { unknowns: numbering.unknowns, rates: prescribed, constraints };
-        let asked = self.asked_rates(numbering)?;
+        let asked = self.requested_rates(numbering)?;
         let mut shared = SharedRates { rates: vec![None; numbering.unknowns], asked };
         for (index, beam) in self.scene.beams.iter().enumerate() {
             let degrees = &numbering.degrees_of_freedom[index];
             let length = beam.axis.length();
-            self.share_rigid_motion(index, length, &beam.motion, degrees, &mut shared, begun)?;
+            self.apply_rigid_motion(index, length, &beam.motion, degrees, &mut shared, begun)?;
         }
         let first = self.scene.first_rigid_body();
         for (index, body) in (first..).zip(&self.scene.rigid_bodies) {
             let degrees = &numbering.degrees_of_freedom[index];
             // A body without points shares only its centre, so any size does.
             let size = if body.size() > 0.0 { body.size() } else { 1.0 };
-            self.share_rigid_motion(index, size, &body.motion, degrees, &mut shared, begun)?;
+            self.apply_rigid_motion(index, size, &body.motion, degrees, &mut shared, begun)?;
         }
         let rates = shared.rates.into_iter();
         let mut rates: Vec<f64> = rates.map(|rate| rate.map_or(0.0, |(_, value)| value)).collect();
@@ -140,7 +140,7 @@ impl Assembly<'_> {
         Ok(())
     }
 
-    fn share_rigid_motion(
+    fn apply_rigid_motion(
         &self,
         index: usize,
         length: f64,
@@ -169,7 +169,7 @@ impl Assembly<'_> {
                             body: self.name_of(index),
                             place: format!("drive ({component})"),
                             velocity: rate,
-                            other: given_there(begins),
+                            other: given_rate_text(begins),
                         });
                     }
                     continue;
@@ -186,12 +186,12 @@ impl Assembly<'_> {
                             body: self.name_of(index),
                             place: format!("joint ({component})"),
                             velocity: rate,
-                            other: asked.told(self.scene),
+                            other: asked.description(self.scene),
                         });
                     }
                     continue;
                 }
-                if let Some(other) = shared.take(at, index, rate, size) {
+                if let Some(other) = shared.set_rate(at, index, rate, size) {
                     let other = other.map_or(GROUND.to_owned(), |(other, rate)| {
                         format!("{}, joined there, has {}", self.name_of(other), rounded(rate))
                     });
@@ -211,7 +211,7 @@ impl Assembly<'_> {
     ///
     /// # Errors
     /// Fails if joined stations have different requested rates.
-    fn asked_rates(
+    fn requested_rates(
         &self,
         numbering: &Numbering,
     ) -> Result<Vec<Option<RequestedRate<'_>>>, SystemError> {
@@ -233,7 +233,7 @@ impl Assembly<'_> {
                         body: self.scene.name_of_body(station),
                         place: format!("joint ({component})"),
                         velocity: rate,
-                        other: other.told(self.scene),
+                        other: other.description(self.scene),
                     });
                 }
                 *taken = Some(RequestedRate { rate, at: station });
@@ -281,7 +281,7 @@ impl Assembly<'_> {
                         body: self.scene.name_of_body(station),
                         place: format!("drive ({component})"),
                         velocity: value,
-                        other: given_there(begun.at(at).unwrap_or_default()),
+                        other: given_rate_text(begun.at(at).unwrap_or_default()),
                     });
                 }
                 (Some(_), None) if begun.at(at).is_some() => {}

@@ -54,7 +54,7 @@ impl TiedComponents {
             classes.rollers.extend(joint.kind.inclined().map(|_| Some(node)));
             for &component in joint.kind.components() {
                 let to = to.as_ref().map_or(GROUND, |to| classes.at(to, component));
-                classes.ties.tie(classes.at(&from, component), to);
+                classes.ties.unite(classes.at(&from, component), to);
             }
         }
         let drives = scene.drives.iter().enumerate();
@@ -70,7 +70,7 @@ impl TiedComponents {
 
     fn tie_particles(&mut self, scene: &Scene) {
         for body in scene.beams.len()..scene.first_rigid_body() {
-            self.ties.tie(GROUND, self.component((body, 0), Component::Rotation));
+            self.ties.unite(GROUND, self.component((body, 0), Component::Rotation));
         }
     }
 
@@ -84,7 +84,7 @@ impl TiedComponents {
                     if is_off_centre { &[Component::Rotation][..] } else { &Component::ALL };
                 for &component in together {
                     let centre = self.component((body, 0), component);
-                    self.ties.tie(centre, self.component((body, point), component));
+                    self.ties.unite(centre, self.component((body, point), component));
                 }
             }
             self.links.extend(definition.links().map(|point| (body, point)));

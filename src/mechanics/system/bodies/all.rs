@@ -71,7 +71,7 @@ impl Bodies {
         self.mass
     }
 
-    pub fn followed_sections(&self) -> usize {
+    pub fn tracked_sections(&self) -> usize {
         self.trackers.len()
     }
 
@@ -121,7 +121,7 @@ impl Bodies {
         self.iter().map(|body| body.by_control_point(values).collect()).collect()
     }
 
-    pub fn number_apart(&mut self) -> Vec<DegreesOfFreedom> {
+    pub fn number_separately(&mut self) -> Vec<DegreesOfFreedom> {
         let mut next = 0;
         let own = self.iter().map(|body| {
             let points = body.degrees_of_freedom.iter().map(|_| {

@@ -10,7 +10,7 @@ use crate::beams::{
 };
 use crate::geometry::{Vec2, cross};
 use crate::linalg::BandRows;
-use crate::threads::at_once;
+use crate::threads::run_concurrently;
 
 /// Beam, particle or rigid body with the degrees of freedom of its movements.
 pub struct Body {
@@ -155,16 +155,16 @@ impl Body {
     }
 
     /// Adds the accumulated forces to `out`, clears them, and returns their summary.
-    pub fn hand_on(&mut self, out: &mut [f64]) -> ForceSummary {
-        self.degrees_of_freedom.hand_on(&mut self.forces, out);
+    pub fn scatter(&mut self, out: &mut [f64]) -> ForceSummary {
+        self.degrees_of_freedom.scatter(&mut self.forces, out);
         std::mem::take(&mut self.met)
     }
 
-    pub fn forget_forces(&mut self) {
+    pub fn clear_forces(&mut self) {
         self.forces.fill(Movement::default());
     }
 
-    pub fn meet_forces(&mut self, at: Collocation, increments: &[f64], weight: f64) {
+    pub fn add_section_forces(&mut self, at: Collocation, increments: &[f64], weight: f64) {
         self.gather(increments);
         self.met = self.dynamics.add_forces(at, &self.moved, weight, &mut self.forces);
     }
@@ -200,7 +200,7 @@ impl Body {
         }
     }
 
-    pub fn meet_mismatch(&mut self, weight: f64) {
+    pub fn add_mismatch_forces(&mut self, weight: f64) {
         self.dynamics.add_mismatch_forces(weight, &mut self.forces);
     }
 
@@ -210,7 +210,7 @@ impl Body {
     }
 
     /// Accumulates `factor · M · rates`.
-    pub fn meet_inertia(&mut self, factor: f64, rates: &[f64]) {
+    pub fn add_inertia_forces(&mut self, factor: f64, rates: &[f64]) {
         self.gather(rates);
         self.dynamics.add_inertia(factor, &self.moved, &mut self.forces);
     }
@@ -288,7 +288,7 @@ impl Body {
         let starts = once(0).chain(self.parts.iter().map(|(point, _)| *point));
         let ends = self.parts.iter().map(|(point, _)| *point).chain(once(points));
         let points = starts.zip(ends).map(|(start, end)| start..end);
-        at_once(points.zip(rows_of_parts(&self.parts, rows)), |(points, rows)| {
+        run_concurrently(points.zip(rows_of_parts(&self.parts, rows)), |(points, rows)| {
             add(points, rows);
         });
     }

@@ -56,7 +56,7 @@ impl DegreesOfFreedom {
     }
 
     /// Adds nodal forces to `out` and clears them.
-    pub fn hand_on(&self, forces: &mut [Movement], out: &mut [f64]) {
+    pub fn scatter(&self, forces: &mut [Movement], out: &mut [f64]) {
         let forces = forces.as_flattened_mut();
         for DofRun { movements, first } in &self.runs {
             let forces = &mut forces[movements.clone()];
@@ -85,7 +85,7 @@ mod tests {
         assert_eq!(moved, expected.collect::<Vec<_>>());
 
         let mut out = vec![1.0; 11];
-        degrees.hand_on(&mut moved, &mut out);
+        degrees.scatter(&mut moved, &mut out);
         assert_eq!(out, [1.5, 2.5, 3.5, 8.0, 5.5, 6.5, 7.5, 8.5, 9.5, 10.5, 1.0]);
         assert!(moved.as_flattened().iter().all(|force| *force == 0.0));
     }

@@ -4,7 +4,7 @@ use super::halves::BodyHalves;
 use super::{Bodies, Body};
 use crate::beams::{Collocation, ForceSummary, RotationIncrement};
 use crate::linalg::{BandRows, BandedMatrix};
-use crate::threads::at_once;
+use crate::threads::run_concurrently;
 
 impl Bodies {
     /// Sets the number of threads for a large body or many bodies, with unchanged results. Returns the largest number in use.
@@ -24,7 +24,7 @@ impl Bodies {
             None => self.all.iter_mut().for_each(work),
             Some(halves) => {
                 let (first, second) = self.all.split_at_mut(halves.body);
-                at_once([first, second], |bodies| bodies.iter_mut().for_each(&work));
+                run_concurrently([first, second], |bodies| bodies.iter_mut().for_each(&work));
             }
         }
     }
@@ -41,15 +41,15 @@ impl Bodies {
         weight: f64,
         out: &mut [f64],
     ) -> ForceSummary {
-        self.each(|body| body.meet_forces(at, increments, weight));
-        self.hand_on(out)
+        self.each(|body| body.add_section_forces(at, increments, weight));
+        self.scatter(out)
     }
 
     /// Hands on the accumulated forces in the order of the bodies, which determines rounding. Returns their summary.
-    fn hand_on(&mut self, out: &mut [f64]) -> ForceSummary {
+    fn scatter(&mut self, out: &mut [f64]) -> ForceSummary {
         let mut summary = ForceSummary::default();
         for body in &mut self.all {
-            summary.join(&body.hand_on(out));
+            summary.join(&body.scatter(out));
         }
         summary
     }
@@ -64,7 +64,7 @@ impl Bodies {
         tangent: &mut BandedMatrix,
     ) {
         self.linearise(at, increments, weight, tangent);
-        self.hand_on(out);
+        self.scatter(out);
     }
 
     fn linearise(
@@ -82,12 +82,12 @@ impl Bodies {
         };
         let (first, second) = self.all.split_at_mut(halves.body);
         let (before, behind) = tangent.rows_mut().split_at(halves.row);
-        at_once([(first, before), (second, behind)], |(bodies, mut rows)| {
+        run_concurrently([(first, before), (second, behind)], |(bodies, mut rows)| {
             bodies.iter_mut().for_each(|body| work(body, rows.reborrow()));
         });
         for &at in &halves.astride {
             let (before, _) = tangent.rows_mut().split_at(halves.row);
-            self.all[at].forget_forces();
+            self.all[at].clear_forces();
             work(&mut self.all[at], before);
         }
     }
@@ -101,7 +101,7 @@ impl Bodies {
         };
         let (first, second) = self.all.split_at(halves.body);
         let (before, behind) = tangent.rows_mut().split_at(halves.row);
-        at_once([(first, before), (second, behind)], |(bodies, mut rows)| {
+        run_concurrently([(first, before), (second, behind)], |(bodies, mut rows)| {
             bodies.iter().for_each(|body| body.add_inertia_tangent(factor, rows.reborrow()));
         });
         for &at in &halves.astride {
@@ -111,8 +111,8 @@ impl Bodies {
     }
 
     pub fn add_mismatch_forces(&mut self, weight: f64, out: &mut [f64]) {
-        self.each(|body| body.meet_mismatch(weight));
-        self.hand_on(out);
+        self.each(|body| body.add_mismatch_forces(weight));
+        self.scatter(out);
     }
 
     pub fn correct_section_forces(&mut self, correction: &[f64]) {
@@ -121,8 +121,8 @@ impl Bodies {
 
     /// Adds `factor · M · rates` to `out`, one entry per unknown.
     pub fn add_inertia(&mut self, factor: f64, rates: &[f64], out: &mut [f64]) {
-        self.each(|body| body.meet_inertia(factor, rates));
-        self.hand_on(out);
+        self.each(|body| body.add_inertia_forces(factor, rates));
+        self.scatter(out);
     }
 
     pub fn advance(&mut self, rotations: RotationIncrement) {

@@ -60,8 +60,8 @@ impl Elements {
         self.resistances.iter_mut().filter(|resistance| resistance.stretched().is_some())
     }
 
-    pub fn let_go(&mut self, spring: usize) {
-        self.springs_mut().nth(spring).into_iter().for_each(|spring| spring.let_go());
+    pub fn release(&mut self, spring: usize) {
+        self.springs_mut().nth(spring).into_iter().for_each(|spring| spring.release());
     }
 
     /// Marks the given springs released and all others attached, before a state of theirs is restored.
@@ -93,9 +93,9 @@ impl Elements {
     ///
     /// # Errors
     /// Name of the element without a finite value, and the reason.
-    pub fn hold_at(&mut self, time: f64) -> Result<(), (String, LoadError)> {
+    pub fn evaluate_after(&mut self, time: f64) -> Result<(), (String, LoadError)> {
         self.forces.iter_mut().try_for_each(|force| {
-            force.hold_at(time).map_err(|error| (force.name().to_owned(), error))
+            force.evaluate_after(time).map_err(|error| (force.name().to_owned(), error))
         })
     }
 
@@ -103,8 +103,8 @@ impl Elements {
         self.forces.iter().any(|force| force.may_jump_at(time))
     }
 
-    pub fn followed_sections(&self) -> usize {
-        self.forces.iter().map(|force| force.followed_sections()).sum()
+    pub fn tracked_sections(&self) -> usize {
+        self.forces.iter().map(|force| force.tracked_sections()).sum()
     }
 
     /// Adds `factor · M · rates` of all point masses to `out`, one entry per unknown.
@@ -128,7 +128,7 @@ impl Elements {
         self.masses.iter().for_each(|mass| *sum += mass.momenta(bodies, rates));
     }
 
-    pub fn twice_kinetic_on(&self, bodies: &[Body], body: usize, rates: &[f64]) -> f64 {
+    pub fn double_kinetic_energy(&self, bodies: &[Body], body: usize, rates: &[f64]) -> f64 {
         let on_body = self.masses.iter().filter(|mass| mass.place.body == body);
         on_body.map(|mass| mass.momenta(bodies, rates).twice_kinetic).sum()
     }
@@ -157,8 +157,8 @@ impl Elements {
         self.resistances.iter_mut().for_each(|resistance| resistance.begin_movement());
     }
 
-    pub fn forget_rates(&mut self) {
-        self.resistances.iter_mut().for_each(|resistance| resistance.forget_rates());
+    pub fn clear_rate_history(&mut self) {
+        self.resistances.iter_mut().for_each(|resistance| resistance.clear_rate_history());
     }
 
     pub fn add_resistance(
@@ -220,8 +220,14 @@ impl Elements {
             .fold(0.0, |sum, dissipated| sum + dissipated)
     }
 
-    pub fn add_resisting(&self, bodies: &[Body], rates: &[Vec<Movement>], out: &mut [f64]) {
-        self.resistances().for_each(|resistance| resistance.add_forces_now(bodies, rates, out));
+    pub fn add_resistance_at_start(
+        &self,
+        bodies: &[Body],
+        rates: &[Vec<Movement>],
+        out: &mut [f64],
+    ) {
+        self.resistances()
+            .for_each(|resistance| resistance.add_forces_at_start(bodies, rates, out));
     }
 
     /// Passes each damped rate and the damping coefficient to `take`, at the start of the step.
@@ -230,8 +236,12 @@ impl Elements {
     }
 
     /// Passes the degrees of freedom and stiffness of each spring at rest to `take`.
-    pub fn each_at_rest(&self, bodies: &[Body], take: &mut dyn FnMut(&[usize], &SpanStiffness)) {
-        self.resistances().for_each(|resistance| resistance.at_rest(bodies, take));
+    pub fn for_each_static_stiffness(
+        &self,
+        bodies: &[Body],
+        take: &mut dyn FnMut(&[usize], &SpanStiffness),
+    ) {
+        self.resistances().for_each(|resistance| resistance.static_stiffness(bodies, take));
     }
 
     /// Work and impulse of all elements in the step whose movements the bodies gathered last.

@@ -25,11 +25,11 @@ impl Coordinate {
     }
 
     /// Difference from a number, accurate to the rounding of the difference.
-    pub fn beyond(self, number: f64) -> f64 {
+    pub fn difference(self, number: f64) -> f64 {
         (self.value - number) + self.rest
     }
 
-    pub fn beyond_other(self, other: Self) -> f64 {
+    pub fn difference_from(self, other: Self) -> f64 {
         (self.value - other.value) + (self.rest - other.rest)
     }
 }
@@ -45,8 +45,8 @@ mod tests {
             followed = followed.after(1e-17);
         }
         assert_eq!(followed.value, 1.0);
-        assert!((followed.beyond(1.0) - 1e-14).abs() < 1e-27);
+        assert!((followed.difference(1.0) - 1e-14).abs() < 1e-27);
         let other = Coordinate::from(1.0).after(-3e-20);
-        assert!((followed.beyond_other(other) - 1.000_003e-14).abs() < 1e-27);
+        assert!((followed.difference_from(other) - 1.000_003e-14).abs() < 1e-27);
     }
 }

@@ -87,12 +87,12 @@ impl DampingLaw {
     }
 
     /// Returns true if there is any damping.
-    pub fn acts(&self) -> bool {
+    pub fn is_active(&self) -> bool {
         *self != Self::Linear(0.0)
     }
 
     /// Range in which the law adds energy or has a force at rest; `None` if it dissipates at every rate, including its extrapolation.
-    pub fn feeds(&self) -> Option<NegativeDamping> {
+    pub fn active_range(&self) -> Option<NegativeDamping> {
         let corners = self.corners();
         let (Some(first), Some(last)) = (corners.first(), corners.last()) else { return None };
         let largest = corners.iter().map(|(_, force)| force.abs()).fold(0.0, larger);
@@ -114,7 +114,7 @@ impl DampingLaw {
     }
 
     /// Returns the law with a corner at rest where its force is exactly zero.
-    pub fn with_rest(&self) -> Self {
+    pub fn with_corner_at_rest(&self) -> Self {
         let mut law = self.clone();
         if let Self::Curve(SpringLaw::Table { points } | SpringLaw::Sampled { points, .. }) =
             &mut law
@@ -146,7 +146,7 @@ impl DampingLaw {
 
     /// Force and slope for Newton's method. With a given impedance of the loaded system, they are taken on the segment that the line of this
     /// impedance through rate and force intersects. Without it, the iteration could alternate between two steep segments.
-    pub fn aimed(&self, rate: f64, force: f64, impedance: Option<f64>) -> (f64, f64) {
+    pub fn linearised_target(&self, rate: f64, force: f64, impedance: Option<f64>) -> (f64, f64) {
         let at_rate = (self.force(rate), self.slope(rate));
         let (Some(impedance), corners) = (impedance, self.corners()) else { return at_rate };
         let above = |at: f64| self.force(at) - force + impedance * (at - rate);
@@ -195,21 +195,21 @@ mod tests {
             DampingLaw::Linear(2.0),
         ];
         for law in resisting {
-            assert_eq!(law.feeds(), None, "{law:?}");
+            assert_eq!(law.active_range(), None, "{law:?}");
         }
         let at = |rate: f64, force: f64| Some(NegativeDamping::At { rate, force });
-        assert_eq!(table(&[(-1.0, 1.0), (0.0, 0.0), (1.0, 1.0)]).feeds(), at(-1.0, 1.0));
-        assert_eq!(table(&[(-1.0, -1.0), (1.0, 3.0)]).feeds(), at(0.0, 1.0));
+        assert_eq!(table(&[(-1.0, 1.0), (0.0, 0.0), (1.0, 1.0)]).active_range(), at(-1.0, 1.0));
+        assert_eq!(table(&[(-1.0, -1.0), (1.0, 3.0)]).active_range(), at(0.0, 1.0));
         let falling = table(&[(-1.0, -1.0), (0.0, 0.0), (1.0, 1.0), (2.0, 0.5)]);
-        assert_eq!(falling.feeds(), Some(NegativeDamping::Beyond { end: 2.0, from: 3.0 }));
+        assert_eq!(falling.active_range(), Some(NegativeDamping::Beyond { end: 2.0, from: 3.0 }));
     }
 
     #[test]
     fn a_polygon_gets_a_corner_at_rest() {
-        let law = table(&[(-0.3, -0.1), (0.7, 0.7 / 3.0)]).with_rest();
+        let law = table(&[(-0.3, -0.1), (0.7, 0.7 / 3.0)]).with_corner_at_rest();
         assert_eq!((law.force(0.0), law.corners().len()), (0.0, 3));
         assert!(law.force(1e-9) > 0.0 && law.force(-1e-9) < 0.0);
-        let one_sided = table(&[(-1.0, 0.0), (0.0, 0.0), (1.0, 2.0)]).with_rest();
+        let one_sided = table(&[(-1.0, 0.0), (0.0, 0.0), (1.0, 2.0)]).with_corner_at_rest();
         assert_eq!((one_sided.slope_at_rest(), one_sided.corners().len()), (1.0, 3));
     }
 
@@ -217,7 +217,7 @@ mod tests {
     fn a_function_is_met_on_either_side_of_rest() {
         let force = |rate: f64| if rate > 0.0 { 3.0 * rate * rate } else { 0.2 * rate };
         let law = DampingLaw::sampled((-1.0, 2.0), |rate| Ok::<f64, ()>(force(rate))).unwrap();
-        assert_eq!(law.feeds(), None);
+        assert_eq!(law.active_range(), None);
         for step in -100..200 {
             let rate = 0.01 * f64::from(step) + 0.003;
             assert!((law.force(rate) - force(rate)).abs() < 1e-5, "{rate}");

@@ -49,9 +49,9 @@ impl DragForces {
 
     /// Work of the wind and dissipated energy of one point, in the step whose movements its body gathered last [energy].
     fn turnover(&self, point: &DragPoint, body: &Body) -> [f64; 2] {
-        let (force, movement) = (point.given(), point.movement(body));
+        let (force, movement) = (point.applied_force(), point.movement(body));
         let taken = force.dot(&movement);
-        if !self.blows() {
+        if !self.has_wind() {
             return [0.0, taken];
         }
         let duration = self.pace.duration();
@@ -60,7 +60,7 @@ impl DragForces {
         [lost - taken, lost]
     }
 
-    fn blows(&self) -> bool {
+    fn has_wind(&self) -> bool {
         self.surroundings.wind != Vec2::zeros()
     }
 }
@@ -77,7 +77,7 @@ impl InternalForce for DragForces {
 
     fn begin_movement(&mut self) {
         self.pace.begin(f64::INFINITY);
-        self.points.iter_mut().for_each(DragPoint::rest);
+        self.points.iter_mut().for_each(DragPoint::reset_at_rest);
     }
 
     fn add_forces(&mut self, at: TrialState<'_>, out: &mut [f64]) -> ForceSummary {
@@ -86,7 +86,7 @@ impl InternalForce for DragForces {
         for point in &mut self.points {
             let body = &at.bodies[point.body];
             let missing = point.compare(&self.surroundings, body, at.increments, rates);
-            let force = point.given();
+            let force = point.applied_force();
             summary.strain_mismatch = larger(summary.strain_mismatch, missing);
             summary.force = larger(summary.force, larger(force.x.abs(), force.y.abs()));
             point.scatter(body, force, out);
@@ -132,7 +132,7 @@ impl InternalForce for DragForces {
         let mut sum = WorkAndImpulse::default();
         for point in &self.points {
             let body = &bodies[point.body];
-            let impulse = point.given() * -duration;
+            let impulse = point.applied_force() * -duration;
             let (middle, [work, _]) = (point.middle(body), self.turnover(point, body));
             sum += WorkAndImpulse::of(work, impulse, cross(middle, impulse));
         }
@@ -161,14 +161,14 @@ impl InternalForce for DragForces {
     }
 
     fn wind_work(&self) -> Option<f64> {
-        self.blows().then_some(self.wind_work)
+        self.has_wind().then_some(self.wind_work)
     }
 
-    fn add_forces_now(&self, bodies: &[Body], rates: &[Vec<Movement>], out: &mut [f64]) {
+    fn add_forces_at_start(&self, bodies: &[Body], rates: &[Vec<Movement>], out: &mut [f64]) {
         for point in &self.points {
             let rate = |at: usize| Vec2::new(rates[point.body][at][0], rates[point.body][at][1]);
             let body = &bodies[point.body];
-            point.scatter(body, point.resisting(&self.surroundings, body, rate), out);
+            point.scatter(body, point.force_at_start(&self.surroundings, body, rate), out);
         }
     }
 
@@ -197,7 +197,7 @@ impl InternalForce for DragForces {
         self.pace.restore(next);
         self.points.iter_mut().for_each(|point| point.restore(next));
         self.dissipated = next();
-        if self.blows() {
+        if self.has_wind() {
             self.wind_work = next();
         }
     }
@@ -205,7 +205,7 @@ impl InternalForce for DragForces {
     fn explain(&self) -> String {
         let points = crate::system::errors::plural(self.points.len(), "point");
         let Medium { law, wind } = &self.surroundings;
-        let blowing = match self.blows() {
+        let blowing = match self.has_wind() {
             true => format!(", wind ({}, {})", wind.x, wind.y),
             false => String::new(),
         };

@@ -61,7 +61,7 @@ pub fn in_space(t: Vec2, components: Vec2) -> Vec2 {
 
 impl DragLaw {
     /// Drag at a velocity relative to the medium, for a line with unit tangent `t`. Points ignore `t`.
-    pub fn resist(&self, velocity: Vec2, t: Vec2) -> DragResponse {
+    pub fn force(&self, velocity: Vec2, t: Vec2) -> DragResponse {
         let n = perpendicular(t);
         let (across, along) = (n.dot(&velocity), t.dot(&velocity));
         match self {
@@ -138,12 +138,12 @@ mod tests {
         for law in [DragLaw::Point(normal), DragLaw::Line { normal, tangent }] {
             for (angle, velocity) in [(0.3, Vec2::new(1.0, -2.0)), (2.5, Vec2::new(-0.4, 0.2))] {
                 let (h, t) = (1e-6, unit(angle));
-                let found = law.resist(velocity, t);
+                let found = law.force(velocity, t);
                 let power = in_space(t, found.force).dot(&velocity);
                 assert!(power > 0.0 && (law.power(found.force) - power).abs() < 1e-14 * power);
                 let force = |v: Vec2, angle: f64| {
                     let t = unit(angle);
-                    in_space(t, law.resist(v, t).force)
+                    in_space(t, law.force(v, t).force)
                 };
                 for axis in [Vec2::x(), Vec2::y()] {
                     let by = found.by_velocity.map(|by| by.dot(&axis));
@@ -163,7 +163,7 @@ mod tests {
     #[test]
     fn what_does_not_move_is_not_dragged() {
         let law = DragLaw::Point(SpeedLaw { linear: 0.3, quadratic: 2.0 });
-        let found = law.resist(Vec2::zeros(), Vec2::x());
+        let found = law.force(Vec2::zeros(), Vec2::x());
         assert_eq!((found.force, found.by_velocity[0].x), (Vec2::zeros(), 0.0));
         assert_eq!(found.by_velocity[1].x, 0.3);
     }

@@ -48,7 +48,7 @@ struct DragTrial {
 }
 
 impl DragTrial {
-    fn nothing() -> Self {
+    fn zero() -> Self {
         let none = Vec2::zeros();
         let resisted = DragResponse::default();
         Self { tangent: Vec2::x(), resisted, turn_by_gradient: none, rates: (0.0, 0.0) }
@@ -57,7 +57,7 @@ impl DragTrial {
     /// Drag at a velocity, for a line with a tangent of any length.
     fn new(law: &DragLaw, velocity: Vec2, gradient: Vec2, rates: (f64, f64)) -> Self {
         let (tangent, inverse) = unit_tangent(gradient);
-        let resisted = law.resist(velocity, tangent);
+        let resisted = law.force(velocity, tangent);
         Self { tangent, resisted, turn_by_gradient: perpendicular(tangent) * inverse, rates }
     }
 }
@@ -91,7 +91,7 @@ impl DragPoint {
             last_force: none,
             mismatch: none,
             given: none,
-            linearised: DragTrial::nothing(),
+            linearised: DragTrial::zero(),
             rates: None,
         }
     }
@@ -154,12 +154,12 @@ impl DragPoint {
         self.speed = self.size(|at| body.vector_at(at, rates));
     }
 
-    pub fn rest(&mut self) {
+    pub fn reset_at_rest(&mut self) {
         (self.force, self.mismatch, self.given) = (Vec2::zeros(), Vec2::zeros(), Vec2::zeros());
-        self.linearised = DragTrial::nothing();
+        self.linearised = DragTrial::zero();
     }
 
-    fn meet(
+    fn evaluate(
         &self,
         around: &Medium,
         body: &Body,
@@ -181,7 +181,7 @@ impl DragPoint {
         increments: &[f64],
         rates: RateCollocation,
     ) -> f64 {
-        let DragTrial { tangent, resisted, .. } = self.meet(around, body, increments, rates);
+        let DragTrial { tangent, resisted, .. } = self.evaluate(around, body, increments, rates);
         self.mismatch = resisted.force - self.force;
         self.rates = Some(rates);
         self.given = in_space(tangent, self.force) * self.weight;
@@ -202,7 +202,7 @@ impl DragPoint {
         increments: &[f64],
         rates: RateCollocation,
     ) -> Vec2 {
-        self.linearised = self.meet(around, body, increments, rates);
+        self.linearised = self.evaluate(around, body, increments, rates);
         let DragTrial { tangent, resisted, .. } = self.linearised;
         self.mismatch = resisted.force - self.force;
         in_space(tangent, resisted.force) * self.weight
@@ -241,7 +241,7 @@ impl DragPoint {
     }
 
     /// Applied force of the last iterate in space [force].
-    pub fn given(&self) -> Vec2 {
+    pub fn applied_force(&self) -> Vec2 {
         self.given
     }
 
@@ -263,7 +263,12 @@ impl DragPoint {
     }
 
     /// Force on the medium at rates at the start of a step [force].
-    pub fn resisting(&self, around: &Medium, body: &Body, rate: impl Fn(usize) -> Vec2) -> Vec2 {
+    pub fn force_at_start(
+        &self,
+        around: &Medium,
+        body: &Body,
+        rate: impl Fn(usize) -> Vec2,
+    ) -> Vec2 {
         let velocity = self.velocity(rate) - around.wind;
         let DragTrial { tangent, resisted, .. } =
             DragTrial::new(&around.law, velocity, self.gradient(body), (0.0, 0.0));

@@ -91,7 +91,7 @@ pub struct Elongation {
 
 impl Elongation {
     /// Creates the length of a path over terminals at the given initial places.
-    pub fn way(terminals: Vec<ElongationEnd>, at: &[Vec2]) -> Self {
+    pub fn path_length(terminals: Vec<ElongationEnd>, at: &[Vec2]) -> Self {
         let parts: Vec<Vec2> = at.windows(2).map(|pair| pair[1] - pair[0]).collect();
         let length = parts.iter().map(Vec2::norm).sum();
         Self::new(Measure::Way(parts), length, terminals, 2)
@@ -169,7 +169,7 @@ impl Elongation {
     }
 
     /// Adds `missing` to the elongation change of the last iterate if it is within the rounding error of the movements. Returns true if it was added.
-    pub fn settle(&mut self, missing: f64) -> bool {
+    pub fn absorb_rounding(&mut self, missing: f64) -> bool {
         let is_rounding = missing.abs() <= self.rounding();
         self.settled = (self.change, if is_rounding { missing } else { 0.0 });
         is_rounding
@@ -195,7 +195,7 @@ impl Elongation {
     }
 
     /// Evaluates change, secant and slope in an iterate.
-    pub fn take(&mut self, at: TrialState<'_>) {
+    pub fn evaluate(&mut self, at: TrialState<'_>) {
         self.locate(at.bodies);
         self.gather(at.increments);
         let collocation = collocation(at.stage);
@@ -245,7 +245,7 @@ impl Elongation {
     }
 
     /// Rate of `q` at the end of the last step for the rates of the unknowns at that time.
-    pub fn rate_behind(&self, bodies: &[Body], rates: &[f64]) -> f64 {
+    pub fn rate_at_last_end(&self, bodies: &[Body], rates: &[f64]) -> f64 {
         self.moving().fold(0.0, |sum, (place, coordinates)| {
             let [x, y, spin] = bodies[place.body].at(place, rates);
             match (self.is_angle(), &self.slope[coordinates]) {
@@ -264,7 +264,7 @@ impl Elongation {
                 [&mut *secant, slope].into_iter().for_each(|all| all.fill(0.0));
                 let (secants, _) = secant.as_chunks_mut::<2>();
                 let (slopes, _) = slope.as_chunks_mut::<2>();
-                let ways = moved.as_chunks().0.windows(2).map(way);
+                let ways = moved.as_chunks().0.windows(2).map(path_length);
                 for (at, (start, way)) in parts.iter().zip(ways).enumerate() {
                     let part = ElongationTerm::new(*start, way, rotations);
                     *change += part.change;
@@ -302,7 +302,7 @@ impl Elongation {
         let Measure::Way(parts) = measure else { return };
         let width = moved.len();
         bend.fill(0.0);
-        let ways = moved.as_chunks().0.windows(2).map(way);
+        let ways = moved.as_chunks().0.windows(2).map(path_length);
         for (at, (start, way)) in parts.iter().zip(ways).enumerate() {
             let (part, ends) = (ElongationTerm::new(*start, way, rotations), [2 * at, 2 * at + 2]);
             for component in 0..2 {
@@ -358,7 +358,7 @@ impl Elongation {
     }
 
     /// Evaluates everything at the start of the step.
-    pub fn rest(&mut self, bodies: &[Body]) {
+    pub fn evaluate_at_start(&mut self, bodies: &[Body]) {
         self.locate(bodies);
         self.moved.fill(0.0);
         self.compare(RotationIncrement::Angle);
@@ -379,6 +379,6 @@ impl Elongation {
     }
 }
 
-fn way(ends: &[[f64; 2]]) -> Vec2 {
+fn path_length(ends: &[[f64; 2]]) -> Vec2 {
     Vec2::new(ends[1][0] - ends[0][0], ends[1][1] - ends[0][1])
 }

@@ -59,7 +59,7 @@ pub trait ExternalForce {
     ///
     /// # Errors
     /// Fails without a finite value at this time.
-    fn hold_at(&mut self, _time: f64) -> Result<(), LoadError> {
+    fn evaluate_after(&mut self, _time: f64) -> Result<(), LoadError> {
         Ok(())
     }
 
@@ -93,7 +93,7 @@ pub trait ExternalForce {
     }
 
     /// Number of sections whose angle is tracked.
-    fn followed_sections(&self) -> usize {
+    fn tracked_sections(&self) -> usize {
         0
     }
 

@@ -32,7 +32,7 @@ pub trait InternalForce {
     fn begin_movement(&mut self);
 
     /// Discards the rate history after a jump of the rates.
-    fn forget_rates(&mut self) {}
+    fn clear_rate_history(&mut self) {}
 
     /// Adds `at.weight` times the current forces on bodies. Returns the largest force and the mismatch.
     fn add_forces(&mut self, at: TrialState<'_>, out: &mut [f64]) -> ForceSummary;
@@ -103,17 +103,17 @@ pub trait InternalForce {
     }
 
     /// Adds the forces at given rates at the start of the step.
-    fn add_forces_now(&self, bodies: &[Body], rates: &[Vec<Movement>], out: &mut [f64]);
+    fn add_forces_at_start(&self, bodies: &[Body], rates: &[Vec<Movement>], out: &mut [f64]);
 
     /// Passes each damped rate and its small-rate damping coefficient to `take`, at the start of the step. The sum of coefficient times squared rate
     /// is the dissipated power. The number and order of calls do not depend on the rates.
     fn each_damped_rate(&self, bodies: &[Body], rates: &[f64], take: &mut dyn FnMut(f64, f64));
 
     /// Passes degrees of freedom and stiffness at rest to `take`.
-    fn at_rest(&self, _bodies: &[Body], _take: &mut dyn FnMut(&[usize], &SpanStiffness)) {}
+    fn static_stiffness(&self, _bodies: &[Body], _take: &mut dyn FnMut(&[usize], &SpanStiffness)) {}
 
     /// Releases the element at the start of a step. Its stored energy counts as dissipated. The default ignores the release.
-    fn let_go(&mut self) {}
+    fn release(&mut self) {}
 
     /// Marks the element released, before a released state is restored.
     fn detach(&mut self) {}

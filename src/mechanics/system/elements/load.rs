@@ -206,7 +206,7 @@ impl ExternalForce for AppliedLoad {
         Ok(())
     }
 
-    fn hold_at(&mut self, time: f64) -> Result<(), LoadError> {
+    fn evaluate_after(&mut self, time: f64) -> Result<(), LoadError> {
         let end = self.schedule.value(time, LimitSide::After)?;
         self.factors = StageFactors { end, ..StageFactors::default() };
         Ok(())
@@ -263,7 +263,7 @@ impl ExternalForce for AppliedLoad {
         matches!(self.action, Action::Follower(_))
     }
 
-    fn followed_sections(&self) -> usize {
+    fn tracked_sections(&self) -> usize {
         self.followers().len()
     }
 

@@ -94,11 +94,11 @@ impl InternalForce for DampedMaterial {
 
     fn begin_movement(&mut self) {
         self.pace.begin(f64::INFINITY);
-        self.dashpots.rest();
+        self.dashpots.rest_without_damping();
     }
 
-    fn forget_rates(&mut self) {
-        self.dashpots.forget_rates();
+    fn clear_rate_history(&mut self) {
+        self.dashpots.clear_rate_history();
     }
 
     fn add_forces(&mut self, at: TrialState<'_>, out: &mut [f64]) -> ForceSummary {
@@ -175,9 +175,9 @@ impl InternalForce for DampedMaterial {
         Some(self.beam)
     }
 
-    fn add_forces_now(&self, bodies: &[Body], rates: &[Vec<Movement>], out: &mut [f64]) {
+    fn add_forces_at_start(&self, bodies: &[Body], rates: &[Vec<Movement>], out: &mut [f64]) {
         let degrees = &bodies[self.beam].degrees_of_freedom;
-        self.dashpots.resist(&rates[self.beam], &mut scatter(degrees, out));
+        self.dashpots.emit_dashpot_forces(&rates[self.beam], &mut scatter(degrees, out));
     }
 
     fn each_damped_rate(&self, bodies: &[Body], rates: &[f64], take: &mut dyn FnMut(f64, f64)) {

@@ -90,7 +90,7 @@ impl PointDamper {
     }
 
     fn rates(&self, at: TrialState<'_>) -> Option<RateCollocation> {
-        let acts = self.pace.duration().is_finite() && self.law.acts();
+        let acts = self.pace.duration().is_finite() && self.law.is_active();
         self.pace.at(at.stage, at.weight).filter(|_| acts)
     }
 
@@ -98,7 +98,7 @@ impl PointDamper {
         of_place(&self.terminals[1]) - of_place(&self.terminals[0])
     }
 
-    fn apart(&self, bodies: &[Body], values: &[f64]) -> Vec2 {
+    fn relative_velocity_of(&self, bodies: &[Body], values: &[f64]) -> Vec2 {
         let value = |body: usize, point: usize| bodies[body].vector_at(point, values);
         self.difference(|terminal| terminal.combine(value))
     }
@@ -113,8 +113,8 @@ impl PointDamper {
         self.difference(|terminal| terminal.combine(moved))
     }
 
-    fn meet(&self, at: TrialState<'_>, rates: RateCollocation) -> DamperTrial {
-        let moved = self.apart(at.bodies, at.increments);
+    fn evaluate(&self, at: TrialState<'_>, rates: RateCollocation) -> DamperTrial {
+        let moved = self.relative_velocity_of(at.bodies, at.increments);
         let (way, velocity) = (
             self.way + moved * rates.share,
             moved * rates.by_change - self.last_velocity * rates.by_last,
@@ -145,7 +145,7 @@ impl PointDamper {
     }
 
     /// Damping force for a relative velocity at the start of the step.
-    fn resisting(&self, velocity: Vec2) -> Vec2 {
+    fn force_at_start(&self, velocity: Vec2) -> Vec2 {
         let direction = direction(self.way, velocity);
         direction * self.law.force(direction.dot(&velocity))
     }
@@ -181,7 +181,7 @@ impl InternalForce for PointDamper {
 
     fn add_forces(&mut self, at: TrialState<'_>, out: &mut [f64]) -> ForceSummary {
         let Some(rates) = self.rates(at) else { return ForceSummary::default() };
-        let DamperTrial { direction, target, .. } = self.meet(at, rates);
+        let DamperTrial { direction, target, .. } = self.evaluate(at, rates);
         let moved = self.size(at.bodies, at.increments) * rates.by_change.abs();
         let speed = self.speed + moved + self.last_velocity.norm() * rates.by_last.abs();
         let mismatch = self.force.compare(target, speed);
@@ -199,9 +199,9 @@ impl InternalForce for PointDamper {
         tangent: &mut BandedMatrix,
     ) {
         let Some(rates) = self.rates(at) else { return };
-        let met = self.meet(at, rates);
+        let met = self.evaluate(at, rates);
         let impedance = self.force.impedance(met.rate);
-        let (force, stiffness) = self.law.aimed(met.rate, self.force.force, impedance);
+        let (force, stiffness) = self.law.linearised_target(met.rate, self.force.force, impedance);
         let target = ForceTarget { force, stiffness };
         self.linearised = met;
         self.force.linearise(target);
@@ -242,7 +242,8 @@ impl InternalForce for PointDamper {
     }
 
     fn correct(&mut self, bodies: &[Body], correction: &[f64]) {
-        let change = self.linearised.rate_by_movement.dot(&self.apart(bodies, correction));
+        let change =
+            self.linearised.rate_by_movement.dot(&self.relative_velocity_of(bodies, correction));
         self.force.correct(change);
     }
 
@@ -276,25 +277,26 @@ impl InternalForce for PointDamper {
         Some(SpringTrialState { elongation, force: self.force.last, stiffness: 0.0 })
     }
 
-    fn add_forces_now(&self, bodies: &[Body], rates: &[Vec<Movement>], out: &mut [f64]) {
+    fn add_forces_at_start(&self, bodies: &[Body], rates: &[Vec<Movement>], out: &mut [f64]) {
         let rate = |body: usize, point: usize| in_the_plane(rates[body][point]);
         let velocity = self.difference(|terminal| terminal.combine(rate));
-        self.scatter(bodies, self.resisting(velocity), out);
+        self.scatter(bodies, self.force_at_start(velocity), out);
     }
 
     /// At zero length, small vibrations are damped in every direction.
     fn each_damped_rate(&self, bodies: &[Body], rates: &[f64], take: &mut dyn FnMut(f64, f64)) {
-        if !self.law.acts() {
+        if !self.law.is_active() {
             return;
         }
-        let (velocity, damping) = (self.apart(bodies, rates), self.law.slope_at_rest());
+        let (velocity, damping) =
+            (self.relative_velocity_of(bodies, rates), self.law.slope_at_rest());
         match self.way == Vec2::zeros() {
             true => velocity.iter().for_each(|rate| take(damping, *rate)),
             false => take(damping, direction(self.way, velocity).dot(&velocity)),
         }
     }
 
-    fn let_go(&mut self) {
+    fn release(&mut self) {
         self.detach();
     }
 

@@ -162,16 +162,16 @@ impl PrescribedMovements {
         &self.prescribed
     }
 
-    pub fn begins_with_a_rate(&self) -> bool {
+    pub fn has_start_rate(&self) -> bool {
         self.prescribed.rates.iter().skip(self.constraints).any(|rate| *rate != 0.0)
     }
 
-    pub fn forget_work(&mut self) {
+    pub fn clear_work(&mut self) {
         self.drives.iter_mut().for_each(|drive| drive.work = 0.0);
     }
 
     /// Largest prescribed rotation in the current step [rad].
-    pub fn turn(&self) -> f64 {
+    pub fn largest_rotation(&self) -> f64 {
         self.turn
     }
 
@@ -265,14 +265,14 @@ impl PrescribedMovements {
     }
 
     /// Stores the prescribed part of `M Δv` of a step.
-    pub fn take_struck(&mut self, struck: &[f64]) {
+    pub fn store_impact_momentum(&mut self, struck: &[f64]) {
         for (present, struck) in self.present.iter_mut().zip(&struck[self.first..]) {
             present.struck = *struck;
         }
     }
 
     /// Stores the prescribed part of `M v̄` of a step.
-    pub fn take_momentum(&mut self, bodies: &[Body], momentum: &[f64]) {
+    pub fn store_mean_momentum(&mut self, bodies: &[Body], momentum: &[f64]) {
         for (movement, present) in self.movements.iter().zip(&mut self.present) {
             let Support { body, point, .. } = movement.support;
             let [x, y, _] = bodies[body].degrees_of_freedom[point];
@@ -324,7 +324,7 @@ impl PrescribedMovements {
     }
 
     /// Work and impulse of the drives in an impact, from its impulses and the mean of the rates before and after it.
-    pub fn exchange_in_blow(
+    pub fn impact_exchange(
         &mut self,
         bodies: &[Body],
         impulses: &[f64],

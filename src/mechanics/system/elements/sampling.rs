@@ -55,7 +55,7 @@ impl SpringLaw {
     }
 
     /// Deviation from the function [force] and largest force, if the deviation exceeds the tolerance.
-    pub fn missed(&self) -> Option<(f64, f64)> {
+    pub fn sampling_error(&self) -> Option<(f64, f64)> {
         let Self::Sampled { points, error } = self else { return None };
         let largest = largest_force(points);
         (*error > OFF_MIDDLE_MARGIN * TOLERANCE * largest).then_some((*error, largest))
@@ -128,7 +128,7 @@ mod tests {
         assert!(error < 4e-7 && points < 100, "{error:e} {points}");
         let (law, error, points) = sampled((-1.0, 1.0), |q| if q > 0.1 { 1.0 } else { 0.0 });
         assert!(error >= 0.4 && points < 200, "{error:e} {points}");
-        assert_eq!(law.missed(), Some((error, 1.0)));
+        assert_eq!(law.sampling_error(), Some((error, 1.0)));
     }
 
     #[test]
@@ -138,6 +138,6 @@ mod tests {
         assert!(points > 10_000 && error > 1e-7, "{error:e} {points}");
         assert!((law.force(1.0 / 64.0) - 1.0).abs() < 1e-4);
         let smooth = sampled((-1.0, 1.0), |q| q + q * q * q).0;
-        assert_eq!(smooth.missed(), None);
+        assert_eq!(smooth.sampling_error(), None);
     }
 }

@@ -92,7 +92,7 @@ impl ElementDef for Spring {
                 return refused("point on the ground", *wrong, "a finite number [length]");
             }
         }
-        self.expect_movement(setting)?;
+        self.check_movable(setting)?;
         match self.damping {
             DampingLaw::Linear(constant) if !(constant.is_finite() && constant >= 0.0) => {
                 return refused("damping", constant, "zero or a positive finite number");
@@ -100,7 +100,7 @@ impl ElementDef for Spring {
             DampingLaw::Linear(_) => (),
             DampingLaw::Curve(_) => self.check_damping(self.damping.corners())?,
         }
-        if let Some(feeding) = self.damping.feeds() {
+        if let Some(feeding) = self.damping.active_range() {
             let (damper, feeding) = (self.object(), feeding.to_string());
             return Err(SystemError::FeedingDamper { damper, feeding });
         }
@@ -120,14 +120,14 @@ impl ElementDef for Spring {
                 if points.len() < 2 {
                     return refused("table", points.len() as f64, "at least two points");
                 }
-                if let Some(index) = falling_behind(points) {
+                if let Some(index) = first_non_increasing(points) {
                     let (elongation, before) = (points[index].0, points[index - 1].0);
                     let object = self.object();
                     return Err(SystemError::TableOrder { object, index, elongation, before });
                 }
                 self.check_finite("table", points)?;
             }
-            None if !self.damping.acts() => {
+            None if !self.damping.is_active() => {
                 return refused("damping", 0.0, "a positive number if there is no stiffness");
             }
             None => (),
@@ -169,7 +169,7 @@ impl ElementDef for Spring {
                 [at[0], at[1]],
                 &grounds,
                 *stiffness,
-                self.damping.with_rest(),
+                self.damping.with_corner_at_rest(),
             ))));
         }
         if let (None, SpringKind::Way(_), [from, to]) = (&self.law, &self.kind, &terminals[..]) {
@@ -178,25 +178,25 @@ impl ElementDef for Spring {
                 [from.clone(), to.clone()],
                 [at[0], at[1]],
                 &grounds,
-                self.damping.with_rest(),
+                self.damping.with_corner_at_rest(),
             ))));
         }
         if let (Some(law), SpringKind::Way(_), [from, to]) = (&self.law, &self.kind, &terminals[..])
-            && self.damping.acts()
+            && self.damping.is_active()
         {
             let (from_to, places) = ([from.clone(), to.clone()], [at[0], at[1]]);
             let origin = match self.origin {
                 Origin::Zero => 0.0,
                 Origin::AsBuilt => (places[1] - places[0]).norm(),
             };
-            if law.is_at_ease(-origin) {
+            if law.is_unloaded_at(-origin) {
                 return Ok(BuiltElement::Resistance(Box::new(ZeroLengthSpring::of_law(
                     &self.name,
                     from_to,
                     places,
                     &grounds,
                     (law.clone(), origin),
-                    self.damping.with_rest(),
+                    self.damping.with_corner_at_rest(),
                 ))));
             }
         }
@@ -204,7 +204,7 @@ impl ElementDef for Spring {
             (SpringKind::Torsion(_), [from, to]) => {
                 Elongation::angle([from.clone(), to.clone()], angles[1] - angles[0])
             }
-            _ => Elongation::way(terminals, &at),
+            _ => Elongation::path_length(terminals, &at),
         };
         let origin = match self.origin {
             Origin::Zero => 0.0,
@@ -215,13 +215,13 @@ impl ElementDef for Spring {
             elongation,
             grounds,
             self.law.clone().map(|law| (law, origin)),
-            self.damping.with_rest(),
+            self.damping.with_corner_at_rest(),
         ))))
     }
 }
 
 /// Index of the first point whose abscissa does not increase.
-fn falling_behind(points: &[(f64, f64)]) -> Option<usize> {
+fn first_non_increasing(points: &[(f64, f64)]) -> Option<usize> {
     points.windows(2).position(|pair| pair[1].0 <= pair[0].0).map(|before| before + 1)
 }
 
@@ -234,7 +234,7 @@ impl Spring {
         if points.len() < 2 {
             return Err(refused(points.len() as f64, "at least two points"));
         }
-        match falling_behind(points) {
+        match first_non_increasing(points) {
             Some(index) => Err(refused(points[index].0, "rates that increase from point to point")),
             None => Ok(()),
         }
@@ -249,7 +249,7 @@ impl Spring {
     }
 
     /// Rejects springs whose ends cannot move relative to each other: equal neighbouring stations, or ground only.
-    fn expect_movement(&self, setting: &dyn SceneChecks) -> Result<(), SystemError> {
+    fn check_movable(&self, setting: &dyn SceneChecks) -> Result<(), SystemError> {
         let idle = |[from, to]: [&Anchor; 2], why| {
             let [from, to] = [from, to].map(|anchor| match anchor {
                 Anchor::Station(station) => setting.describe(station),

@@ -6,13 +6,13 @@ use crate::beams::SpanStiffness;
 use crate::system::bodies::Body;
 
 /// Degrees of freedom and stiffness of a spring at rest: material part from the slope of the law, geometric part from its force.
-pub fn law_at_rest(
+pub fn static_law(
     law: &SpringLaw,
     elongation: &Elongation,
     bodies: &[Body],
 ) -> (Vec<usize>, SpanStiffness) {
     let mut elongation = elongation.clone();
-    elongation.rest(bodies);
+    elongation.evaluate_at_start(bodies);
     let (value, mut degrees) = (elongation.grown(), Vec::new());
     let by_degree = |row: &[f64]| {
         let shares = elongation.shares().iter();

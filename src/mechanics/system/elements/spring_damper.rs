@@ -12,7 +12,7 @@ use super::damping_law::DampingLaw;
 use super::elongation::Elongation;
 use super::internal_force::{InternalForce, SpringTrialState};
 use super::mixed_force::MixedForce;
-use super::spring_at_rest::law_at_rest;
+use super::spring_at_rest::static_law;
 use super::spring_law::SpringLaw;
 use super::{Along, Branch, TrialState, WorkAndImpulse, collocation};
 use crate::beams::{ForceSummary, Movement, RotationIncrement, SpanStiffness};
@@ -71,7 +71,8 @@ impl SpringDamper {
     ) -> Self {
         let coordinates = elongation.secant.len();
         let words = law.as_ref().map(|(law, origin)| law.shifted(*origin).describe());
-        let law = law.map(|(law, origin)| law.shifted(origin - elongation.drawn()).with_ease());
+        let law = law
+            .map(|(law, origin)| law.shifted(origin - elongation.drawn()).with_corners_at_zeros());
         let stiffness = law.as_ref().map_or(0.0, SpringLaw::largest_slope);
         let rises = law.as_ref().is_some_and(SpringLaw::rises_with_corners);
         let corners = law.as_ref().map_or_else(Vec::new, SpringLaw::sharp_corners);
@@ -103,9 +104,9 @@ impl SpringDamper {
     }
 
     /// Evaluates an iterate, including the lag of a damper with its own time.
-    fn take(&mut self, at: TrialState<'_>) {
-        self.elongation.take(at);
-        if self.damping.acts() {
+    fn evaluate(&mut self, at: TrialState<'_>) {
+        self.elongation.evaluate(at);
+        if self.damping.is_active() {
             let share = (at.stage == Stage::End).then_some(at.weight);
             self.elongation.balance(share);
         }
@@ -119,7 +120,7 @@ impl SpringDamper {
     }
 
     /// Records a force along the secant, and that of the damper along the lag.
-    fn note(&mut self, stage: Stage, force: f64, damper: f64) {
+    fn record_force(&mut self, stage: Stage, force: f64, damper: f64) {
         let Self { elongation: Elongation { secant, lag, .. }, carried, current, .. } = self;
         let noted = if stage == Stage::Start { carried } else { current };
         let directions = secant.iter().zip(lag);
@@ -155,11 +156,11 @@ impl InternalForce for SpringDamper {
     }
 
     fn add_forces(&mut self, at: TrialState<'_>, out: &mut [f64]) -> ForceSummary {
-        self.take(at);
+        self.evaluate(at);
         self.rotations = collocation(at.stage).rotations;
         if at.stage == Stage::Start {
             let force = at.weight * self.restoring(at.stage).force;
-            self.note(at.stage, force, 0.0);
+            self.record_force(at.stage, force, 0.0);
             self.elongation.scatter(&self.elongation.secant, force, out);
             return self.summary(0.0);
         }
@@ -169,14 +170,14 @@ impl InternalForce for SpringDamper {
         let mut missed = self.spring.compare(restoring, of_spring);
         let has_mean = matches!(at.stage, Stage::Midpoint | Stage::DampedMidpoint(_));
         let missing = if has_mean { self.spring.missing_change() } else { 0.0 };
-        if self.elongation.settle(missing) && has_mean && self.rises {
+        if self.elongation.absorb_rounding(missing) && has_mean && self.rises {
             missed = 0.0;
         }
         let mismatch = larger(missed, self.damper.compare(damping, extent));
         let force = self.weighted(at, self.spring.force, self.damper.force);
-        self.note(at.stage, force, self.damper.force);
+        self.record_force(at.stage, force, self.damper.force);
         self.elongation.scatter(&self.elongation.secant, force, out);
-        if self.damping.acts() {
+        if self.damping.is_active() {
             self.elongation.scatter(&self.elongation.lag, self.damper.force, out);
         }
         self.summary(mismatch)
@@ -189,9 +190,9 @@ impl InternalForce for SpringDamper {
         unknowns: usize,
         tangent: &mut BandedMatrix,
     ) {
-        self.take(at);
+        self.evaluate(at);
         self.elongation.find_bend(collocation(at.stage).rotations);
-        let (restoring, damping) = (self.aimed_restoring(at.stage), self.aimed_damping(at));
+        let (restoring, damping) = (self.spring_target(at.stage), self.damper_target(at));
         self.spring.linearise(restoring);
         self.damper.linearise(damping);
         let Self { elongation, linearised: [secant, slope, lag], .. } = self;
@@ -200,7 +201,7 @@ impl InternalForce for SpringDamper {
         lag.copy_from_slice(&elongation.lag);
         let force = self.weighted(at, restoring.force, damping.force);
         self.elongation.scatter(&self.elongation.secant, force, out);
-        if self.damping.acts() {
+        if self.damping.is_active() {
             self.elongation.scatter(&self.elongation.lag, damping.force, out);
         }
         // Geometric terms use the force of the iterate.
@@ -214,7 +215,7 @@ impl InternalForce for SpringDamper {
                 *entry = stiffness * secant * slope + force * bend;
             }
         }
-        if self.damping.acts() {
+        if self.damping.is_active() {
             let rows = self.tangent.chunks_exact_mut(slope.len());
             let bends = lag_bend.chunks_exact(slope.len());
             for ((row, lag), bend) in rows.zip(lag).zip(bends) {
@@ -230,7 +231,7 @@ impl InternalForce for SpringDamper {
         let force = weight * self.spring.mismatch + self.damper.mismatch;
         let [secant, _, lag] = &self.linearised;
         self.elongation.scatter(secant, force, out);
-        if self.damping.acts() {
+        if self.damping.is_active() {
             self.elongation.scatter(lag, self.damper.mismatch, out);
         }
     }
@@ -292,31 +293,31 @@ impl InternalForce for SpringDamper {
         Some(SpringTrialState { elongation: self.elongation.value(), force, stiffness })
     }
 
-    fn add_forces_now(&self, bodies: &[Body], rates: &[Vec<Movement>], out: &mut [f64]) {
+    fn add_forces_at_start(&self, bodies: &[Body], rates: &[Vec<Movement>], out: &mut [f64]) {
         let mut elongation = self.elongation.clone();
-        elongation.rest(bodies);
+        elongation.evaluate_at_start(bodies);
         let rate = elongation.rate(rates);
         let force = self.restoring_at_start() + self.damping.force(rate);
         elongation.scatter(&elongation.slope, force, out);
     }
 
     fn each_damped_rate(&self, bodies: &[Body], rates: &[f64], take: &mut dyn FnMut(f64, f64)) {
-        if self.damping.acts() {
+        if self.damping.is_active() {
             let mut elongation = self.elongation.clone();
-            elongation.rest(bodies);
-            take(self.damping.slope_at_rest(), elongation.rate_behind(bodies, rates));
+            elongation.evaluate_at_start(bodies);
+            take(self.damping.slope_at_rest(), elongation.rate_at_last_end(bodies, rates));
         }
     }
 
-    fn at_rest(&self, bodies: &[Body], take: &mut dyn FnMut(&[usize], &SpanStiffness)) {
+    fn static_stiffness(&self, bodies: &[Body], take: &mut dyn FnMut(&[usize], &SpanStiffness)) {
         if let Some(law) = &self.law {
-            let (degrees, rows) = law_at_rest(law, &self.elongation, bodies);
+            let (degrees, rows) = static_law(law, &self.elongation, bodies);
             take(&degrees, &rows);
         }
     }
 
     /// The stored energy of a broken spring is dissipated in the spring.
-    fn let_go(&mut self) {
+    fn release(&mut self) {
         self.dissipated += self.stored();
         self.detach();
     }
@@ -359,8 +360,8 @@ impl InternalForce for SpringDamper {
         }
         let Self { elongation, corners, .. } = self;
         let along = if elongation.is_angle() { Along::Angle } else { Along::Length };
-        let index = corners.partition_point(|at| elongation.grown().beyond(*at) >= 0.0);
-        Some(Branch { index, rate: elongation.rate_behind(bodies, rates), along })
+        let index = corners.partition_point(|at| elongation.grown().difference(*at) >= 0.0);
+        Some(Branch { index, rate: elongation.rate_at_last_end(bodies, rates), along })
     }
 
     fn short_bounce(&self) -> Option<ShortBounce> {

@@ -54,7 +54,7 @@ impl SpringLaw {
                 // Interpolates from the smaller force. From the larger one, only its rounding would remain.
                 let [first, second] = segment(points, q);
                 let (at, force) = if first.1.abs() <= second.1.abs() { first } else { second };
-                force + self.slope(q) * q.beyond(at)
+                force + self.slope(q) * q.difference(at)
             }
         }
     }
@@ -117,7 +117,7 @@ impl SpringLaw {
     }
 
     /// Returns true if the force vanishes at an elongation, within rounding and sampling error.
-    pub fn is_at_ease(&self, q: f64) -> bool {
+    pub fn is_unloaded_at(&self, q: f64) -> bool {
         let off = match self {
             Self::Linear { stiffness, natural } => ROUNDING * (stiffness * natural).abs(),
             Self::Table { points } => ROUNDING * largest(points),
@@ -134,24 +134,24 @@ impl SpringLaw {
                 0.5 * stiffness * (q.value - natural) * (q.value - natural)
             }
             Self::Table { points } | Self::Sampled { points, .. } => {
-                self.work(points, ease(points).into(), q)
+                self.work(points, natural_elongation(points).into(), q)
             }
         }
     }
 
     /// Work `∫ F dq` between two elongations of a table, summed by segment to avoid differences of large numbers.
     fn work(&self, points: &[(f64, f64)], from: Coordinate, to: Coordinate) -> f64 {
-        let rises = to.beyond_other(from) >= 0.0;
+        let rises = to.difference_from(from) >= 0.0;
         let (low, high) = if rises { (from, to) } else { (to, from) };
         let [first, last] = [
-            points.partition_point(|(q, _)| low.beyond(*q) >= 0.0),
-            points.partition_point(|(q, _)| high.beyond(*q) > 0.0),
+            points.partition_point(|(q, _)| low.difference(*q) >= 0.0),
+            points.partition_point(|(q, _)| high.difference(*q) > 0.0),
         ];
         let corners = points[first..last.max(first)].iter().map(|(q, _)| Coordinate::from(*q));
         let (mut at, mut force, mut sum) = (low, self.force(low), 0.0);
         for next in corners.chain([high]) {
             let next_force = self.force(next);
-            sum += 0.5 * (force + next_force) * next.beyond_other(at);
+            sum += 0.5 * (force + next_force) * next.difference_from(at);
             (at, force) = (next, next_force);
         }
         if rises { sum } else { -sum }
@@ -180,7 +180,7 @@ impl SpringLaw {
     }
 
     /// Returns the law with a corner at each zero of its force, so that small forces there are exact.
-    pub fn with_ease(mut self) -> Self {
+    pub fn with_corners_at_zeros(mut self) -> Self {
         if let Self::Table { points } | Self::Sampled { points, .. } = &mut self {
             let crossing = |pair: &[(f64, f64)]| {
                 let at = zero(pair[0], pair[1]);
@@ -200,9 +200,9 @@ impl SpringLaw {
             Self::Linear { stiffness, natural } => {
                 Self::Linear { stiffness: *stiffness, natural: natural + by }
             }
-            Self::Table { points } => Self::Table { points: moved(points, by) },
+            Self::Table { points } => Self::Table { points: shifted(points, by) },
             Self::Sampled { points, error } => {
-                Self::Sampled { points: moved(points, by), error: *error }
+                Self::Sampled { points: shifted(points, by), error: *error }
             }
         }
     }
@@ -233,13 +233,13 @@ fn slope([a, b]: [(f64, f64); 2]) -> f64 {
     if b.0 > a.0 { (b.1 - a.1) / (b.0 - a.0) } else { 0.0 }
 }
 
-fn moved(points: &[(f64, f64)], by: f64) -> Vec<(f64, f64)> {
+fn shifted(points: &[(f64, f64)], by: f64) -> Vec<(f64, f64)> {
     points.iter().map(|(q, force)| (q + by, *force)).collect()
 }
 
 /// Ends of the segment at or nearest to an elongation; at a corner the upper one.
 fn segment(points: &[(f64, f64)], q: Coordinate) -> [(f64, f64); 2] {
-    let beyond = points.partition_point(|(at, _)| q.beyond(*at) >= 0.0);
+    let beyond = points.partition_point(|(at, _)| q.difference(*at) >= 0.0);
     let beyond = beyond.clamp(1, points.len() - 1);
     [points[beyond - 1], points[beyond]]
 }
@@ -254,7 +254,7 @@ fn zero((q0, f0): (f64, f64), (q1, f1): (f64, f64)) -> f64 {
 }
 
 /// Elongation of least energy, where the force of a table or its extrapolation changes from negative to positive; otherwise the first point.
-fn ease(points: &[(f64, f64)]) -> f64 {
+fn natural_elongation(points: &[(f64, f64)]) -> f64 {
     let passes = |pair: &&[(f64, f64)]| pair[0].1 <= 0.0 && pair[1].1 >= 0.0;
     let last = points.len() - 1;
     match points.windows(2).find(passes) {
@@ -324,10 +324,10 @@ mod tests {
         for law in
             [SpringLaw::Table { points: points.clone() }, SpringLaw::Sampled { points, error }]
         {
-            assert!(law.is_at_ease(0.0) && !law.is_at_ease(1e-9), "{law:?}");
+            assert!(law.is_unloaded_at(0.0) && !law.is_unloaded_at(1e-9), "{law:?}");
         }
         let linear = SpringLaw::Linear { stiffness: 3.0, natural: 0.1 };
-        assert!(linear.is_at_ease(0.3 - 0.2) && !linear.is_at_ease(0.0));
+        assert!(linear.is_unloaded_at(0.3 - 0.2) && !linear.is_unloaded_at(0.0));
     }
 
     #[test]

@@ -73,7 +73,7 @@ impl Supports {
     }
 
     /// Impulse of the fixed supports in an impact.
-    pub fn exchange_in_blow(&self, bodies: &[Body], impulses: &[f64]) -> WorkAndImpulse {
+    pub fn impact_exchange(&self, bodies: &[Body], impulses: &[f64]) -> WorkAndImpulse {
         self.impulse(impulses, 1.0, |body, point| bodies[body].dynamics.control_points()[point])
     }
 

@@ -19,7 +19,7 @@ impl WorkAndImpulse {
         Self { work, impulse, angular_impulse, gross_impulse, gross_angular_impulse }
     }
 
-    pub fn taken_back(self) -> Self {
+    pub fn negated(self) -> Self {
         Self {
             gross_impulse: -self.gross_impulse,
             gross_angular_impulse: -self.gross_angular_impulse,

@@ -52,7 +52,7 @@ impl ZeroLengthSpring {
         law: (SpringLaw, f64),
         damping: DampingLaw,
     ) -> Self {
-        let (way, none) = (Elongation::way(terminals.to_vec(), &at), DampingLaw::default());
+        let (way, none) = (Elongation::path_length(terminals.to_vec(), &at), DampingLaw::default());
         let along = SpringDamper::new(name.to_owned(), way, grounds.to_vec(), Some(law), none);
         Self::beside(name, vec![along], terminals, at, grounds, damping)
     }
@@ -66,7 +66,7 @@ impl ZeroLengthSpring {
         damping: DampingLaw,
     ) -> Self {
         let damper = damping
-            .acts()
+            .is_active()
             .then(|| PointDamper::new(name.to_owned(), terminals, at, grounds, damping));
         Self { along, damper }
     }
@@ -82,7 +82,7 @@ impl ZeroLengthSpring {
     }
 
     /// Elongation and force, as magnitudes of both components.
-    fn whole(&self) -> Option<SpringTrialState> {
+    fn magnitudes(&self) -> Option<SpringTrialState> {
         let [x, y] = self.along.as_slice() else { return self.along[0].stretched() };
         let (x, y) = (x.stretched()?, y.stretched()?);
         let elongation = Vec2::new(x.elongation, y.elongation).norm();
@@ -147,7 +147,7 @@ impl InternalForce for ZeroLengthSpring {
 
     fn stretched(&self) -> Option<SpringTrialState> {
         let of_damper = self.damper.as_ref().and_then(InternalForce::stretched);
-        let spring = self.whole()?;
+        let spring = self.magnitudes()?;
         Some(SpringTrialState {
             force: spring.force + of_damper.map_or(0.0, |part| part.force),
             ..spring
@@ -162,20 +162,20 @@ impl InternalForce for ZeroLengthSpring {
         self.along.iter().find_map(InternalForce::short_bounce)
     }
 
-    fn add_forces_now(&self, bodies: &[Body], rates: &[Vec<Movement>], out: &mut [f64]) {
-        self.parts().for_each(|part| part.add_forces_now(bodies, rates, out));
+    fn add_forces_at_start(&self, bodies: &[Body], rates: &[Vec<Movement>], out: &mut [f64]) {
+        self.parts().for_each(|part| part.add_forces_at_start(bodies, rates, out));
     }
 
     fn each_damped_rate(&self, bodies: &[Body], rates: &[f64], take: &mut dyn FnMut(f64, f64)) {
         self.parts().for_each(|part| part.each_damped_rate(bodies, rates, take));
     }
 
-    fn at_rest(&self, bodies: &[Body], take: &mut dyn FnMut(&[usize], &SpanStiffness)) {
-        self.parts().for_each(|part| part.at_rest(bodies, take));
+    fn static_stiffness(&self, bodies: &[Body], take: &mut dyn FnMut(&[usize], &SpanStiffness)) {
+        self.parts().for_each(|part| part.static_stiffness(bodies, take));
     }
 
-    fn let_go(&mut self) {
-        self.parts_mut().for_each(|part| part.let_go());
+    fn release(&mut self) {
+        self.parts_mut().for_each(|part| part.release());
     }
 
     fn detach(&mut self) {

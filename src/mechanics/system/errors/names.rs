@@ -72,7 +72,7 @@ pub fn refusal(name: &str) -> Option<&'static str> {
     }
     let mut words = name.split(|letter: char| !letter.is_alphabetic());
     words
-        .any(mixes_alphabets)
+        .any(mixes_scripts)
         .then_some("one of its words mixes letters of two alphabets that look alike")
 }
 
@@ -87,7 +87,7 @@ pub fn check_name(kind: &'static str, name: &str) -> Result<(), SystemError> {
     }
 }
 
-fn mixes_alphabets(word: &str) -> bool {
+fn mixes_scripts(word: &str) -> bool {
     let mut alphabets = word.chars().filter_map(alphabet);
     let first = alphabets.next();
     alphabets.any(|other| Some(other) != first)

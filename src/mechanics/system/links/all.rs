@@ -193,7 +193,7 @@ impl Links {
     }
 
     /// Passes the stiffness of all constraints at rest to the callback, for a penalty stiffness [force/length].
-    pub fn each_at_rest(
+    pub fn for_each_static_stiffness(
         &self,
         bodies: &Bodies,
         stiffness: f64,

@@ -97,7 +97,7 @@ impl InclinedRoller {
         movements: usize,
         tangent: &mut BandedMatrix,
     ) {
-        self.couple(bodies, acting.share(), movements, tangent);
+        self.couple(bodies, acting.force_derivative(), movements, tangent);
     }
 
     pub fn add_coupling(&self, bodies: &Bodies, movements: usize, matrix: &mut BandedMatrix) {

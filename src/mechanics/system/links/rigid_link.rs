@@ -37,7 +37,7 @@ impl ForceUnknowns {
     }
 
     /// Derivative of the force with respect to the unknown [1/time, -].
-    pub fn share(self) -> f64 {
+    pub fn force_derivative(self) -> f64 {
         match self {
             Self::Step(duration) => 1.0 / duration,
             Self::AtRest => 1.0,
@@ -126,7 +126,7 @@ impl RigidLink {
         let end = self.rotation.turned(rotations, increment).to_space(self.arm);
         let found = Vec2::new(values[self.unknowns[0]], values[self.unknowns[1]]);
         let rate = rotations.rate(increment);
-        let (force, share) = (unknown.force(self.force, found), unknown.share());
+        let (force, share) = (unknown.force(self.force, found), unknown.force_derivative());
         Iterated {
             start,
             end,

@@ -4,8 +4,8 @@ use super::System;
 use crate::integrators::Accelerated;
 
 impl Accelerated for System {
-    fn keep_accelerations(&mut self) {
-        self.motion.accelerations.keep(self.unknowns.count());
+    fn enable_accelerations(&mut self) {
+        self.motion.accelerations.allocate(self.unknowns.count());
     }
 
     fn accelerations(&self) -> Option<&[f64]> {

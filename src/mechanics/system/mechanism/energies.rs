@@ -34,7 +34,7 @@ impl System {
     pub fn energy_of(&mut self, body: usize) -> BodyEnergy {
         let rates = &self.motion.rates;
         let own = self.bodies[body].momenta(rates).twice_kinetic;
-        let carried = self.elements.twice_kinetic_on(&self.bodies, body, rates);
+        let carried = self.elements.double_kinetic_energy(&self.bodies, body, rates);
         let [axial, shear, bending] = self.bodies[body].dynamics.strain_energies();
         let shear = shear + self.sliders.strain_energy(Some(body));
         let potential = self.elements.potential_of(&self.bodies, body);

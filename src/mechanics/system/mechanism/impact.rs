@@ -72,7 +72,7 @@ impl ImpactLaw {
     }
 
     /// Deficit of the velocity after the impact without an impulse [length/time].
-    fn lack(self, w: f64) -> f64 {
+    fn deficit(self, w: f64) -> f64 {
         match self {
             Self::Ends | Self::Leans => w,
             Self::Reverses => 2.0 * w,
@@ -111,13 +111,13 @@ impl ImpactProblem {
     }
 
     /// Velocity in a direction before the impact, and its change by the given impulses [length/time].
-    pub(super) fn meets(&self, at: usize, impulses: &[f64]) -> (f64, f64) {
+    pub(super) fn approach_velocities(&self, at: usize, impulses: &[f64]) -> (f64, f64) {
         let by_impulses: f64 = self.response[at].iter().zip(impulses).map(|(a, p)| a * p).sum();
         (self.before[at], self.by_links(at) + by_impulses)
     }
 
     /// Mean of the velocities before and after the impact, without contact impulses [length/time].
-    pub(super) fn half_way(&self) -> Vec<f64> {
+    pub(super) fn mean_velocity(&self) -> Vec<f64> {
         let half_way = |(at, w): (usize, &f64)| w + 0.5 * self.by_links(at);
         self.before.iter().enumerate().map(half_way).collect()
     }
@@ -125,13 +125,14 @@ impl ImpactProblem {
     /// Deficits of the velocities after the impact without impulses, for the laws of the last directions [length/time].
     pub(super) fn lacks(&self, laws: &[ImpactLaw]) -> Vec<f64> {
         let first = self.before.len() - laws.len();
-        let lack = |(at, law): (usize, &ImpactLaw)| law.lack(self.before[at]) + self.by_links(at);
+        let lack =
+            |(at, law): (usize, &ImpactLaw)| law.deficit(self.before[at]) + self.by_links(at);
         (first..).zip(laws).map(lack).collect()
     }
 
     pub(super) fn with_works(&self, values: Vec<f64>) -> ImpactImpulses {
         let work = |at: usize| {
-            let (before, change) = self.meets(at, &values);
+            let (before, change) = self.approach_velocities(at, &values);
             values[at] * (before + 0.5 * change)
         };
         let works = (0..values.len()).map(work).collect();
@@ -159,12 +160,12 @@ impl System {
     /// # Errors
     /// Fails if the impulses are not determined.
     pub(in crate::system) fn project_velocities(&mut self) -> Result<(), SystemError> {
-        self.strike_across().map_err(|_| self.sliders.overdetermined())
+        self.apply_transverse_impact().map_err(|_| self.sliders.overdetermined())
     }
 
-    fn strike_across(&mut self) -> Result<(), LinearError> {
+    fn apply_transverse_impact(&mut self) -> Result<(), LinearError> {
         let across = self.across();
-        let encounter = self.encounter(&[(&across, Deformation::All)], -1.0)?;
+        let encounter = self.impact_problem(&[(&across, Deformation::All)], -1.0)?;
         let impulses = encounter.impulses(&vec![ImpactLaw::Ends; across.len()])?;
         self.apply(encounter, &impulses.values);
         Ok(())
@@ -173,7 +174,7 @@ impl System {
     /// Adjusts the velocities of points of rigid bodies to the initial rates of drives if they differ by more than a tolerance [length/time].
     /// Incompatible rates would alternate from step to step permanently.
     pub(in crate::system) fn fit_links_to_drives(&mut self, negligible: f64) {
-        if self.links.count() == 0 || !self.supports.prescribed().begins_with_a_rate() {
+        if self.links.count() == 0 || !self.supports.prescribed().has_start_rate() {
             return;
         }
         let mut missed = vec![0.0; self.unknowns()];
@@ -183,17 +184,17 @@ impl System {
         }
         // The impulse that starts the motion precedes the start and is not accumulated. A singular matrix is reported by the first step.
         let before = std::mem::take(&mut self.exchanged);
-        let struck = self.strike_across();
+        let struck = self.apply_transverse_impact();
         self.exchanged = before;
         if struck.is_ok() {
-            self.supports.prescribed_mut().forget_work();
+            self.supports.prescribed_mut().clear_work();
         }
     }
 
     /// Applies jumps of prescribed rates at the start of a step to rigid links and sliders by an impact. Incompatible rates would alternate from step
     /// to step permanently. The impact conserves energy except for the work of drives: the constraint violation changes its sign (theory.md 9.5).
     /// Returns true if there was a jump.
-    pub fn follow_jumps_of_drives(&mut self, interval: Interval) -> bool {
+    pub fn apply_drive_jumps(&mut self, interval: Interval) -> bool {
         if self.links.count() == 0 && self.sliders.iter().next().is_none() {
             return false;
         }
@@ -203,7 +204,8 @@ impl System {
         let directions = self.sliders.directions(&self.bodies);
         let laws = vec![ImpactLaw::Reverses; directions.len()];
         // So are singular matrices.
-        let Ok(encounter) = self.encounter_of(&[(&directions, Deformation::All)], -2.0, jumps)
+        let Ok(encounter) =
+            self.impact_problem_with_jumps(&[(&directions, Deformation::All)], -2.0, jumps)
         else {
             return false;
         };
@@ -244,7 +246,7 @@ impl System {
         forces
     }
 
-    pub(super) fn answers(
+    pub(super) fn impulse_responses(
         &self,
         inertia: &BandedLu<'_>,
         directions: &[ImpactDirection],
@@ -260,14 +262,14 @@ impl System {
     ///
     /// # Errors
     /// Fails if the matrix is singular.
-    pub(super) fn answers_with(
+    pub(super) fn impulse_responses_with(
         &mut self,
         inertia: &BandedLu<'_>,
         directions: &[ImpactDirection],
         deformation: Deformation,
     ) -> Result<Vec<ImpulseResponse>, LinearError> {
         if deformation == Deformation::All {
-            return Ok(self.answers(inertia, directions));
+            return Ok(self.impulse_responses(inertia, directions));
         }
         let rigidity = Rigidity::of(self, deformation);
         let mut matrix = rigidity.matrix(self);
@@ -276,7 +278,7 @@ impl System {
         let mut answer = |direction: &ImpactDirection| {
             let mut forces = self.transmitted(*direction);
             let all = ImpulseResponse::of(inertia, unknowns, forces.clone(), Vec::new());
-            let passed_on = rigidity.pass_on(self, &factors, &mut forces);
+            let passed_on = rigidity.transmit_unit_impulse(self, &factors, &mut forces);
             let some = ImpulseResponse::of(inertia, unknowns, forces, passed_on);
             let gives = some.velocity(&some.rates) > GIVES * all.velocity(&all.rates);
             if gives { some } else { all }
@@ -285,16 +287,16 @@ impl System {
     }
 
     /// Impact problem for some directions. Violations of rigid links are changed by `links` times themselves; with -2 the links do no work.
-    pub(super) fn encounter(
+    pub(super) fn impact_problem(
         &mut self,
         met: &[ImpactSelection<'_>],
         links: f64,
     ) -> Result<ImpactProblem, LinearError> {
-        self.encounter_of(met, links, Vec::new())
+        self.impact_problem_with_jumps(met, links, Vec::new())
     }
 
     /// The same with jumps of prescribed rates. Contacts and links use the mean of the rates before and after the jump.
-    fn encounter_of(
+    fn impact_problem_with_jumps(
         &mut self,
         met: &[ImpactSelection<'_>],
         links: f64,
@@ -305,7 +307,7 @@ impl System {
         let (mut directions, mut answers) = (Vec::new(), Vec::new());
         for (own, deformation) in met.iter().filter(|(own, _)| !own.is_empty()) {
             directions.extend_from_slice(own);
-            answers.extend(self.answers_with(&inertia, own, *deformation)?);
+            answers.extend(self.impulse_responses_with(&inertia, own, *deformation)?);
         }
         let mut change = vec![0.0; self.unknowns()];
         if !jumps.is_empty() {
@@ -353,25 +355,24 @@ impl System {
         for (slider, impulse) in on_slaves.clone() {
             self.sliders[slider].impulse -= impulse;
         }
-        self.add_impulses_of_blow(&change, &passed_on, on_slaves);
+        self.add_impact_impulses(&change, &passed_on, on_slaves);
         // Impulses of rigid links are not continuing forces.
         self.links.clear(&mut change);
         self.motion.jump(&change);
-        self.elements.forget_rates();
-        self.exchanged.total += self.supports.exchange_in_blow(&self.bodies, &residual);
+        self.elements.clear_rate_history();
+        self.exchanged.total += self.supports.impact_exchange(&self.bodies, &residual);
         if self.supports.prescribed().count() > 0 {
             let mut mean_rates = self.motion.rates.clone();
             mean_rates.iter_mut().zip(&jumps).for_each(|(rate, jump)| *rate -= 0.5 * jump);
             let movements = self.supports.prescribed_mut();
-            self.exchanged.total +=
-                movements.exchange_in_blow(&self.bodies, &residual, &mean_rates);
+            self.exchanged.total += movements.impact_exchange(&self.bodies, &residual, &mean_rates);
         }
     }
 
     /// Velocities across the masters caused by unit impulses: `G M⁻¹ Gᵀ`, one row per direction [1/mass].
     pub(in crate::system) fn response_across(&self) -> Result<Vec<Vec<f64>>, LinearError> {
         let mut inertia = self.banded_inertia();
-        let answers = self.answers(&inertia.factorise()?, &self.across());
+        let answers = self.impulse_responses(&inertia.factorise()?, &self.across());
         Ok(response(&answers))
     }
 }

@@ -9,7 +9,7 @@
 //!
 //! Methods that balance accelerations instead of momenta have no such mean.
 
-use super::rigidity::add_passed_on;
+use super::rigidity::add_transmitted_impulses;
 use super::{Reactions, System};
 use crate::geometry::Vec2;
 use crate::integrators::{Inertia, Solution, Stage};
@@ -84,7 +84,7 @@ impl System {
         if self.exchanged.impulses.is_some() {
             return;
         }
-        let joined = self.bodies.number_apart();
+        let joined = self.bodies.number_separately();
         let numbers = self.bodies.number_as(joined);
         let movements = 3 * numbers.iter().map(|own| own.len()).sum::<usize>();
         let all = movements + 2 * self.links.count();
@@ -112,12 +112,12 @@ impl System {
 
     /// Mean forces of joints and supports in the last step, including impacts; zero before the first step. `None` if not
     /// [enabled](Self::sum_up_impulses).
-    pub fn given_in_step(&self) -> Option<Reactions> {
+    pub fn mean_reactions(&self) -> Option<Reactions> {
         let Impulses { last, duration, .. } = &**self.exchanged.impulses.as_ref()?;
         let share = if *duration == 0.0 { 0.0 } else { 1.0 / duration };
         let mean: Vec<f64> = last.iter().map(|impulse| share * impulse).collect();
         let (left, across) = mean.split_at(mean.len() - self.links.all_rollers().len());
-        Some(self.given(left, across))
+        Some(self.reactions_from_residuals(left, across))
     }
 
     pub(super) fn add_impulses_of_step(&mut self, solution: &Solution<'_>) {
@@ -126,12 +126,12 @@ impl System {
         let duration = self.step.interval.duration();
         impulses.left.fill(0.0);
         let before = std::mem::take(&mut self.motion.rates);
-        self.apart(&mut impulses, |at| (rates[at] - before[at]) / duration, rates.len());
+        self.separate_values(&mut impulses, |at| (rates[at] - before[at]) / duration, rates.len());
         self.motion.rates = before;
         self.exchange_numbers(&mut impulses);
         self.add_inertia(1.0, &impulses.values, &mut impulses.left);
         self.exchange_numbers(&mut impulses);
-        self.apart(&mut impulses, |at| increments[at], increments.len());
+        self.separate_values(&mut impulses, |at| increments[at], increments.len());
         self.exchange_numbers(&mut impulses);
         for (stage, share) in balanced {
             let moved = if *stage == Stage::Start { &[] } else { &*impulses.values };
@@ -151,7 +151,7 @@ impl System {
     }
 
     /// Adds the impulses of an impact: changes of the rates (including impulses of rigid links), section forces, and forces on slaves.
-    pub(super) fn add_impulses_of_blow(
+    pub(super) fn add_impact_impulses(
         &mut self,
         change: &[f64],
         passed_on: &[f64],
@@ -159,11 +159,11 @@ impl System {
     ) {
         let Some(mut impulses) = self.exchanged.impulses.take() else { return };
         impulses.left.fill(0.0);
-        self.apart(&mut impulses, |at| change[at], change.len());
+        self.separate_values(&mut impulses, |at| change[at], change.len());
         self.bodies.exchange_numbers(&mut impulses.numbers);
         self.add_inertia(1.0, &impulses.values, &mut impulses.left);
         self.links.transmit(&self.bodies, change, &mut impulses.left);
-        add_passed_on(self, passed_on, &mut impulses.left);
+        add_transmitted_impulses(self, passed_on, &mut impulses.left);
         for (slider, impulse) in on_slaves {
             self.sliders[slider].transmit(&self.bodies, -impulse, &mut impulses.left);
         }
@@ -173,7 +173,7 @@ impl System {
     }
 
     /// Copies `count` values of the unknowns to the separate numbering of control points and rigid links.
-    fn apart(&self, impulses: &mut Impulses, value: impl Fn(usize) -> f64, count: usize) {
+    fn separate_values(&self, impulses: &mut Impulses, value: impl Fn(usize) -> f64, count: usize) {
         let Impulses { numbers, links, values, .. } = impulses;
         let of = |at: usize| if at < count { value(at) } else { 0.0 };
         for (body, own) in self.bodies.iter().zip(numbers) {

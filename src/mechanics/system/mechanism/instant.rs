@@ -34,7 +34,7 @@ impl Instant {
     }
 
     /// Forces of joints and supports.
-    pub fn given(&self) -> &Reactions {
+    pub fn reactions(&self) -> &Reactions {
         &self.given
     }
 
@@ -53,16 +53,16 @@ impl System {
         let time = self.motion.time;
         let refused = |reason: String| SystemError::NoInstant { time, reason };
         self.elements
-            .hold_at(time)
+            .evaluate_after(time)
             .map_err(|(load, source)| refused(format!("{load}: {source}")))?;
         let rates = self.bodies.by_control_point(&self.motion.rates);
-        let joined = self.bodies.number_apart();
+        let joined = self.bodies.number_separately();
         let mut apart = vec![0.0; joined.iter().map(|body| 3 * body.len()).sum()];
         self.bodies.add_forces(collocation(Stage::Start), &[], 1.0, &mut apart);
         let at =
             TrialState { bodies: &self.bodies, stage: Stage::End, increments: &[], weight: 1.0 };
         self.elements.subtract_from(at, &mut apart);
-        self.elements.add_resisting(&self.bodies, &rates, &mut apart);
+        self.elements.add_resistance_at_start(&self.bodies, &rates, &mut apart);
         let own = self.bodies.number_as(joined);
 
         let degrees: Vec<usize> = self
@@ -77,13 +77,13 @@ impl System {
             let prescribed = self.supports.prescribed().accelerations();
             self.add_inertia(1.0, &prescribed, &mut residual);
         }
-        for slider in self.sliders.iter().filter(|slider| slider.gives_way()) {
+        for slider in self.sliders.iter().filter(|slider| slider.is_compliant()) {
             slider.transmit(&self.bodies, slider.contact_force(), &mut residual);
         }
         let (accelerations, mut contacts) =
-            self.answer(&residual).map_err(|error| refused(error.to_string()))?;
+            self.solve_accelerations(&residual).map_err(|error| refused(error.to_string()))?;
         for (contact, slider) in contacts.iter_mut().zip(self.sliders.iter()) {
-            if slider.gives_way() {
+            if slider.is_compliant() {
                 *contact += slider.contact_force();
             }
         }
@@ -100,7 +100,11 @@ impl System {
         let multiplier =
             |roller: &InclinedRoller| roller.unknown.map_or(0.0, |at| accelerations[at]);
         let across: Vec<f64> = self.links.all_rollers().iter().map(multiplier).collect();
-        Ok(Instant { given: self.given(&apart, &across), accelerations, contacts })
+        Ok(Instant {
+            given: self.reactions_from_residuals(&apart, &across),
+            accelerations,
+            contacts,
+        })
     }
 
     /// Evaluates a function of the model with the present forces of rigid links in place of those of the last step, which are zero before the first
@@ -126,7 +130,7 @@ impl System {
     }
 
     /// Solves `M a + residual = Gᵀ λ` for the accelerations and the forces on the masters.
-    fn answer(&self, residual: &[f64]) -> Result<(Vec<f64>, Vec<Vec2>), LinearError> {
+    fn solve_accelerations(&self, residual: &[f64]) -> Result<(Vec<f64>, Vec<Vec2>), LinearError> {
         let mut accelerations: Vec<f64> =
             residual[..self.unknowns()].iter().map(|force| -force).collect();
         let prescribed = self.supports.prescribed().accelerations();
@@ -142,7 +146,7 @@ impl System {
         accelerations.extend(prescribed.into_iter().skip(self.unknowns()));
         let mut contacts = vec![Vec2::zeros(); self.sliders.len()];
         let directions = self.sliders.directions(&self.bodies);
-        let answers = self.answers(&inertia, &directions);
+        let answers = self.impulse_responses(&inertia, &directions);
         let count = answers.len();
         if count == 0 {
             return Ok((accelerations, contacts));

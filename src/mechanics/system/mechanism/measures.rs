@@ -68,7 +68,7 @@ impl System {
             time: self.motion.time,
             energy,
             work: self.exchanged.total.work,
-            dissipated: self.elements.dissipated() + self.sliders.lost(),
+            dissipated: self.elements.dissipated() + self.sliders.lost_energy(),
             momentum: momenta.linear,
             impulse: self.exchanged.total.impulse,
             angular_momentum: momenta.angular,

@@ -34,12 +34,12 @@ impl OrderAtRest {
     }
 
     /// Returns true if the order is that of steps.
-    pub fn is_given(&self) -> bool {
+    pub fn is_step_order(&self) -> bool {
         self.position.is_none()
     }
 
     /// Converts values from this order to that of steps, restricted to `unknowns` entries.
-    pub fn in_own_order(&self, values: Vec<f64>, unknowns: usize) -> Vec<f64> {
+    pub fn to_step_order(&self, values: Vec<f64>, unknowns: usize) -> Vec<f64> {
         match &self.position {
             None => values,
             Some(all) => all[..unknowns].iter().map(|at| values[*at]).collect(),
@@ -58,8 +58,10 @@ impl System {
         let count = movements + self.sliders.len();
         let mut groups: Vec<Vec<usize>> = Vec::new();
         let given = OrderAtRest { count, half_bandwidth: 0, position: None };
-        self.each_span_at_rest(&given, &mut |degrees, _| groups.push(degrees.to_vec()));
-        self.each_tie_at_rest(&given, |_| 1.0, &mut |degrees, _| groups.push(degrees.to_vec()));
+        self.for_each_static_span(&given, &mut |degrees, _| groups.push(degrees.to_vec()));
+        self.for_each_static_constraint(&given, |_| 1.0, &mut |degrees, _| {
+            groups.push(degrees.to_vec())
+        });
         self.inertia_entries(&mut |row, column, _| {
             if row != column {
                 groups.push(vec![row, column]);

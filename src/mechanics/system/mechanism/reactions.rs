@@ -30,7 +30,7 @@ impl Reactions {
 
 impl System {
     /// Forces of joints and supports from the residuals of all control points and the multipliers of all inclined rollers.
-    pub(super) fn given(&self, left: &[f64], across: &[f64]) -> Reactions {
+    pub(super) fn reactions_from_residuals(&self, left: &[f64], across: &[f64]) -> Reactions {
         let mut residual = vec![0.0; self.degrees_of_freedom()];
         let mut forces = left.chunks_exact(3).map(|force| [force[0], force[1], force[2]]);
         let nodes = self.bodies.iter().map(|body| {

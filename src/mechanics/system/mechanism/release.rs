@@ -54,9 +54,9 @@ impl System {
         self.step = StepMeasures::new(self.degrees_of_freedom());
     }
 
-    pub(in crate::system) fn let_go_of_spring(&mut self, spring: usize) {
-        self.elements.let_go(spring);
-        self.motion.accelerations.forget();
+    pub(in crate::system) fn release_spring(&mut self, spring: usize) {
+        self.elements.release(spring);
+        self.motion.accelerations.mark_unknown();
     }
 
     pub(in crate::system) fn detach_springs(&mut self, released: &[Releasable]) {

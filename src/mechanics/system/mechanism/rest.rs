@@ -31,9 +31,9 @@ impl System {
     }
 
     /// Predicts zero movement between two equilibria; contact unknowns follow movements.
-    pub fn stay(&self, unknowns: &mut [f64]) {
+    pub fn predict_unchanged(&self, unknowns: &mut [f64]) {
         unknowns.fill(0.0);
-        self.sliders.stay(&mut unknowns[self.unknowns.count()..]);
+        self.sliders.predict_unchanged(&mut unknowns[self.unknowns.count()..]);
     }
 
     /// Adds the internal forces at the current section forces minus `load_factor` times the loads, followed by the contact equations. The unknowns
@@ -86,14 +86,14 @@ impl System {
     ///
     /// # Errors
     /// Slider and end of its master, if a slider would leave its master.
-    pub fn settle_on_stops(
+    pub fn update_stop_contacts(
         &mut self,
         unknowns: &[f64],
         load_factor: f64,
     ) -> Result<bool, (usize, MasterEnd)> {
         let (movements, contacts) = unknowns.split_at(self.unknowns.count());
         let movements = &*self.supports.prescribed().at_rest(movements, load_factor);
-        self.sliders.settle_on_stops(&self.bodies, movements, contacts)
+        self.sliders.update_stop_contacts(&self.bodies, movements, contacts)
     }
 
     /// Subtracts `load_factor` times loads and weight. Returns the largest force and moment on a control point.
@@ -114,16 +114,16 @@ impl System {
         self.bodies.gather(&movements);
         let arms = ArmRule { rotations: RotationIncrement::Angle, share: 1.0 };
         self.links.advance(&self.bodies, arms, &movements);
-        self.supports.prescribed_mut().place(load_factor);
+        self.supports.prescribed_mut().accept_positions(load_factor);
         self.elements.advance(&self.bodies, RotationIncrement::Angle);
         self.bodies.advance(RotationIncrement::Angle);
-        self.sliders.rest(contacts);
+        self.sliders.accept_static_positions(contacts);
         self.motion.rates.fill(0.0);
     }
 
     /// Returns true if prescribed positions have to be applied with the loads.
-    pub fn is_moved_at_rest(&self) -> bool {
-        self.supports.prescribed().moves_at_rest()
+    pub fn has_prescribed_positions(&self) -> bool {
+        self.supports.prescribed().has_positions()
     }
 
     /// Support force at a place at rest: force [force] and moment [force·length]; `None` without a support there.

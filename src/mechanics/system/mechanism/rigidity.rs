@@ -68,7 +68,7 @@ impl Rigidity {
             Deformation::Inextensible(length) => (length, Some(StrainKind::Axial)),
         };
         let mut resistances = Vec::new();
-        each_resisting(model, |degrees, row, weight, kind| {
+        for_each_stiff_strain(model, |degrees, row, weight, kind| {
             let (degrees, strain) = (degrees.to_vec(), row.to_vec());
             resistances.push(StrainResistance {
                 degrees,
@@ -103,7 +103,7 @@ impl Rigidity {
     /// Converts a unit impulse to the impulse with transmitted section forces, using the factors of the [`matrix`](Self::matrix).
     ///
     /// Suppressed strains are brought to zero by the method of multipliers (Hestenes 1969). Returns the impulses `n` of the section forces.
-    pub(super) fn pass_on(
+    pub(super) fn transmit_unit_impulse(
         &self,
         model: &mut System,
         factors: &BandedLu<'_>,
@@ -116,8 +116,8 @@ impl Rigidity {
             let mut left: Vec<f64> = impulse.iter().map(|force| -force).collect();
             model.add_inertia(1.0, &rates, &mut left);
             model.links.transmit(&model.bodies, &rates, &mut left);
-            self.add_passed(&passed, 1.0, &mut left);
-            self.add_passed(&missing, 1.0, &mut left);
+            self.add_transmitted(&passed, 1.0, &mut left);
+            self.add_transmitted(&missing, 1.0, &mut left);
             left.iter_mut().for_each(|force| *force = -*force);
             model.links.set_velocity_violation(&model.bodies, &rates, -1.0, &mut left);
             let change = &mut left[..movements];
@@ -138,12 +138,12 @@ impl Rigidity {
                 break;
             }
         }
-        self.add_passed(&passed, -1.0, impulse);
+        self.add_transmitted(&passed, -1.0, impulse);
         passed
     }
 
     /// Adds a multiple of `Bᵀ n`.
-    fn add_passed(&self, passed: &[f64], factor: f64, out: &mut [f64]) {
+    fn add_transmitted(&self, passed: &[f64], factor: f64, out: &mut [f64]) {
         for (passed, StrainResistance { degrees, strain, .. }) in
             passed.iter().zip(&self.resistances)
         {
@@ -166,7 +166,7 @@ fn fastest<'r>(inertia: &[f64], resistances: impl Iterator<Item = &'r StrainResi
 }
 
 /// Calls `take` for every strain with stiffness: degrees of freedom, coefficients, stiffness and kind.
-fn each_resisting(model: &System, mut take: impl FnMut(&[usize], &[f64], f64, StrainKind)) {
+fn for_each_stiff_strain(model: &System, mut take: impl FnMut(&[usize], &[f64], f64, StrainKind)) {
     model.each_span_of_bodies(&mut |degrees, span| {
         let rows = span.stiffness.iter().zip(&span.kinds).zip(span.strains.chunks(degrees.len()));
         let resisting = rows.filter(|((stiffness, _), _)| **stiffness > 0.0);
@@ -175,9 +175,9 @@ fn each_resisting(model: &System, mut take: impl FnMut(&[usize], &[f64], f64, St
 }
 
 /// Adds the transmitted impulses `Bᵀ n` of an impact in the current numbering; nothing if no strain is rigid.
-pub(super) fn add_passed_on(model: &System, passed: &[f64], out: &mut [f64]) {
+pub(super) fn add_transmitted_impulses(model: &System, passed: &[f64], out: &mut [f64]) {
     let mut passed = passed.iter();
-    each_resisting(model, |degrees, row, _, _| {
+    for_each_stiff_strain(model, |degrees, row, _, _| {
         if let Some(passed) = passed.next() {
             degrees.iter().zip(row).for_each(|(at, by)| out[*at] += by * passed);
         }

@@ -99,13 +99,13 @@ impl Response {
 
 impl System {
     /// Returns true if the track of a slider continues beyond a limit.
-    pub fn goes_on(&self, limit: MasterLimit) -> bool {
+    pub fn continues_beyond(&self, limit: MasterLimit) -> bool {
         self.sliders[limit.slider].seam(&self.bodies, limit.end).is_some()
     }
 
     /// Returns true if a slider reached or left a seam at the present time.
-    pub fn came_to_seam_now(&self, slider: usize) -> bool {
-        self.sliders[slider].came_to_seam_at(self.motion.time)
+    pub fn is_at_seam_event(&self, slider: usize) -> bool {
+        self.sliders[slider].crossed_seam_at(self.motion.time)
     }
 
     /// Crossings of sliders that are at seams of their tracks.
@@ -125,12 +125,12 @@ impl System {
     }
 
     pub(super) fn pass_seams(&mut self, passages: &SeamCrossings) -> Result<(), LinearError> {
-        self.turn(&passages.of_shear, Deformation::All)?;
+        self.deflect(&passages.of_shear, Deformation::All)?;
         let time = self.motion.time;
         for (slider, _, seam) in &passages.passing {
-            self.sliders[*slider].pass(*seam);
-            self.sliders[*slider].note_passing(time);
-            self.motion.accelerations.forget();
+            self.sliders[*slider].cross_seam(*seam);
+            self.sliders[*slider].record_crossing(time);
+            self.motion.accelerations.mark_unknown();
         }
         Ok(())
     }
@@ -144,7 +144,7 @@ impl System {
             Some(SeamCorner { slider, comes, goes })
         };
         let corners: Vec<SeamCorner> = limits.iter().filter_map(corner).collect();
-        self.turn(&corners, Deformation::All)?;
+        self.deflect(&corners, Deformation::All)?;
         corners.iter().for_each(|corner| self.sliders[corner.slider].straighten());
         Ok(())
     }
@@ -161,7 +161,7 @@ impl System {
     }
 
     /// Deflects the relative velocities of sliders at corners, with the deformations that take part.
-    pub(super) fn turn(
+    pub(super) fn deflect(
         &mut self,
         corners: &[SeamCorner],
         deformation: Deformation,
@@ -175,9 +175,9 @@ impl System {
             others.into_iter().filter(|(slider, _)| !passes(*slider)).collect();
         let turned = SeamCorner::directions(corners);
         let met = [(&turned[..], deformation), (&others, deformation)];
-        let encounter = self.encounter(&met, -2.0)?;
+        let encounter = self.impact_problem(&met, -2.0)?;
         if let Some(impulses) =
-            round_corners(&encounter, corners, &vec![ImpactLaw::Reverses; others.len()])?
+            deflect_at_corners(&encounter, corners, &vec![ImpactLaw::Reverses; others.len()])?
         {
             self.apply(encounter, &impulses.values);
         }
@@ -196,7 +196,7 @@ fn turned(direction: Vec2, [from, to]: [Vec2; 2]) -> Vec2 {
 ///
 /// For any `γ` it is one complementarity problem, with the rows `cos(θ/2) √det W P - sin(θ/2) J W P = sin(θ/2) J 2 w̄` for corners. Theory.md,
 /// section 10.3, shows that its solution is unique.
-pub(super) fn round_corners(
+pub(super) fn deflect_at_corners(
     encounter: &ImpactProblem,
     corners: &[SeamCorner],
     laws: &[ImpactLaw],
@@ -205,7 +205,7 @@ pub(super) fn round_corners(
         return Ok(Some(encounter.impulses(laws)?));
     }
     let own = own_responses(encounter, corners, laws)?;
-    let half_way = encounter.half_way();
+    let half_way = encounter.mean_velocity();
     let lacks = [vec![0.0; 2 * corners.len()], encounter.lacks(laws)].concat();
     let tied = corners.iter().flat_map(|_| [Pairing::Tied; 2]);
     let pairings: Vec<Pairing> = tied.chain(laws.iter().map(|law| law.pairing())).collect();
@@ -227,7 +227,8 @@ pub(super) fn round_corners(
         let impulses = complementary(&matrix, &missing, &pairings)?;
         let mut is_right = true;
         for (at, bend) in bends.iter_mut().enumerate() {
-            let [x, y] = [2 * at, 2 * at + 1].map(|row| encounter.meets(row, &impulses));
+            let [x, y] =
+                [2 * at, 2 * at + 1].map(|row| encounter.approach_velocities(row, &impulses));
             let (before, change) = (Vec2::new(x.0, y.0), Vec2::new(x.1, y.1));
             is_right &= bend.correct(before, before + change);
         }

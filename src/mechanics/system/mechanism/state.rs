@@ -129,13 +129,13 @@ impl System {
 }
 
 impl Checkpoint for System {
-    fn keep(&mut self) {
+    fn save_state(&mut self) {
         let mut kept = std::mem::take(&mut self.kept);
         self.write_state(&mut kept);
         self.kept = kept;
     }
 
-    fn go_back(&mut self) {
+    fn restore_state(&mut self) {
         let kept = std::mem::take(&mut self.kept);
         self.restore(&kept);
         self.kept = kept;

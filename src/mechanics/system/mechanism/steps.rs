@@ -14,7 +14,7 @@ use crate::system::links::ArmRule;
 use crate::system::sliders::InStep;
 
 /// Arms of rigid links for a method with a stage and a weight, taken at the time of its balance. Otherwise the method would be of first order.
-fn arms(stage: Stage, weight: f64) -> ArmRule {
+fn arm_rule(stage: Stage, weight: f64) -> ArmRule {
     let Collocation { rotations, configuration, .. } = collocation(stage);
     let share = if stage == Stage::End { weight } else { configuration };
     ArmRule { rotations, share }
@@ -32,7 +32,7 @@ impl System {
         let at = TrialState { bodies: &self.bodies, stage, increments, weight };
         self.elements.add_resistance(at, out, &mut summary);
         if stage != Stage::Start {
-            let arms = arms(stage, weight);
+            let arms = arm_rule(stage, weight);
             self.links.add(&self.bodies, arms, increments, out, &mut summary);
         }
         summary
@@ -63,7 +63,7 @@ impl System {
         let (at, unknowns) =
             (TrialState { bodies: &self.bodies, stage, increments, weight }, self.unknowns.count());
         self.elements.add_linearised_resistance(at, out, unknowns, tangent);
-        let (arms, none) = (arms(stage, weight), &mut ForceSummary::default());
+        let (arms, none) = (arm_rule(stage, weight), &mut ForceSummary::default());
         self.links.add(&self.bodies, arms, increments, out, none);
         self.links.add_tangent(&self.bodies, arms, increments, unknowns, tangent);
         self.subtract_loads(stage, increments, share, out);
@@ -81,23 +81,23 @@ impl System {
             sum +=
                 WorkAndImpulse::of(0.0, impulse, cross(roller.mean_place(&self.bodies), impulse));
         }
-        if duration < 0.0 { sum.taken_back() } else { sum }
+        if duration < 0.0 { sum.negated() } else { sum }
     }
 
     /// Evaluates `M Δv` and `M v̄` of the prescribed movements in a step.
-    fn meet_given(&mut self, rates: &[f64]) {
+    fn add_prescribed_inertia(&mut self, rates: &[f64]) {
         let Self { bodies, elements, supports, motion, step, .. } = self;
         let movements = supports.prescribed_mut();
         let before = &motion.rates;
         let (change, struck) = (movements.fill(|at| rates[at] - before[at]), step.no_forces());
         bodies.add_inertia(1.0, change, struck);
         elements.add_inertia(bodies, 1.0, change, struck);
-        movements.take_struck(struck);
+        movements.store_impact_momentum(struck);
         let mean = movements.fill(|at| 0.5 * (before[at] + rates[at]));
         let momentum = step.no_forces();
         bodies.add_inertia(1.0, mean, momentum);
         elements.add_inertia(bodies, 1.0, mean, momentum);
-        movements.take_momentum(bodies, momentum);
+        movements.store_mean_momentum(bodies, momentum);
     }
 
     fn exchange_of_drives(&mut self, rates: &[f64], residual: &[f64]) -> WorkAndImpulse {
@@ -107,7 +107,7 @@ impl System {
         let mean = |at: usize| 0.5 * (before[at] + rates[at]);
         let movements = self.supports.prescribed_mut();
         let sum = movements.exchange(&self.bodies, residual, in_step, mean);
-        if duration < 0.0 { sum.taken_back() } else { sum }
+        if duration < 0.0 { sum.negated() } else { sum }
     }
 }
 
@@ -157,7 +157,7 @@ impl Forces for System {
     }
 
     fn largest_rotation(&self) -> f64 {
-        larger(self.step.summary.rotation, self.supports.prescribed().turn())
+        larger(self.step.summary.rotation, self.supports.prescribed().largest_rotation())
     }
 }
 
@@ -267,7 +267,7 @@ impl Mechanism for System {
         self.add_impulses_of_step(solution);
         let is_driven = self.supports.prescribed().count() > 0;
         if is_driven {
-            self.meet_given(rates);
+            self.add_prescribed_inertia(rates);
         }
         self.bodies.gather(increments);
         self.exchanged.total += self.exchange_in_step(increments, residual);
@@ -275,7 +275,7 @@ impl Mechanism for System {
             let prescribed = self.exchange_of_drives(rates, residual);
             self.exchanged.total += prescribed;
         }
-        self.sliders.close(&self.bodies, increments, constraints);
+        self.sliders.evaluate_end(&self.bodies, increments, constraints);
         self.elements.advance(&self.bodies, self.step.rotations);
         self.bodies.advance(self.step.rotations);
         let arms = ArmRule { rotations: self.step.rotations, share: 0.5 };

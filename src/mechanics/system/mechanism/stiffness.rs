@@ -17,7 +17,7 @@ const RIGID: f64 = 1e8;
 
 impl System {
     /// Passes every span and spring at rest: places of the unknowns of its components, and its rows. Supported components follow all unknowns.
-    pub fn each_span_at_rest(
+    pub fn for_each_static_span(
         &self,
         order: &OrderAtRest,
         take: &mut dyn FnMut(&[usize], &SpanStiffness),
@@ -27,14 +27,14 @@ impl System {
 
     fn each_span(&self, take: &mut dyn FnMut(&[usize], &SpanStiffness)) {
         self.each_span_of_bodies(take);
-        self.elements.each_at_rest(&self.bodies, take);
+        self.elements.for_each_static_stiffness(&self.bodies, take);
     }
 
     /// Calls `take` for the stiffness of every span of every body, with the degrees of freedom of its components.
     pub(super) fn each_span_of_bodies(&self, take: &mut dyn FnMut(&[usize], &SpanStiffness)) {
         for body in self.bodies.iter() {
             let order = body.dynamics.order();
-            body.dynamics.each_span_at_rest(&mut |span| {
+            body.dynamics.for_each_static_span(&mut |span| {
                 let degrees = &body.degrees_of_freedom[span.first..span.first + order];
                 take(degrees.as_flattened(), span);
             });
@@ -72,7 +72,7 @@ impl System {
 
     /// Passes every rigid link and contact as a penalty stiffness: `RIGID` times the largest `stiffness` of its movements, queried by place
     /// [force/length, force·length].
-    pub fn each_tie_at_rest(
+    pub fn for_each_static_constraint(
         &self,
         order: &OrderAtRest,
         stiffness: impl Fn(usize) -> f64,
@@ -94,12 +94,12 @@ impl System {
         });
         let largest = of_movements.chain(of_links).fold(0.0, larger);
         let rigid = if largest > 0.0 { RIGID * largest } else { 1.0 };
-        self.links.each_at_rest(&self.bodies, rigid, take);
-        self.sliders.each_at_rest(&self.bodies, self.unknowns.count(), rigid, take);
+        self.links.for_each_static_stiffness(&self.bodies, rigid, take);
+        self.sliders.for_each_static_stiffness(&self.bodies, self.unknowns.count(), rigid, take);
     }
 
     /// Number of movements with inertia that rigid links and contacts remove.
-    pub fn held_by_ties(&self, order: &OrderAtRest, inertia: &SymmetricSparse) -> usize {
+    pub fn constrained_movements(&self, order: &OrderAtRest, inertia: &SymmetricSparse) -> usize {
         self.held_by_links(order, inertia) + self.sliders.movements_held()
     }
 
@@ -126,23 +126,23 @@ impl System {
     }
 
     /// Number of negative eigenvalues of the stiffness, for loads of fixed direction.
-    pub fn falls(&self) -> usize {
-        self.falls_against(0.0)
+    pub fn negative_stiffness_count(&self) -> usize {
+        self.negative_stiffness_count_with_inertia(0.0)
     }
 
     /// The same with a multiple of the inertia added to the stiffness [1/time²].
-    pub fn falls_against(&self, rate: f64) -> usize {
+    pub fn negative_stiffness_count_with_inertia(&self, rate: f64) -> usize {
         let order = self.order_at_rest();
         let inertia = match rate > 0.0 {
             true => self.sparse_inertia(&order),
             false => SymmetricSparse::new(order.count(), |_| {}),
         };
         let mut stiffness = PreciseBand::zeros(order.count(), order.half_bandwidth());
-        self.each_span_at_rest(&order, &mut |degrees, span| {
+        self.for_each_static_span(&order, &mut |degrees, span| {
             add_resistance(&mut stiffness, degrees, span);
         });
         let own: Vec<f64> = (0..stiffness.size()).map(|at| stiffness.diagonal(at).abs()).collect();
-        self.each_tie_at_rest(&order, |at| own[at], &mut |degrees, span| {
+        self.for_each_static_constraint(&order, |at| own[at], &mut |degrees, span| {
             add_resistance(&mut stiffness, degrees, span);
         });
         stiffness.pivots(rate, &inertia).map_or(0, |pivots| pivots.negative)
@@ -154,7 +154,7 @@ fn in_order<'t>(
     order: &'t OrderAtRest,
     take: &'t mut dyn FnMut(&[usize], &SpanStiffness),
 ) -> impl FnMut(&[usize], &SpanStiffness) {
-    move |unknowns, span| match order.is_given() {
+    move |unknowns, span| match order.is_step_order() {
         true => take(unknowns, span),
         false => {
             let places: Vec<usize> = unknowns.iter().map(|at| order.place(*at)).collect();

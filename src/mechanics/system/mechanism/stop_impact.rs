@@ -6,7 +6,7 @@
 use super::System;
 use super::impact::{GIVES, ImpactDirection, ImpactLaw};
 use super::rigidity::Deformation;
-use super::seam_impact::{SeamCorner, round_corners};
+use super::seam_impact::{SeamCorner, deflect_at_corners};
 use crate::elementary::square;
 use crate::geometry::{Vec2, larger, perpendicular};
 use crate::joints::EndAction;
@@ -49,10 +49,10 @@ pub struct Arriving {
 impl Arriving {
     /// Returns true if no slider arrives.
     pub fn is_empty(&self) -> bool {
-        !self.strikes_or_leans() && self.pass.is_empty()
+        !self.has_impact_or_is_held() && self.pass.is_empty()
     }
 
-    fn strikes_or_leans(&self) -> bool {
+    fn has_impact_or_is_held(&self) -> bool {
         [&self.strike, &self.stay, &self.lean].into_iter().any(|limits| !limits.is_empty())
     }
 
@@ -66,7 +66,7 @@ impl Arriving {
 
 impl System {
     /// Limits reached simultaneously with the given one, in the order of the scene: sliders within rounding of an end that move beyond it.
-    pub fn arriving_with(&self, limit: MasterLimit) -> Vec<MasterLimit> {
+    pub fn simultaneous_arrivals(&self, limit: MasterLimit) -> Vec<MasterLimit> {
         let limits = (0..self.sliders.len()).flat_map(MasterLimit::both);
         let arrives = |other: &MasterLimit| {
             let slider = &self.sliders[other.slider];
@@ -81,11 +81,12 @@ impl System {
     /// # Errors
     /// Fails if the impulse is not determined.
     pub fn approaches(&mut self, limit: MasterLimit, dt: f64) -> Result<bool, SystemError> {
-        let direction = (limit.slider, self.inward(limit));
+        let direction = (limit.slider, self.stop_direction(limit));
         let approach = |model: &mut Self| -> Result<f64, LinearError> {
             let deformation = model.deformation_at(&[limit], dt)?;
             let mut inertia = model.banded_inertia();
-            let answers = model.answers_with(&inertia.factorise()?, &[direction], deformation)?;
+            let answers =
+                model.impulse_responses_with(&inertia.factorise()?, &[direction], deformation)?;
             Ok(answers.iter().map(|answer| answer.velocity(&model.motion.rates)).sum())
         };
         let speed = approach(self).map_err(|_| self.sliders.overdetermined())?;
@@ -97,23 +98,23 @@ impl System {
     ///
     /// # Errors
     /// Fails if the impulse is not determined.
-    pub fn resolves_blow(&mut self, limit: MasterLimit, dt: f64) -> Result<bool, SystemError> {
-        let lasts = self.blow_lasts(limit).map_err(|_| self.sliders.overdetermined())?;
-        self.sliders[limit.slider].note_blow(dt / lasts);
+    pub fn resolves_impact(&mut self, limit: MasterLimit, dt: f64) -> Result<bool, SystemError> {
+        let lasts = self.impact_duration(limit).map_err(|_| self.sliders.overdetermined())?;
+        self.sliders[limit.slider].record_impact_ratio(dt / lasts);
         Ok(lasts.is_finite() && dt <= RESOLVED_BLOW * lasts)
     }
 
     /// Duration of the impact of a slider at a limit [time]; infinite if nothing is compliant.
-    fn blow_lasts(&self, limit: MasterLimit) -> Result<f64, LinearError> {
-        let direction = (limit.slider, self.inward(limit));
+    fn impact_duration(&self, limit: MasterLimit) -> Result<f64, LinearError> {
+        let direction = (limit.slider, self.stop_direction(limit));
         let mut inertia = self.banded_inertia();
-        let answers = self.answers(&inertia.factorise()?, &[direction]);
+        let answers = self.impulse_responses(&inertia.factorise()?, &[direction]);
         let [answer] = &answers[..] else { return Ok(f64::INFINITY) };
         let (slave, master) = self.speeds(direction, &answer.rates);
         let (slave, master) = (slave.abs(), master.abs());
         let least = GIVES * (slave + master);
         let [slave, master] = [slave, master].map(|speed| (speed > least).then(|| 1.0 / speed));
-        Ok(self.sliders[limit.slider].blow_lasts(&self.bodies, AxialImpact { slave, master }))
+        Ok(self.sliders[limit.slider].impact_duration(&self.bodies, AxialImpact { slave, master }))
     }
 
     /// Deformations that take part in an impact at limits in steps of length `dt` [time]. A coefficient of restitution includes the axial waves and
@@ -121,7 +122,7 @@ impl System {
     fn deformation_at(&self, limits: &[MasterLimit], dt: f64) -> Result<Deformation, LinearError> {
         let mut longest = None;
         for limit in limits.iter().filter(|at| self.end_action(at.slider) != EndAction::Contact) {
-            let lasts = Some(self.blow_lasts(*limit)?).filter(|lasts| lasts.is_finite());
+            let lasts = Some(self.impact_duration(*limit)?).filter(|lasts| lasts.is_finite());
             longest = Some(larger(longest.unwrap_or(dt), lasts.unwrap_or(dt)));
         }
         Ok(longest.map_or(Deformation::Slow(RIGID * dt), |longest| {
@@ -130,22 +131,22 @@ impl System {
     }
 
     /// Holds the kinks at contact points constant in the following steps. Returns true if this changes the law of the next step.
-    pub fn keep_kinks(&mut self) -> bool {
-        self.sliders.keep_kinks()
+    pub fn freeze_kinks(&mut self) -> bool {
+        self.sliders.freeze_kinks()
     }
 
     /// Makes the kinks under contact forces follow these again.
-    pub fn let_kinks_follow(&mut self) {
-        self.sliders.let_kinks_follow();
+    pub fn unfreeze_kinks(&mut self) {
+        self.sliders.unfreeze_kinks();
     }
 
     /// Returns true if a kink under a contact force is fixed.
-    pub fn has_kept_kinks(&self) -> bool {
+    pub fn has_frozen_kinks(&self) -> bool {
         self.sliders.iter().any(|slider| slider.is_frozen())
     }
 
     /// Direction of the stop force on the slave at a limit [-].
-    fn inward(&self, limit: MasterLimit) -> Vec2 {
+    fn stop_direction(&self, limit: MasterLimit) -> Vec2 {
         self.sliders[limit.slider].along_contact(&self.bodies) * -limit.end.outward()
     }
 
@@ -155,39 +156,44 @@ impl System {
     ///
     /// # Errors
     /// Fails if the impulses are not determined.
-    pub fn meet(&mut self, arriving: &Arriving, dt: f64) -> Result<(), SystemError> {
+    pub fn solve_impact(&mut self, arriving: &Arriving, dt: f64) -> Result<(), SystemError> {
         self.sliders.iter_mut().for_each(|slider| slider.impulse = Vec2::zeros());
-        let met = self.meet_at_once(arriving, dt);
+        let met = self.solve_simultaneous_impacts(arriving, dt);
         met.map_err(|_| self.sliders.overdetermined())?;
-        self.leave_stops()
+        self.leave_tensile_stops()
     }
 
-    fn meet_at_once(&mut self, arriving: &Arriving, dt: f64) -> Result<(), LinearError> {
+    fn solve_simultaneous_impacts(
+        &mut self,
+        arriving: &Arriving,
+        dt: f64,
+    ) -> Result<(), LinearError> {
         self.straighten_kinks(&[&arriving.strike[..], &arriving.stay, &arriving.lean].concat())?;
         let passages = self.passages(&arriving.pass);
         let corners = passages.corners_of_sections();
-        if arriving.strikes_or_leans() || !corners.is_empty() {
+        if arriving.has_impact_or_is_held() || !corners.is_empty() {
             let struck = [&arriving.strike[..], &arriving.stay].concat();
             let at_stops = match struck.is_empty() && !arriving.lean.is_empty() {
                 true => Deformation::All,
                 false => self.deformation_at(&struck, dt)?,
             };
-            let hits = self.hits(|model, limit| arriving.law(model, limit));
-            self.hit(&hits, corners, [Deformation::Slow(RIGID * dt), at_stops])?;
+            let hits = self.impulse_directions(|model, limit| arriving.law(model, limit));
+            self.apply_impulses(&hits, corners, [Deformation::Slow(RIGID * dt), at_stops])?;
         }
         if !arriving.stay.is_empty() {
             // The impact is that of a rigid body, which includes more than its end. The rest is rounding and must be removed.
-            let hits =
-                self.hits(|_, limit| arriving.stay.contains(&limit).then_some(ImpactLaw::Ends));
-            self.hit(&hits, &[], [Deformation::All; 2])?;
+            let hits = self.impulse_directions(|_, limit| {
+                arriving.stay.contains(&limit).then_some(ImpactLaw::Ends)
+            });
+            self.apply_impulses(&hits, &[], [Deformation::All; 2])?;
         }
-        arriving.stay.iter().chain(&arriving.lean).for_each(|limit| self.hold(*limit));
+        arriving.stay.iter().chain(&arriving.lean).for_each(|limit| self.hold_at_stop(*limit));
         self.pass_seams(&passages)
     }
 
     /// Applies simultaneous impulses: sliders that pass corners are deflected, others follow their impact laws. Sliders that come to rest at a stop
     /// are held with all deformations.
-    fn hit(
+    fn apply_impulses(
         &mut self,
         hits: &[ImpactContact],
         corners: &[SeamCorner],
@@ -203,11 +209,11 @@ impl System {
         let turned = SeamCorner::directions(corners);
         let (others, held) = directions.split_at(held_from);
         let met = [(&turned[..], at_corners), (others, at_stops), (held, Deformation::All)];
-        let encounter = self.encounter(&met, -2.0)?;
-        let Some(impulses) = round_corners(&encounter, corners, &laws)? else {
+        let encounter = self.impact_problem(&met, -2.0)?;
+        let Some(impulses) = deflect_at_corners(&encounter, corners, &laws)? else {
             // Impacts that reverse a slider at a corner come first.
-            self.hit(hits, &[], [Deformation::All, at_stops])?;
-            return self.turn(corners, at_corners);
+            self.apply_impulses(hits, &[], [Deformation::All, at_stops])?;
+            return self.deflect(corners, at_corners);
         };
         self.apply(encounter, &impulses.values);
         let tolerance = APPROACHES * self.fastest_speed();
@@ -216,7 +222,7 @@ impl System {
             let (slave, master) = self.speeds(*direction, &self.motion.rates);
             let leaves = *law == ImpactLaw::Leans && *impulse == 0.0 && slave - master > tolerance;
             let slider = &mut self.sliders[direction.0];
-            slider.give(*work);
+            slider.book_impact_work(*work);
             slider.is_pulled = leaves && !slider.stop_may_pull;
             slider.leaves_beyond = false;
         }
@@ -232,7 +238,7 @@ impl System {
     ///
     /// # Errors
     /// Fails if the impulses are not determined.
-    pub fn leave_stops(&mut self) -> Result<(), SystemError> {
+    pub fn leave_tensile_stops(&mut self) -> Result<(), SystemError> {
         let leaving = |slider: &usize| self.sliders[*slider].is_pulled_off();
         let leaving: Vec<usize> = (0..self.sliders.len()).filter(leaving).collect();
         if leaving.is_empty() {
@@ -242,21 +248,21 @@ impl System {
             self.sliders[*slider].change_sides(&self.bodies);
         }
         if leaving.iter().any(|slider| self.sliders[*slider].stored > 0.0) {
-            self.give_back().map_err(|_| self.sliders.overdetermined())?;
+            self.return_stop_energy().map_err(|_| self.sliders.overdetermined())?;
         }
         let time = self.motion.time;
         for slider in leaving {
             self.sliders[slider].leave_stop(&self.bodies, time);
         }
-        self.motion.accelerations.forget();
+        self.motion.accelerations.mark_unknown();
         Ok(())
     }
 
     /// Returns the energy stored in stops to the sliders that leave, by speeds proportional to its square roots.
     ///
     /// The impulses are linear in a scale `s` of these speeds as long as the same contacts act, and the returned energy is quadratic.
-    fn give_back(&mut self) -> Result<(), LinearError> {
-        let hits = self.hits(|model, limit| {
+    fn return_stop_energy(&mut self) -> Result<(), LinearError> {
+        let hits = self.impulse_directions(|model, limit| {
             let slider = &model.sliders[limit.slider];
             let leaves = slider.is_pulled && slider.state == SliderState::Held(limit.end);
             leaves.then_some(ImpactLaw::Leaves(1.0))
@@ -269,7 +275,7 @@ impl System {
                 _ => 0.0,
             })
             .collect();
-        let encounter = self.encounter(&[(&directions, Deformation::All)], -2.0)?;
+        let encounter = self.impact_problem(&[(&directions, Deformation::All)], -2.0)?;
         let laws = |scale: f64| -> Vec<ImpactLaw> {
             let speed = |at: usize| scale * (2.0 * stored[at] * encounter.response[at][at]).sqrt();
             let own = hits.iter().enumerate();
@@ -292,7 +298,7 @@ impl System {
             for (ImpactContact { direction: (slider, _), .. }, work) in
                 hits.iter().zip(&impulses.works)
             {
-                self.sliders[*slider].give(*work);
+                self.sliders[*slider].book_impact_work(*work);
             }
             self.apply(encounter, &impulses.values);
         }
@@ -300,7 +306,10 @@ impl System {
     }
 
     /// Directions [-] of all contact impulses: across masters that do not yield, and along them for held sliders and those with a law at a limit.
-    fn hits(&self, law: impl Fn(&Self, MasterLimit) -> Option<ImpactLaw>) -> Vec<ImpactContact> {
+    fn impulse_directions(
+        &self,
+        law: impl Fn(&Self, MasterLimit) -> Option<ImpactLaw>,
+    ) -> Vec<ImpactContact> {
         let mut hits = Vec::new();
         for (at, slider) in self.sliders.iter().enumerate() {
             let mut limits = MasterLimit::both(at).into_iter();
@@ -312,12 +321,12 @@ impl System {
                     own.or(Some((MasterLimit { slider: at, end }, ImpactLaw::Leans)))
                 }
             };
-            if stop.is_some() || !slider.gives_way() {
+            if stop.is_some() || !slider.is_compliant() {
                 let across = perpendicular(slider.along_contact(&self.bodies));
                 hits.push(ImpactContact { direction: (at, across), law: ImpactLaw::Reverses });
             }
             if let Some((limit, law)) = stop {
-                hits.push(ImpactContact { direction: (at, self.inward(limit)), law });
+                hits.push(ImpactContact { direction: (at, self.stop_direction(limit)), law });
             }
         }
         hits

@@ -38,7 +38,7 @@ impl BeamPlaces {
     pub const WITHIN_A_SPAN: usize = 3;
 
     /// Keeps only the second of two places with the same arc length at a joint inside the beam.
-    pub fn one_at_each_arc_length(mut self) -> Self {
+    pub fn deduplicate_places(mut self) -> Self {
         let mut behind = self.arc_lengths().skip(1).collect::<Vec<_>>().into_iter();
         self.places.retain(|(arc_length, ..)| behind.next() != Some(*arc_length));
         self
@@ -86,7 +86,7 @@ impl System {
         let sample = |(arc_length, place, section): &(f64, BodyPoint, SectionPlace)| {
             let of_strains = dynamics.section_forces(section);
             let forces = self.with_damping(of_strains, along.beam, section);
-            angle = nearest_turn(atan2(forces.normal.y, forces.normal.x), angle);
+            angle = unwrap_to_nearest(atan2(forces.normal.y, forces.normal.x), angle);
             BeamSample {
                 arc_length: *arc_length,
                 position: self.position(place),
@@ -101,7 +101,7 @@ impl System {
 }
 
 /// Angle that differs from `angle` by whole turns and is nearest to `other` [rad].
-fn nearest_turn(angle: f64, other: f64) -> f64 {
+fn unwrap_to_nearest(angle: f64, other: f64) -> f64 {
     angle + 2.0 * PI * ((other - angle) / (2.0 * PI)).round()
 }
 
@@ -112,8 +112,8 @@ mod tests {
     #[test]
     fn angles_follow_their_neighbour_through_whole_turns() {
         for (angle, other, expected) in [(0.1, 0.0, 0.1), (-3.0, 3.2, 2.0 * PI - 3.0)] {
-            assert!((nearest_turn(angle, other) - expected).abs() < 1e-15);
+            assert!((unwrap_to_nearest(angle, other) - expected).abs() < 1e-15);
         }
-        assert!((nearest_turn(0.5, 20.0 * PI) - (20.0 * PI + 0.5)).abs() < 1e-12);
+        assert!((unwrap_to_nearest(0.5, 20.0 * PI) - (20.0 * PI + 0.5)).abs() < 1e-12);
     }
 }

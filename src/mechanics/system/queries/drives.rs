@@ -12,7 +12,7 @@ impl System {
     /// First drive whose position under a fraction of the load differs from its function just after a time: its name and both positions [length,
     /// rad].
     pub fn drive_elsewhere(&self, load_factor: f64, time: f64) -> Option<(&str, [f64; 2])> {
-        self.supports().prescribed().rests_elsewhere(load_factor, time)
+        self.supports().prescribed().first_displaced_drive(load_factor, time)
     }
 
     /// Drives whose motion has a kink within a step, with the sharpest kink of each.

@@ -45,7 +45,7 @@ impl SystemFeature {
     }
 
     /// Returns an omitted feature.
-    pub fn left_out(name: impl Into<String>, saved: impl Into<String>) -> Self {
+    pub fn omitted(name: impl Into<String>, saved: impl Into<String>) -> Self {
         Self { name: name.into(), usage: Usage::LeftOut(saved.into()) }
     }
 }
@@ -122,7 +122,7 @@ impl System {
 
     fn explain_beams(&self, scene: &Scene) -> Vec<SystemFeature> {
         if scene.beams.is_empty() {
-            return vec![SystemFeature::left_out(
+            return vec![SystemFeature::omitted(
                 "beams",
                 "no strains, no section forces, no quadrature",
             )];
@@ -161,7 +161,7 @@ impl System {
         parts
     }
 
-    fn holding<'s>(&'s self, scene: &'s Scene) -> impl Iterator<Item = &'s Joint> {
+    fn joints_at<'s>(&'s self, scene: &'s Scene) -> impl Iterator<Item = &'s Joint> {
         let unknowns = self.unknown_movements();
         let joints = scene.joints.iter().enumerate();
         joints
@@ -171,9 +171,9 @@ impl System {
 
     fn explain_joints(&self, scene: &Scene) -> SystemFeature {
         let between = |joint: &&Joint| joint.partner != Partner::Ground;
-        let kinds = counted(self.holding(scene).filter(between));
+        let kinds = counted(self.joints_at(scene).filter(between));
         if kinds.is_empty() {
-            return SystemFeature::left_out("joints", "no coupled movements");
+            return SystemFeature::omitted("joints", "no coupled movements");
         }
         let all: usize = self.bodies().iter().map(|body| 3 * body.degrees_of_freedom.len()).sum();
         let shared = all - self.supports().count() - self.movements();
@@ -188,9 +188,9 @@ impl System {
 
     fn explain_supports(&self, scene: &Scene) -> SystemFeature {
         let on_ground = |joint: &&Joint| joint.partner == Partner::Ground;
-        let kinds = counted(self.holding(scene).filter(on_ground));
+        let kinds = counted(self.joints_at(scene).filter(on_ground));
         if kinds.is_empty() {
-            return SystemFeature::left_out("supports", "no supports and no reactions");
+            return SystemFeature::omitted("supports", "no supports and no reactions");
         }
         let first_rigid = scene.first_rigid_body();
         let of_particles = |body: usize| (scene.beams.len()..first_rigid).contains(&body);
@@ -217,7 +217,7 @@ impl System {
         if width == 0 {
             let saved =
                 "plain band matrix: no border, no contact forces, no detection of beam ends";
-            return SystemFeature::left_out("sliders", saved);
+            return SystemFeature::omitted("sliders", saved);
         }
         let used = SLIDING_RULES.iter().filter_map(|entry| {
             let count = scene.sliders.iter().filter(|slider| slider.rule == entry.rule).count();
@@ -252,7 +252,7 @@ impl System {
     fn explain_gravity(&self, methods: &[Method]) -> SystemFeature {
         match self.elements().weight() {
             Some(weight) => SystemFeature::used(weight.name(), weight.explain(methods)),
-            None => SystemFeature::left_out("gravity", "no weight and no potential energy"),
+            None => SystemFeature::omitted("gravity", "no weight and no potential energy"),
         }
     }
 
@@ -262,7 +262,7 @@ impl System {
             |load: &dyn ExternalForce| SystemFeature::used(load.name(), load.explain(methods));
         let mut parts: Vec<SystemFeature> = all.clone().take(MOST).map(one).collect();
         if parts.is_empty() {
-            return vec![SystemFeature::left_out("loads", "no external forces")];
+            return vec![SystemFeature::omitted("loads", "no external forces")];
         }
         let rest = all.skip(MOST).map(|load| load.functions()).collect::<Vec<_>>();
         if !rest.is_empty() {
@@ -278,7 +278,7 @@ impl System {
         let one = |spring: &dyn InternalForce| SystemFeature::used(spring.name(), spring.explain());
         let mut parts: Vec<SystemFeature> = all.clone().take(MOST).map(one).collect();
         if parts.is_empty() {
-            return vec![SystemFeature::left_out(
+            return vec![SystemFeature::omitted(
                 "springs",
                 "no stored energy and no damping outside the beams",
             )];
@@ -291,8 +291,8 @@ impl System {
     }
 
     fn explain_angles(&self) -> SystemFeature {
-        match self.bodies().followed_sections() + self.elements().followed_sections() {
-            0 => SystemFeature::left_out("followed angles", "no section angle is tracked"),
+        match self.bodies().tracked_sections() + self.elements().tracked_sections() {
+            0 => SystemFeature::omitted("followed angles", "no section angle is tracked"),
             count => {
                 let how = "ends of beams, stations, and places of follower loads";
                 SystemFeature::used(
@@ -312,7 +312,7 @@ fn explain_drive(scene: &Scene, drive: &Drive) -> SystemFeature {
         0 => String::new(),
         count => format!("; {} function calls per step or substep", 5 * count),
     };
-    let beats = drive.schedules().filter_map(|schedule| schedule.beat());
+    let beats = drive.schedules().filter_map(|schedule| schedule.sample_clock());
     let asked: String = beats.map(|beat| format!(", sampled {beat}")).collect();
     let given = "prescribed and removed from the unknowns";
     let how = format!("{} of {place}: {given}{calls}{asked}", names.join(", "));
@@ -321,7 +321,7 @@ fn explain_drive(scene: &Scene, drive: &Drive) -> SystemFeature {
 
 fn explain_releases(scene: &Scene) -> Option<SystemFeature> {
     let told = scene.releases.iter().map(|release| {
-        let name = scene.name_of_hold(release.hold);
+        let name = scene.releasable_name(release.hold);
         match release.trigger {
             Trigger::Time(time) => format!("'{name}' at t = {time}"),
             Trigger::Outside => {
@@ -342,7 +342,7 @@ fn explain_start(scene: &Scene) -> SystemFeature {
     let how = match (beams_rest && nodes_rest, is_projected) {
         (_, true) => "projected onto the slider constraints with the mass matrix",
         (true, false) => {
-            return SystemFeature::left_out("start velocities", "everything starts at rest");
+            return SystemFeature::omitted("start velocities", "everything starts at rest");
         }
         (false, false) if scene.sliders.is_empty() => "as given",
         (false, false) => "as given; checked for compatibility with the sliders",
@@ -352,14 +352,14 @@ fn explain_start(scene: &Scene) -> SystemFeature {
 
 fn explain_particles(scene: &Scene) -> SystemFeature {
     match scene.particles.len() {
-        0 => SystemFeature::left_out("particles", "every unknown belongs to a beam or body"),
+        0 => SystemFeature::omitted("particles", "every unknown belongs to a beam or body"),
         count => SystemFeature::used("particles", format!("{count}, without rotation")),
     }
 }
 
 fn explain_masses(scene: &Scene) -> SystemFeature {
     match scene.masses().count().saturating_sub(scene.particles.len() + scene.rigid_bodies.len()) {
-        0 => SystemFeature::left_out("point masses", "no masses added to beams or bodies"),
+        0 => SystemFeature::omitted("point masses", "no masses added to beams or bodies"),
         count => {
             let turning = scene.masses().filter(|mass| mass.rotary_inertia > 0.0).count();
             let how = format!("{count}, {turning} with rotary inertia; part of the mass matrix");

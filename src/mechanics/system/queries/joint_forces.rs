@@ -85,10 +85,10 @@ impl System {
                 .chain(bodies.copied())
                 .collect();
             let (here, there) = all[joint].1;
-            let near = reached(here, &pairs);
+            let near = connected_nodes(here, &pairs);
             let (side, sign) = match near.contains(&None) {
                 false => (near, 1.0),
-                true => (reached(there, &pairs), -1.0),
+                true => (connected_nodes(there, &pairs), -1.0),
             };
             JointSide { nodes: side.into_iter().flatten().collect(), sign }
         };
@@ -101,7 +101,7 @@ impl System {
 }
 
 /// Nodes connected to one by pairs, without passing through the ground.
-fn reached(from: Node, pairs: &[(Node, Node)]) -> Vec<Node> {
+fn connected_nodes(from: Node, pairs: &[(Node, Node)]) -> Vec<Node> {
     let mut found = vec![from];
     let mut next = 0;
     while let Some(&at) = found.get(next) {

@@ -74,7 +74,7 @@ impl SensorReader {
     }
 
     /// Returns true if sensors need the mean forces of joints and supports over a step.
-    pub fn need_mean(&self) -> bool {
+    pub fn need_mean_forces(&self) -> bool {
         self.needs_mean
     }
 
@@ -82,7 +82,7 @@ impl SensorReader {
     pub fn read(&mut self, model: &mut System) -> &[f64] {
         self.values.clear();
         let now = if self.needs_instant { model.instant().ok() } else { None };
-        let mean = if self.needs_mean { model.given_in_step() } else { None };
+        let mean = if self.needs_mean { model.mean_reactions() } else { None };
         let at = SensorContext { now: now.as_ref(), mean: mean.as_ref() };
         for reading in &self.readings {
             self.values.push(value(reading, model, at).unwrap_or(f64::NAN));
@@ -104,7 +104,7 @@ fn at_station(
         | Value::AxialStrain
         | Value::ShearStrain
         | Value::Curvature => SensorReading::Section(model.cross_section(scene, station)?, value),
-        Value::Angle => match model.followed_section(scene, station) {
+        Value::Angle => match model.tracked_section(scene, station) {
             Some(section) => SensorReading::Angle(section),
             None => SensorReading::Outside,
         },
@@ -135,7 +135,9 @@ fn value(reading: &SensorReading, model: &mut System, at: SensorContext<'_>) -> 
             })
         }
         SensorReading::Body(body, value) => Some(of_energy(&model.energy_of(*body), *value)),
-        SensorReading::Joint(joint, value) => Some(of_force(joint.read(at.now?.given()), *value)),
+        SensorReading::Joint(joint, value) => {
+            Some(of_force(joint.read(at.now?.reactions()), *value))
+        }
         SensorReading::Contact(slider, value) => {
             Some(of_force((at.now?.contact(*slider), 0.0), *value))
         }

@@ -18,8 +18,8 @@ impl System {
     }
 
     /// Contact that holds a slider: the `start` or `end` of its master or track, or a `seam` of the track.
-    pub fn slider_leans_on(&self, slider: usize) -> Option<&'static str> {
-        self.slider(slider).leans_on(self.bodies())
+    pub fn slider_held_by(&self, slider: usize) -> Option<&'static str> {
+        self.slider(slider).held_by(self.bodies())
     }
 
     /// Index of the present master of a slider.
@@ -33,13 +33,13 @@ impl System {
     }
 
     /// Largest ratio of step length to impact duration at a bounce of a slider; zero for rigid impacts [-].
-    pub fn blows_in_a_step(&self, slider: usize) -> f64 {
+    pub fn steps_per_impact(&self, slider: usize) -> f64 {
         self.slider(slider).blows_in_a_step
     }
 
     /// Largest speed along the master at which the kink under a slider follows the contact force, for the kinked rule [length/time].
-    pub fn fastest_on_kink(&self, slider: usize) -> Option<f64> {
-        self.slider(slider).fastest_on_kink()
+    pub fn kink_speed_limit(&self, slider: usize) -> Option<f64> {
+        self.slider(slider).kink_speed_limit()
     }
 
     /// Force of a slider on its master [force], opposite to that on the slave. It is the mean over the last step; for the kinked rule without a

@@ -50,7 +50,7 @@ impl System {
 
     /// Unwrapped section angle at a station [rad]; `None` if it is not tracked.
     pub fn angle(&self, scene: &Scene, station: &Station) -> Option<f64> {
-        self.section_angle(self.followed_section(scene, station)?)
+        self.section_angle(self.tracked_section(scene, station)?)
     }
 
     /// Unwrapped angle of a tracked section [rad].
@@ -59,7 +59,7 @@ impl System {
     }
 
     /// Index of the tracked section at a station; `None` if it is not tracked.
-    pub fn followed_section(&self, scene: &Scene, station: &Station) -> Option<usize> {
+    pub fn tracked_section(&self, scene: &Scene, station: &Station) -> Option<usize> {
         let beam = match station.body {
             BodyIndex::Beam(beam) => beam,
             BodyIndex::Particle(_) => return None,

@@ -45,7 +45,7 @@ impl Scene {
         for spring in self.springs() {
             let Some(member) = spring.stations().find_map(|at| self.member(at)) else { continue };
             let group = groups.of(member);
-            group.at_ease = larger(group.at_ease, at_ease(spring));
+            group.at_ease = larger(group.at_ease, natural_length(spring));
             group.points.extend(spring.anchors().iter().filter_map(|anchor| match anchor {
                 Anchor::Ground(at) => Some(*at),
                 Anchor::Station(_) => None,
@@ -119,13 +119,15 @@ impl Scene {
 }
 
 /// Natural length of a spring; zero for angles and laws without one [length].
-fn at_ease(spring: &Spring) -> f64 {
+fn natural_length(spring: &Spring) -> f64 {
     match (&spring.kind, &spring.law) {
         (SpringKind::Torsion(_), _) | (_, None) => 0.0,
         (_, Some(SpringLaw::Linear { natural, .. })) => natural.abs(),
         (_, Some(law)) => {
             let corners = law.sharp_corners().into_iter();
-            corners.filter(|at| law.is_at_ease(*at)).fold(0.0, |most, at| larger(most, at.abs()))
+            corners
+                .filter(|at| law.is_unloaded_at(*at))
+                .fold(0.0, |most, at| larger(most, at.abs()))
         }
     }
 }
@@ -145,7 +147,7 @@ impl Groups {
     fn join(&mut self, mut members: impl Iterator<Item = usize>) {
         let Some(first) = members.next() else { return };
         for member in members {
-            self.ties.tie(first, member);
+            self.ties.unite(first, member);
         }
     }
 

@@ -19,7 +19,7 @@ impl Scene {
         if index >= count {
             return Err(SystemError::Missing { object: "a release", kind, index, count });
         }
-        let name = self.name_of_hold(release.hold);
+        let name = self.releasable_name(release.hold);
         if self.releases.iter().any(|other| other.hold == release.hold) {
             return Err(SystemError::ReleasedTwice { name });
         }
@@ -46,7 +46,7 @@ impl Scene {
     }
 
     /// Name of a releasable object; joints are named as in [`joint_names`](Self::joint_names).
-    pub fn name_of_hold(&self, hold: Releasable) -> String {
+    pub fn releasable_name(&self, hold: Releasable) -> String {
         let name = match hold {
             Releasable::Joint(index) => self.joint_names().into_iter().nth(index),
             Releasable::Slider(index) => self.sliders.get(index).map(|slider| slider.name.clone()),
@@ -59,7 +59,7 @@ impl Scene {
     }
 
     /// Releasable objects (joints, sliders, springs, drives) with their names.
-    pub fn holds(&self) -> Vec<(String, Releasable)> {
+    pub fn releasables(&self) -> Vec<(String, Releasable)> {
         let joints = self.joint_names().into_iter().enumerate();
         let joints = joints.map(|(at, name)| (name, Releasable::Joint(at)));
         let sliders = self.sliders.iter().enumerate();

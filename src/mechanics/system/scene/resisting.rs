@@ -23,16 +23,16 @@ impl Scene {
             Element::Drag(drag) => Some(&*drag.name),
             _ => None,
         });
-        own.chain(self.losing_sliders().map(|slider| slider.name.as_str()))
+        own.chain(self.dissipative_sliders().map(|slider| slider.name.as_str()))
     }
 
     /// Sliders that lose energy in impacts.
-    pub fn losing_sliders(&self) -> impl Iterator<Item = &Slider> + Clone {
+    pub fn dissipative_sliders(&self) -> impl Iterator<Item = &Slider> + Clone {
         self.sliders.iter().filter(|slider| slider.restitution < 1.0)
     }
 
     /// Names of drag elements with a wind.
-    pub fn blown(&self) -> impl Iterator<Item = &str> + Clone {
+    pub fn drag_with_wind(&self) -> impl Iterator<Item = &str> + Clone {
         self.elements.iter().filter_map(|element| match element {
             Element::Drag(drag) if drag.wind != Vec2::zeros() => Some(&*drag.name),
             _ => None,

@@ -188,7 +188,7 @@ impl Scene {
     /// Fails if the object, place or quantity does not exist or is recorded already.
     pub fn record(&mut self, name: &str) -> Result<(), SystemError> {
         self.check_column(name)?;
-        let probe = self.probe(name)?;
+        let probe = self.find_sensor(name)?;
         if let Probe::Station(station, Quantity { value: Value::Angle, .. }) = probe
             && let Some(beam) = station.beam()
         {
@@ -267,7 +267,7 @@ impl Scene {
         self.joints.iter().map(name).collect()
     }
 
-    fn probe(&self, name: &str) -> Result<Probe, SystemError> {
+    fn find_sensor(&self, name: &str) -> Result<Probe, SystemError> {
         let refused = |why: String| SystemError::NoSensor { name: name.to_owned(), why };
         let of = |known: &str| {
             let rest = name.strip_prefix(known)?;

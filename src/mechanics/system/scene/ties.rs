@@ -32,7 +32,7 @@ impl Ties {
     }
 
     /// Unites two sets. Returns false if they were united already.
-    pub fn tie(&mut self, a: usize, b: usize) -> bool {
+    pub fn unite(&mut self, a: usize, b: usize) -> bool {
         let (a, b) = (self.root(a), self.root(b));
         // The smaller index stays the root, so that the ground, index 0, is always a root.
         self.parent[a.max(b)] = a.min(b);
@@ -66,7 +66,7 @@ pub fn check_ties(scene: &Scene) -> Result<(), SystemError> {
         };
         if let Some(first) = places[..at].iter().position(is_own) {
             let rotation = |place: usize| 1 + 3 * place + Component::Rotation as usize;
-            ties.tie(rotation(first), rotation(at));
+            ties.unite(rotation(first), rotation(at));
         }
     }
     for (joint, &(place, partner)) in scene.joints.iter().zip(&pairs) {
@@ -87,7 +87,7 @@ pub fn check_ties(scene: &Scene) -> Result<(), SystemError> {
         }
         for &component in joint.kind.components() {
             let node = |place: usize| 1 + 3 * place + component as usize;
-            if !ties.tie(node(place), partner.map_or(0, node)) {
+            if !ties.unite(node(place), partner.map_or(0, node)) {
                 let ground = ties.root(node(place)) == 0;
                 let how = match (ground, joint.kind) {
                     (true, _) => "fixed to the ground",

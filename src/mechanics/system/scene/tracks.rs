@@ -21,7 +21,7 @@ impl Scene {
         course: TrackEnd,
     ) -> Result<usize, SystemError> {
         self.check_name("track", &name)?;
-        let legs = self.legs(&name, beams, course)?;
+        let legs = self.segments(&name, beams, course)?;
         self.tracks.push(Track { name, legs, course });
         Ok(self.tracks.len() - 1)
     }
@@ -69,7 +69,7 @@ impl Scene {
     }
 
     /// Returns true if a slider is on a closed track.
-    pub fn goes_round(&self, slider: usize) -> bool {
+    pub fn is_on_closed_track(&self, slider: usize) -> bool {
         let track = self.sliders[slider].track.map(|track| &self.tracks[track]);
         track.is_some_and(|track| track.course == TrackEnd::Closed)
     }
@@ -112,7 +112,7 @@ impl Scene {
         }
     }
 
-    fn legs(
+    fn segments(
         &self,
         track: &str,
         beams: &[usize],
@@ -130,13 +130,13 @@ impl Scene {
         let leg = |beam: usize, heading: TrackDirection| TrackBeam { beam, heading };
         let headings = [TrackDirection::Forward, TrackDirection::Backward];
         let meets = |heading: &TrackDirection| {
-            rest.first().is_none_or(|next| self.next_leg(leg(first, *heading), *next).is_some())
+            rest.first().is_none_or(|next| self.next_segment(leg(first, *heading), *next).is_some())
         };
         let heading = headings.into_iter().find(meets).unwrap_or(TrackDirection::Forward);
         let mut legs = vec![leg(first, heading)];
         for &beam in rest {
             let before = legs[legs.len() - 1];
-            let Some(next) = self.next_leg(before, beam) else {
+            let Some(next) = self.next_segment(before, beam) else {
                 let [start, end] = headings.map(|heading| self.begin(leg(beam, heading)));
                 return Err(TrackError::Apart {
                     track: track.to_owned(),
@@ -175,7 +175,7 @@ impl Scene {
     }
 
     /// Next leg of a track along a beam; if both ends touch, the joined one.
-    fn next_leg(&self, before: TrackBeam, beam: usize) -> Option<TrackBeam> {
+    fn next_segment(&self, before: TrackBeam, beam: usize) -> Option<TrackBeam> {
         let ways = [TrackDirection::Forward, TrackDirection::Backward]
             .map(|heading| TrackBeam { beam, heading });
         let touching = || ways.into_iter().filter(|leg| self.touches(before, *leg));

@@ -49,7 +49,7 @@ impl Sliders {
     }
 
     /// Makes steps end at a limit; `None` for regular steps.
-    pub fn aim_at(&mut self, limit: Option<MasterLimit>) {
+    pub fn set_target_limit(&mut self, limit: Option<MasterLimit>) {
         self.aim = limit;
     }
 
@@ -66,12 +66,12 @@ impl Sliders {
     }
 
     /// Fixes the kinks of all masters for the following steps. Returns true if this changes the law of the next step.
-    pub fn keep_kinks(&mut self) -> bool {
-        self.iter_mut().fold(false, |any, slider| slider.keep_kink() | any)
+    pub fn freeze_kinks(&mut self) -> bool {
+        self.iter_mut().fold(false, |any, slider| slider.freeze_kink() | any)
     }
 
-    pub fn let_kinks_follow(&mut self) {
-        self.iter_mut().for_each(SliderContact::let_kink_follow);
+    pub fn unfreeze_kinks(&mut self) {
+        self.iter_mut().for_each(SliderContact::unfreeze_kink);
     }
 
     pub fn predict(
@@ -114,13 +114,13 @@ impl Sliders {
     }
 
     /// Predicts unchanged contacts for a movement between two equilibria.
-    pub fn stay(&self, unknowns: &mut [f64]) {
-        self.iter().for_each(|slider| slider.stay(unknowns));
+    pub fn predict_unchanged(&self, unknowns: &mut [f64]) {
+        self.iter().for_each(|slider| slider.predict_unchanged(unknowns));
     }
 
     /// Holds sliders that a movement takes beyond stops, and frees those with tensile stop forces. Returns true if any changed, or the slider and end
     /// as an error if a slider would leave its master.
-    pub fn settle_on_stops(
+    pub fn update_stop_contacts(
         &mut self,
         bodies: &[Body],
         movements: &[f64],
@@ -128,12 +128,12 @@ impl Sliders {
     ) -> Result<bool, (usize, MasterEnd)> {
         let mut changed = false;
         for (index, slider) in self.iter_mut().enumerate() {
-            if let Some(end) = slider.passes(unknowns) {
+            if let Some(end) = slider.passed_end(unknowns) {
                 let goes_on = slider.seam(bodies, end).is_some();
                 if slider.ends == EndAction::Release && !goes_on {
                     return Err((index, end));
                 }
-                slider.hold(end);
+                slider.hold_at(end);
                 changed = true;
             } else if slider.is_pulled(bodies, movements, unknowns) {
                 slider.change_sides(bodies);
@@ -145,8 +145,8 @@ impl Sliders {
     }
 
     /// Accepts the positions of sliders after a movement between two equilibria. The bodies have been moved already.
-    pub fn rest(&mut self, unknowns: &[f64]) {
-        self.iter_mut().for_each(|slider| slider.rest(unknowns));
+    pub fn accept_static_positions(&mut self, unknowns: &[f64]) {
+        self.iter_mut().for_each(|slider| slider.accept_static_position(unknowns));
     }
 
     pub fn movements_held(&self) -> usize {
@@ -155,7 +155,7 @@ impl Sliders {
 
     /// Passes the stiffness of all contacts at rest, with a penalty stiffness for rigid ones [force/length]. The position unknowns follow the
     /// movements.
-    pub fn each_at_rest(
+    pub fn for_each_static_stiffness(
         &self,
         bodies: &[Body],
         count: usize,
@@ -163,7 +163,7 @@ impl Sliders {
         take: &mut dyn FnMut(&[usize], &SpanStiffness),
     ) {
         for (index, slider) in self.iter().enumerate() {
-            slider.at_rest(bodies, count + index, rigid, take);
+            slider.static_stiffness(bodies, count + index, rigid, take);
         }
     }
 
@@ -185,7 +185,7 @@ impl Sliders {
         let aim = self.aim.filter(|_| ending == IntervalEnd::OfStep);
         let limits = (0..self.len()).flat_map(MasterLimit::both);
         for limit in limits.filter(|limit| self[limit.slider].is_sliding()) {
-            let distance = self[limit.slider].beyond(unknowns, limit.end);
+            let distance = self[limit.slider].overshoot(unknowns, limit.end);
             let overshoot = Overshoot { limit: limit.number(), distance };
             if aim == Some(limit) && distance.abs() > LANDED {
                 return Err(overshoot);
@@ -194,7 +194,7 @@ impl Sliders {
                 furthest = Some(overshoot);
             }
         }
-        self.iter_mut().for_each(|slider| slider.note_pull(ending));
+        self.iter_mut().for_each(|slider| slider.record_tension(ending));
         let pulled = self.iter().position(|slider| slider.is_pulled);
         let leaves = pulled.and_then(|slider| match self[slider].state {
             SliderState::Held(end) => Some(MasterLimit { slider, end }),
@@ -210,8 +210,8 @@ impl Sliders {
     }
 
     /// Evaluates all contacts at the end of an accepted step, before the bodies are moved.
-    pub fn close(&mut self, bodies: &[Body], increments: &[f64], unknowns: &[f64]) {
-        self.iter_mut().for_each(|slider| slider.close(bodies, increments, unknowns));
+    pub fn evaluate_end(&mut self, bodies: &[Body], increments: &[f64], unknowns: &[f64]) {
+        self.iter_mut().for_each(|slider| slider.evaluate_end(bodies, increments, unknowns));
     }
 
     pub fn advance(&mut self, unknowns: &[f64], ending: IntervalEnd) {
@@ -225,15 +225,15 @@ impl Sliders {
 
     /// Strain energy of kinks on a body, or on all bodies [energy].
     pub fn strain_energy(&self, of: Option<usize>) -> f64 {
-        self.on(of).map(SliderContact::strain_energy).sum()
+        self.on_body(of).map(SliderContact::strain_energy).sum()
     }
 
     /// Kinetic energy of kinks on a body, or on all bodies [energy].
     pub fn kinetic_energy(&self, of: Option<usize>) -> f64 {
-        self.on(of).map(SliderContact::kinetic_energy).sum()
+        self.on_body(of).map(SliderContact::kinetic_energy).sum()
     }
 
-    fn on(&self, body: Option<usize>) -> impl Iterator<Item = &SliderContact> {
+    fn on_body(&self, body: Option<usize>) -> impl Iterator<Item = &SliderContact> {
         self.iter().filter(move |slider| body.is_none_or(|body| slider.connection.master == body))
     }
 
@@ -243,7 +243,7 @@ impl Sliders {
             let (across, along) = (slider.across(bodies), slider.along(bodies));
             match slider.state {
                 SliderState::Released => vec![],
-                SliderState::Sliding if slider.gives_way() => vec![],
+                SliderState::Sliding if slider.is_compliant() => vec![],
                 SliderState::Sliding => vec![(at, across)],
                 SliderState::Held(_) => vec![(at, across), (at, along)],
             }
@@ -252,7 +252,7 @@ impl Sliders {
     }
 
     /// Energy lost in impacts of sliders at stops so far [energy].
-    pub fn lost(&self) -> f64 {
+    pub fn lost_energy(&self) -> f64 {
         self.iter().map(|slider| slider.lost).fold(0.0, |sum, lost| sum + lost)
     }
 
@@ -273,7 +273,7 @@ impl Sliders {
         self.iter().all(|slider| {
             let (own, rest) = left.split_at(slider.saved());
             left = rest;
-            slider.may_be(own)
+            slider.is_valid(own)
         })
     }
 

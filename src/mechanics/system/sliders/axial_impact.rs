@@ -24,7 +24,7 @@ impl ImpactBar {
     /// `m/(c ρA)` of a striking mass, if that is shorter.
     ///
     /// The wave is axial along the axis and a shear wave across it: `c² ρA = EA cos²α + GA sin²α`.
-    pub fn answer_time(&self, cosine: f64, mass: Option<f64>) -> f64 {
+    pub fn wave_travel_time(&self, cosine: f64, mass: Option<f64>) -> f64 {
         let Self { length, section } = self;
         let along = square(cosine).min(1.0);
         let stiffness = section.axial_stiffness * along + section.shear_stiffness * (1.0 - along);

@@ -100,18 +100,18 @@ impl KinkedAxis {
     }
 
     /// Fixes the kink for the following steps. Returns true if this changes the law of the next step.
-    pub fn keep(&mut self) -> bool {
+    pub fn freeze(&mut self) -> bool {
         let changes = !self.is_frozen();
         self.is_kept = true;
         changes
     }
 
-    pub fn follow(&mut self) {
+    pub fn unfreeze(&mut self) {
         self.is_kept = false;
     }
 
     fn is_heavy(&self) -> bool {
-        self.gives() && self.jump != Vec2::zeros()
+        self.is_compliant() && self.jump != Vec2::zeros()
     }
 
     /// Kink of the master in a step with a path of the slave.
@@ -126,7 +126,7 @@ impl KinkedAxis {
         Kink { along, compliance: self.compliance, before: self.jump, motion }
     }
 
-    pub fn arrive(&mut self, passage: &ContactPath) {
+    pub fn accept_end(&mut self, passage: &ContactPath) {
         self.here = passage.at_end(&self.length);
         self.stretch = passage.at_end(&self.arc)[1];
     }
@@ -134,22 +134,22 @@ impl KinkedAxis {
     /// Accepts jump, as a force [force], and speed [length/time] at the end of a step with a mean contact force `λ` [force], after
     /// [arrive](Self::arrive). On a rigid axis the force is the mean of the step.
     pub fn advance(&mut self, mean: Vec2, KinkState { jump, speed }: KinkState) {
-        self.jump = if self.gives() { jump } else { mean };
+        self.jump = if self.is_compliant() { jump } else { mean };
         self.speed = speed;
     }
 
     /// Accepts jump, as a force [force], and speed [length/time] at the end of a step with a fixed kink.
-    pub fn turn(&mut self, KinkState { jump, speed }: KinkState) {
+    pub fn accept_frozen_jump(&mut self, KinkState { jump, speed }: KinkState) {
         (self.jump, self.speed) = (jump, speed);
     }
 
     /// Sets the kink of a force at rest [force].
-    pub fn rest_under(&mut self, force: Vec2) {
+    pub fn set_static_kink(&mut self, force: Vec2) {
         (self.jump, self.speed) = (force, 0.0);
     }
 
     pub fn straighten(&mut self) {
-        self.rest_under(Vec2::zeros());
+        self.set_static_kink(Vec2::zeros());
     }
 
     /// Numeric state of the kink: jump and speed.
@@ -157,7 +157,7 @@ impl KinkedAxis {
         [self.jump.x, self.jump.y, self.speed]
     }
 
-    pub fn take(&mut self, [x, y, speed]: [f64; 3]) {
+    pub fn restore(&mut self, [x, y, speed]: [f64; 3]) {
         (self.jump, self.speed) = (Vec2::new(x, y), speed);
     }
 
@@ -170,8 +170,8 @@ impl KinkedAxis {
     /// `p·x' + ½ g' |p|²/GA = 0` up to the third power of `p`.
     ///
     /// If the axis is compliant there, as within rounding of the end, the force is kept, because it depends on positions.
-    pub fn leave_stop(&mut self, tangent: Vec2) {
-        if self.gives() {
+    pub fn remove_stop_force(&mut self, tangent: Vec2) {
+        if self.is_compliant() {
             return;
         }
         let along = |force: Vec2| tangent * (force.dot(&tangent) / tangent.norm_squared());
@@ -181,7 +181,7 @@ impl KinkedAxis {
     }
 
     /// Returns true if a contact force displaces the axis at the slider.
-    pub fn gives(&self) -> bool {
+    pub fn is_compliant(&self) -> bool {
         self.here[0] > self.none
     }
 
@@ -199,10 +199,10 @@ impl KinkedAxis {
 
     /// Compliance `g/GA` [length/force], derivative of [`offset`](Self::offset) with respect to `ξ` [length], and second derivative of the energy for
     /// a given force, `½ g'' |p|²/GA` [energy].
-    pub fn at_rest(&self) -> (f64, Vec2, f64) {
+    pub fn static_compliance(&self) -> (f64, Vec2, f64) {
         let [length, slope, bend] = self.here;
         let force = self.jump * self.compliance;
-        let compliance = if self.gives() { length * self.compliance } else { 0.0 };
+        let compliance = if self.is_compliant() { length * self.compliance } else { 0.0 };
         (compliance, force * slope, 0.5 * bend * force.dot(&self.jump))
     }
 

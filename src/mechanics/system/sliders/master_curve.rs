@@ -124,7 +124,7 @@ impl MasterCurve {
     }
 
     /// Distance of a parameter beyond an end, relative to the parameter range [-]; negative before it.
-    pub fn beyond(&self, parameter: f64, end: MasterEnd) -> f64 {
+    pub fn overshoot(&self, parameter: f64, end: MasterEnd) -> f64 {
         let (first, last) = self.domain;
         let distance = match end {
             MasterEnd::Start => first - parameter,

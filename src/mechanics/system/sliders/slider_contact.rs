@@ -88,7 +88,7 @@ const PULL: f64 = 1e-9;
 
 /// Returns true if a stop force is tensile beyond the tolerance, from the push times the tangent [force·length], the contact force [force], and the
 /// length of the master per unit of parameter [length].
-pub(super) fn would_pull(push: f64, force: f64, length: f64) -> bool {
+pub(super) fn is_tensile(push: f64, force: f64, length: f64) -> bool {
     push < -PULL * force * length
 }
 
@@ -139,7 +139,7 @@ impl SliderContact {
             leaves_beyond: false,
             pressing: 0.0,
         };
-        new.stand_at(parameter);
+        new.set_parameter(parameter);
         new
     }
 
@@ -154,10 +154,10 @@ impl SliderContact {
     }
 
     /// Moves the slider to a parameter of its master.
-    fn stand_at(&mut self, parameter: f64) {
+    fn set_parameter(&mut self, parameter: f64) {
         self.parameter = parameter;
-        self.here.go(parameter, parameter);
-        self.kinked_axis.iter_mut().for_each(|axis| axis.arrive(&self.here));
+        self.here.set_interval(parameter, parameter);
+        self.kinked_axis.iter_mut().for_each(|axis| axis.accept_end(&self.here));
     }
 
     fn law(&self) -> &'static dyn SlidingLaw {
@@ -192,23 +192,23 @@ impl SliderContact {
     }
 
     /// Speed along the master up to which its kink follows the contact force, if there is one [length/time].
-    pub fn fastest_on_kink(&self) -> Option<f64> {
+    pub fn kink_speed_limit(&self) -> Option<f64> {
         self.kinked_axis.as_ref().map(KinkedAxis::fastest)
     }
 
     /// Fixes the kink of the master for the following steps. Returns true if this changes the law of the next step.
-    pub fn keep_kink(&mut self) -> bool {
+    pub fn freeze_kink(&mut self) -> bool {
         let sliding = self.is_sliding();
-        self.kinked_axis.as_mut().is_some_and(|axis| axis.keep() && sliding)
+        self.kinked_axis.as_mut().is_some_and(|axis| axis.freeze() && sliding)
     }
 
-    pub fn let_kink_follow(&mut self) {
-        self.kinked_axis.iter_mut().for_each(KinkedAxis::follow);
+    pub fn unfreeze_kink(&mut self) {
+        self.kinked_axis.iter_mut().for_each(KinkedAxis::unfreeze);
     }
 
     /// Returns true if the contact force follows from the kink of the master, so that the contact transmits no impulse.
-    pub fn gives_way(&self) -> bool {
-        self.kinked_axis.as_ref().is_some_and(KinkedAxis::gives)
+    pub fn is_compliant(&self) -> bool {
+        self.kinked_axis.as_ref().is_some_and(KinkedAxis::is_compliant)
     }
 
     /// Energy of the kink, and of the stop that holds the slider [energy].
@@ -244,14 +244,14 @@ impl SliderContact {
         let (start, end) = self.rail.domain();
         let ahead = self.parameter + interval.duration() * self.rate(bodies, rates);
         let way = ahead.clamp(start, end) - self.parameter;
-        let force = if self.gives_way() { self.contact_force() } else { self.unknowns.force };
+        let force = if self.is_compliant() { self.contact_force() } else { self.unknowns.force };
         let guess = ContactUnknowns { force, way, ..self.unknowns };
         unknowns[self.connection.places()].copy_from_slice(&guess.to_array());
     }
 
-    fn take(&mut self, bodies: &[Body], increments: &[f64], unknowns: &[f64]) -> Contact<'_> {
+    fn evaluate(&mut self, bodies: &[Body], increments: &[f64], unknowns: &[f64]) -> Contact<'_> {
         let unknowns = self.read(unknowns);
-        self.passage.go(self.parameter, self.parameter + unknowns.way);
+        self.passage.set_interval(self.parameter, self.parameter + unknowns.way);
         self.contact(bodies, increments, unknowns)
     }
 
@@ -289,7 +289,7 @@ impl SliderContact {
         out: &mut [f64],
     ) -> f64 {
         let (connection, state) = (self.connection, self.state);
-        let leans_on_nothing = self.leans_on_nothing(bodies);
+        let leans_on_nothing = self.is_held_at_open_end(bodies);
         let (contact, equations) = P::iterate_values(self, bodies, increments, unknowns);
         let values = equations.map(|(value, _)| value);
         connection.add_values(bodies, &contact, P::forces(&contact), values, movements, out);
@@ -298,13 +298,13 @@ impl SliderContact {
         let push = match state {
             // An infinitely tensile stop releases the slider at once.
             SliderState::Held(_) if leans_on_nothing => f64::NEG_INFINITY,
-            SliderState::Held(end) => contact.push(end.outward()),
+            SliderState::Held(end) => contact.outward_push(end.outward()),
             SliderState::Sliding | SliderState::Released => 0.0,
         };
         (self.size, self.chord) = (contact.length + contact.slave_moved.norm(), chord);
         self.units = equations.map(|(_, unit)| unit);
         (self.push, self.pressing) = (push, force);
-        self.push_beyond = self.push_beyond_seam(bodies, increments, pressing);
+        self.push_beyond = self.seam_push(bodies, increments, pressing);
         force
     }
 
@@ -341,17 +341,17 @@ impl SliderContact {
     }
 
     /// Distance beyond an end of the master for given contact unknowns, relative to the parameter range [-].
-    pub fn beyond(&self, unknowns: &[f64], end: MasterEnd) -> f64 {
-        self.rail.beyond(self.parameter + self.read(unknowns).way, end)
+    pub fn overshoot(&self, unknowns: &[f64], end: MasterEnd) -> f64 {
+        self.rail.overshoot(self.parameter + self.read(unknowns).way, end)
     }
 
     /// Evaluates the contact at the end of an accepted step, before the bodies are moved.
-    pub fn close(&mut self, bodies: &[Body], increments: &[f64], unknowns: &[f64]) {
+    pub fn evaluate_end(&mut self, bodies: &[Body], increments: &[f64], unknowns: &[f64]) {
         if self.kinked_axis.is_none() {
             return;
         }
         let law = self.law();
-        self.kink_at_end = law.kink_at_end(&self.take(bodies, increments, unknowns));
+        self.kink_at_end = law.kink_at_end(&self.evaluate(bodies, increments, unknowns));
     }
 
     pub fn advance(&mut self, unknowns: &[f64], ending: IntervalEnd) {
@@ -360,10 +360,10 @@ impl SliderContact {
         let passed = self.passage.spans_between(before, before + self.unknowns.way);
         self.most_spans = self.most_spans.max(passed);
         let is_frozen = self.is_frozen();
-        self.stand_at(before + self.unknowns.way);
+        self.set_parameter(before + self.unknowns.way);
         let (mean, kink) = (self.unknowns.force, self.kink_at_end);
         self.kinked_axis.iter_mut().for_each(|axis| match is_frozen {
-            true => axis.turn(kink),
+            true => axis.accept_frozen_jump(kink),
             false => axis.advance(mean, kink),
         });
         if ending == IntervalEnd::OfStep {

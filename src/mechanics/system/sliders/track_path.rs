@@ -59,7 +59,7 @@ impl TrackPath {
         &self.legs[self.leg]
     }
 
-    pub fn leg(&self, leg: usize) -> &TrackPathSegment {
+    pub fn segment(&self, leg: usize) -> &TrackPathSegment {
         &self.legs[leg]
     }
 
@@ -82,17 +82,17 @@ impl TrackPath {
 
     /// Seam beyond an end of the present beam, if the track continues and the beams meet there.
     pub fn seam(&self, bodies: &[Body], end: MasterEnd) -> Option<Seam> {
-        self.beyond(end).filter(|seam| self.meet(bodies, end, *seam))
+        self.seam_at(end).filter(|seam| self.evaluate_seam(bodies, end, *seam))
     }
 
     /// Returns true if the track as drawn continues beyond an end of the present beam but the beams are separated.
     pub fn is_torn(&self, bodies: &[Body], end: MasterEnd) -> bool {
-        self.beyond(end).is_some_and(|seam| !self.meet(bodies, end, seam))
+        self.seam_at(end).is_some_and(|seam| !self.evaluate_seam(bodies, end, seam))
     }
 
-    fn beyond(&self, end: MasterEnd) -> Option<Seam> {
+    fn seam_at(&self, end: MasterEnd) -> Option<Seam> {
         let last = self.legs.len() - 1;
-        let leads_on = end == self.present().leaves_at();
+        let leads_on = end == self.present().exit_end();
         let (leg, turns) = match (leads_on, self.leg) {
             (true, leg) if leg < last => (leg + 1, 0.0),
             (false, leg) if leg > 0 => (leg - 1, 0.0),
@@ -100,11 +100,11 @@ impl TrackPath {
             (true, _) => (0, 1.0),
             (false, _) => (last, -1.0),
         };
-        let leaves_at = self.legs[leg].leaves_at();
+        let leaves_at = self.legs[leg].exit_end();
         Some(Seam { leg, end: if leads_on { leaves_at.opposite() } else { leaves_at }, turns })
     }
 
-    fn meet(&self, bodies: &[Body], end: MasterEnd, seam: Seam) -> bool {
+    fn evaluate_seam(&self, bodies: &[Body], end: MasterEnd, seam: Seam) -> bool {
         let next = &self.legs[seam.leg];
         let (here, there) =
             (self.present().end_point(bodies, end), next.end_point(bodies, seam.end));
@@ -112,7 +112,7 @@ impl TrackPath {
     }
 
     /// Moves to the other side of a seam.
-    pub fn pass(&mut self, seam: Seam) {
+    pub fn cross_seam(&mut self, seam: Seam) {
         self.leg = seam.leg;
         self.turns += seam.turns;
     }
@@ -121,11 +121,11 @@ impl TrackPath {
         [self.leg as f64, self.turns, self.passed_at]
     }
 
-    pub fn take(&mut self, [leg, turns, passed_at]: [f64; 3]) {
+    pub fn restore(&mut self, [leg, turns, passed_at]: [f64; 3]) {
         (self.leg, self.turns, self.passed_at) = (leg as usize, turns, passed_at);
     }
 
-    pub fn stored_leg(&self, [leg, turns, _]: [f64; 3]) -> Option<&TrackPathSegment> {
+    pub fn stored_segment(&self, [leg, turns, _]: [f64; 3]) -> Option<&TrackPathSegment> {
         let is_whole = leg >= 0.0 && leg.fract() == 0.0 && turns.fract() == 0.0;
         let may_turn = turns == 0.0 || self.course == TrackEnd::Closed;
         let leg = self.legs.get(leg as usize);
@@ -142,13 +142,13 @@ impl TrackPathSegment {
         bar: ImpactBar,
     ) -> Self {
         let slopes = [MasterEnd::Start, MasterEnd::End].map(|end| {
-            passage.go(rail.end(end), rail.end(end));
+            passage.set_interval(rail.end(end), rail.end(end));
             (passage.first(), passage.slope().to_vec())
         });
         Self { beam, heading, rail, passage, bar, slopes }
     }
 
-    fn leaves_at(&self) -> MasterEnd {
+    fn exit_end(&self) -> MasterEnd {
         match self.heading {
             TrackDirection::Forward => MasterEnd::End,
             TrackDirection::Backward => MasterEnd::Start,

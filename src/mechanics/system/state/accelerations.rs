@@ -9,13 +9,13 @@ pub struct Accelerations {
 
 impl Accelerations {
     /// Allocates accelerations of `unknowns` entries, marked unknown.
-    pub fn keep(&mut self, unknowns: usize) {
+    pub fn allocate(&mut self, unknowns: usize) {
         *self = Self { values: vec![0.0; unknowns], are_known: false };
     }
 
     pub fn resize(&mut self, unknowns: usize) {
         if !self.values.is_empty() {
-            self.keep(unknowns);
+            self.allocate(unknowns);
         }
     }
 
@@ -30,7 +30,7 @@ impl Accelerations {
         }
     }
 
-    pub fn forget(&mut self) {
+    pub fn mark_unknown(&mut self) {
         self.values.fill(0.0);
         self.are_known = false;
     }
@@ -65,12 +65,12 @@ mod tests {
     #[test]
     fn they_are_known_from_when_they_are_set_to_when_they_are_forgotten() {
         let mut accelerations = Accelerations::default();
-        accelerations.keep(2);
+        accelerations.allocate(2);
         assert_eq!(accelerations.known(), None);
         accelerations.set(&[1.0, -2.0]);
         let mut state = Vec::new();
         accelerations.save(&mut state);
-        accelerations.forget();
+        accelerations.mark_unknown();
         assert_eq!(accelerations.known(), None);
         let mut numbers = state.into_iter();
         accelerations.restore(true, &mut || numbers.next().unwrap());

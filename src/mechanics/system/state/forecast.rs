@@ -42,7 +42,7 @@ impl Forecast {
 
     /// Selects the better prediction from the increments of a step and the rates at its start, in the norm of the diagonal inertia. Returns the
     /// errors of both.
-    pub fn learn(&mut self, at_start: &[f64], increments: &[f64], duration: f64) -> GuessErrors {
+    pub fn update(&mut self, at_start: &[f64], increments: &[f64], duration: f64) -> GuessErrors {
         let inverse = 1.0 / duration;
         let mut missed = GuessErrors::default();
         let guesses = at_start.iter().zip(&mut self.mean_rates);
@@ -66,7 +66,7 @@ impl Forecast {
     }
 
     /// Prediction errors of selected movements, before the selection is updated.
-    pub fn missed(
+    pub fn prediction_errors(
         &self,
         movements: &[usize],
         at_start: &[f64],
@@ -105,11 +105,11 @@ mod tests {
         let mut forecast = Forecast::new(&[0.0], vec![1.0]);
         for step in 0..5 {
             let (start, end) = (f64::from(step), f64::from(step + 1));
-            forecast.learn(&[start], &[0.5 * (start + end)], 1.0);
+            forecast.update(&[start], &[0.5 * (start + end)], 1.0);
         }
         assert_eq!(forecast.rates(&[5.0]), [5.0]);
         for sign in [1.0, -1.0, 1.0] {
-            forecast.learn(&[3.0 + sign], &[3.0], 1.0);
+            forecast.update(&[3.0 + sign], &[3.0], 1.0);
         }
         assert_eq!(forecast.rates(&[4.0]), [3.0]);
     }

@@ -36,7 +36,7 @@ impl MotionState {
     }
 
     /// Measures the resolution of the given bodies separately, by index and degrees of freedom.
-    pub fn watch(&mut self, bodies: impl Iterator<Item = (usize, Vec<usize>)>) {
+    pub fn measure_resolution_of(&mut self, bodies: impl Iterator<Item = (usize, Vec<usize>)>) {
         let noise = self.resolution.noise();
         self.watched = bodies.map(|(body, at)| MonitoredBody::new(body, at, noise)).collect();
     }
@@ -75,7 +75,7 @@ impl MotionState {
         for one in &mut self.watched {
             one.add(&self.forecast, &self.rates, increments, duration);
         }
-        let missed = self.forecast.learn(&self.rates, increments, duration);
+        let missed = self.forecast.update(&self.rates, increments, duration);
         self.resolution.add(&missed, duration, step.summary.rotation, step.rotations);
         self.rates.copy_from_slice(rates);
         self.time = step.interval.end;
@@ -85,7 +85,7 @@ impl MotionState {
     pub fn jump(&mut self, change: &[f64]) {
         self.rates.iter_mut().zip(change).for_each(|(rate, change)| *rate += change);
         self.forecast.jump(change);
-        self.accelerations.forget();
+        self.accelerations.mark_unknown();
     }
 
     /// Selected prediction, the non-numeric part of the state.

@@ -33,7 +33,7 @@ impl MonitoredBody {
         increments: &[f64],
         duration: f64,
     ) {
-        let missed = forecast.missed(&self.degrees, at_start, increments, duration);
+        let missed = forecast.prediction_errors(&self.degrees, at_start, increments, duration);
         self.resolution.add(&missed, duration, 0.0, RotationIncrement::Angle);
     }
 

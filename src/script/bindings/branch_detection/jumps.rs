@@ -16,7 +16,7 @@ pub(super) fn jumps_with_a_parameter(value: &Dynamic) -> bool {
     let Some(varied) = value.read_lock::<VariantValue>() else { return false };
     let in_variant = |variant: usize| varied.at(variant).try_cast::<Schedule>();
     let Some(own) = in_variant(0) else { return false };
-    let others = (1..varied.family().variants()).filter_map(in_variant);
+    let others = (1..varied.parameter_set().variants()).filter_map(in_variant);
     let own: Vec<f64> = jumps_of(&own);
     others.map(|other| jumps_of(&other)).any(|other| other != own)
 }

@@ -75,22 +75,22 @@ impl VariableFacts {
         let (captured, own) = names.split_at(function.curry().len().min(names.len()));
         let mut known = Self::default();
         for (name, value) in captured.iter().zip(function.curry()) {
-            known.hold(name, value);
+            known.record_value(name, value);
         }
         (known, own.to_vec())
     }
 
-    fn hold(&mut self, name: &str, value: &Dynamic) {
+    fn record_value(&mut self, name: &str, value: &Dynamic) {
         let facts = Facts {
-            is_varied: VariantValue::family_of(value).is_some(),
+            is_varied: VariantValue::parameter_set_of(value).is_some(),
             is_asked: false,
             jumps: jumps_with_a_parameter(value),
             function: value.read_lock::<FnPtr>().map(|function| function.clone()),
         };
-        self.keep(name, facts);
+        self.record_facts(name, facts);
     }
 
-    fn about(&self, expression: &Expr) -> Facts {
+    fn expression_facts(&self, expression: &Expr) -> Facts {
         let function = match expression {
             Expr::Variable(variable, ..) => self.functions.get(variable.1.as_str()).cloned(),
             _ => None,
@@ -103,7 +103,7 @@ impl VariableFacts {
         }
     }
 
-    fn keep(&mut self, name: &str, facts: Facts) {
+    fn record_facts(&mut self, name: &str, facts: Facts) {
         let Facts { is_varied, is_asked, jumps, function } = facts;
         for (names, is_one) in
             [(&mut self.varied, is_varied), (&mut self.asked, is_asked), (&mut self.jumping, jumps)]
@@ -163,10 +163,12 @@ impl BranchSearch<'_, '_> {
 
     fn statement(&self, statement: &Stmt, known: &mut VariableFacts) -> Option<Decision> {
         match statement {
-            Stmt::Var(of, ..) => known.keep(of.0.name.as_str(), known.about(&of.1)),
+            Stmt::Var(of, ..) => {
+                known.record_facts(of.0.name.as_str(), known.expression_facts(&of.1))
+            }
             Stmt::Assignment(of) => {
                 if let Some(name) = root_of(&of.1.lhs) {
-                    known.keep(name, known.about(&of.1.rhs));
+                    known.record_facts(name, known.expression_facts(&of.1.rhs));
                 }
             }
             Stmt::Switch(of, at) => return known.by([&of.0].into_iter(), "switch", *at),
@@ -199,7 +201,7 @@ impl BranchSearch<'_, '_> {
         let definition = defined(self.native, sign, Some(call.args.len()))?;
         let mut own = VariableFacts::default();
         for (name, argument) in definition.params.iter().zip(&call.args) {
-            own.keep(name, known.about(argument));
+            own.record_facts(name, known.expression_facts(argument));
         }
         self.deeper().function(&definition, own)
     }
@@ -256,7 +258,7 @@ impl BranchSearch<'_, '_> {
         let definition = defined(self.native, function.fn_name(), None)?;
         let (mut own, names) = VariableFacts::of(function, &definition);
         for (name, argument) in names.iter().zip(arguments) {
-            own.keep(name, known.about(argument));
+            own.record_facts(name, known.expression_facts(argument));
         }
         self.deeper().function(&definition, own)
     }
@@ -272,8 +274,8 @@ impl BranchSearch<'_, '_> {
         let mut own = VariableFacts::default();
         for (at, name) in definition.params.iter().enumerate() {
             match captured.get(at) {
-                Some(outer) => own.keep(name, known.about(outer)),
-                None => own.keep(name, Facts { is_asked: true, ..Facts::default() }),
+                Some(outer) => own.record_facts(name, known.expression_facts(outer)),
+                None => own.record_facts(name, Facts { is_asked: true, ..Facts::default() }),
             }
         }
         self.deeper().function(&definition, own)

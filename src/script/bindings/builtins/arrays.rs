@@ -30,33 +30,33 @@ pub const TABLE: BuiltInTable = BuiltInTable {
             "Appends a value.",
             "let a = [1];\na.push(2);\ncheck(a == [1, 2]);",
         )
-        .see(&["append", "insert", "pop"]),
+        .with_related(&["append", "insert", "pop"]),
         built_in(
             &["array.append(other)"],
             "Appends all elements of another array.",
             "let a = [1];\na.append([2, 3]);\ncheck(a == [1, 2, 3]);",
         )
-        .see(&["push"]),
+        .with_related(&["push"]),
         built_in(
             &["array.insert(index, value)"],
             "Inserts a value before the element at an index.",
             "let a = [1, 3];\na.insert(1, 2);\ncheck(a == [1, 2, 3]);",
         )
-        .see(&["push", "splice"]),
+        .with_related(&["push", "splice"]),
         built_in(
             &["array.pop()"],
             "Removes the last element and returns it; nothing if there is none.",
             "let a = [1, 2];\ncheck(a.pop() == 2 && a == [1]);",
         )
         .returns(Returns::ANYTHING_OR_NOTHING)
-        .see(&["shift", "push"]),
+        .with_related(&["shift", "push"]),
         built_in(
             &["array.shift()"],
             "Removes the first element and returns it; nothing if there is none.",
             "let a = [1, 2];\ncheck(a.shift() == 1 && a == [2]);",
         )
         .returns(Returns::ANYTHING_OR_NOTHING)
-        .see(&["pop"]),
+        .with_related(&["pop"]),
         built_in(
             &["array.remove(index)"],
             "Removes the element at an index and returns it; nothing if there is none.",
@@ -73,13 +73,13 @@ pub const TABLE: BuiltInTable = BuiltInTable {
             "Keeps only the given number of elements from the beginning.",
             "let a = [1, 2, 3];\na.truncate(2);\ncheck(a == [1, 2]);",
         )
-        .see(&["chop"]),
+        .with_related(&["chop"]),
         built_in(
             &["array.chop(count)"],
             "Keeps only the given number of elements from the end.",
             "let a = [1, 2, 3];\na.chop(2);\ncheck(a == [2, 3]);",
         )
-        .see(&["truncate"]),
+        .with_related(&["truncate"]),
         built_in(
             &["array.pad(count, value)"],
             "Extends the array to a length by appending a value.",
@@ -96,7 +96,7 @@ pub const TABLE: BuiltInTable = BuiltInTable {
             "check([1, 2, 3, 4].extract(1, 2) == [2, 3]);\ncheck([1, 2, 3, 4].extract(2..4) == [3, 4]);",
         )
         .returns(Returns::ARRAY)
-        .see(&["drain", "split"]),
+        .with_related(&["drain", "split"]),
         built_in(
             &["array.split(index)"],
             "Splits the array at an index: keeps the elements before it, and returns the rest.",
@@ -108,21 +108,21 @@ pub const TABLE: BuiltInTable = BuiltInTable {
             "Replaces a part by the elements of another array.",
             "let a = [1, 2, 3, 4];\na.splice(1, 2, [9]);\ncheck(a == [1, 9, 4]);",
         )
-        .see(&["insert"]),
+        .with_related(&["insert"]),
         built_in(
             &["array.drain(test)", "array.drain(start, count)", "array.drain(range)"],
             "Removes the elements that pass a test, or a part, and returns them.",
             "let a = [1, 2, 3, 4];\ncheck(a.drain(|x| x > 2) == [3, 4] && a == [1, 2]);",
         )
         .returns(Returns::ARRAY)
-        .see(&["retain", "filter"]),
+        .with_related(&["retain", "filter"]),
         built_in(
             &["array.retain(test)", "array.retain(start, count)", "array.retain(range)"],
             "Keeps the elements that pass a test, or a part, and returns the others.",
             "let a = [1, 2, 3, 4];\ncheck(a.retain(|x| x > 2) == [1, 2] && a == [3, 4]);",
         )
         .returns(Returns::ARRAY)
-        .see(&["drain", "filter"]),
+        .with_related(&["drain", "filter"]),
         built_in(
             &["array.dedup([same])"],
             "Removes elements equal to the one before; same(a, b) may define equality.",
@@ -134,18 +134,18 @@ pub const TABLE: BuiltInTable = BuiltInTable {
             first.",
             "let a = [3, 1, 2];\na.sort();\ncheck(a == [1, 2, 3]);\na.sort(|a, b| sign(b - a));\ncheck(a == [3, 2, 1]);",
         )
-        .see(&["order", "sort_desc"]),
+        .with_related(&["order", "sort_desc"]),
         built_in(
             &["array.sort_by(order)"],
             "Sorts in place by a function; the same as sort(order).",
             "let a = [[2, \"b\"], [1, \"a\"]];\na.sort_by(|a, b| sign(a[0] - b[0]));\ncheck(a[0][1] == \"a\");",
         )
-        .see(&["sort"]),
+        .with_related(&["sort"]),
         built_in(
             &["array.sort_desc()"],
             "Sorts in place in descending order.",
             "let a = [3, 1, 2];\na.sort_desc();\ncheck(a == [3, 2, 1]);",
         )
-        .see(&["sort"]),
+        .with_related(&["sort"]),
     ],
 };

@@ -14,21 +14,21 @@ pub const TABLE: BuiltInTable = BuiltInTable {
             "check(parse_float(\"0.05\") == 0.05);",
         )
         .returns(Returns::NUMBER)
-        .see(&["parse_int"]),
+        .with_related(&["parse_int"]),
         built_in(
             &["parse_int(text, [radix])"],
             "Converts a text to a whole number, to base 10 or another base up to 36.",
             "check(parse_int(\"42\") == 42);\ncheck(parse_int(\"ff\", 16) == 255);",
         )
         .returns(Returns::WHOLE)
-        .see(&["parse_float"]),
+        .with_related(&["parse_float"]),
         built_in(
             &["number.to_int()"],
             "Converts a number to a whole number, without the digits after the decimal point.",
             "check(2.7.to_int() == 2 && (-2.7).to_int() == -2);",
         )
         .returns(Returns::WHOLE)
-        .see(&["floor", "round"]),
+        .with_related(&["floor", "round"]),
         built_in(
             &["number.to_float()"],
             "Converts a whole number to a number with a decimal point; rarely needed.",
@@ -41,14 +41,14 @@ pub const TABLE: BuiltInTable = BuiltInTable {
             "check((1/20).to_string() == \"0.05\");\ncheck([1, 2].to_string() == \"[1, 2]\");",
         )
         .returns(Returns::TEXT)
-        .see(&["to_debug", "sci", "fixed"]),
+        .with_related(&["to_debug", "sci", "fixed"]),
         built_in(
             &["value.to_debug()"],
             "Returns the value as it is written in a script: texts with their quotes.",
             "check(\"a\".to_debug() == \"\\\"a\\\"\");",
         )
         .returns(Returns::TEXT)
-        .see(&["to_string"]),
+        .with_related(&["to_string"]),
         built_in(
             &["number.to_hex()"],
             "Returns a whole number in hexadecimal digits.",
@@ -74,7 +74,7 @@ pub const TABLE: BuiltInTable = BuiltInTable {
             "check(sign(-0.5) == -1 && sign(0) == 0 && sign(7) == 1);",
         )
         .returns(Returns::WHOLE)
-        .see(&["abs", "sort"]),
+        .with_related(&["abs", "sort"]),
         built_in(
             &["number.is_zero()"],
             "Returns true if a number is zero.",
@@ -87,20 +87,20 @@ pub const TABLE: BuiltInTable = BuiltInTable {
             "check(is_even(4));",
         )
         .returns(Returns::TRUTH)
-        .see(&["is_odd"]),
+        .with_related(&["is_odd"]),
         built_in(
             &["number.is_odd()"],
             "Returns true if a whole number is odd.",
             "check(is_odd(3));",
         )
         .returns(Returns::TRUTH)
-        .see(&["is_even"]),
+        .with_related(&["is_even"]),
         built_in(
             &["number.bits([start], [count])", "number.bits(range)", "number.bits"],
             "Returns the binary digits of a whole number for a for loop, the last digit first.",
             "let set = 0;\nfor bit in bits(5) { if bit { set += 1; } }\ncheck(set == 2);",
         )
-        .returns(Returns::ANYTHING.words("true or false for each digit"))
-        .see(&["to_binary"]),
+        .returns(Returns::ANYTHING.with_description("true or false for each digit"))
+        .with_related(&["to_binary"]),
     ],
 };

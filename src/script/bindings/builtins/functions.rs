@@ -13,22 +13,22 @@ pub const TABLE: BuiltInTable = BuiltInTable {
             "Calls the function that a variable holds.",
             "let twice = |x| 2 * x;\ncheck(twice.call(4) == 8);",
         )
-        .returns(Returns::ANYTHING.words("the result of the function"))
-        .see(&["curry", "Fn"]),
+        .returns(Returns::ANYTHING.with_description("the result of the function"))
+        .with_related(&["curry", "Fn"]),
         built_in(
             &["function.curry(values…)"],
             "Returns a function of fewer arguments, with the first ones fixed.",
             "let power = |n, x| x^n;\nlet cube = power.curry(3);\ncheck(cube.call(2) == 8);",
         )
         .returns(Returns::FUNCTION)
-        .see(&["call"]),
+        .with_related(&["call"]),
         built_in(
             &["Fn(name)"],
             "Returns the function with this name as a value.",
             "fn twice(x) { 2 * x }\ncheck([1, 2].map(Fn(\"twice\")) == [2, 4]);",
         )
         .returns(Returns::FUNCTION)
-        .see(&["call"]),
+        .with_related(&["call"]),
         built_in(
             &["function.name"],
             "Name of the function.",
@@ -48,6 +48,6 @@ pub const TABLE: BuiltInTable = BuiltInTable {
             "fn twice(x) { 2 * x }\ncheck(is_def_fn(\"twice\", 1) && !is_def_fn(\"twice\", 2));",
         )
         .returns(Returns::TRUTH)
-        .see(&["is_def_var"]),
+        .with_related(&["is_def_var"]),
     ],
 };

@@ -15,14 +15,14 @@ pub const TABLE: BuiltInTable = BuiltInTable {
             .returns(Returns::TRUTH),
         built_in(&["map.keys()"], "Returns the keys in alphabetical order.", "check(#{ b: 2, a: 1 }.keys() == [\"a\", \"b\"]);")
             .returns(Returns::array_of(&ValueKind::Text))
-            .see(&["values"]),
+            .with_related(&["values"]),
         built_in(
             &["map.values()"],
             "Returns the values in the order of their keys.",
             "check(#{ b: 2, a: 1 }.values() == [1, 2]);",
         )
         .returns(Returns::ARRAY)
-        .see(&["keys"]),
+        .with_related(&["keys"]),
         built_in(
             &["map.contains(key)"],
             "Returns true if the map has a key; the same as key in map.",
@@ -57,13 +57,13 @@ pub const TABLE: BuiltInTable = BuiltInTable {
             does the same.",
             "let options = #{ dt: 0.1, name: \"a\" };\noptions.mixin(#{ dt: 0.2 });\ncheck(options.dt == 0.2 && options.name == \"a\");",
         )
-        .see(&["fill_with"]),
+        .with_related(&["fill_with"]),
         built_in(
             &["map.fill_with(other)"],
             "Adds the missing keys of another map.",
             "let options = #{ dt: 0.1 };\noptions.fill_with(#{ dt: 1, name: \"a\" });\ncheck(options.dt == 0.1 && options.name == \"a\");",
         )
-        .see(&["mixin"]),
+        .with_related(&["mixin"]),
         built_in(
             &["map.map(function)"],
             "Returns a map with the same keys and the results of function(key, value) as \
@@ -77,21 +77,21 @@ pub const TABLE: BuiltInTable = BuiltInTable {
             "check(#{ a: 1, b: 2 }.filter(|key, value| value > 1).keys() == [\"b\"]);",
         )
         .returns(Returns::MAP)
-        .see(&["retain"]),
+        .with_related(&["retain"]),
         built_in(
             &["map.drain(test)"],
             "Removes the keys that pass test(key, value), and returns them as a map.",
             "let m = #{ a: 1, b: 2 };\ncheck(m.drain(|key, value| value > 1).keys() == [\"b\"] && m.keys() == [\"a\"]);",
         )
         .returns(Returns::MAP)
-        .see(&["retain"]),
+        .with_related(&["retain"]),
         built_in(
             &["map.retain(test)"],
             "Keeps the keys that pass test(key, value), and returns the others as a map.",
             "let m = #{ a: 1, b: 2 };\ncheck(m.retain(|key, value| value > 1).keys() == [\"a\"] && m.keys() == [\"b\"]);",
         )
         .returns(Returns::MAP)
-        .see(&["drain", "filter"]),
+        .with_related(&["drain", "filter"]),
         built_in(
             &["map.to_json()"],
             "Returns the map as JSON text.",

@@ -14,8 +14,8 @@ pub const TABLE: BuiltInTable = BuiltInTable {
             "let found = [];\nfor n in range(10, 0, -4) { found.push(n); }\ncheck(found == [10, 6, 2]);\n\
              for n in range(0..10, 5) { print(n); }",
         )
-        .returns(Returns::ANYTHING.words("numbers for a loop"))
-        .see(&["linspace"]),
+        .returns(Returns::ANYTHING.with_description("numbers for a loop"))
+        .with_related(&["linspace"]),
         built_in(&["range.start"], "Start of the range.", "check((2..5).start == 2);")
             .returns(Returns::WHOLE),
         built_in(&["range.end"], "End of the range.", "check((2..5).end == 5);")
@@ -34,13 +34,13 @@ pub const TABLE: BuiltInTable = BuiltInTable {
             "check((0..=3).is_inclusive && !(0..3).is_inclusive);",
         )
         .returns(Returns::TRUTH)
-        .see(&["is_exclusive"]),
+        .with_related(&["is_exclusive"]),
         built_in(
             &["range.is_exclusive"],
             "True if the end does not belong to the range.",
             "check((0..3).is_exclusive);",
         )
         .returns(Returns::TRUTH)
-        .see(&["is_inclusive"]),
+        .with_related(&["is_inclusive"]),
     ],
 };

@@ -11,7 +11,7 @@ pub const TABLE: BuiltInTable = BuiltInTable {
     rows: &[
         built_in(&["text.len"], "Number of characters.", "check(\"spline\".len == 6);")
             .returns(Returns::WHOLE)
-            .see(&["bytes"]),
+            .with_related(&["bytes"]),
         built_in(
             &["text.bytes"],
             "Number of bytes of the text in UTF-8.",
@@ -26,21 +26,21 @@ pub const TABLE: BuiltInTable = BuiltInTable {
             "check(\"flying spaghetti\".contains(\"spa\"));\ncheck(\"spa\" in \"spaghetti\");",
         )
         .returns(Returns::TRUTH)
-        .see(&["index_of", "starts_with"]),
+        .with_related(&["index_of", "starts_with"]),
         built_in(
             &["text.starts_with(part)"],
             "Returns true if the text starts with a text.",
             "check(\"beam1\".starts_with(\"beam\"));",
         )
         .returns(Returns::TRUTH)
-        .see(&["ends_with"]),
+        .with_related(&["ends_with"]),
         built_in(
             &["text.ends_with(part)"],
             "Returns true if the text ends with a text.",
             "check(\"out.svg\".ends_with(\".svg\"));",
         )
         .returns(Returns::TRUTH)
-        .see(&["starts_with"]),
+        .with_related(&["starts_with"]),
         built_in(
             &["text.index_of(part, [start])"],
             "Returns the index of the first occurrence of a text or character, from start on; \
@@ -55,7 +55,7 @@ pub const TABLE: BuiltInTable = BuiltInTable {
             "check(\"spaghetti\".sub_string(0, 3) == \"spa\");\ncheck(\"spaghetti\".sub_string(3..6) == \"ghe\");",
         )
         .returns(Returns::TEXT)
-        .see(&["crop", "split"]),
+        .with_related(&["crop", "split"]),
         built_in(
             &["text.split([separator], [count])", "text.split(index)"],
             "Splits the text at separators, or at white space, into an array; with an index \
@@ -65,28 +65,28 @@ pub const TABLE: BuiltInTable = BuiltInTable {
         )
         .returns(Returns::array_of(&ValueKind::Text))
         .doc("With a count there are at most that many parts; the last one contains the rest.")
-        .see(&["split_rev"]),
+        .with_related(&["split_rev"]),
         built_in(
             &["text.split_rev(separator, [count])"],
             "Splits the text at separators into an array, the last part first.",
             "check(\"a.b.c\".split_rev(\".\", 2) == [\"c\", \"a.b\"]);",
         )
         .returns(Returns::array_of(&ValueKind::Text))
-        .see(&["split"]),
+        .with_related(&["split"]),
         built_in(
             &["text.to_chars()"],
             "Returns the characters as an array.",
             "check(\"abc\".to_chars() == ['a', 'b', 'c']);",
         )
         .returns(Returns::array_of(&ValueKind::Character))
-        .see(&["chars"]),
+        .with_related(&["chars"]),
         built_in(
             &["text.chars([start], [count])", "text.chars(range)", "text.chars"],
             "Returns the characters for a for loop.",
             "let letters = 0;\nfor letter in \"abc\".chars() { letters += 1; }\ncheck(letters == 3);",
         )
-        .returns(Returns::ANYTHING.words("characters"))
-        .see(&["to_chars"]),
+        .returns(Returns::ANYTHING.with_description("characters"))
+        .with_related(&["to_chars"]),
         built_in(
             &["text.get(index)"],
             "Returns the character at an index, or nothing if there is none; text[index] is \
@@ -104,27 +104,27 @@ pub const TABLE: BuiltInTable = BuiltInTable {
             "Returns the text in upper case.",
             "check(\"beam\".to_upper() == \"BEAM\" && 'a'.to_upper() == 'A');",
         )
-        .returns(Returns::TEXT.note(", or a character for a character"))
-        .see(&["to_lower", "make_upper"]),
+        .returns(Returns::TEXT.with_remark(", or a character for a character"))
+        .with_related(&["to_lower", "make_upper"]),
         built_in(
             &["text.to_lower()", "character.to_lower()"],
             "Returns the text in lower case.",
             "check(\"BEAM\".to_lower() == \"beam\");",
         )
-        .returns(Returns::TEXT.note(", or a character for a character"))
-        .see(&["to_upper", "make_lower"]),
+        .returns(Returns::TEXT.with_remark(", or a character for a character"))
+        .with_related(&["to_upper", "make_lower"]),
         built_in(
             &["text.make_upper()", "character.make_upper()"],
             "Converts to upper case in place.",
             "let word = \"beam\";\nword.make_upper();\ncheck(word == \"BEAM\");",
         )
-        .see(&["to_upper"]),
+        .with_related(&["to_upper"]),
         built_in(
             &["text.make_lower()", "character.make_lower()"],
             "Converts to lower case in place.",
             "let word = \"BEAM\";\nword.make_lower();\ncheck(word == \"beam\");",
         )
-        .see(&["to_lower"]),
+        .with_related(&["to_lower"]),
         built_in(
             &["text.trim()"],
             "Removes white space at both ends, in place.",
@@ -145,7 +145,7 @@ pub const TABLE: BuiltInTable = BuiltInTable {
             "Keeps only a part, in place.",
             "let word = \"spaghetti\";\nword.crop(0, 3);\ncheck(word == \"spa\");",
         )
-        .see(&["sub_string"]),
+        .with_related(&["sub_string"]),
         built_in(
             &["text.truncate(count)"],
             "Keeps only the given number of characters from the beginning, in place.",
@@ -166,7 +166,7 @@ pub const TABLE: BuiltInTable = BuiltInTable {
             "Removes one or the given number of characters at the end and returns them.",
             "let word = \"beams\";\ncheck(word.pop() == 's');\ncheck(word.pop(2) == \"am\" && word == \"be\");",
         )
-        .returns(Returns::CHARACTER.note(", or a text if a count is given")),
+        .returns(Returns::CHARACTER.with_remark(", or a text if a count is given")),
         built_in(
             &["text.clear()"],
             "Makes the text empty.",

@@ -12,14 +12,14 @@ pub const TABLE: BuiltInTable = BuiltInTable {
             "Prints a value and ends the line.",
             "print(\"the tip\");\nprint(1/20);\nprint(`x = ${fixed(PI, 2)}`);",
         )
-        .see(&["debug", "tabulate", "sci", "fixed"]),
+        .with_related(&["debug", "tabulate", "sci", "fixed"]),
         built_in(
             &["debug([value])"],
             "Prints a value as it is written in a script, with the line of the call, to the \
             error output.",
             "debug(#{ dt: 0.1 });\nprint(\"seen\");",
         )
-        .see(&["print"]),
+        .with_related(&["print"]),
         built_in(
             &["type_of(value)", "value.type_of()"],
             "Returns the name of the type of a value.",
@@ -32,7 +32,7 @@ pub const TABLE: BuiltInTable = BuiltInTable {
             "let dt = 0.1;\ncheck(is_def_var(\"dt\") && !is_def_var(\"tip\"));",
         )
         .returns(Returns::TRUTH)
-        .see(&["is_def_fn"]),
+        .with_related(&["is_def_fn"]),
         built_in(
             &["is_shared(variable)"],
             "Returns true if a closure shares the variable.",
@@ -45,13 +45,13 @@ pub const TABLE: BuiltInTable = BuiltInTable {
             "let began = timestamp();\ncheck(began.elapsed >= 0);",
         )
         .returns(Returns::TIMESTAMP)
-        .see(&["elapsed"]),
+        .with_related(&["elapsed"]),
         built_in(
             &["timestamp.elapsed", "timestamp.elapsed()"],
             "Seconds of clock time since a timestamp was taken.",
             "let began = timestamp();\nfor i in 0..100 { sqrt(i); }\nprint(`${sci(began.elapsed)} s`);",
         )
         .returns(Returns::NUMBER)
-        .see(&["timestamp"]),
+        .with_related(&["timestamp"]),
     ],
 };

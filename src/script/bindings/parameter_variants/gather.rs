@@ -15,7 +15,7 @@ use crate::script::messages::numbers::as_number;
 ///
 /// # Errors
 /// Fails if arrays or maps differ in more than numbers.
-pub fn gather(
+pub fn combine_variants(
     family: &Rc<ParameterSet>,
     results: &[Dynamic],
     lost: Option<&Rc<str>>,
@@ -32,7 +32,7 @@ pub fn gather(
         }
         let element = |at: usize| {
             let each: Vec<Dynamic> = all.iter().map(|of| of[at].clone()).collect();
-            gather(family, &each, lost, is_thing)
+            combine_variants(family, &each, lost, is_thing)
         };
         return Ok((0..own.len()).map(element).collect::<Result<Array, _>>()?.into());
     }
@@ -44,7 +44,7 @@ pub fn gather(
         let entry = |(at, key): (usize, &rhai::Identifier)| {
             let each: Vec<Dynamic> =
                 all.iter().filter_map(|of| of.values().nth(at).cloned()).collect();
-            Ok((key.clone(), gather(family, &each, lost, is_thing)?))
+            Ok((key.clone(), combine_variants(family, &each, lost, is_thing)?))
         };
         return Ok(own.keys().enumerate().map(entry).collect::<Result<Map, ScriptError>>()?.into());
     }

@@ -4,11 +4,11 @@ use std::rc::Rc;
 
 use rhai::{Dynamic, FnPtr, Map};
 
-use super::gather::gather;
+use super::gather::combine_variants;
 use super::nonsmooth::corner_of;
-use super::parameter_set::{ParameterSet, VariantGuard, of_thing, present, take_lost};
+use super::parameter_set::{ParameterSet, VariantGuard, of_thing, present, take_unavailable};
 use super::policy::Lifting;
-use super::variant_value::{VariantValue, family_of, lost_in, project};
+use super::variant_value::{VariantValue, parameter_set_of, project, unavailable_reason_in};
 use crate::script::bindings::kind::Kind;
 use crate::script::bindings::parameter::Parameter;
 use crate::script::bindings::table::{CallSyntax, FunctionBinding};
@@ -24,19 +24,19 @@ type Make<'m> = &'m mut dyn FnMut(Option<&mut Dynamic>, &[Dynamic]) -> Result<Dy
 ///
 /// # Errors
 /// Errors of the call; also if derivatives would be lost, or parameters of two scenes are combined.
-pub fn lift(
+pub fn evaluate_variants(
     (row, lifting): (&FunctionBinding, Lifting),
     mut receiver: Option<&mut Dynamic>,
     (parameters, given): (&[Parameter], Vec<Dynamic>),
     make: Make<'_>,
 ) -> Result<Dynamic, ScriptError> {
     if let Some(present) = present() {
-        return make_at(present.variant, receiver, &given, make);
+        return evaluate_at(present.variant, receiver, &given, make);
     }
     let Some(family) = families(receiver.as_deref(), &given)? else {
         return make(receiver, &given);
     };
-    let depends = given.iter().position(|of| family_of(of).is_some());
+    let depends = given.iter().position(|of| parameter_set_of(of).is_some());
     match (lifting, depends) {
         (Lifting::Each, _) => expect_plain_whole_numbers(row, parameters, &given)?,
         (Lifting::Once, Some(_)) if row.receiver().is_none() && is_about_derivatives(row) => {
@@ -46,7 +46,7 @@ pub fn lift(
             return Err(refusal(row, parameters.get(number), &given[number], number));
         }
         (Lifting::AtValues, _) | (Lifting::Once, None) => {
-            return make_at(0, receiver, &given, make);
+            return evaluate_at(0, receiver, &given, make);
         }
         (Lifting::Refused, _) => {
             let told = format!("{} does not support parameters of a scene", row.name);
@@ -58,8 +58,8 @@ pub fn lift(
     family.use_variants();
     let is_set = matches!(row.form, CallSyntax::Property(_)) && !given.is_empty();
     let is_thing = |value: &Dynamic| !value.is::<VariantValue>() && of_thing(value).is_some();
-    let mut lost = given.iter().chain(receiver.as_deref()).find_map(lost_in);
-    let _: Option<Rc<str>> = take_lost();
+    let mut lost = given.iter().chain(receiver.as_deref()).find_map(unavailable_reason_in);
+    let _: Option<Rc<str>> = take_unavailable();
     let mut at = |variant: usize| {
         let _within = VariantGuard::of(&family, variant);
         let given: Vec<Dynamic> = given.iter().map(|of| project(of, variant)).collect();
@@ -81,13 +81,15 @@ pub fn lift(
             Ok(made) => results.push(made),
             Err(error) if variant == 0 => return Err(error),
             // If variant 0 fails too, its error is reported.
-            Err(beside) => return Err(at(0).err().unwrap_or(beside.said(&family, variant))),
+            Err(beside) => {
+                return Err(at(0).err().unwrap_or(beside.with_variant_context(&family, variant)));
+            }
         }
     }
     results.reverse();
     let corner = || corner_of((row.name, row.corner?), &family, &given);
-    lost = lost.or_else(take_lost).or_else(corner);
-    let found = gather(&family, &results, lost.as_ref(), &is_thing)?;
+    lost = lost.or_else(take_unavailable).or_else(corner);
+    let found = combine_variants(&family, &results, lost.as_ref(), &is_thing)?;
     match receiver {
         Some(held) if is_set && !is_thing(held) => {
             *held = found;
@@ -97,7 +99,7 @@ pub fn lift(
     }
 }
 
-fn make_at(
+fn evaluate_at(
     variant: usize,
     receiver: Option<&mut Dynamic>,
     given: &[Dynamic],
@@ -160,13 +162,13 @@ fn refusal(
 
 fn option_in(options: &Dynamic) -> Option<(String, Dynamic)> {
     let map = options.read_lock::<Map>()?;
-    let (key, value) = map.iter().find(|(_, of)| family_of(of).is_some())?;
+    let (key, value) = map.iter().find(|(_, of)| parameter_set_of(of).is_some())?;
     option_in(value).or_else(|| Some((key.to_string(), value.clone())))
 }
 
 impl ScriptError {
     /// Adds the variant to the message of an error in a side variant.
-    fn said(self, family: &ParameterSet, variant: usize) -> Self {
+    fn with_variant_context(self, family: &ParameterSet, variant: usize) -> Self {
         match self {
             Self::Failure(mut failure) => {
                 let at = family.describe(variant);
@@ -197,7 +199,7 @@ impl ParameterSet {
     /// # Errors
     /// Fails if they depend on parameters of two scenes.
     pub fn common(values: &[&Dynamic]) -> Result<Option<Rc<Self>>, ScriptError> {
-        let own = |value: &&Dynamic| family_of(value).or_else(|| of_thing(value));
+        let own = |value: &&Dynamic| parameter_set_of(value).or_else(|| of_thing(value));
         let mut found: Option<Rc<Self>> = None;
         for family in values.iter().filter_map(own) {
             match &found {
@@ -225,25 +227,25 @@ impl ParameterSet {
 ///
 /// # Errors
 /// Fails if arrays or maps differ in more than numbers.
-pub fn gathered(
+pub fn combined(
     family: &Rc<ParameterSet>,
     results: &[Dynamic],
     from: &[&Dynamic],
 ) -> Result<Dynamic, ScriptError> {
     family.use_variants();
-    let lost = from.iter().find_map(|value| lost_in(value));
-    gather(family, results, lost.as_ref(), &|_| false)
+    let lost = from.iter().find_map(|value| unavailable_reason_in(value));
+    combine_variants(family, results, lost.as_ref(), &|_| false)
 }
 
 /// Combines the results of all variants to one value without derivatives, with the reason.
 ///
 /// # Errors
 /// Fails if arrays or maps differ in more than numbers.
-pub fn gathered_without(
+pub fn combined_without_derivatives(
     family: &Rc<ParameterSet>,
     results: &[Dynamic],
     reason: Rc<str>,
 ) -> Result<Dynamic, ScriptError> {
     family.use_variants();
-    gather(family, results, Some(&reason), &|_| false)
+    combine_variants(family, results, Some(&reason), &|_| false)
 }

@@ -10,15 +10,16 @@ mod parameter_set;
 mod policy;
 mod variant_value;
 
-pub use lift::{gathered, gathered_without, lift};
+pub use lift::{combined, combined_without_derivatives, evaluate_variants};
 pub use nonsmooth::{
-    NonsmoothCheck, Sides, at_cut, at_cut_of_vector, at_multiples, at_origin, at_whole_numbers,
-    at_zero, at_zero_vector, corner_of, near_ends_of_logarithm, near_one, near_quarters, near_zero,
-    near_zero_base, near_zero_divisor, where_equal, where_largest_changes, where_points_meet,
-    where_rounded_differs, where_smallest_changes,
+    NonsmoothCheck, Sides, at_branch_cut, at_branch_cut_of_vector, at_coinciding_points,
+    at_digit_changes, at_equality, at_integers, at_largest_change, at_multiples, at_origin,
+    at_smallest_change, at_zero, at_zero_vector, corner_of, near_ends_of_logarithm, near_one,
+    near_quarters, near_zero, near_zero_base, near_zero_divisor,
 };
 pub use parameter_set::{
-    CurrentVariant, ParameterSet, RELATIVE_DISTANCE, know, lose, present, present_variant,
+    CurrentVariant, ParameterSet, RELATIVE_DISTANCE, present, present_variant, register_type,
+    set_unavailable,
 };
 #[cfg(test)]
 pub use policy::NAMED;

@@ -117,7 +117,7 @@ pub fn near_ends_of_logarithm(sides: &Sides) -> Option<NoDerivative> {
 }
 
 /// At equal arguments, as for `max`.
-pub fn where_equal(sides: &Sides) -> Option<NoDerivative> {
+pub fn at_equality(sides: &Sides) -> Option<NoDerivative> {
     sides.passes_zero(|given| number(given, 0) - number(given, 1))
 }
 
@@ -127,12 +127,12 @@ pub fn at_origin(sides: &Sides) -> Option<NoDerivative> {
 }
 
 /// Near the origin and at the branch cut of the angle of the vector `(second, first)`, as for `atan2`.
-pub fn at_cut(sides: &Sides) -> Option<NoDerivative> {
+pub fn at_branch_cut(sides: &Sides) -> Option<NoDerivative> {
     cut(sides, |given| Some(Vec2::new(number(given, 1), number(given, 0))))
 }
 
 /// Near the origin and at the branch cut of the angle of a vector argument.
-pub fn at_cut_of_vector(sides: &Sides) -> Option<NoDerivative> {
+pub fn at_branch_cut_of_vector(sides: &Sides) -> Option<NoDerivative> {
     cut(sides, |given| point(given, 0))
 }
 
@@ -150,18 +150,18 @@ pub fn at_zero_vector(sides: &Sides) -> Option<NoDerivative> {
 }
 
 /// Near coinciding points, as for `distance`.
-pub fn where_points_meet(sides: &Sides) -> Option<NoDerivative> {
+pub fn at_coinciding_points(sides: &Sides) -> Option<NoDerivative> {
     sides.nears_origin(|given| point(given, 1).zip(point(given, 0)).map(|(b, a)| b - a))
 }
 
 /// At integers, as for `fraction`.
-pub fn at_whole_numbers(sides: &Sides) -> Option<NoDerivative> {
+pub fn at_integers(sides: &Sides) -> Option<NoDerivative> {
     let [_, plus, minus] = sides.each(|given| number(given, 0).trunc());
     (plus != minus).then_some(NoDerivative::Broken)
 }
 
 /// At changes of digits, as for `round_to`.
-pub fn where_rounded_differs(sides: &Sides) -> Option<NoDerivative> {
+pub fn at_digit_changes(sides: &Sides) -> Option<NoDerivative> {
     let [_, plus, minus] = sides.each(|given| {
         let digits = number(given, 1);
         (number(given, 0) * crate::elementary::power(10.0, digits)).round()
@@ -190,16 +190,16 @@ pub fn near_zero_base(sides: &Sides) -> Option<NoDerivative> {
 }
 
 /// At changes of the largest element of an array.
-pub fn where_largest_changes(sides: &Sides) -> Option<NoDerivative> {
-    chosen_changes(sides, |x, y| x > y)
+pub fn at_largest_change(sides: &Sides) -> Option<NoDerivative> {
+    selection_changes(sides, |x, y| x > y)
 }
 
 /// At changes of the smallest element of an array.
-pub fn where_smallest_changes(sides: &Sides) -> Option<NoDerivative> {
-    chosen_changes(sides, |x, y| x < y)
+pub fn at_smallest_change(sides: &Sides) -> Option<NoDerivative> {
+    selection_changes(sides, |x, y| x < y)
 }
 
-fn chosen_changes(sides: &Sides, wins: fn(f64, f64) -> bool) -> Option<NoDerivative> {
+fn selection_changes(sides: &Sides, wins: fn(f64, f64) -> bool) -> Option<NoDerivative> {
     let chosen = |values: &[f64]| {
         let better =
             |best: usize, at: usize| if wins(values[at], values[best]) { at } else { best };
@@ -250,13 +250,13 @@ mod tests {
     fn corners_lie_where_a_sign_changes() {
         assert_eq!(about(at_zero, &[0.0], 1e-5), Some(NoDerivative::Broken));
         assert_eq!(about(at_zero, &[2e-5], 1e-5), None);
-        assert_eq!(about(where_equal, &[2.0, 2.0], 0.1), Some(NoDerivative::Broken));
-        assert_eq!(about(where_equal, &[2.15, 2.0], 0.1), None);
-        assert_eq!(about(at_whole_numbers, &[2.0], 0.1), Some(NoDerivative::Broken));
+        assert_eq!(about(at_equality, &[2.0, 2.0], 0.1), Some(NoDerivative::Broken));
+        assert_eq!(about(at_equality, &[2.15, 2.0], 0.1), None);
+        assert_eq!(about(at_integers, &[2.0], 0.1), Some(NoDerivative::Broken));
         assert_eq!(about(at_multiples, &[4.0, 2.0], 0.1), Some(NoDerivative::Broken));
-        assert_eq!(about(where_rounded_differs, &[0.125, 2.0], 1e-6), Some(NoDerivative::Broken));
-        assert_eq!(about(at_cut, &[0.0, -1.0], 1e-5), Some(NoDerivative::Broken));
-        assert_eq!(about(at_cut, &[0.0, 1.0], 1e-5), None);
+        assert_eq!(about(at_digit_changes, &[0.125, 2.0], 1e-6), Some(NoDerivative::Broken));
+        assert_eq!(about(at_branch_cut, &[0.0, -1.0], 1e-5), Some(NoDerivative::Broken));
+        assert_eq!(about(at_branch_cut, &[0.0, 1.0], 1e-5), None);
     }
 
     #[test]
@@ -268,7 +268,7 @@ mod tests {
             (near_zero_base, vec![0.0, 0.5]),
             (near_zero_base, vec![0.0, -1.0]),
             (at_origin, vec![0.0, 0.0]),
-            (at_cut, vec![0.0, 0.0]),
+            (at_branch_cut, vec![0.0, 0.0]),
             (near_ends_of_logarithm, vec![0.0, 10.0]),
         ] {
             let beside = |by: f64| [&[at[0] + by], &at[1..]].concat();
@@ -286,11 +286,11 @@ mod tests {
     fn the_largest_of_an_array_changes_where_another_overtakes() {
         let sides = |one: &[f64], other: &[f64]| [array(one), array(one), array(other)];
         let overtaken = sides(&[1.0, 2.1, 2.0], &[1.0, 1.9, 2.0]);
-        assert_eq!(asked(where_largest_changes, overtaken), Some(NoDerivative::Broken));
+        assert_eq!(asked(at_largest_change, overtaken), Some(NoDerivative::Broken));
         let together = sides(&[1.0, 2.1, 2.1], &[1.0, 1.9, 1.9]);
-        assert_eq!(asked(where_largest_changes, together), None);
+        assert_eq!(asked(at_largest_change, together), None);
         let fallen = sides(&[1.1, 1.0], &[0.9, 1.0]);
-        assert_eq!(asked(where_smallest_changes, fallen), Some(NoDerivative::Broken));
-        assert_eq!(asked(where_smallest_changes, sides(&[], &[])), None);
+        assert_eq!(asked(at_smallest_change, fallen), Some(NoDerivative::Broken));
+        assert_eq!(asked(at_smallest_change, sides(&[], &[])), None);
     }
 }

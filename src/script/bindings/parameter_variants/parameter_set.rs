@@ -54,7 +54,7 @@ thread_local! {
 type SceneParameters = fn(&Dynamic) -> Option<Rc<ParameterSet>>;
 
 /// Registers the name of a type, and the function that returns the parameter set of its values.
-pub fn know(id: TypeId, name: &'static str, family_of: SceneParameters) {
+pub fn register_type(id: TypeId, name: &'static str, family_of: SceneParameters) {
     THINGS.with_borrow_mut(|known| {
         known.insert(id, (name, family_of));
     });
@@ -80,11 +80,11 @@ pub fn present_variant() -> usize {
 }
 
 /// Marks results of side variants as unavailable, with a reason.
-pub fn lose(reason: &str) {
+pub fn set_unavailable(reason: &str) {
     LOST.set(Some(reason.into()));
 }
 
-pub(super) fn take_lost() -> Option<Rc<str>> {
+pub(super) fn take_unavailable() -> Option<Rc<str>> {
     LOST.take()
 }
 
@@ -151,12 +151,12 @@ impl ParameterSet {
     }
 
     /// Returns true on the first call for a position of the script.
-    pub fn is_told_first(&self, line: usize, column: usize) -> bool {
+    pub fn is_first_report(&self, line: usize, column: usize) -> bool {
         self.told.borrow_mut().insert((line, column))
     }
 
     /// Returns true if a function of the scene branches on a parameter, so that derivatives are wrong at its jumps.
-    pub fn is_decided_by(&self) -> bool {
+    pub fn branches_on_parameter(&self) -> bool {
         !self.told.borrow().is_empty()
     }
 
@@ -187,7 +187,7 @@ impl ParameterSet {
     }
 
     /// Parameter index of a side variant, and true for its plus side.
-    pub fn beside(variant: usize) -> Option<(usize, bool)> {
+    pub fn side_of_variant(variant: usize) -> Option<(usize, bool)> {
         let beside = variant.checked_sub(1)?;
         Some((beside / 2, beside % 2 == 0))
     }
@@ -195,7 +195,8 @@ impl ParameterSet {
     /// Description of a variant: `EI = … + 1e-3`; empty for variant 0.
     pub fn describe(&self, variant: usize) -> String {
         let parameters = self.parameters.borrow();
-        let of = Self::beside(variant).and_then(|(at, plus)| Some((parameters.get(at)?, plus)));
+        let of =
+            Self::side_of_variant(variant).and_then(|(at, plus)| Some((parameters.get(at)?, plus)));
         of.map_or_else(String::new, |(of, plus)| {
             let distance = significant(of.distance, 3);
             format!("'{}' {} {distance}", of.name, if plus { "plus" } else { "minus" })

@@ -40,16 +40,16 @@ impl VariantValue {
     }
 
     /// Parameter set that a value depends on.
-    pub fn family_of(value: &Dynamic) -> Option<Rc<ParameterSet>> {
-        family_of(value)
+    pub fn parameter_set_of(value: &Dynamic) -> Option<Rc<ParameterSet>> {
+        parameter_set_of(value)
     }
 
     /// Parameter set of this value.
-    pub fn family(&self) -> &Rc<ParameterSet> {
+    pub fn parameter_set(&self) -> &Rc<ParameterSet> {
         &self.family
     }
 
-    pub(super) fn lost(&self) -> Option<&Rc<str>> {
+    pub(super) fn unavailable_reason(&self) -> Option<&Rc<str>> {
         self.lost.as_ref()
     }
 
@@ -81,13 +81,13 @@ impl VariantValue {
 }
 
 /// Parameter set that a value depends on; arrays, maps and captured values are searched.
-pub fn family_of(value: &Dynamic) -> Option<Rc<ParameterSet>> {
+pub fn parameter_set_of(value: &Dynamic) -> Option<Rc<ParameterSet>> {
     find(value, &|varied| Some(Rc::clone(&varied.family)))
 }
 
 /// Reason for missing derivatives anywhere in a value.
-pub fn lost_in(value: &Dynamic) -> Option<Rc<str>> {
-    find(value, &|varied| varied.lost().cloned())
+pub fn unavailable_reason_in(value: &Dynamic) -> Option<Rc<str>> {
+    find(value, &|varied| varied.unavailable_reason().cloned())
 }
 
 fn find<T>(value: &Dynamic, what: &dyn Fn(&VariantValue) -> Option<T>) -> Option<T> {
@@ -111,7 +111,7 @@ pub fn project(value: &Dynamic, variant: usize) -> Dynamic {
     if let Some(varied) = value.read_lock::<VariantValue>() {
         return varied.at(variant);
     }
-    if family_of(value).is_none() {
+    if parameter_set_of(value).is_none() {
         return value.clone();
     }
     if let Some(array) = value.read_lock::<Array>() {
@@ -125,7 +125,7 @@ pub fn project(value: &Dynamic, variant: usize) -> Dynamic {
         Some(function) => {
             let mut own = function.clone();
             for captured in own.iter_curry_mut() {
-                if family_of(captured).is_some() {
+                if parameter_set_of(captured).is_some() {
                     *captured = project(captured, variant);
                 }
             }
@@ -165,7 +165,7 @@ impl Scripted for VariantValue {
         }
     }
 
-    fn family(&self) -> Option<Rc<ParameterSet>> {
+    fn parameter_set(&self) -> Option<Rc<ParameterSet>> {
         Some(Rc::clone(&self.family))
     }
 }

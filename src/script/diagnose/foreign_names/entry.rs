@@ -24,7 +24,7 @@ pub fn find_exactly(name: &str) -> Option<&'static ForeignName> {
 }
 
 impl ForeignName {
-    pub fn told(&self) -> String {
+    pub fn explanation(&self) -> String {
         match self.see {
             [] => self.cure.to_owned(),
             names => format!("{}; see {}", self.cure, names.join(", ")),

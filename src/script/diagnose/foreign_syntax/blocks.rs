@@ -11,7 +11,7 @@ pub const HABITS: &[ForeignSyntax] =
 fn else_if(spot: &TokenWindow) -> Option<SyntaxFix> {
     let (at, word) = spot.find_word(&["elif", "elseif", "elsif", "elseIf"])?;
     let told = format!("'{word}' is not a word of the language");
-    spot.cure(at, told, "write else if … { … }")
+    spot.explain(at, told, "write else if … { … }")
 }
 
 /// `and`, `or`, `not`, `is`.
@@ -26,7 +26,7 @@ fn word_operator(spot: &TokenWindow) -> Option<SyntaxFix> {
         ("is", _) => "write ==; the value nothing is (): x == ()",
         _ => "write a != b for two truth values",
     };
-    spot.cure(at, format!("'{word}' is not an operator here"), hint)
+    spot.explain(at, format!("'{word}' is not an operator here"), hint)
 }
 
 /// `for (let i = 0; …)`, `for i = 1:10`, `for x of xs`, `for i in range(10):`
@@ -39,11 +39,11 @@ fn counting_loop(spot: &TokenWindow) -> Option<SyntaxFix> {
     let after = if is_in_parentheses { spot.word(at + 3) } else { spot.word(at + 2) };
     if after == "of" || (is_type && spot.word(at + 4) == "of") {
         let hint = "write for x in array { … }; for (x, i) in array { … } also counts the index";
-        return spot.cure(0, "a for loop needs 'in'", hint);
+        return spot.explain(0, "a for loop needs 'in'", hint);
     }
     if is_type || matches!(after, "=" | ";" | "<-") {
         let hint = "write for i in 0..10 { … }, which ends with 9, or 0..=10, which ends with 10; range(0, 10, 2) makes larger steps";
-        return spot.cure(0, "a for loop needs a range in place of a counter", hint);
+        return spot.explain(0, "a for loop needs a range in place of a counter", hint);
     }
     None
 }
@@ -67,7 +67,7 @@ fn colon(spot: &TokenWindow) -> Option<SyntaxFix> {
         "if" => "if a == 1 { … }",
         _ => "{ … }",
     };
-    spot.cure(
+    spot.explain(
         0,
         "a block is written in braces; a colon and indentation have no meaning",
         format!("write braces: {head}"),
@@ -90,18 +90,18 @@ fn body(spot: &TokenWindow) -> Option<SyntaxFix> {
         "fn" => "fn f(x) { … }",
         _ => "if condition { … }",
     };
-    spot.cure(0, told, format!("write {head}"))
+    spot.explain(0, told, format!("write {head}"))
 }
 
 /// `raise …`, `except …`.
 fn handler(spot: &TokenWindow) -> Option<SyntaxFix> {
     if matches!(spot.in_statement(0), "raise" | "error") && spot.count() == 1 {
         let told = format!("'{}' is not a word of the language", spot.in_statement(0));
-        return spot.cure(spot.first(), told, "write throw \"what is wrong\";");
+        return spot.explain(spot.first(), told, "write throw \"what is wrong\";");
     }
     let is_handler = matches!(spot.word(0), "except" | "finally" | "rescue" | "otherwise");
     is_handler.then_some(())?;
-    spot.cure(
+    spot.explain(
         0,
         format!("'{}' is not a word of the language", spot.word(0)),
         "write try { … } catch (problem) { print(problem.message); }",
@@ -111,7 +111,7 @@ fn handler(spot: &TokenWindow) -> Option<SyntaxFix> {
 /// `case 1:` and `default:`.
 fn case(spot: &TokenWindow) -> Option<SyntaxFix> {
     matches!(spot.word(0), "case" | "default").then_some(())?;
-    spot.cure(
+    spot.explain(
         0,
         format!("'{}' is not used in a switch", spot.word(0)),
         "write switch x { 1 => \"one\", 2 => \"two\", _ => \"many\" }",
@@ -125,14 +125,14 @@ fn end(spot: &TokenWindow) -> Option<SyntaxFix> {
         "end" | "endif" | "endfor" | "endwhile" | "endfunction" | "fi" | "done"
     ) {
         let told = format!("'{}' does not end a block", spot.word(0));
-        return spot.cure(0, told, "a block is written in braces: if a == 1 { … }");
+        return spot.explain(0, told, "a block is written in braces: if a == 1 { … }");
     }
     let closes = matches!(spot.word(0), ")" | "]" | "}");
     let is_unexpected =
         matches!(spot.error, ParseErrorType::MissingToken(token, _) if token == ";");
     if closes && is_unexpected {
         let told = format!("this '{}' has no opening bracket", spot.word(0));
-        return spot.cure(0, told, "remove it, or add the opening bracket before it");
+        return spot.explain(0, told, "remove it, or add the opening bracket before it");
     }
     None
 }

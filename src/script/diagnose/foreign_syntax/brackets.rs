@@ -11,7 +11,7 @@ pub const HABITS: &[ForeignSyntax] = &[map_without_sign, assigned_key, unclosed]
 fn map_without_sign(spot: &TokenWindow) -> Option<SyntaxFix> {
     let is_key = spot.is_name(-1) || spot.is_text(-1) || spot.is_number(-1);
     (spot.word(0) == ":" && is_key && spot.word(-2) == "{").then_some(())?;
-    spot.cure(
+    spot.explain(
         -2,
         "{ begins a block of statements, not a map of options",
         format!("options are written #{{ … }}: #{{ {}: … }}", spot.word(-1)),
@@ -24,7 +24,7 @@ fn assigned_key(spot: &TokenWindow) -> Option<SyntaxFix> {
     let is_key = missing == ":" && why.contains("map") && spot.word(0) == "=";
     is_key.then_some(())?;
     let hint = format!("write {}: …", spot.word(-1));
-    spot.cure(0, "a key of a map must be followed by a colon", hint)
+    spot.explain(0, "a key of a map must be followed by a colon", hint)
 }
 
 fn unclosed(spot: &TokenWindow) -> Option<SyntaxFix> {
@@ -45,7 +45,7 @@ fn unclosed(spot: &TokenWindow) -> Option<SyntaxFix> {
         "[" | "?[" => "]",
         _ => "}",
     };
-    spot.cure(
+    spot.explain(
         at,
         format!("this '{}' has no closing bracket", spot.word(at)),
         format!("add '{closing}' at the end"),

@@ -37,7 +37,7 @@ fn function(spot: &TokenWindow) -> Option<SyntaxFix> {
         Some(format!("{}{}", spot.word(open - 1), spot.piece(open, close + 1)))
     });
     let written = written.unwrap_or_else(|| "f(x)".into());
-    spot.cure(
+    spot.explain(
         first,
         format!("'{word}' is not a word of the language"),
         format!("a function is written fn {written} {{ … }}; its last expression is the result"),
@@ -57,7 +57,7 @@ fn function_body(spot: &TokenWindow) -> Option<SyntaxFix> {
         && spot.is_name(0)
         && spot.word(1) == "(";
     (is_headed || is_arrow || is_let || is_assigned).then_some(())?;
-    spot.cure(
+    spot.explain(
         0,
         "this definition of a function is not valid",
         "write fn f(x) { x^2 }: the body needs braces, and its last expression is the result",
@@ -68,11 +68,11 @@ fn function_body(spot: &TokenWindow) -> Option<SyntaxFix> {
 fn unnamed_function(spot: &TokenWindow) -> Option<SyntaxFix> {
     let hint = "a function without a name is written |x| …, and called by f.call(x)";
     if let Some((at, word)) = spot.find_word(&["lambda"]) {
-        return spot.cure(at, format!("'{word}' is not a word of the language"), hint);
+        return spot.explain(at, format!("'{word}' is not a word of the language"), hint);
     }
     let is_value = |before: isize| matches!(spot.word(before), "=" | "(" | "," | ":");
     if spot.word(0) == "fn" && is_value(-1) {
-        return spot.cure(
+        return spot.explain(
             0,
             "fn is only allowed in the definition of a function with a name",
             hint,
@@ -80,7 +80,7 @@ fn unnamed_function(spot: &TokenWindow) -> Option<SyntaxFix> {
     }
     let back = (-12..0).find(|at| FUNCTION_WORDS.contains(&spot.word(*at)) && is_value(at - 1))?;
     let told = format!("'{}' is not a word of the language", spot.word(back));
-    spot.cure(back, told, hint)
+    spot.explain(back, told, hint)
 }
 
 /// `var x = 3`, `int x = 3`.
@@ -93,7 +93,7 @@ fn type_first(spot: &TokenWindow) -> Option<SyntaxFix> {
     let name = spot.in_statement(1);
     let is_declaration = WORDS.contains(&word) && matches!(spot.in_statement(2), "=" | ";" | "");
     (is_declaration && !name.is_empty() && name.starts_with(char::is_alphabetic)).then_some(())?;
-    spot.cure(
+    spot.explain(
         spot.first(),
         format!("'{word}' does not declare a variable"),
         format!("declare a variable of any type by let {name} = …"),
@@ -110,15 +110,15 @@ fn several_names(spot: &TokenWindow) -> Option<SyntaxFix> {
     if is_decimal && !spot.word(-1).contains('.') && spot.in_statement(0) != "return" {
         let (whole, fraction) = (spot.word(-1), spot.word(1));
         let hint = format!("use a decimal point in numbers: {whole}.{fraction}");
-        return spot.cure(0, "a number contains a comma", hint);
+        return spot.explain(0, "a number contains a comma", hint);
     }
     if spot.in_statement(0) == "return" {
         let value = spot.piece(spot.first() + 1, 0);
         let hint =
             format!("return an array: return [{value}, …]; or a map: return #{{ a: …, b: … }}");
-        return spot.cure(0, "a function returns one value", hint);
+        return spot.explain(0, "a function returns one value", hint);
     }
-    spot.cure(
+    spot.explain(
         0,
         "a statement assigns one variable",
         "write one statement for each variable: let a = 1; let b = 2;",
@@ -131,14 +131,14 @@ fn tuple(spot: &TokenWindow) -> Option<SyntaxFix> {
     let is_missing = spot.missing().0 == ")" || spot.word(-2) == "{";
     (spot.word(0) == "," && is_open && is_missing).then_some(())?;
     let hint = format!("write [{}, …]", spot.word(-1));
-    spot.cure(-2, "several values must be an array", hint)
+    spot.explain(-2, "several values must be an array", hint)
 }
 
 /// `let [a, b] = pair;`
 fn parts(spot: &TokenWindow) -> Option<SyntaxFix> {
     let declares = matches!(spot.word(-1), "let" | "const");
     (declares && matches!(spot.word(0), "[" | "{" | "(" | "#{")).then_some(())?;
-    spot.cure(
+    spot.explain(
         0,
         "let cannot split an array or a map",
         "assign the parts one by one: let a = pair[0]; let b = pair[1]; or map.key",
@@ -150,18 +150,18 @@ fn declared_type(spot: &TokenWindow) -> Option<SyntaxFix> {
     let is_variable = matches!(spot.word(-2), "let" | "const") && spot.word(0) == ":";
     if is_variable {
         let hint = format!("omit the type: let {} = …", spot.word(-1));
-        return spot.cure(0, "variables have no declared types", hint);
+        return spot.explain(0, "variables have no declared types", hint);
     }
     if !spot.missing().1.contains("parameters of function") {
         return None;
     }
     match spot.word(0) {
-        ":" => spot.cure(
+        ":" => spot.explain(
             0,
             "parameters have no declared types",
             format!("omit the types: fn f({}) {{ … }}", spot.word(-1)),
         ),
-        "=" => spot.cure(
+        "=" => spot.explain(
             0,
             "parameters have no default values",
             "define a second function with fewer parameters, fn f() { f(1) }, or use a map of \
@@ -175,12 +175,12 @@ fn declared_type(spot: &TokenWindow) -> Option<SyntaxFix> {
 fn compared(spot: &TokenWindow) -> Option<SyntaxFix> {
     if spot.word(0) == "==" && matches!(spot.word(-2), "let" | "const") {
         let hint = format!("write let {} = …", spot.word(-1));
-        return spot.cure(0, "== compares; use = to assign a value", hint);
+        return spot.explain(0, "== compares; use = to assign a value", hint);
     }
     let is_condition = matches!(spot.in_statement(0), "if" | "while" | "until");
     let else_if = spot.in_statement(0) == "else" && spot.in_statement(1) == "if";
     if spot.word(0) == "=" && (is_condition || else_if) {
-        return spot.cure(0, "= assigns a value; use == to compare", "write ==");
+        return spot.explain(0, "= assigns a value; use == to compare", "write ==");
     }
     None
 }
@@ -192,7 +192,7 @@ fn import(spot: &TokenWindow) -> Option<SyntaxFix> {
         && spot.count() >= 1;
     let is_reserved = matches!(word, "use") || matches!(spot.word(0), "use");
     (is_import || is_reserved).then_some(())?;
-    spot.cure(
+    spot.explain(
         spot.first(),
         format!("'{}' does not import a module", if word.is_empty() { spot.word(0) } else { word }),
         "sin, PI and others are available without import; import a module by import \
@@ -205,7 +205,7 @@ fn class(spot: &TokenWindow) -> Option<SyntaxFix> {
     let word = spot.in_statement(0);
     let is_class = matches!(word, "class" | "struct" | "interface" | "enum" | "type" | "classdef");
     (is_class && spot.count() == 1).then_some(())?;
-    spot.cure(
+    spot.explain(
         spot.first(),
         format!("'{word}' is not part of the language"),
         "use a map for values that belong together, #{ length: 2, name: \"rod\" }; define \
@@ -229,7 +229,7 @@ fn misspelt(spot: &TokenWindow) -> Option<SyntaxFix> {
         return None;
     }
     let near = nearest(word, WORDS.iter().copied())?;
-    spot.cure(
+    spot.explain(
         spot.first(),
         format!("'{word}' is not a word of the language"),
         format!("did you mean '{near}'?"),

@@ -22,19 +22,19 @@ pub const HABITS: &[ForeignSyntax] = &[
 fn choice(spot: &TokenWindow) -> Option<SyntaxFix> {
     let hint = "use if as an expression: let x = if a > 0 { 1 } else { 2 };";
     if spot.word(0) == "?" {
-        return spot.cure(0, "the operator '?' does not exist", hint);
+        return spot.explain(0, "the operator '?' does not exist", hint);
     }
     let follows = spot.is_value(-1) || matches!(spot.word(-1), ")" | "]");
     let is_behind = spot.word(0) == "if" && follows && spot.count() > 0;
     is_behind.then_some(())?;
-    spot.cure(0, "a condition must be written before its branches", hint)
+    spot.explain(0, "a condition must be written before its branches", hint)
 }
 
 /// `7 // 2`, where the rest of the line is a comment.
 fn whole_division(spot: &TokenWindow) -> Option<SyntaxFix> {
     let is_operand = spot.is_number(-1) || spot.is_name(-1) || matches!(spot.word(-1), ")" | "]");
     (spot.missing().0 == ";" && is_operand && spot.has_comment_before()).then_some(())?;
-    spot.cure(
+    spot.explain(
         -1,
         "';' is missing before the comment",
         "statements end with a semicolon; // begins a comment, quotient(n, d) divides whole \
@@ -46,7 +46,7 @@ fn whole_division(spot: &TokenWindow) -> Option<SyntaxFix> {
 fn comprehension(spot: &TokenWindow) -> Option<SyntaxFix> {
     let is_within = spot.word(0) == "for" && spot.missing().0 == ",";
     is_within.then_some(())?;
-    spot.cure(
+    spot.explain(
         0,
         "for is not allowed inside the brackets of an array",
         "write [1, 2, 3].map(|x| x^2); array.filter(|x| x > 1) selects elements",
@@ -56,7 +56,7 @@ fn comprehension(spot: &TokenWindow) -> Option<SyntaxFix> {
 /// `a[0:2]`.
 fn slice(spot: &TokenWindow) -> Option<SyntaxFix> {
     (spot.word(0) == ":" && spot.missing().0 == "]").then_some(())?;
-    spot.cure(
+    spot.explain(
         0,
         "an index must not contain a colon",
         "array.extract(0..2) returns the elements 0 and 1, text.sub_string(0, 2) two characters",
@@ -68,7 +68,7 @@ fn range(spot: &TokenWindow) -> Option<SyntaxFix> {
     let is_range = spot.word(0) == ":" && spot.is_number(-1) && spot.is_value(1);
     (is_range && spot.word(-2) != "{").then_some(())?;
     let (from, to) = (spot.word(-1), spot.word(1));
-    spot.cure(
+    spot.explain(
         0,
         "a range is not written with a colon",
         format!("write {from}..={to}, which ends with {to}, or {from}..{to}, which ends before it; linspace(0, 1, 5) for other numbers"),
@@ -81,15 +81,15 @@ fn call_without_parentheses(spot: &TokenWindow) -> Option<SyntaxFix> {
         match word.as_str() {
             "new" => {
                 let hint = "call the function without new, such as new_scene(\"name\")";
-                return spot.cure(0, "'new' is not part of the language", hint);
+                return spot.explain(0, "'new' is not part of the language", hint);
             }
             "null" | "nil" | "void" => {
                 let told = format!("'{word}' is not a value");
-                return spot.cure(0, told, "the value nothing is written (): x == ()");
+                return spot.explain(0, told, "the value nothing is written (): x == ()");
             }
             "print" | "debug" if spot.is_value(1) => {
                 let hint = format!("write {word}({})", spot.word(1));
-                return spot.cure(0, format!("{word} must be called with parentheses"), hint);
+                return spot.explain(0, format!("{word} must be called with parentheses"), hint);
             }
             _ => (),
         }
@@ -106,7 +106,7 @@ fn call_without_parentheses(spot: &TokenWindow) -> Option<SyntaxFix> {
         other => other,
     };
     let hint = format!("write {name}({})", spot.word(0));
-    spot.cure(-1, "a function must be called with parentheses", hint)
+    spot.explain(-1, "a function must be called with parentheses", hint)
 }
 
 /// `2x`, `2(x + 1)`, `1e3f`, `[1 2 3]`.
@@ -115,24 +115,24 @@ fn juxtaposed(spot: &TokenWindow) -> Option<SyntaxFix> {
     let in_array = missing == "," && why.contains("array");
     if in_array && spot.word(0) == ";" {
         let hint = "rows are arrays in an array: [[1, 2], [3, 4]]";
-        return spot.cure(0, "a semicolon cannot separate the rows of an array", hint);
+        return spot.explain(0, "a semicolon cannot separate the rows of an array", hint);
     }
     if in_array && (spot.is_value(0) || spot.word(0) == "-") && !spot.is_joined(0) {
         let hint = format!("write [{}, {}, …]", spot.word(-1), spot.word(0));
-        return spot.cure(0, "elements of an array are separated by commas", hint);
+        return spot.explain(0, "elements of an array are separated by commas", hint);
     }
     let is_factor = spot.is_number(-1) && (spot.is_name(0) || spot.word(0) == "(");
     (is_factor && spot.is_joined(0)).then_some(())?;
     let factor = if spot.word(0) == "(" { "(…)" } else { spot.word(0) };
     let hint = format!("write {} * {factor}; numbers have no suffix", spot.word(-1));
-    spot.cure(0, "a product must be written with *", hint)
+    spot.explain(0, "a product must be written with *", hint)
 }
 
 /// `x++`, if the parser only reports a missing token.
 fn stepping(spot: &TokenWindow) -> Option<SyntaxFix> {
     let sign = spot.word(0);
     (matches!(sign, "+" | "-") && spot.word(1) == sign && spot.is_joined(1)).then_some(())?;
-    spot.cure(
+    spot.explain(
         0,
         format!("'{sign}{sign}' is not part of the language"),
         format!("write x {sign}= 1"),
@@ -146,7 +146,7 @@ fn keyword(spot: &TokenWindow) -> Option<SyntaxFix> {
     let is_named = matches!(spot.word(0), "=" | ":") && spot.is_name(-1);
     (is_argument && is_named).then_some(())?;
     let called = why.split('\'').nth(1).filter(|name| !name.is_empty()).unwrap_or("f");
-    spot.cure(
+    spot.explain(
         0,
         "arguments are given by position, not by name",
         format!("options are written #{{ … }}: {called}(#{{ {}: … }})", spot.word(-1)),

@@ -22,7 +22,7 @@ const HABITS: &[&[ForeignSyntax]] =
     &[signs::HABITS, blocks::HABITS, declarations::HABITS, expressions::HABITS, brackets::HABITS];
 
 /// Explanation for a source that the parser rejected at `at` with `error`.
-pub fn cure(
+pub fn explain(
     program: &Program,
     catalog: &Catalog,
     error: &ParseErrorType,

@@ -10,4 +10,4 @@ mod fix;
 mod signs;
 mod token_window;
 
-pub use fix::cure;
+pub use fix::explain;

@@ -11,15 +11,15 @@ pub const HABITS: &[ForeignSyntax] = &[comment, sign, dotted_operator, quotes, f
 fn comment(spot: &TokenWindow) -> Option<SyntaxFix> {
     let hint = "a comment begins with //";
     match spot.word(0) {
-        "#" => spot.cure(0, "# does not begin a comment", hint),
+        "#" => spot.explain(0, "# does not begin a comment", hint),
         text if text.starts_with('#') && !text.starts_with("#{") => {
-            spot.cure(0, "# does not begin a comment", hint)
+            spot.explain(0, "# does not begin a comment", hint)
         }
         text if text.starts_with('%') && spot.count() == 0 => {
-            spot.cure(0, "% does not begin a comment: it is the remainder", hint)
+            spot.explain(0, "% does not begin a comment: it is the remainder", hint)
         }
         text if text.starts_with('%') && spot.is_value(1) && matches!(spot.word(-1), ";" | "}") => {
-            spot.cure(0, "% does not begin a comment: it is the remainder", hint)
+            spot.explain(0, "% does not begin a comment: it is the remainder", hint)
         }
         _ => None,
     }
@@ -52,12 +52,12 @@ fn sign(spot: &TokenWindow) -> Option<SyntaxFix> {
         let starts = *sign == "@" && spot.word(0).starts_with('@');
         let is_body = spot.in_statement(0) == "fn" && matches!(*sign, "=>" | "->");
         if (is_here || halves || starts) && !is_body {
-            return spot.cure(0, format!("'{sign}' is not part of the language"), *hint);
+            return spot.explain(0, format!("'{sign}' is not part of the language"), *hint);
         }
     }
     (spot.word(0) == "~").then_some(())?;
     let hint = "write ! for not, and != for not equal";
-    spot.cure(0, "'~' is not part of the language", hint)
+    spot.explain(0, "'~' is not part of the language", hint)
 }
 
 const ARROW: &str = "write |x| … for a function without a name; in switch, => follows a case";
@@ -67,7 +67,7 @@ fn dotted_operator(spot: &TokenWindow) -> Option<SyntaxFix> {
     let operator = spot.word(0).chars().next().filter(|sign| "*/^\\'".contains(*sign))?;
     let is_dotted = spot.word(-1) == "." && spot.is_joined(0);
     is_dotted.then_some(())?;
-    spot.cure(
+    spot.explain(
         -1,
         format!("there is no operator '.{operator}'"),
         format!(
@@ -80,19 +80,19 @@ fn dotted_operator(spot: &TokenWindow) -> Option<SyntaxFix> {
 fn quotes(spot: &TokenWindow) -> Option<SyntaxFix> {
     let is_quote = spot.word(0).starts_with('\'');
     match spot.error {
-        ParseErrorType::BadInput(LexError::MalformedChar(text)) => spot.cure(
+        ParseErrorType::BadInput(LexError::MalformedChar(text)) => spot.explain(
             0,
             "single quotes enclose one character, not a text",
             format!("write \"{}\": a text is written in double quotes", text.trim_matches('\'')),
         ),
         ParseErrorType::BadInput(_) if is_quote && spot.is_joined(0) && spot.is_transposable() => {
-            spot.cure(
+            spot.explain(
                 0,
                 "' does not transpose: it begins a character",
                 "matrices are not available: remove the '; texts are written in double quotes",
             )
         }
-        ParseErrorType::BadInput(_) if is_quote => spot.cure(
+        ParseErrorType::BadInput(_) if is_quote => spot.explain(
             0,
             "single quotes enclose one character, not a text",
             "write a text in double quotes: \"text\"",
@@ -112,7 +112,7 @@ fn formatted_text(spot: &TokenWindow) -> Option<SyntaxFix> {
     let is_prefix = matches!(spot.word(-1), "f" | "F" | "r" | "b" | "u");
     let is_text = spot.word(0).starts_with('"') && spot.is_joined(0);
     (is_prefix && is_text).then_some(())?;
-    spot.cure(
+    spot.explain(
         -1,
         format!("a text has no letter before its quotes, got {}\"", spot.word(-1)),
         "texts between backquotes contain values: `x = ${x}`",

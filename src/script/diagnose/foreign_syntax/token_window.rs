@@ -141,7 +141,7 @@ impl<'s> TokenWindow<'s> {
     }
 
     /// Explanation at the token at this offset.
-    pub fn cure(
+    pub fn explain(
         &self,
         from_here: isize,
         message: impl Into<String>,

@@ -12,7 +12,7 @@ impl Commands {
         Self(RefCell::new(vec![Vec::new(); controllers]))
     }
 
-    pub(super) fn go_on_from(&self, other: &Self) {
+    pub(super) fn copy_from(&self, other: &Self) {
         self.0.replace(other.0.borrow().clone());
     }
 
@@ -24,7 +24,7 @@ impl Commands {
     }
 
     /// Records an output from a time on, and drops later outputs after a rewind.
-    pub(super) fn keep(&self, controller: usize, time: f64, command: f64) {
+    pub(super) fn record(&self, controller: usize, time: f64, command: f64) {
         let mut all = self.0.borrow_mut();
         let Some(own) = all.get_mut(controller) else { return };
         own.truncate(own.partition_point(|(from, _)| *from < time));
@@ -43,14 +43,14 @@ mod tests {
         let commands = Commands::new(2);
         assert_eq!(commands.before(0, 1.0), 0.0);
         for (time, command) in [(0.0, 1.0), (0.1, 1.0), (0.2, 3.0), (0.3, 4.0)] {
-            commands.keep(0, time, command);
+            commands.record(0, time, command);
         }
         let told =
             |commands: &Commands| [0.0, 0.15, 0.2, 0.25, 9.0].map(|time| commands.before(0, time));
         assert_eq!(told(&commands), [0.0, 1.0, 1.0, 3.0, 4.0]);
         let copy = Commands::new(2);
-        copy.go_on_from(&commands);
-        commands.keep(0, 0.2, 5.0);
+        copy.copy_from(&commands);
+        commands.record(0, 0.2, 5.0);
         assert_eq!(told(&commands), [0.0, 1.0, 1.0, 5.0, 5.0]);
         assert_eq!(told(&copy), [0.0, 1.0, 1.0, 3.0, 4.0]);
         assert_eq!(commands.before(1, 9.0), 0.0);

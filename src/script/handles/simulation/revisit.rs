@@ -62,7 +62,7 @@ impl Revisit {
     ///
     /// # Errors
     /// Fails if the scene cannot be built again.
-    pub fn go_back_to(&self, steps: usize) -> Result<bool, ScriptError> {
+    pub fn restore_step(&self, steps: usize) -> Result<bool, ScriptError> {
         Ok(self.handle.0.simulation.borrow_mut().revisit(&self.original(), steps)?)
     }
 

@@ -11,7 +11,7 @@ use super::variants::in_words;
 use super::{ProgressMonitor, SimulationHandle, explain};
 use crate::loads::{SampleClock, Schedule};
 use crate::script::bindings::call::Call;
-use crate::script::bindings::parameter_variants::lose;
+use crate::script::bindings::parameter_variants::set_unavailable;
 use crate::script::bindings::stored::StoredFunction;
 use crate::script::handles::scene::{Condition, Controller};
 use crate::script::messages::error::ScriptError;
@@ -43,16 +43,16 @@ impl ColumnReader {
         Self { functions, looked, controllers, commands, told, conditions, is_looking }
     }
 
-    pub(super) fn go_on_from(&self, other: &Self) {
+    pub(super) fn copy_from(&self, other: &Self) {
         self.commands.replace(other.commands.borrow().clone());
-        self.told.go_on_from(&other.told);
+        self.told.copy_from(&other.told);
     }
 
     fn command_of(&self, controller: usize, sample: u64) -> Option<f64> {
         self.commands.borrow().get(controller)?.get(&sample).copied()
     }
 
-    fn keep_command(&self, controller: usize, sample: u64, command: f64) {
+    fn record_command(&self, controller: usize, sample: u64, command: f64) {
         if let Some(own) = self.commands.borrow_mut().get_mut(controller) {
             own.insert(sample, command);
         }
@@ -79,13 +79,13 @@ impl ColumnReader {
 
 impl SimulationHandle {
     /// Calls a function that needs temporary write access to the simulation in the current variant.
-    pub fn look<T>(&self, look: impl FnOnce(&mut Simulation) -> T) -> T {
+    pub fn with_simulation_mut<T>(&self, look: impl FnOnce(&mut Simulation) -> T) -> T {
         let run = &mut *self.0.simulation.borrow_mut();
         self.0.sensing.recall(run.time());
         let Some((parameter, side)) = Self::present_side(run) else { return look(run) };
-        match run.beside_mut(parameter, side) {
+        match run.perturbed_mut(parameter, side) {
             Ok(beside) => return look(beside),
-            Err(reason) => lose(&in_words(&reason)),
+            Err(reason) => set_unavailable(&in_words(&reason)),
         }
         look(run)
     }
@@ -94,7 +94,7 @@ impl SimulationHandle {
     ///
     /// # Errors
     /// Errors of the functions; also if one does not return a number.
-    pub fn sense(&self) -> Result<(), ScriptError> {
+    pub fn evaluate_columns(&self) -> Result<(), ScriptError> {
         let ColumnReader { functions, looked, is_looking, .. } = &self.0.sensing;
         let steps = self.simulation().counts().steps;
         if functions.is_empty() || looked.replace(Some(steps)) == Some(steps) {
@@ -121,7 +121,7 @@ impl SimulationHandle {
     ///
     /// # Errors
     /// Errors of the functions; also if one does not return a boolean.
-    fn let_go(&self) -> Result<(), ScriptError> {
+    fn release_due(&self) -> Result<(), ScriptError> {
         let ColumnReader { conditions, is_looking, .. } = &self.0.sensing;
         for Condition { function, release } in conditions {
             if !self.simulation().waits_for_release(*release) {
@@ -152,16 +152,16 @@ impl SimulationHandle {
     /// # Errors
     /// Errors of the functions; also if one does not return a finite number.
     pub(super) fn command(&self) -> Result<(), ScriptError> {
-        if !self.simulation().is_half_way() {
-            self.let_go()?;
+        if !self.simulation().is_paused_in_step() {
+            self.release_due()?;
         }
         let (time, sensing) = (self.time(), &self.0.sensing);
         for (number, controller) in sensing.controllers.iter().enumerate() {
             let value = match controller.beat {
-                Some(beat) => self.command_on_beat(number, controller, beat)?,
-                None => self.ask(controller)?,
+                Some(beat) => self.sampled_command(number, controller, beat)?,
+                None => self.call_controller(controller)?,
             };
-            sensing.told.keep(number, time, value);
+            sensing.told.record(number, time, value);
         }
         // All outputs take effect together, so that every controller sees the previous outputs of the others.
         sensing.recall(time.next_up());
@@ -169,7 +169,7 @@ impl SimulationHandle {
     }
 
     /// Output of a sampled controller: computed at the time of a sample, otherwise held; zero before the first output.
-    fn command_on_beat(
+    fn sampled_command(
         &self,
         number: usize,
         controller: &Controller,
@@ -178,16 +178,18 @@ impl SimulationHandle {
         let (now, slack) = (self.time(), self.simulation().slack());
         let sensing = &self.0.sensing;
         if let Some(sample) = beat.sample_at(now, slack) {
-            sensing.keep_command(number, sample, self.ask(controller)?);
+            sensing.record_command(number, sample, self.call_controller(controller)?);
         }
-        let Some(acting) = beat.acting_after(now, slack) else { return Ok(0.0) };
+        let Some(acting) = beat.sample_active_after(now, slack) else { return Ok(0.0) };
         match sensing.command_of(number, acting) {
             Some(command) => Ok(command),
-            None => Err(ScriptError::bug(format!("nobody asked a controller at sample {acting}"))),
+            None => Err(ScriptError::internal_error(format!(
+                "nobody asked a controller at sample {acting}"
+            ))),
         }
     }
 
-    fn ask(&self, controller: &Controller) -> Result<f64, ScriptError> {
+    fn call_controller(&self, controller: &Controller) -> Result<f64, ScriptError> {
         let (function, is_looking) = (&controller.function, &self.0.sensing.is_looking);
         is_looking.set(true);
         let called = function.call([Dynamic::from(self.time()), Dynamic::from(self.clone())]);
@@ -227,24 +229,24 @@ impl SimulationHandle {
     }
 
     /// Runs to a time, pausing for recorded steps if functions fill columns, and before every step if functions control the simulation.
-    pub(super) fn run_and_sense(
+    pub(super) fn run_with_callbacks(
         &self,
         call: &Call,
         stop: f64,
         slack: f64,
     ) -> Result<(), ScriptError> {
         let ran = self.run_with_pauses(call, stop, slack);
-        self.go_back_after_error(ran)
+        self.restore_after_error(ran)
     }
 
-    pub(super) fn step_and_sense(&self, call: &Call) -> Result<(), ScriptError> {
+    pub(super) fn step_with_callbacks(&self, call: &Call) -> Result<(), ScriptError> {
         let stepped = self.step_with_pauses(call);
-        self.go_back_after_error(stepped)
+        self.restore_after_error(stepped)
     }
 
     /// Returns the simulation to the start of the step after an error or interruption.
-    fn go_back_after_error(&self, ran: Result<(), ScriptError>) -> Result<(), ScriptError> {
-        ran.inspect_err(|_| self.0.simulation.borrow_mut().go_back_to_start_of_step())
+    fn restore_after_error(&self, ran: Result<(), ScriptError>) -> Result<(), ScriptError> {
+        ran.inspect_err(|_| self.0.simulation.borrow_mut().restore_step_start())
     }
 
     fn step_with_pauses(&self, call: &Call) -> Result<(), ScriptError> {
@@ -260,7 +262,7 @@ impl SimulationHandle {
                 if !watch.is_paused {
                     stepped.map_err(|error| explain(error, call.context()))?;
                 }
-                return self.sense();
+                return self.evaluate_columns();
             }
         }
     }
@@ -273,14 +275,14 @@ impl SimulationHandle {
             let ran = self.0.simulation.borrow_mut().run_to(stop, &mut watch);
             if !watch.is_paused || ran.is_ok() {
                 ran.map_err(|error| explain(error, call.context()))?;
-                return self.sense();
+                return self.evaluate_columns();
             }
             let simulation = self.simulation();
-            let is_due = !simulation.is_half_way()
+            let is_due = !simulation.is_paused_in_step()
                 && simulation.recording().is_due(simulation.counts().steps);
             drop(simulation);
             if is_due {
-                self.sense()?;
+                self.evaluate_columns()?;
             }
         }
     }

@@ -3,7 +3,7 @@
 use std::cell::Ref;
 
 use super::SimulationHandle;
-use crate::script::bindings::parameter_variants::{ParameterSet, lose, present};
+use crate::script::bindings::parameter_variants::{ParameterSet, present, set_unavailable};
 use crate::script::messages::numbers::format_number;
 use crate::simulation::{DerivativeError, History, PerturbedSide, Simulation};
 
@@ -22,8 +22,8 @@ impl SimulationHandle {
     pub fn simulation(&self) -> Ref<'_, Simulation> {
         Ref::map(self.0.simulation.borrow(), |run| {
             let Some((parameter, side)) = Self::present_side(run) else { return run };
-            run.beside(parameter, side).unwrap_or_else(|reason| {
-                lose(&in_words(&reason));
+            run.perturbed(parameter, side).unwrap_or_else(|reason| {
+                set_unavailable(&in_words(&reason));
                 run
             })
         })
@@ -33,9 +33,9 @@ impl SimulationHandle {
     pub fn read_history<T>(&self, times: (f64, f64), read: impl FnOnce(&History) -> T) -> T {
         let run = self.0.simulation.borrow();
         let beside = Self::present_side(&run);
-        match beside.map(|(parameter, side)| run.history_beside(parameter, side, times)) {
+        match beside.map(|(parameter, side)| run.perturbed_history(parameter, side, times)) {
             Some(Ok(beside)) => return read(&beside),
-            Some(Err(reason)) => lose(&in_words(&reason)),
+            Some(Err(reason)) => set_unavailable(&in_words(&reason)),
             None => {}
         }
         match times {
@@ -45,13 +45,13 @@ impl SimulationHandle {
     }
 
     /// The simulation of variant 0.
-    pub fn own(&self) -> Ref<'_, Simulation> {
+    pub fn primary(&self) -> Ref<'_, Simulation> {
         self.0.simulation.borrow()
     }
 
     /// Side variant of the current call, if it is one.
     pub(super) fn present_side(run: &Simulation) -> Option<(usize, PerturbedSide)> {
-        let (parameter, is_plus) = ParameterSet::beside(present()?.variant)?;
+        let (parameter, is_plus) = ParameterSet::side_of_variant(present()?.variant)?;
         run.parameters().next()?;
         Some((parameter, if is_plus { PerturbedSide::Plus } else { PerturbedSide::Minus }))
     }

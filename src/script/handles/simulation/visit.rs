@@ -24,36 +24,38 @@ impl SimulationHandle {
     ///
     /// # Errors
     /// Fails if a step fails that did not fail before, the run is stopped, or `look` fails.
-    pub fn visit(
+    pub fn for_each_state(
         &self,
         times: &[f64],
         context: &Context,
         look: Look,
     ) -> Result<Visited, ScriptError> {
-        let kept = self.simulation().states_kept();
+        let kept = self.simulation().stored_states();
         let steps_at = |time: &f64| {
             let last = kept[..kept.partition_point(|(_, kept)| kept <= time)].last()?;
             (last.1 == *time).then_some(last.0)
         };
         match times.iter().map(steps_at).collect::<Option<Vec<usize>>>() {
-            Some(steps) => self.visit_kept(&steps, look),
-            None => self.visit_again(times, context, look),
+            Some(steps) => self.for_each_stored(&steps, look),
+            None => self.for_each_rerun(times, context, look),
         }
     }
 
     /// From last to first, because the copy can only go back.
-    fn visit_kept(&self, steps: &[usize], look: Look) -> Result<Visited, ScriptError> {
+    fn for_each_stored(&self, steps: &[usize], look: Look) -> Result<Visited, ScriptError> {
         let revisit = Revisit::at_present(self)?;
         for (index, steps) in steps.iter().enumerate().rev() {
-            if !revisit.go_back_to(*steps)? {
-                return Err(ScriptError::bug(format!("the state after {steps} steps is lost")));
+            if !revisit.restore_step(*steps)? {
+                return Err(ScriptError::internal_error(format!(
+                    "the state after {steps} steps is lost"
+                )));
             }
             look(index, &self.simulation())?;
         }
         Ok(Visited::All)
     }
 
-    fn visit_again(
+    fn for_each_rerun(
         &self,
         times: &[f64],
         context: &Context,

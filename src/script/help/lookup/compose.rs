@@ -53,7 +53,7 @@ pub fn page(catalog: &Catalog, name: &str) -> Result<HelpPage, UnknownTopic> {
     }
     if let Some(found) = foreign_names::find_exactly(name.trim()) {
         separate(&mut page);
-        page.paragraph(&found.told());
+        page.paragraph(&found.explanation());
     }
     Ok(page)
 }
@@ -61,7 +61,7 @@ pub fn page(catalog: &Catalog, name: &str) -> Result<HelpPage, UnknownTopic> {
 fn separate(page: &mut HelpPage) {
     if !page.parts.is_empty() {
         page.gap();
-        page.words(0, vec![StyledText::aside("────────────────")]);
+        page.words(0, vec![StyledText::remark("────────────────")]);
         page.gap();
     }
 }

@@ -64,7 +64,7 @@ impl StyledText {
     }
 
     /// Dimension or remark.
-    pub fn aside(text: impl Into<String>) -> Self {
+    pub fn remark(text: impl Into<String>) -> Self {
         Self { style: HelpStyle::Aside, text: text.into() }
     }
 }
@@ -121,7 +121,9 @@ impl HelpPage {
                     wrap(&mut text, width, (*indent, *hang), spans, &paint);
                 }
                 HelpSection::Code(script) => {
-                    for line in script.lines().flat_map(|line| broken(line, width - CODE_INDENT)) {
+                    for line in
+                        script.lines().flat_map(|line| wrapped_code(line, width - CODE_INDENT))
+                    {
                         text += &format!("{:CODE_INDENT$}{line}\n", "");
                     }
                 }
@@ -178,7 +180,7 @@ fn words(spans: &[StyledText]) -> Vec<Vec<StyledText>> {
 
 /// Breaks a line of a script at `width`, after a comma, semicolon, brace, && or || that is followed by a blank outside strings. A line with
 /// a comment is not broken.
-pub(super) fn broken(line: &str, width: usize) -> Vec<String> {
+pub(super) fn wrapped_code(line: &str, width: usize) -> Vec<String> {
     let mut pieces = Vec::new();
     let mut rest = line.to_owned();
     while columns(&rest) > width && !line.contains("//") {
@@ -227,7 +229,7 @@ mod tests {
             vec![
                 StyledText::name("dt"),
                 StyledText::plain(": a positive number "),
-                StyledText::aside("[time]"),
+                StyledText::remark("[time]"),
             ],
         );
         assert_eq!(page.plain(80), "  dt: a positive number [time]\n");
@@ -241,9 +243,9 @@ mod tests {
     #[test]
     fn scripts_are_broken_where_it_means_nothing() {
         let line = "let s = section(#{ EA: 1, GA: 2, name: \"a, b, c, d\" });";
-        assert_eq!(broken(line, 80), [line]);
-        let pieces = broken(line, 35);
+        assert_eq!(wrapped_code(line, 80), [line]);
+        let pieces = wrapped_code(line, 35);
         assert_eq!(pieces, ["let s = section(#{ EA: 1, GA: 2,", "    name: \"a, b, c, d\" });"]);
-        assert_eq!(broken("let a = 1; // a remark, and more", 10).len(), 1);
+        assert_eq!(wrapped_code("let a = 1; // a remark, and more", 10).len(), 1);
     }
 }

@@ -65,7 +65,7 @@ pub fn parameter(page: &mut HelpPage, parameter: &Parameter, indent: usize) {
     if !parameter.doc.is_empty() {
         spans.push(StyledText::plain(format!(", {}", parameter.doc)));
     }
-    spans.push(StyledText::aside(presence(parameter.presence)));
+    spans.push(StyledText::remark(presence(parameter.presence)));
     page.words(indent, spans);
     for keys in maps(&parameter.kind) {
         for key in keys {
@@ -78,7 +78,7 @@ fn expectation(parameter: &Parameter) -> Vec<StyledText> {
     let kind = StyledText::plain(parameter.kind.to_string());
     match parameter.unit {
         "" => vec![kind],
-        unit => vec![kind, StyledText::plain(" "), StyledText::aside(format!("[{unit}]"))],
+        unit => vec![kind, StyledText::plain(" "), StyledText::remark(format!("[{unit}]"))],
     }
 }
 

@@ -1,6 +1,6 @@
 //! Tests of some pages, and of properties of all pages.
 
-use super::page::broken;
+use super::page::wrapped_code;
 use super::{WIDTH, find, names, page};
 use crate::script::packages::language;
 use crate::script::source::text::Source;
@@ -125,7 +125,7 @@ fn broken_examples_are_the_same_scripts() {
     });
     let examples = rows.chain(catalog.built_ins().map(|known| known.example));
     for example in examples {
-        let broken: Vec<String> = example.lines().flat_map(|line| broken(line, 40)).collect();
+        let broken: Vec<String> = example.lines().flat_map(|line| wrapped_code(line, 40)).collect();
         let words = |text: &str| {
             Source::from(text).tokens().iter().map(|(token, _)| token.clone()).collect::<Vec<_>>()
         };

@@ -39,7 +39,7 @@ impl UnknownTopic {
 
     /// Text of the suggestions.
     pub fn hint(&self) -> String {
-        let elsewhere = self.elsewhere.map(ForeignName::told);
+        let elsewhere = self.elsewhere.map(ForeignName::explanation);
         let related = (elsewhere.is_none() && !self.related.is_empty())
             .then(|| format!("there is {}", self.related.join(", ")));
         let meant = self.meant.map(|near| format!("did you mean '{near}'?"));

@@ -4,12 +4,12 @@ use std::rc::Rc;
 
 use rhai::{Dynamic, Map};
 
-use super::{ORDER, TIMES, XI, all_functions, blame, brief, count, numbers, pair, plural};
+use super::{ORDER, TIMES, XI, all_functions, at_argument, brief, count, numbers, pair, plural};
 use crate::geometry::{Basis, KnotVector, MAX_DEGREE, MAX_SPANS};
 use crate::script::bindings::call::Call;
 use crate::script::bindings::kind::{Details, Kind, NumberRange, Scripted, Type};
 use crate::script::bindings::options::Options;
-use crate::script::bindings::parameter::{self, Parameter, Presence, either, object, whole};
+use crate::script::bindings::parameter::{self, Parameter, Presence, either, integer, object};
 use crate::script::bindings::returns::Returns;
 use crate::script::bindings::table::{BindingTable, function, method, operator, property};
 use crate::script::messages::error::{CallPart, ScriptError};
@@ -32,13 +32,13 @@ pub const TABLE: BindingTable = BindingTable {
             .doc("knots(7) has cubic splines with two continuous derivatives; options select \
                 another degree or continuity.")
             .example("let smooth = knots(7);\nlet paper = knots(#{ spans: 7, continuity: 1 });\ncheck(smooth.functions == 10 && paper.functions == 16);")
-            .see(&["curve", "basis"]),
+            .with_related(&["curve", "basis"]),
         function("knots", &[DEGREE, VALUES], explicit)
             .returns(Returns::object(KNOTS))
             .summary("Creates a knot vector from an array in which knots are repeated by their \
                 multiplicity.")
             .example("let k = knots(2, [0, 0, 0, 0.5, 1, 1, 1]);\ncheck(k.functions == 4 && k.multiplicity(0.5) == 1);")
-            .see(&["curve", "basis"]),
+            .with_related(&["curve", "basis"]),
         property(KNOTS, "degree", |call| Ok(count(knots(call)?.degree())))
             .returns(Returns::WHOLE)
             .summary("Polynomial degree.")
@@ -47,7 +47,7 @@ pub const TABLE: BindingTable = BindingTable {
             .returns(Returns::NUMBERS)
             .summary("Array of all knots, repeated by their multiplicity.")
             .example("check(knots(#{ spans: 2, degree: 1 }).values == [0, 0, 0.5, 1, 1]);")
-            .see(&["breaks"]),
+            .with_related(&["breaks"]),
         property(KNOTS, "functions", |call| Ok(count(knots(call)?.functions())))
             .returns(Returns::WHOLE)
             .summary("Number of basis functions, equal to the number of control points of a curve.")
@@ -56,21 +56,21 @@ pub const TABLE: BindingTable = BindingTable {
             .returns(Returns::WHOLE)
             .summary("Number of spans between distinct knots.")
             .example("check(knots(7).spans == 7);")
-            .see(&["span"]),
+            .with_related(&["span"]),
         property(KNOTS, "continuity", |call| Ok(count(basis(call)?.continuity())))
             .returns(Returns::WHOLE)
             .summary("Number of continuous derivatives at the least smooth interior knot; the degree \
                 if there is none.")
             .example("check(knots(7).continuity == 2);\ncheck(knots(7).insert(0.5, 3).continuity == 0);"),
         property(KNOTS, "domain", |call| Ok(pair(knots(call)?.domain())))
-            .returns(Returns::ARRAY.note(" [a, b]"))
+            .returns(Returns::ARRAY.with_remark(" [a, b]"))
             .summary("First and last knot.")
             .example("check(knots(7).domain == [0, 1]);"),
         property(KNOTS, "breaks", |call| Ok(numbers(knots(call)?.breaks())))
             .returns(Returns::NUMBERS)
             .summary("Distinct knots: the ends of the spans.")
             .example("check(knots(2).breaks == [0, 0.5, 1]);")
-            .see(&["values"]),
+            .with_related(&["values"]),
         property(KNOTS, "greville", |call| Ok(numbers(knots(call)?.greville())))
             .returns(Returns::NUMBERS)
             .summary("Greville abscissae, one parameter for each function.")
@@ -78,20 +78,20 @@ pub const TABLE: BindingTable = BindingTable {
                 are suitable interpolation points.")
             .example("check(knots(#{ spans: 2, degree: 2 }).greville == [0, 0.25, 0.75, 1]);"),
         method(KNOTS, "basis", &[XI, ORDER.or(Presence::Whole(0))], |call| all_functions(&basis(call)?, call))
-            .returns(Returns::NUMBERS.note(", one for each function"))
+            .returns(Returns::NUMBERS.with_remark(", one for each function"))
             .summary("Returns the values of all basis functions at ξ, or their derivatives of the \
                 given order.")
             .doc("At most degree + 1 of them are not zero, starting at number span(xi).first. At \
                 interior knots derivatives are those from the right.")
             .example("let k = knots(4);\ncheck_close(sum(k.basis(0.3)), 1, 1e-15);\ncheck_close(sum(k.basis(0.3, 1)), 0, 1e-13);\ncheck(k.basis(0)[0] == 1);")
-            .see(&["span", "greville", "gauss"]),
+            .with_related(&["span", "greville", "gauss"]),
         method(KNOTS, "span", &[XI], span)
-            .returns(Returns::MAP.note(" with first, start and end"))
+            .returns(Returns::MAP.with_remark(" with first, start and end"))
             .summary("Returns the span that contains ξ: its ends, and the number of the first \
                 function that is not zero there.")
             .doc("A knot belongs to the span on its right, the last knot to the last span.")
             .example("let s = knots(4).span(0.3);\ncheck(s.first == 1 && s.start == 0.25 && s.end == 0.5);")
-            .see(&["spans", "basis"]),
+            .with_related(&["spans", "basis"]),
         method(KNOTS, "multiplicity", &[XI], multiplicity)
             .returns(Returns::WHOLE)
             .summary("Returns the multiplicity of ξ among the knots.")
@@ -116,16 +116,17 @@ pub const KNOTS: Type = Type::of::<Rc<KnotVector>>();
 
 const A: Parameter = object("a", KNOTS);
 const B: Parameter = object("b", KNOTS);
-const DEGREE: Parameter = whole("degree").between(1.0, MAX_DEGREE as f64).doc("polynomial degree");
+const DEGREE: Parameter =
+    integer("degree").between(1.0, MAX_DEGREE as f64).doc("polynomial degree");
 const VALUES: Parameter = parameter::numbers("values")
     .doc("knots in ascending order, the first and the last degree + 1 times");
 const SPANS: NumberRange = NumberRange::Between(1.0, MAX_SPANS as f64);
 const UNIFORM: Parameter =
     either("spans", &[Kind::Whole(SPANS), Kind::Options(KEYS)]).doc("number of spans, or options");
 const KEYS: &[Parameter] = &[
-    whole("spans").between(1.0, MAX_SPANS as f64).doc("number of equal spans"),
+    integer("spans").between(1.0, MAX_SPANS as f64).doc("number of equal spans"),
     DEGREE.or(Presence::Whole(3)),
-    whole("continuity")
+    integer("continuity")
         .non_negative()
         .doc("continuous derivatives at interior knots; default: degree - 1")
         .optional(),
@@ -198,11 +199,11 @@ fn uniform(call: &mut Call) -> Result<Dynamic, ScriptError> {
 }
 
 fn explicit(call: &mut Call) -> Result<Dynamic, ScriptError> {
-    blame(1, KnotVector::new(call.count("degree")?, call.numbers("values")?)).map(shared)
+    at_argument(1, KnotVector::new(call.count("degree")?, call.numbers("values")?)).map(shared)
 }
 
 fn span(call: &mut Call) -> Result<Dynamic, ScriptError> {
-    let span = blame(0, basis(call)?.span_at(call.number("xi")?))?;
+    let span = at_argument(0, basis(call)?.span_at(call.number("xi")?))?;
     let fields =
         [("first", count(span.first)), ("start", span.start.into()), ("end", span.end.into())];
     Ok(fields.into_iter().map(|(name, value)| (name.into(), value)).collect::<Map>().into())
@@ -213,5 +214,5 @@ fn multiplicity(call: &mut Call) -> Result<Dynamic, ScriptError> {
 }
 
 fn insert(call: &mut Call) -> Result<Dynamic, ScriptError> {
-    blame(0, knots(call)?.insert(call.number("xi")?, call.count("times")?)).map(shared)
+    at_argument(0, knots(call)?.insert(call.number("xi")?, call.count("times")?)).map(shared)
 }

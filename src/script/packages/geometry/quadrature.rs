@@ -2,10 +2,10 @@
 
 use rhai::{Dynamic, Map};
 
-use super::{blame, numbers};
+use super::{at_argument, numbers};
 use crate::geometry::GaussRule;
 use crate::script::bindings::call::Call;
-use crate::script::bindings::parameter::{Presence, number, whole};
+use crate::script::bindings::parameter::{Presence, integer, number};
 use crate::script::bindings::returns::Returns;
 use crate::script::bindings::table::{BindingTable, function};
 use crate::script::messages::error::ScriptError;
@@ -20,13 +20,13 @@ pub const TABLE: BindingTable = BindingTable {
     rows: &[function(
         "gauss",
         &[
-            whole("count").non_negative().doc("number of points, 1 to 64"),
+            integer("count").non_negative().doc("number of points, 1 to 64"),
             number("from").doc("start of the interval").or(Presence::Number(-1.0)),
             number("to").doc("end of the interval").or(Presence::Number(1.0)),
         ],
         gauss,
     )
-    .returns(Returns::MAP.note(" with the arrays points and weights"))
+    .returns(Returns::MAP.with_remark(" with the arrays points and weights"))
     .summary(
         "Returns the Gauss-Legendre rule with this many points, on [-1, 1] or another interval.",
     )
@@ -35,11 +35,11 @@ pub const TABLE: BindingTable = BindingTable {
         "let rule = gauss(2, 0, 3);\nlet integral = 0;\nfor i in 0..2 {\n    \
          integral += rule.weights[i] * rule.points[i]^2;\n}\ncheck_close(integral, 9, 1e-14);",
     )
-    .see(&["basis"])],
+    .with_related(&["basis"])],
 };
 
 fn gauss(call: &mut Call) -> Result<Dynamic, ScriptError> {
-    let rule = blame(0, GaussRule::new(call.count("count")?))?;
+    let rule = at_argument(0, GaussRule::new(call.count("count")?))?;
     let (points, weights): (Vec<_>, Vec<_>) =
         rule.iter_on(call.number("from")?, call.number("to")?).unzip();
     let fields = [("points".into(), numbers(points)), ("weights".into(), numbers(weights))];

@@ -46,14 +46,14 @@ pub const TABLE: BindingTable = BindingTable {
                 "sim.run_to(1);\nplot_along(sim, \"M\", \"moment.svg\");\n\
                  plot_along(sim, [\"N\", \"Q\", \"M\"], \"forces.svg\", #{ beams: [rod], title: \"at the end\" });",
             )
-            .see(&["plot_field", "plot", "plot_history", "plot_motion"]),
+            .with_related(&["plot_field", "plot", "plot_history", "plot_motion"]),
         function("plot_field", &[OF, QUANTITY, FILE, options("options", FIELD).optional()], plot_field)
             .summary("Plots beams coloured by the magnitude of a quantity; larger magnitudes have \
                 darker and wider lines.")
             .doc("A colour bar shows the values; the place and the value of the largest \
                 magnitude are marked.")
             .example("sim.run_to(1);\nplot_field(sim, \"strain_energy\", \"energy.svg\");\nplot_field(sim, \"speed\", \"speed.png\");")
-            .see(&["plot_along", "plot_motion"]),
+            .with_related(&["plot_along", "plot_motion"]),
     ],
 };
 
@@ -116,7 +116,7 @@ fn quantities(call: &Call) -> Result<Vec<&'static BeamQuantity>, ScriptError> {
 fn inside(call: &Call, options: &Options) -> Result<SectionForceProfile, ScriptError> {
     let mut inside = match call.get_if::<EquilibriumHandle>("of") {
         Some(handle) => {
-            let rest = handle.rest();
+            let rest = handle.equilibrium();
             let beams = beams(call, options, handle.scene(), rest.scene().beams.len())?;
             SectionForceProfile::of_equilibrium(&rest, &beams)?
         }
@@ -130,11 +130,11 @@ fn inside(call: &Call, options: &Options) -> Result<SectionForceProfile, ScriptE
             inside
         }
     };
-    if let Some(title) = options.text_if_given("title")? {
+    if let Some(title) = options.optional_text("title")? {
         inside.title = title.to_string();
     }
     Ok(match symbols(options) {
-        Visibility::No => inside.without_symbols(),
+        Visibility::No => inside.hide_symbols(),
         Visibility::Yes => inside,
         Visibility::WhereThereIsRoom => inside.with_uncrowded_symbols(),
     })
@@ -155,7 +155,7 @@ fn beams(
         let handle = value.clone().try_cast::<BeamHandle>().ok_or_else(|| {
             call.error("'beams' must hold beams").hint("for example [rod]").at(at())
         })?;
-        let index = handle.own(scene)?;
+        let index = handle.index_in(scene)?;
         match index < count {
             true => Ok(index),
             false => Err(call

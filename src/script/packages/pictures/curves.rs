@@ -5,7 +5,7 @@ use rhai::{Dynamic, Map};
 use super::files::{FILE, write_picture};
 use super::options::{
     LABELS, MARKERS, OptionError, TITLE, X_LABEL, X_LIMITS, X_LOG, Y_LABEL, Y_LIMITS, Y_LOG,
-    curves, dressed, labels, marked,
+    curves, labels, marked, with_options,
 };
 use crate::output::{LineChart, Point, Series};
 use crate::script::bindings::call::Call;
@@ -42,7 +42,7 @@ pub const TABLE: BindingTable = BindingTable {
                  let h = sim.history;\nplot(h.column(\"rod.end.y\"), h.column(\"rod.start.M\"), \"both.svg\", #{ x_label: \"height\", y_label: \"moment\" });\n\
                  let x = linspace(0, 1, 11);\nplot(x, [x, x.map(|x| x^2)], \"powers.svg\", #{ labels: [\"x\", \"x²\"], markers: \"on_lines\" });",
             )
-            .see(&["plot_history", "record", "plot_along", "plot_motion", "plot_field"]),
+            .with_related(&["plot_history", "record", "plot_along", "plot_motion", "plot_field"]),
     ],
 };
 
@@ -70,7 +70,7 @@ fn plot(call: &mut Call) -> Result<Dynamic, ScriptError> {
         let hint = "give one x for all curves, or one for each curve";
         return Err(call.error(told).hint(hint).at(CallPart::Argument(0)));
     }
-    let title = options.text_if_given("title")?.unwrap_or_default();
+    let title = options.optional_text("title")?.unwrap_or_default();
     let count = y.len();
     let mut curves = Vec::new();
     for (index, y) in y.into_iter().enumerate() {
@@ -98,7 +98,7 @@ fn chart(
         let label = labels.as_ref().map(|labels| labels[index].clone());
         marked(options, index, Series::new(label.unwrap_or(name), points))
     });
-    dressed(options, named.fold(chart, LineChart::series))
+    with_options(options, named.fold(chart, LineChart::series))
 }
 
 /// Chart of curves drawn by the prompt over `over`, with options of `plot`.
@@ -113,7 +113,7 @@ pub fn typed_chart(
 ) -> Result<LineChart, ScriptError> {
     let options = Options::read(engine, ":plot", OPTIONS, map)?;
     let names = || curves.iter().map(|(name, _)| name.as_str()).collect::<Vec<_>>().join(", ");
-    let title = options.text_if_given("title")?.map_or_else(names, |title| title.to_string());
+    let title = options.optional_text("title")?.map_or_else(names, |title| title.to_string());
     let bare = LineChart::new(title).x_label(over);
     chart(&options, bare, curves).map_err(|wrong| wrong.in_command(":plot"))
 }

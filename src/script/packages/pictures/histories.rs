@@ -4,7 +4,7 @@ use rhai::Dynamic;
 
 use super::files::write_picture;
 use super::options::{
-    MARKERS, X_LABEL, X_LIMITS, X_LOG, Y_LABEL, Y_LIMITS, Y_LOG, dressed, marked,
+    MARKERS, X_LABEL, X_LIMITS, X_LOG, Y_LABEL, Y_LIMITS, Y_LOG, marked, with_options,
 };
 use super::subjects::histories_over_time;
 use crate::output::{AxisScale, LineChart, Page};
@@ -57,7 +57,7 @@ pub fn plot_history(call: &mut Call) -> Result<Dynamic, ScriptError> {
         whose.into_iter().try_for_each(|of| expect_all_rows(call, of, "`average`"))?;
     }
     let names = columns(call, &histories)?;
-    let title = options.text_if_given("title")?;
+    let title = options.optional_text("title")?;
     let values = |history: &History, name: &str| {
         read(history, name).map(|values| values.into_iter().map(shown).collect())
     };
@@ -67,13 +67,13 @@ pub fn plot_history(call: &mut Call) -> Result<Dynamic, ScriptError> {
     };
     let mut charts: Vec<LineChart> = histories.iter().map(chart).collect();
     if options.text("axes")? == "shared" && charts.len() > 1 {
-        let title = options.text_if_given("title")?.unwrap_or_default();
+        let title = options.optional_text("title")?.unwrap_or_default();
         let named: Vec<String> = histories.iter().map(|of| of.of.name().to_owned()).collect();
         charts = vec![LineChart::shared(title, named.into_iter().zip(charts))];
     }
     let dress = |chart: LineChart| {
         let chart = chart.y_scale(scale).each(|at, series| marked(&options, at, series));
-        dressed(&options, chart).map_err(|wrong| wrong.in_call(call))
+        with_options(&options, chart).map_err(|wrong| wrong.in_call(call))
     };
     write_charts(call, charts.into_iter().map(dress).collect::<Result<_, _>>()?)
 }

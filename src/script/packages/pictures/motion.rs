@@ -96,7 +96,7 @@ pub fn motion_text(
 }
 
 fn title(of: &SimulationHandle, options: &Options) -> Result<String, ScriptError> {
-    let given = options.text_if_given("title")?;
+    let given = options.optional_text("title")?;
     Ok(given.unwrap_or_else(|| of.name().to_owned()))
 }
 
@@ -106,10 +106,10 @@ fn wanted(
     traced: &[StationHandle],
     limits: AxisLimits,
 ) -> Result<MotionOptions, ScriptError> {
-    let given = |name: &str| options.number_if_given(name);
+    let given = |name: &str| options.optional_number(name);
     let (from, to) = (given("from").unwrap_or(0.0), given("to").unwrap_or(of.time()));
     let every = given("every").unwrap_or_else(|| ((to - from) / 20.0).max(f64::MIN_POSITIVE));
-    let trace = |station: &StationHandle| Ok((station.show(), station.on(of)?));
+    let trace = |station: &StationHandle| Ok((station.show(), station.place_in(of)?));
     Ok(MotionOptions {
         times: Times { from, to, every },
         traces: traced.iter().map(trace).collect::<Result<_, ScriptError>>()?,

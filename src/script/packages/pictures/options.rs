@@ -93,7 +93,7 @@ pub fn limits(options: &Options) -> Result<AxisLimits, OptionError> {
 }
 
 /// Applies labels, scales and limits of the options to a chart.
-pub fn dressed(options: &Options, mut chart: LineChart) -> Result<LineChart, OptionError> {
+pub fn with_options(options: &Options, mut chart: LineChart) -> Result<LineChart, OptionError> {
     let limits = limits(options)?;
     let is_asked = |name: &str| options.boolean(name).unwrap_or(false);
     for (axis, ends) in [("x", limits.x), ("y", limits.y)] {

@@ -9,7 +9,7 @@ use crate::output::{CsvTable, LineChart, MotionFrame, MotionPicture, Page, Serie
 use crate::script::bindings::call::Call;
 use crate::script::bindings::kind::Scripted;
 use crate::script::bindings::parameter::{
-    Parameter, Presence, array, number, object, options, text, whole,
+    Parameter, Presence, array, integer, number, object, options, text,
 };
 use crate::script::bindings::table::{BindingTable, function};
 use crate::script::handles::equilibrium::EquilibriumHandle;
@@ -36,28 +36,28 @@ pub const TABLE: BindingTable = BindingTable {
             .doc("Symbols of supports, joints, springs and loads show the last configuration. Of \
                 a long path only configurations at equal intervals are plotted.")
             .example("let rest = scene.equilibrium();\nplot_equilibrium(rest, \"bent.svg\", #{ trace: [rod.end] });")
-            .see(&["equilibrium", "plot_load_path", "plot_motion"]),
+            .with_related(&["equilibrium", "plot_load_path", "plot_motion"]),
         function("plot_load_path", &[REST, object("station", STATION), FILE], plot_load_path)
             .summary("Plots the load factor over the displacements of a station, including limit \
                 points.")
             .example("let rest = scene.equilibrium();\nplot_load_path(rest, rod.end, \"path.svg\");")
-            .see(&["arc_length", "limit_points", "write_load_path"]),
+            .with_related(&["arc_length", "limit_points", "write_load_path"]),
         function("write_load_path", &[REST, STATIONS, FILE], write_load_path)
             .summary("Writes load factor, strain energy and the positions of stations along the path \
                 as CSV with all digits.")
             .example("let rest = scene.equilibrium();\nwrite_load_path(rest, [rod.end], \"path.csv\");")
-            .see(&["plot_load_path", "positions"]),
+            .with_related(&["plot_load_path", "positions"]),
         function("plot_modes", &[object("modes", MODES), FILE, options("options", MODE_SHAPES).optional()], plot_modes)
             .summary("Plots mode shapes side by side, each over the equilibrium configuration.")
             .example("plot_modes(scene.modes(4), \"modes.svg\", #{ columns: 2 });")
-            .see(&["modes"]),
+            .with_related(&["modes"]),
     ],
 };
 
 const REST: Parameter = object("equilibrium", EQUILIBRIUM);
 const STATIONS: Parameter = array("stations").doc("stations, such as [rod.end]");
 const SHAPES: &[Parameter] = &[
-    whole("shapes").positive().or(Presence::Whole(20)).doc("largest number of configurations"),
+    integer("shapes").positive().or(Presence::Whole(20)).doc("largest number of configurations"),
     array("trace").doc("stations whose paths are plotted").optional(),
     text("title").doc("title; default: the name of the scene").optional(),
 ];
@@ -66,15 +66,15 @@ const MODE_SHAPES: &[Parameter] = &[
         .positive()
         .or(Presence::Number(0.1))
         .doc("largest displacement, relative to the size of the scene"),
-    whole("columns").positive().or(Presence::Whole(2)).doc("number of columns of pictures"),
+    integer("columns").positive().or(Presence::Whole(2)).doc("number of columns of pictures"),
 ];
 
 fn plot_equilibrium(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let handle = call.get::<EquilibriumHandle>("equilibrium")?;
     let options = call.options_or_defaults("options")?;
-    let rest = handle.rest();
+    let rest = handle.equilibrium();
     let scene = rest.scene();
-    let title = options.text_if_given("title")?.unwrap_or_else(|| scene.name.clone());
+    let title = options.optional_text("title")?.unwrap_or_else(|| scene.name.clone());
     let mut picture = MotionPicture::new(title)
         .beams(scene.beams.iter().map(|beam| beam.name.clone()))
         .time_label("load factor");
@@ -110,7 +110,7 @@ fn plot_equilibrium(call: &mut Call) -> Result<Dynamic, ScriptError> {
 fn plot_load_path(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let handle = call.get::<EquilibriumHandle>("equilibrium")?;
     let station = call.get::<StationHandle>("station")?;
-    let rest = handle.rest();
+    let rest = handle.equilibrium();
     let positions = positions(&handle, &station)?;
     let start = positions.first().copied().unwrap_or_default();
     let series = |name: &str, along: fn(&Vec2) -> f64| {
@@ -130,7 +130,7 @@ fn plot_load_path(call: &mut Call) -> Result<Dynamic, ScriptError> {
 
 fn write_load_path(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let handle = call.get::<EquilibriumHandle>("equilibrium")?;
-    let rest = handle.rest();
+    let rest = handle.equilibrium();
     let points = rest.path().points();
     let table = CsvTable::new()
         .comment(format!("equilibria of {}", rest.scene().name))
@@ -179,5 +179,5 @@ fn positions(
     station: &StationHandle,
 ) -> Result<Vec<Vec2>, ScriptError> {
     let place = handle.place(station)?;
-    Ok(handle.rest().along_path(|model| model.position(&place))?)
+    Ok(handle.equilibrium().along_path(|model| model.position(&place))?)
 }

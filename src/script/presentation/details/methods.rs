@@ -14,7 +14,7 @@ pub fn of_integrator(method: &Method) -> Details {
     let claims = entry.claims;
     let summary = line("does", entry.summary);
     let order = line("order", claims.order.to_string());
-    let kept = claims.kept().collect::<Vec<_>>().join(", ");
+    let kept = claims.conserved_quantities().collect::<Vec<_>>().join(", ");
     let keeps = Some(kept).filter(|kept| !kept.is_empty());
     let damps = (claims.energy == EnergyClaim::Decays).then(|| line("energy", "never grows"));
     let parameter = entry.parameter.zip(method.parameter()).map(|(of, value)| {

@@ -66,14 +66,14 @@ impl FieldReader {
         }
         let places = |(beam, mesh): (usize, &crate::beams::Mesh)| {
             let within = Outline::stations_within_a_span(mesh.basis().degree());
-            Ok(simulation.places_along(beam, within)?.one_at_each_arc_length())
+            Ok(simulation.places_along(beam, within)?.deduplicate_places())
         };
         let meshes = simulation.model().meshes().iter().enumerate();
         Ok(Some(Self { beams: meshes.map(places).collect::<Result<_, SystemError>>()?, taken }))
     }
 
     /// Stores the values of a frame from its state.
-    pub fn take(&mut self, frame: usize, state: &Simulation) {
+    pub fn store_frame(&mut self, frame: usize, state: &Simulation) {
         for places in &self.beams {
             let samples = state.sample_along(places);
             for (quantity, frames) in &mut self.taken {

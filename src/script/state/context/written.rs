@@ -39,7 +39,7 @@ impl Context {
     /// Fails if it cannot be written, or a limit of the run is exceeded.
     pub fn write_file(&self, name: &str, content: &[u8]) -> Result<PathBuf, ScriptError> {
         self.account_for(content)?;
-        self.output().write(name, content).map(|written| self.tell_kept(written))
+        self.output().write(name, content).map(|written| self.report_kept(written))
     }
 
     /// Writes a file in the output folder piece by piece and counts the bytes. An existing file is kept as in [`Self::write_file`].
@@ -56,7 +56,7 @@ impl Context {
             .output()
             .write_by(name, |file| write(&mut CountedFile { file, meter: self.meter() }))?;
         self.proceed()?;
-        Ok(self.tell_kept(written))
+        Ok(self.report_kept(written))
     }
 
     /// Writes a file that the script may [read](Self::read_file) again, also in a dry build. An existing file is kept as in
@@ -66,7 +66,7 @@ impl Context {
     /// Fails if it cannot be written, or a limit of the run is exceeded.
     pub fn write_to_read(&self, name: &str, content: Vec<u8>) -> Result<PathBuf, ScriptError> {
         self.account_for(&content)?;
-        self.output().write_to_read(name, content).map(|written| self.tell_kept(written))
+        self.output().write_to_read(name, content).map(|written| self.report_kept(written))
     }
 
     /// Reads a file of the output folder or of the script's folder, up to the memory limit.
@@ -88,9 +88,9 @@ impl Context {
         }
     }
 
-    fn tell_kept(&self, written: WrittenFile) -> PathBuf {
+    fn report_kept(&self, written: WrittenFile) -> PathBuf {
         if let Some(kept) = written.kept {
-            self.tell(&format!(
+            self.print_message(&format!(
                 "note: '{}' existed already and was not written by withy: it is kept as '{}'",
                 written.path.display(),
                 kept.display()
@@ -102,12 +102,12 @@ impl Context {
     /// Writes a rescue file of a run that was stopped, if the limit on written bytes allows it.
     pub(super) fn write_remains(&self, name: &str, content: &[u8]) -> Result<PathBuf, ScriptError> {
         let bytes = content.len() as u64;
-        if self.mode() == RunMode::Run && bytes > self.meter().left_for_remains() {
+        if self.mode() == RunMode::Run && bytes > self.meter().rescue_budget() {
             let told =
                 format!("note: '{name}' was not written: the limit on written bytes is reached");
             return Err(ScriptError::new(told));
         }
         self.meter().allows_to_write(bytes);
-        self.output().write(name, content).map(|written| self.tell_kept(written))
+        self.output().write(name, content).map(|written| self.report_kept(written))
     }
 }

@@ -50,7 +50,7 @@ pub fn call<R>(
         (_, called) => called,
     };
     let result = read(called);
-    context.forget_simulations();
+    context.clear_simulations();
     CallWork { result, steps: context.meter().steps() - before }
 }
 

@@ -108,7 +108,7 @@ impl FunctionQuery<'_> {
                 self.function,
                 |_| self.values(&point),
                 &wall,
-                |called| self.answer(&point, called),
+                |called| self.record_result(&point, called),
             )
         };
         let panicked = |told: String| CallWork {
@@ -120,7 +120,7 @@ impl FunctionQuery<'_> {
         })?
     }
 
-    fn answer(&self, point: &QueryPoint, called: CallOutcome) -> FunctionResult {
+    fn record_result(&self, point: &QueryPoint, called: CallOutcome) -> FunctionResult {
         match called {
             CallOutcome::Given(given) => self.read(point, &given),
             CallOutcome::Failed(reason) => FunctionResult::Failed(reason),
@@ -133,16 +133,17 @@ impl FunctionQuery<'_> {
     /// # Errors
     /// Errors of the function with their positions.
     pub fn here(&self, calling: &Call, point: &[f64]) -> Result<Dynamic, ScriptError> {
-        self.asked_here(calling, &QueryPoint::Value(point.to_vec()))
+        self.call_here(calling, &QueryPoint::Value(point.to_vec()))
     }
 
-    fn asked_here(&self, calling: &Call, point: &QueryPoint) -> Result<Dynamic, ScriptError> {
+    fn call_here(&self, calling: &Call, point: &QueryPoint) -> Result<Dynamic, ScriptError> {
         self.function.call_here(calling, self.key, self.values(point))
     }
 
     /// Error of a function that fails at a required point. The call is repeated in the script's engine to find the position.
-    pub fn blame(&self, calling: &Call, point: &[f64], reason: &str) -> ScriptError {
-        let found = calling.context().tracelessly(NO_FILES, || self.here(calling, point));
+    pub fn located_error(&self, calling: &Call, point: &[f64], reason: &str) -> ScriptError {
+        let found =
+            calling.context().without_output_or_files(NO_FILES, || self.here(calling, point));
         found.err().unwrap_or_else(|| {
             let pairs = self.names.iter().zip(point);
             let at: Vec<String> = pairs.map(|(name, x)| format!("{name} = {x}")).collect();
@@ -162,8 +163,9 @@ impl<'w> Evaluator<'w> {
     ///
     /// # Errors
     /// Fails if the run is stopped, or the script is wrong before the function has ever succeeded.
-    pub fn ask(&mut self, points: &[Vec<f64>]) -> Result<Vec<Evaluation>, ScriptError> {
-        let answers = self.answers(points.iter().cloned().map(QueryPoint::Value).collect())?;
+    pub fn evaluate(&mut self, points: &[Vec<f64>]) -> Result<Vec<Evaluation>, ScriptError> {
+        let answers =
+            self.evaluate_points(points.iter().cloned().map(QueryPoint::Value).collect())?;
         let mut found = Vec::with_capacity(points.len());
         for (answer, point) in answers.into_iter().zip(points) {
             found.push(match answer {
@@ -172,7 +174,7 @@ impl<'w> Evaluator<'w> {
                     Ok(numbers)
                 }
                 FunctionResult::Wrong(reason) if !self.has_answered => {
-                    return Err(self.question.blame(self.call, point, &reason));
+                    return Err(self.question.located_error(self.call, point, &reason));
                 }
                 FunctionResult::Failed(reason) | FunctionResult::Wrong(reason) => Err(reason),
             });
@@ -186,7 +188,7 @@ impl<'w> Evaluator<'w> {
     /// # Errors
     /// Fails if the run is stopped.
     pub fn slopes(&mut self, point: &[(f64, f64)]) -> Result<Sloped, ScriptError> {
-        let answers = match self.answers(vec![QueryPoint::Slopes(point.to_vec())]) {
+        let answers = match self.evaluate_points(vec![QueryPoint::Slopes(point.to_vec())]) {
             Err(error) if self.call.context().is_stopped() => return Err(error),
             Err(error) => return Ok(Err(in_words(error))),
             Ok(answers) => answers,
@@ -201,23 +203,23 @@ impl<'w> Evaluator<'w> {
         })
     }
 
-    fn answers(&self, points: Vec<QueryPoint>) -> Result<Vec<FunctionResult>, ScriptError> {
+    fn evaluate_points(&self, points: Vec<QueryPoint>) -> Result<Vec<FunctionResult>, ScriptError> {
         match self.whom {
-            Executor::Workers(crew) => self.ask_workers(crew, &points),
-            Executor::ThisThread => points.iter().map(|point| self.ask_here(point)).collect(),
+            Executor::Workers(crew) => self.evaluate_in_workers(crew, &points),
+            Executor::ThisThread => points.iter().map(|point| self.evaluate_here(point)).collect(),
         }
     }
 
-    fn ask_workers(
+    fn evaluate_in_workers(
         &self,
         crew: &WorkerPool<QueryPoint, CallWork<FunctionResult>>,
         points: &[QueryPoint],
     ) -> Result<Vec<FunctionResult>, ScriptError> {
         let context = self.call.context();
         let mut answers: Vec<Option<FunctionResult>> = points.iter().map(|_| None).collect();
-        points.iter().enumerate().for_each(|(number, point)| crew.give(number, point.clone()));
+        points.iter().enumerate().for_each(|(number, point)| crew.submit(number, point.clone()));
         while answers.iter().any(Option::is_none) {
-            match crew.hear() {
+            match crew.receive() {
                 WorkerEvent::Done(number, CallWork { result, steps }) => {
                     context.meter().count_steps(usize::try_from(steps).unwrap_or(usize::MAX));
                     context.meter().allows_a_step();
@@ -231,9 +233,11 @@ impl<'w> Evaluator<'w> {
         Ok(answers.into_iter().flatten().collect())
     }
 
-    fn ask_here(&self, point: &QueryPoint) -> Result<FunctionResult, ScriptError> {
+    fn evaluate_here(&self, point: &QueryPoint) -> Result<FunctionResult, ScriptError> {
         let context = self.call.context();
-        match context.tracelessly(NO_FILES, || self.question.asked_here(self.call, point)) {
+        match context
+            .without_output_or_files(NO_FILES, || self.question.call_here(self.call, point))
+        {
             Ok(given) => Ok(self.question.read(point, &given)),
             Err(ScriptError::Engine(error)) if !context.is_stopped() => match thrown(&error) {
                 Some(reason) => Ok(FunctionResult::Failed(reason)),
@@ -265,7 +269,7 @@ fn slopes_of(given: &Dynamic, parameters: usize) -> FunctionResult {
             slopes.extend(std::iter::repeat_n(0.0, parameters));
             continue;
         };
-        if varied.family().is_decided_by() {
+        if varied.parameter_set().branches_on_parameter() {
             return FunctionResult::Failed("a function |t| … decides by a parameter".into());
         }
         for parameter in 0..parameters {

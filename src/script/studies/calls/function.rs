@@ -75,7 +75,7 @@ impl RunFunction {
         let captured = captured.collect::<Result<_, _>>()?;
         if let Some(at) = first_print(&call.body(function)) {
             let (line, column) = (at.line().unwrap_or(0), at.position().unwrap_or(0));
-            call.context().tell(&format!(
+            call.context().print_message(&format!(
                 "note: line {line}, column {column}: runs of a study do not print: return the \
                 value as a result"
             ));
@@ -87,7 +87,12 @@ impl RunFunction {
     ///
     /// # Errors
     /// Fails if the value cannot be sent to other threads.
-    pub fn take(&mut self, call: &Call, key: &str, value: &Dynamic) -> Result<(), ScriptError> {
+    pub fn with_extra_argument(
+        &mut self,
+        call: &Call,
+        key: &str,
+        value: &Dynamic,
+    ) -> Result<(), ScriptError> {
         let parameters_of = |function: &FnPtr| call.definition(function).map(|of| of.params.len());
         let portable = Portable::of(call.engine(), value, &parameters_of).map_err(|immovable| {
             let kind = with_article(&immovable.kind);
@@ -127,7 +132,7 @@ impl RunFunction {
     /// Errors of the function with their positions; also if it changes a captured variable.
     pub fn call_here(&self, call: &Call, key: &str, values: Map) -> Result<Dynamic, ScriptError> {
         let function_of = |name: &str, parameters| call.function_named(name, parameters);
-        let lost = || ScriptError::bug("the function of a study is not found again");
+        let lost = || ScriptError::internal_error("the function of a study is not found again");
         let (captured, given) = self.arguments(values, &function_of).ok_or_else(lost)?;
         let count = captured.len() + given.len();
         let mut function = function_of(&self.name, count).ok_or_else(lost)?;

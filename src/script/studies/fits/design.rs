@@ -209,7 +209,7 @@ impl DesignRequest<'_> {
     ///
     /// # Errors
     /// Fails if the function is wrong or fails at the start, a result is missing, or no run meets the constraints.
-    pub fn make(self, call: &Call) -> Result<BestDesign, ScriptError> {
+    pub fn run(self, call: &Call) -> Result<BestDesign, ScriptError> {
         let function = RunFunction::read(call, "run", self.function)?;
         let question = FunctionQuery {
             key: "run",
@@ -244,7 +244,7 @@ impl DesignRequest<'_> {
         let found = question.with_evaluator(call, |evaluator| {
             let evaluator = RefCell::new(evaluator);
             let mut rate = |x: &[f64]| -> Result<Option<Rating>, ScriptError> {
-                let answer = evaluator.borrow_mut().ask(&[x.to_vec()])?.into_iter().next();
+                let answer = evaluator.borrow_mut().evaluate(&[x.to_vec()])?.into_iter().next();
                 let numbers = match answer {
                     Some(Ok(numbers)) => numbers,
                     Some(Err(reason)) => {
@@ -267,13 +267,13 @@ impl DesignRequest<'_> {
                 Derivatives::Unknown => design.solve(&mut rate)?,
             };
             let Some(found) = found else { return Ok(None) };
-            let again = evaluator.borrow_mut().ask(std::slice::from_ref(&found.parameters))?;
+            let again = evaluator.borrow_mut().evaluate(std::slice::from_ref(&found.parameters))?;
             Ok(Some((found, again)))
         })?;
         let Some((found, again)) = found else {
             let reason = failure.into_inner().map_or_else(String::new, |of| format!(": {of}"));
             let told = format!("it fails, as at all other designs tried{reason}");
-            return Err(question.blame(call, &start, &told));
+            return Err(question.located_error(call, &start, &told));
         };
         if !found.is_feasible {
             let wanted: Vec<String> = self.limits.iter().map(Limit::describe).collect();
@@ -307,7 +307,7 @@ impl DesignRequest<'_> {
     ///
     /// # Errors
     /// Errors of the function.
-    pub fn pretend(self, call: &Call) -> Result<BestDesign, ScriptError> {
+    pub fn dry_run(self, call: &Call) -> Result<BestDesign, ScriptError> {
         let function = RunFunction::read(call, "run", self.function)?;
         let start: Vec<f64> = self.ranges.ranges.iter().map(|range| range.first()).collect();
         let given = function.call_here(call, "run", self.ranges.named(&start))?;

@@ -97,10 +97,10 @@ impl FitRequest<'_> {
     ///
     /// # Errors
     /// Fails if the function is wrong, fails at the start, or its number of values does not match the data.
-    pub fn make(self, call: &Call) -> Result<Fit, ScriptError> {
+    pub fn run(self, call: &Call) -> Result<Fit, ScriptError> {
         let mut function = RunFunction::read(call, self.key, self.function)?;
         if let Some(data) = &self.data {
-            function.take(call, "data", data)?;
+            function.with_extra_argument(call, "data", data)?;
         }
         let question = FunctionQuery {
             key: self.key,
@@ -121,7 +121,7 @@ impl FitRequest<'_> {
         let fitted = question.with_evaluator(call, |evaluator| {
             let evaluator = RefCell::new(evaluator);
             let mut evaluate = |points: &[Vec<f64>]| {
-                let found = evaluator.borrow_mut().ask(points)?;
+                let found = evaluator.borrow_mut().evaluate(points)?;
                 for (numbers, point) in found.iter().zip(points) {
                     if let Ok(numbers) = numbers {
                         self.expect_as_many(call, &counted, (numbers.len(), point))?;
@@ -148,7 +148,7 @@ impl FitRequest<'_> {
             }
         })?;
         let start: Vec<f64> = self.ranges.ranges.iter().map(|range| range.first()).collect();
-        let fitted = fitted.map_err(|reason| question.blame(call, &start, &reason))?;
+        let fitted = fitted.map_err(|reason| question.located_error(call, &start, &reason))?;
         let residuals = match &roots {
             None => fitted.residuals.clone(),
             Some(roots) => fitted.residuals.iter().zip(roots).map(|(r, root)| r / root).collect(),
@@ -185,10 +185,10 @@ impl FitRequest<'_> {
     ///
     /// # Errors
     /// Errors of the function.
-    pub fn pretend(self, call: &Call) -> Result<Fit, ScriptError> {
+    pub fn dry_run(self, call: &Call) -> Result<Fit, ScriptError> {
         let mut function = RunFunction::read(call, self.key, self.function)?;
         if let Some(data) = &self.data {
-            function.take(call, "data", data)?;
+            function.with_extra_argument(call, "data", data)?;
         }
         let start: Vec<f64> = self.ranges.ranges.iter().map(|range| range.first()).collect();
         let _ = function.call_here(call, self.key, self.ranges.named(&start))?;

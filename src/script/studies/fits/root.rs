@@ -18,7 +18,7 @@ pub fn find_root(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let (function, from, to) =
         (call.callback("function")?, call.number("from")?, call.number("to")?);
     call.expect_arguments(&function, 1, "|x| …")?;
-    let tolerance = call.number_if_given("tolerance").unwrap_or(1e-9 * (to - from).abs());
+    let tolerance = call.optional_number("tolerance").unwrap_or(1e-9 * (to - from).abs());
     let value = |x: f64| {
         let given = call.invoke(&function, [Dynamic::from(x)])?;
         VariantValue::number(&given).ok_or_else(|| {

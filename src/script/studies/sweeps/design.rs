@@ -137,7 +137,7 @@ impl SweepPlan {
     }
 
     /// Checksum data of the parameters and all their values.
-    pub fn imprint(&self) -> Vec<u8> {
+    pub fn checksum_data(&self) -> Vec<u8> {
         let of = |(of, levels): (&SweptParameter, &Vec<Portable>)| {
             let mut hasher = crc32fast::Hasher::new();
             for row in 0..self.design.rows {

@@ -88,8 +88,8 @@ impl SweepRequest<'_> {
     fn fingerprint(&self, call: &Call, function: &RunFunction) -> u64 {
         let told = format!("{:?} {:?}", function.captured, self.wall);
         let script = call.context().program().map(|program| program.text.to_string());
-        let imports = Sources::of(call.engine()).imprint().to_le_bytes();
-        let parameters = self.plan.imprint();
+        let imports = Sources::of(call.engine()).checksum().to_le_bytes();
+        let parameters = self.plan.checksum_data();
         let script = script.unwrap_or_default();
         Journal::fingerprint(&[script.as_bytes(), told.as_bytes(), &imports, &parameters])
     }

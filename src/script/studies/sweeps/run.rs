@@ -42,17 +42,17 @@ impl SweepRequest<'_> {
     /// # Errors
     /// Fails if the function cannot be sent to workers, is wrong, or fails in all rows; or if the run is stopped, with finished rows in the
     /// journal.
-    pub fn make(self, call: &Call) -> Result<FinishedSweep, ScriptError> {
+    pub fn run(self, call: &Call) -> Result<FinishedSweep, ScriptError> {
         let context = call.context();
         let function = RunFunction::read(call, "run", self.function)?;
         let rows = self.plan.design.rows;
         let mut ledger = SweepProgress::new(rows);
         let mut keeper = self.keeper(call, &function, &mut ledger)?;
         if context.studies().merge.is_empty() {
-            tell_known(context, &self.name, ledger.done, rows);
+            report_known(context, &self.name, ledger.done, rows);
         }
         let part = context.studies().part;
-        part.into_iter().for_each(|part| ledger.leave_out(part));
+        part.into_iter().for_each(|part| ledger.mark_other_parts(part));
         context.progress().begin_cases(&self.name, rows);
         let outcome = match EngineConfig::of(call.engine(), context, NO_FILES) {
             _ if ledger.done == rows => Ok(()),
@@ -67,12 +67,14 @@ impl SweepRequest<'_> {
         }
         match outcome {
             Err(SweepError::Other(error)) => return Err(error),
-            Err(SweepError::Row(row, told)) => return Err(self.blame(call, &ledger, row, &told)),
+            Err(SweepError::Row(row, told)) => {
+                return Err(self.located_error(call, &ledger, row, &told));
+            }
             Ok(()) if ledger.done < rows => return Err(context.why_stopped("a sweep")),
             Ok(()) => (),
         }
         if part.is_some() {
-            ledger.pretend_the_rest();
+            ledger.fill_other_parts();
         }
         let SweepProgress { results, model, .. } = ledger;
         if model.is_none()
@@ -81,7 +83,7 @@ impl SweepRequest<'_> {
         {
             let told = format!("no run finished; the first one failed: {reason}");
             return Err(context
-                .tracelessly(NO_FILES, || self.invoked(call, row))
+                .without_output_or_files(NO_FILES, || self.invoked(call, row))
                 .err()
                 .unwrap_or_else(|| at_key(call, "run", told, "check the errors of the function")));
         }
@@ -125,7 +127,7 @@ impl SweepRequest<'_> {
             if ledger.knows(row) {
                 continue;
             }
-            let of = match context.tracelessly(NO_FILES, || self.invoked(call, row)) {
+            let of = match context.without_output_or_files(NO_FILES, || self.invoked(call, row)) {
                 Ok(given) => found(&given),
                 Err(error @ (ScriptError::Stopped(_) | ScriptError::Bug(_))) => {
                     return Err(SweepError::Other(error));
@@ -154,8 +156,14 @@ impl SweepRequest<'_> {
     }
 
     /// Error of a row for which the function seems wrong. The call is repeated in the script's engine to find the position.
-    fn blame(&self, call: &Call, ledger: &SweepProgress, row: usize, told: &str) -> ScriptError {
-        let found = call.context().tracelessly(NO_FILES, || self.invoked(call, row));
+    fn located_error(
+        &self,
+        call: &Call,
+        ledger: &SweepProgress,
+        row: usize,
+        told: &str,
+    ) -> ScriptError {
+        let found = call.context().without_output_or_files(NO_FILES, || self.invoked(call, row));
         match found {
             Err(error) => error,
             Ok(_) => {
@@ -197,9 +205,9 @@ fn drive(
     let mut in_order = unknown.iter().map(|row| *row as usize).peekable();
     let mut early = BTreeMap::new();
     let mut rows = unknown.iter().map(|row| *row as usize);
-    rows.by_ref().take(AHEAD * crew.size()).for_each(|row| crew.give(row, row));
+    rows.by_ref().take(AHEAD * crew.size()).for_each(|row| crew.submit(row, row));
     while ledger.done < ledger.rows {
-        match crew.hear_of_many() {
+        match crew.receive_batch() {
             WorkerEvent::Done(row, CallWork { result, steps }) => {
                 context.meter().count_steps(usize::try_from(steps).unwrap_or(usize::MAX));
                 early.insert(row, result);
@@ -210,9 +218,9 @@ fn drive(
                 {
                     take(context, (ledger, keeper), row, result)?;
                 }
-                rows.by_ref().take(1).for_each(|row| crew.give(row, row));
+                rows.by_ref().take(1).for_each(|row| crew.submit(row, row));
             }
-            WorkerEvent::Nothing => beat(keeper).map_err(SweepError::Other)?,
+            WorkerEvent::Nothing => sync_periodically(keeper).map_err(SweepError::Other)?,
             WorkerEvent::Nobody => break,
         }
         let has_steps = ledger.done == ledger.rows || context.meter().allows_a_step();
@@ -229,8 +237,8 @@ fn take(
     row: usize,
     of: RowOutcome,
 ) -> Result<(), SweepError> {
-    let entries = ledger.hear(row, of)?;
-    context.progress().reach_case(ledger.done);
+    let entries = ledger.record_result(row, of)?;
+    context.progress().report_case(ledger.done);
     if let Some(keeper) = keeper {
         for entry in &entries {
             let bytes = keeper.write(context.journals(), entry).map_err(SweepError::Other)?;
@@ -240,13 +248,13 @@ fn take(
     Ok(())
 }
 
-fn beat(keeper: &mut Option<RowKeeper>) -> Result<(), ScriptError> {
-    keeper.as_mut().map_or(Ok(()), RowKeeper::beat)
+fn sync_periodically(keeper: &mut Option<RowKeeper>) -> Result<(), ScriptError> {
+    keeper.as_mut().map_or(Ok(()), RowKeeper::sync_periodically)
 }
 
-fn tell_known(context: &Context, name: &str, known: usize, all: usize) {
+fn report_known(context: &Context, name: &str, known: usize, all: usize) {
     if known > 0 {
-        context.tell(&format!(
+        context.print_message(&format!(
             "study '{name}' continues: {known} of {all} rows are known from an earlier run"
         ));
     }

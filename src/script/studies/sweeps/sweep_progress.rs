@@ -35,14 +35,14 @@ impl SweepProgress {
     }
 
     /// Marks the rows of other parts as done.
-    pub fn leave_out(&mut self, part: StudyPart) {
+    pub fn mark_other_parts(&mut self, part: StudyPart) {
         for row in (0..self.rows).filter(|row| !part.has(*row)) {
-            self.know(row);
+            self.restore_row(row);
         }
     }
 
     /// Fills the rows of other parts with the first result of this part, so that the script can continue.
-    pub fn pretend_the_rest(&mut self) {
+    pub fn fill_other_parts(&mut self) {
         let Some(model) = self.model else { return };
         let found: Vec<f64> = self.results.row(model).collect();
         let has_failed = |row: &usize| self.results.failure(*row).is_some();
@@ -58,7 +58,7 @@ impl SweepProgress {
         self.is_known[row]
     }
 
-    fn know(&mut self, row: usize) -> bool {
+    fn restore_row(&mut self, row: usize) -> bool {
         let is_new = self.is_known.get(row) == Some(&false);
         if is_new {
             self.is_known[row] = true;
@@ -79,7 +79,7 @@ impl SweepProgress {
             RowEntry::Found(row, values) => {
                 let fits = values.len() == self.results.names.len();
                 if let Some(row) = usize::try_from(row).ok().filter(|_| fits)
-                    && self.know(row)
+                    && self.restore_row(row)
                 {
                     self.model.get_or_insert(row);
                     self.results.find(row, &values);
@@ -87,7 +87,7 @@ impl SweepProgress {
             }
             RowEntry::Failed(row, reason) => {
                 if let Ok(row) = usize::try_from(row)
-                    && self.know(row)
+                    && self.restore_row(row)
                 {
                     self.results.fail(row, &reason);
                 }
@@ -96,7 +96,11 @@ impl SweepProgress {
     }
 
     /// Records the result of a row; returns the entries for the journal.
-    pub fn hear(&mut self, at: usize, row: RowOutcome) -> Result<Vec<RowEntry>, SweepError> {
+    pub fn record_result(
+        &mut self,
+        at: usize,
+        row: RowOutcome,
+    ) -> Result<Vec<RowEntry>, SweepError> {
         let number = at as u64;
         match row {
             RowOutcome::Found(names, values) => {
@@ -109,7 +113,7 @@ impl SweepProgress {
                     let told = format!("it returns {} here", listed(&names));
                     return Err(SweepError::Row(at, told));
                 }
-                self.know(at);
+                self.restore_row(at);
                 self.results.find(at, &values);
                 entries.push(RowEntry::Found(number, values));
                 Ok(entries)
@@ -117,7 +121,7 @@ impl SweepProgress {
             // Before the first completed row, the function may be wrong for all rows.
             RowOutcome::Wrong(told) if self.model.is_none() => Err(SweepError::Row(at, told)),
             RowOutcome::Failed(reason) | RowOutcome::Wrong(reason) => {
-                self.know(at);
+                self.restore_row(at);
                 self.results.fail(at, &reason);
                 Ok(vec![RowEntry::Failed(number, reason)])
             }

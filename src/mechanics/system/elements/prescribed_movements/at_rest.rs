@@ -14,7 +14,7 @@ impl PrescribedMovements {
     ///
     /// # Errors
     /// Name of the drive whose function has no finite value, and the reason.
-    pub fn hold_at(&mut self, time: f64) -> Result<(), (String, LoadError)> {
+    pub fn evaluate_after(&mut self, time: f64) -> Result<(), (String, LoadError)> {
         for (movement, present) in self.movements.iter().zip(&mut self.present) {
             if let PrescribedMotion::Place(schedule) = &movement.motion {
                 present.goal = schedule
@@ -26,7 +26,7 @@ impl PrescribedMovements {
     }
 
     /// First drive whose position under a fraction of the load differs from its function just after a time: its name and both positions.
-    pub fn rests_elsewhere(&self, load_factor: f64, time: f64) -> Option<(&str, [f64; 2])> {
+    pub fn first_displaced_drive(&self, load_factor: f64, time: f64) -> Option<(&str, [f64; 2])> {
         self.movements.iter().zip(&self.present).find_map(|(movement, present)| {
             let PrescribedMotion::Place(schedule) = &movement.motion else { return None };
             // Functions without a value are rejected earlier, while the scene is built or the position is applied.
@@ -39,7 +39,7 @@ impl PrescribedMovements {
         })
     }
 
-    pub fn moves_at_rest(&self) -> bool {
+    pub fn has_positions(&self) -> bool {
         self.present.iter().any(|present| present.goal != 0.0)
     }
 
@@ -55,7 +55,7 @@ impl PrescribedMovements {
     }
 
     /// Accepts the prescribed positions under a fraction of the load.
-    pub fn place(&mut self, load_factor: f64) {
+    pub fn accept_positions(&mut self, load_factor: f64) {
         for present in &mut self.present {
             present.placed = load_factor * present.goal;
         }

@@ -55,7 +55,7 @@ impl SpringDamper {
     /// Target force of the spring for a linearisation. After several iterations, the law is linearised where the line of the impedance of the loaded
     /// system intersects it. At a corner of a stiff law, Newton's method would otherwise alternate between segments. The intersection is unique if
     /// the law is increasing.
-    pub(super) fn aimed_restoring(&mut self, stage: Stage) -> ForceTarget {
+    pub(super) fn spring_target(&mut self, stage: Stage) -> ForceTarget {
         let (asked, change) = (self.restoring(stage), self.elongation.change);
         let impedance = self.spring.impedance(change);
         let Some(impedance) = impedance.filter(|_| self.rises) else { return asked };
@@ -100,12 +100,12 @@ impl SpringDamper {
         }
     }
 
-    pub(super) fn aimed_damping(&mut self, at: TrialState<'_>) -> ForceTarget {
+    pub(super) fn damper_target(&mut self, at: TrialState<'_>) -> ForceTarget {
         match (&self.damping, self.lateness(at)) {
             (law @ DampingLaw::Curve(_), Some(late)) => {
                 let (rate, by_change) = self.rate(late);
                 let impedance = self.damper.impedance(rate);
-                let (force, slope) = law.aimed(rate, self.damper.force, impedance);
+                let (force, slope) = law.linearised_target(rate, self.damper.force, impedance);
                 ForceTarget { force, stiffness: by_change * slope }
             }
             _ => self.damping(at),

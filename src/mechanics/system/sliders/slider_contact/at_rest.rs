@@ -1,7 +1,7 @@
 //! Slider at rest: contact between two equilibria, stops, and stiffness.
 
 use super::passing::{AtRest, Passing};
-use super::{SliderContact, would_pull};
+use super::{SliderContact, is_tensile};
 use crate::beams::SpanStiffness;
 use crate::geometry::Vec2;
 use crate::joints::{
@@ -18,9 +18,9 @@ impl Passing for AtRest {
         increments: &[f64],
         unknowns: &[f64],
     ) -> (Contact<'s>, [Equation; CONTACT_UNKNOWNS]) {
-        let (state, way) = (slider.state, slider.way_to_stop());
-        let contact = slider.take_at_rest(bodies, increments, unknowns);
-        let equations = SliderContact::equations_at_rest(state, way, &contact);
+        let (state, way) = (slider.state, slider.distance_to_stop());
+        let contact = slider.evaluate_static(bodies, increments, unknowns);
+        let equations = SliderContact::static_equations(state, way, &contact);
         (contact, equations)
     }
 
@@ -39,13 +39,13 @@ impl Passing for AtRest {
 
 impl SliderContact {
     /// Predicts an unchanged contact for a movement between two equilibria.
-    pub fn stay(&self, unknowns: &mut [f64]) {
+    pub fn predict_unchanged(&self, unknowns: &mut [f64]) {
         let guess = ContactUnknowns { force: self.contact_force(), ..ContactUnknowns::zeros() };
         unknowns[self.connection.places()].copy_from_slice(&guess.to_array());
     }
 
     /// Contact at the end of an iterate of a movement.
-    fn take_at_rest(
+    fn evaluate_static(
         &mut self,
         bodies: &[Body],
         movements: &[f64],
@@ -53,11 +53,11 @@ impl SliderContact {
     ) -> Contact<'_> {
         let unknowns = self.read(unknowns);
         let place = self.parameter + unknowns.way;
-        self.passage.go(place, place);
+        self.passage.set_interval(place, place);
         self.contact(bodies, movements, unknowns)
     }
 
-    fn way_to_stop(&self) -> Option<f64> {
+    fn distance_to_stop(&self) -> Option<f64> {
         match self.state {
             SliderState::Held(end) => Some(self.rail.end(end) - self.parameter),
             SliderState::Sliding | SliderState::Released => None,
@@ -65,7 +65,7 @@ impl SliderContact {
     }
 
     /// Contact equations at rest for the state of a slider and its path to the stop, if it is held.
-    fn equations_at_rest(
+    fn static_equations(
         state: SliderState,
         way: Option<f64>,
         contact: &Contact<'_>,
@@ -77,41 +77,41 @@ impl SliderContact {
         }
     }
 
-    pub fn passes(&self, unknowns: &[f64]) -> Option<MasterEnd> {
+    pub fn passed_end(&self, unknowns: &[f64]) -> Option<MasterEnd> {
         let ends = [MasterEnd::Start, MasterEnd::End].into_iter();
-        let mut beyond = ends.filter(|end| self.beyond(unknowns, *end) > LANDED);
+        let mut beyond = ends.filter(|end| self.overshoot(unknowns, *end) > LANDED);
         if self.is_sliding() { beyond.next() } else { None }
     }
 
     /// Returns true if the stop force is tensile in an iterate, beyond rounding.
     pub fn is_pulled(&mut self, bodies: &[Body], movements: &[f64], unknowns: &[f64]) -> bool {
         let SliderState::Held(end) = self.state else { return false };
-        let contact = self.take_at_rest(bodies, movements, unknowns);
-        let (push, force) = (contact.push(end.outward()), contact.unknowns.force);
-        let push_beyond = self.push_beyond_seam(bodies, movements, force);
-        self.leaves_beyond = self.is_drawn_beyond([push, push_beyond], force.norm());
-        self.leaves_beyond || would_pull(push, force.norm(), self.length)
+        let contact = self.evaluate_static(bodies, movements, unknowns);
+        let (push, force) = (contact.outward_push(end.outward()), contact.unknowns.force);
+        let push_beyond = self.seam_push(bodies, movements, force);
+        self.leaves_beyond = self.is_pulled_across([push, push_beyond], force.norm());
+        self.leaves_beyond || is_tensile(push, force.norm(), self.length)
     }
 
     /// Accepts the position after a movement between two equilibria. The bodies have been moved already.
-    pub fn rest(&mut self, unknowns: &[f64]) {
+    pub fn accept_static_position(&mut self, unknowns: &[f64]) {
         let found = self.read(unknowns);
-        let place = self.way_to_stop().map_or(found.way, |way| way);
-        self.stand_at(self.parameter + place);
+        let place = self.distance_to_stop().map_or(found.way, |way| way);
+        self.set_parameter(self.parameter + place);
         self.unknowns = ContactUnknowns { way: 0.0, ..found };
-        self.kinked_axis.iter_mut().for_each(|axis| axis.rest_under(found.force));
+        self.kinked_axis.iter_mut().for_each(|axis| axis.set_static_kink(found.force));
     }
 
     pub fn movements_held(&self) -> usize {
         match self.state {
             SliderState::Released => 0,
             SliderState::Held(_) => 2,
-            SliderState::Sliding => usize::from(!self.gives_way()),
+            SliderState::Sliding => usize::from(!self.is_compliant()),
         }
     }
 
     /// Unknowns that the contact couples at rest: those of the slave, of the nearby master, and the position unknown `own`.
-    pub fn coupled_at_rest(&self, bodies: &[Body], own: usize) -> Vec<usize> {
+    pub fn static_coupling(&self, bodies: &[Body], own: usize) -> Vec<usize> {
         let (body, point) = self.connection.slave;
         let [x, y, _] = bodies[body].degrees_of_freedom[point];
         let window = self.here.first()..self.here.first() + self.here.end().len();
@@ -126,7 +126,7 @@ impl SliderContact {
     /// r = x_s - Σ B_i x_i      s = δx_s - Σ B_i δx_i - (x' + g' λ/GA) δξ      k = GA/g
     /// δ²Π = k |s|² - 2 λ·Σ B_i' δx_i δξ - (λ·x'' + ½ g'' |λ|²/GA) δξ²
     /// ```
-    pub fn at_rest(
+    pub fn static_stiffness(
         &self,
         bodies: &[Body],
         own: usize,
@@ -145,12 +145,14 @@ impl SliderContact {
         if self.state == SliderState::Released {
             return;
         }
-        let degrees = self.coupled_at_rest(bodies, own);
+        let degrees = self.static_coupling(bodies, own);
         let (width, last) = (degrees.len(), degrees.len() - 1);
         let force = self.contact_force();
         let slides = if self.is_sliding() { 1.0 } else { 0.0 };
-        let (compliance, slope, bend) =
-            self.kinked_axis.as_ref().map_or((0.0, Vec2::zeros(), 0.0), KinkedAxis::at_rest);
+        let (compliance, slope, bend) = self
+            .kinked_axis
+            .as_ref()
+            .map_or((0.0, Vec2::zeros(), 0.0), KinkedAxis::static_compliance);
         let tangent = (self.tangent(bodies) + slope) * slides;
         let mut strains = vec![0.0; 2 * width];
         let (row_x, row_y) = strains.split_at_mut(width);

@@ -41,7 +41,8 @@ impl SliderContact {
 
     /// Directions of the motion of a slider at an end of its kinked axis, with and without the kink [-]; `None` without a kink.
     pub fn off_kink(&self, bodies: &[Body], rates: &[f64], end: MasterEnd) -> Option<[Vec2; 2]> {
-        let axis = self.kinked_axis.as_ref().filter(|axis| self.is_sliding() && !axis.gives())?;
+        let axis =
+            self.kinked_axis.as_ref().filter(|axis| self.is_sliding() && !axis.is_compliant())?;
         let velocity = self.relative_velocity(bodies, rates);
         let is_straight = axis.force() == Vec2::zeros() || velocity == Vec2::zeros();
         let axis = self.along(bodies) * end.outward();
@@ -104,7 +105,7 @@ impl SliderContact {
     /// Rate `dξ/dt` of the parameter at the present velocities [1/time].
     pub fn rate(&self, bodies: &[Body], rates: &[f64]) -> f64 {
         match (self.state, &self.kinked_axis) {
-            (SliderState::Sliding, Some(axis)) => self.rate_on(axis, bodies, rates),
+            (SliderState::Sliding, Some(axis)) => self.rate_on_kinked_axis(axis, bodies, rates),
             (SliderState::Sliding, None) => {
                 let tangent = self.tangent(bodies);
                 self.relative_velocity(bodies, rates).dot(&tangent) / tangent.norm_squared()
@@ -115,7 +116,7 @@ impl SliderContact {
 
     /// Rate `dξ/dt` on a kinked axis: the solution of the time derivative of `r·x' + ½ |r|² g'/g = 0`, with the offset `r = g p/GA` of the slave from
     /// the smooth axis.
-    fn rate_on(&self, axis: &KinkedAxis, bodies: &[Body], rates: &[f64]) -> f64 {
+    fn rate_on_kinked_axis(&self, axis: &KinkedAxis, bodies: &[Body], rates: &[f64]) -> f64 {
         let (offset, (slope, bend)) = (axis.offset(), axis.slopes());
         let (points, master) = (self.window(bodies), &bodies[self.connection.master]);
         let values = self.here.basis().evaluate(self.parameter);

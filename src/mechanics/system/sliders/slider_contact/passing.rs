@@ -48,7 +48,7 @@ impl Passing for InStep {
         unknowns: &[f64],
     ) -> (Contact<'s>, [Equation; CONTACT_UNKNOWNS]) {
         let law = slider.law();
-        let contact = slider.take(bodies, increments, unknowns);
+        let contact = slider.evaluate(bodies, increments, unknowns);
         let equations = law.equations(&contact);
         (contact, equations)
     }
@@ -60,7 +60,7 @@ impl Passing for InStep {
         unknowns: &[f64],
     ) -> (Contact<'s>, [(f64, Unit); CONTACT_UNKNOWNS]) {
         let law = slider.law();
-        let contact = slider.take(bodies, increments, unknowns);
+        let contact = slider.evaluate(bodies, increments, unknowns);
         let values = law.values(&contact);
         (contact, values)
     }

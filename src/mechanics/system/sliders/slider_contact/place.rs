@@ -46,7 +46,7 @@ impl SliderContact {
     }
 
     /// Contact that holds the slider: the `start` or `end` of its master or track, or a `seam`.
-    pub fn leans_on(&self, bodies: &[Body]) -> Option<&'static str> {
+    pub fn held_by(&self, bodies: &[Body]) -> Option<&'static str> {
         let SliderState::Held(end) = self.state else { return None };
         if self.seam(bodies, end).is_some() {
             return Some("seam");

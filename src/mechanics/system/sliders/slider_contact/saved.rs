@@ -13,11 +13,11 @@ impl SliderContact {
         10 + CONTACT_UNKNOWNS + of_route
     }
 
-    pub fn may_be(&self, numbers: &[f64]) -> bool {
+    pub fn is_valid(&self, numbers: &[f64]) -> bool {
         let (parameter, rail) = (numbers[0], &self.rail);
         match (&self.route, numbers.last_chunk::<ROUTE>()) {
             (Some(route), Some(own)) => {
-                route.stored_leg(*own).is_some_and(|leg| leg.rail.has(parameter))
+                route.stored_segment(*own).is_some_and(|leg| leg.rail.has(parameter))
             }
             _ => rail.has(parameter),
         }
@@ -43,13 +43,13 @@ impl SliderContact {
         (self.most_spans, self.blows_in_a_step) = (next(), next());
         self.unknowns = ContactUnknowns::of(std::array::from_fn(|_| next()));
         let kink = std::array::from_fn(|_| next());
-        self.kinked_axis.iter_mut().for_each(|axis| axis.take(kink));
+        self.kinked_axis.iter_mut().for_each(|axis| axis.restore(kink));
         (self.stored, self.lost, self.left_at) = (next(), next(), next());
         self.stop_may_pull = next() != 0.0;
         if let Some(route) = &mut self.route {
-            route.take(std::array::from_fn(|_| next()));
-            self.take_master();
+            route.restore(std::array::from_fn(|_| next()));
+            self.set_master();
         }
-        self.stand_at(parameter);
+        self.set_parameter(parameter);
     }
 }

@@ -1,13 +1,13 @@
 //! Sliders at the seams of their tracks: passing them, and being held at them.
 
-use super::{SliderContact, would_pull};
+use super::{SliderContact, is_tensile};
 use crate::geometry::{Basis, Vec2};
 use crate::joints::ContactUnknowns;
 use crate::system::bodies::Body;
 use crate::system::sliders::{MasterEnd, Seam, SliderState, TrackPath};
 
 impl SliderContact {
-    pub fn follow(&mut self, route: TrackPath) {
+    pub fn set_track(&mut self, route: TrackPath) {
         self.route = Some(Box::new(route));
         let functions = self.most_of_masters(Basis::functions);
         self.before.reserve(functions);
@@ -29,46 +29,46 @@ impl SliderContact {
     }
 
     /// Returns true if the slider passed or left a seam at a time. If it is led back at once, it cannot leave.
-    pub fn came_to_seam_at(&self, time: f64) -> bool {
+    pub fn crossed_seam_at(&self, time: f64) -> bool {
         self.left_at == time || self.route.as_ref().is_some_and(|route| route.passed_at == time)
     }
 
     /// Returns true if the slider is held at a former seam that is now an open end of the track.
-    pub(super) fn leans_on_nothing(&self, bodies: &[Body]) -> bool {
+    pub(super) fn is_held_at_open_end(&self, bodies: &[Body]) -> bool {
         let SliderState::Held(end) = self.state else { return false };
         !self.ends.has_stop() && self.route.as_ref().is_some_and(|route| route.is_torn(bodies, end))
     }
 
     /// Directions in which the slider leaves one side of a seam and enters the other [-].
     pub fn corner(&self, bodies: &[Body], end: MasterEnd, seam: Seam) -> Option<[Vec2; 2]> {
-        let leg = self.route.as_ref()?.leg(seam.leg);
+        let leg = self.route.as_ref()?.segment(seam.leg);
         let inward = -seam.end.outward();
         let beyond = leg.end_tangent(bodies, &[], seam.end).normalize() * inward;
         Some([self.along(bodies) * end.outward(), beyond])
     }
 
-    pub fn note_passing(&mut self, time: f64) {
+    pub fn record_crossing(&mut self, time: f64) {
         self.route.iter_mut().for_each(|route| route.passed_at = time);
     }
 
     /// Index of the beam on the other side of a seam.
     pub fn beam_beyond(&self, seam: Seam) -> Option<usize> {
-        self.route.as_ref().map(|route| route.leg(seam.leg).beam)
+        self.route.as_ref().map(|route| route.segment(seam.leg).beam)
     }
 
     /// Moves the slider to the other side of a seam at which it is.
-    pub fn pass(&mut self, seam: Seam) {
+    pub fn cross_seam(&mut self, seam: Seam) {
         let Some(route) = &mut self.route else { return };
-        route.pass(seam);
-        self.take_master();
-        self.stand_at(self.rail.end(seam.end));
+        route.cross_seam(seam);
+        self.set_master();
+        self.set_parameter(self.rail.end(seam.end));
         self.unknowns = ContactUnknowns { force: self.unknowns.force, ..ContactUnknowns::zeros() };
         if let SliderState::Held(_) = self.state {
             self.state = SliderState::Held(seam.end);
         }
     }
 
-    pub(super) fn take_master(&mut self) {
+    pub(super) fn set_master(&mut self) {
         let Some(leg) = self.route.as_deref().map(TrackPath::present) else { return };
         if leg.beam == self.connection.master {
             return;
@@ -80,11 +80,11 @@ impl SliderContact {
 
     /// Force with which a seam keeps the slider from the beam on the other side, times the tangent there, after given increments [force·length]; zero
     /// unless the slider is held at a seam.
-    pub(super) fn push_beyond_seam(&self, bodies: &[Body], increments: &[f64], force: Vec2) -> f64 {
+    pub(super) fn seam_push(&self, bodies: &[Body], increments: &[f64], force: Vec2) -> f64 {
         let SliderState::Held(end) = self.state else { return 0.0 };
         let Some(route) = &self.route else { return 0.0 };
         route.seam(bodies, end).map_or(0.0, |seam| {
-            let leg = route.leg(seam.leg);
+            let leg = route.segment(seam.leg);
             let tangent = leg.end_tangent(bodies, increments, seam.end);
             // Scaled to the length per unit of parameter of the own side, for comparison.
             let scale = self.length / leg.length_of_parameter();
@@ -94,8 +94,8 @@ impl SliderContact {
 
     /// Returns true if the seam force is tensile on the other side, and more than on its own side, from the pushes on both sides times tangents
     /// [force·length] and the contact force [force].
-    pub(super) fn is_drawn_beyond(&self, [push, push_beyond]: [f64; 2], force: f64) -> bool {
-        push_beyond < push && would_pull(push_beyond, force, self.length)
+    pub(super) fn is_pulled_across(&self, [push, push_beyond]: [f64; 2], force: f64) -> bool {
+        push_beyond < push && is_tensile(push_beyond, force, self.length)
     }
 
     /// Moves a slider that is held at a seam to the other side if it is pulled there.
@@ -105,7 +105,7 @@ impl SliderContact {
             return;
         }
         if let Some(seam) = self.seam(bodies, end) {
-            self.pass(seam);
+            self.cross_seam(seam);
         }
     }
 }

@@ -1,18 +1,18 @@
 //! Slider at the stops of its master: impacts, stored energy, holding and leaving.
 
-use super::{SliderContact, would_pull};
+use super::{SliderContact, is_tensile};
 use crate::integrators::IntervalEnd;
 use crate::system::bodies::Body;
 use crate::system::sliders::{AxialImpact, MasterEnd, SliderState};
 
 impl SliderContact {
-    pub fn hold(&mut self, end: MasterEnd) {
+    pub fn hold_at(&mut self, end: MasterEnd) {
         self.state = SliderState::Held(end);
     }
 
     /// Subtracts the work of an impact on the bodies from the energy stored in the stop, or adds its loss to the lost energy if restitution is below
     /// one.
-    pub fn give(&mut self, work: f64) {
+    pub fn book_impact_work(&mut self, work: f64) {
         match self.restitution < 1.0 {
             true => self.lost -= work,
             false => self.stored -= work,
@@ -26,20 +26,20 @@ impl SliderContact {
     pub fn leave_stop(&mut self, bodies: &[Body], time: f64) {
         let tangent = self.tangent(bodies);
         (self.state, self.is_pulled, self.left_at) = (SliderState::Sliding, false, time);
-        self.kinked_axis.iter_mut().for_each(|axis| axis.leave_stop(tangent));
+        self.kinked_axis.iter_mut().for_each(|axis| axis.remove_stop_force(tangent));
     }
 
     /// Records a tensile stop force at the end of a step; not at the end of a substep.
-    pub fn note_pull(&mut self, ending: IntervalEnd) {
+    pub fn record_tension(&mut self, ending: IntervalEnd) {
         let leans = matches!(self.state, SliderState::Held(_)) && !self.stop_may_pull;
-        let is_drawn_off = self.is_drawn_beyond([self.push, self.push_beyond], self.pressing);
+        let is_drawn_off = self.is_pulled_across([self.push, self.push_beyond], self.pressing);
         self.leaves_beyond = leans && is_drawn_off;
-        let pulls = would_pull(self.push, self.pressing, self.length) || is_drawn_off;
+        let pulls = is_tensile(self.push, self.pressing, self.length) || is_drawn_off;
         self.is_pulled = leans && ending == IntervalEnd::OfStep && pulls;
     }
 
     /// Records the ratio of step length to impact duration for an impact at an end of the master [-].
-    pub fn note_blow(&mut self, blows_in_a_step: f64) {
+    pub fn record_impact_ratio(&mut self, blows_in_a_step: f64) {
         self.blows_in_a_step = self.blows_in_a_step.max(blows_in_a_step);
     }
 
@@ -47,18 +47,18 @@ impl SliderContact {
     ///
     /// An impact on a beam lasts at least until its wave returns, twice the length over `c` (Saint-Venant 1883), or, for a light slave, until that
     /// stops, after about `m/(c ρA)`. Between rigid bodies there is no wave to resolve, and the duration is infinite.
-    pub fn blow_lasts(&self, bodies: &[Body], blow: AxialImpact) -> f64 {
+    pub fn impact_duration(&self, bodies: &[Body], blow: AxialImpact) -> f64 {
         let (master, slave) = &self.bars;
         let on_master = blow.master.is_some().then(|| {
             // The immediate mass of a striking beam is limited by its waves.
-            master.answer_time(1.0, blow.slave.filter(|_| slave.is_none()))
+            master.wave_travel_time(1.0, blow.slave.filter(|_| slave.is_none()))
         });
         let on_slave = slave.filter(|_| blow.slave.is_some()).map(|slave| {
             let (body, point) = self.connection.slave;
             let points = bodies[body].dynamics.control_points();
             let axis = points[(point + 1).min(points.len() - 1)] - points[point.saturating_sub(1)];
             let tangent = self.tangent(bodies);
-            slave.answer_time(axis.dot(&tangent) / (axis.norm() * tangent.norm()), None)
+            slave.wave_travel_time(axis.dot(&tangent) / (axis.norm() * tangent.norm()), None)
         });
         2.0 * on_master.into_iter().chain(on_slave).fold(f64::INFINITY, f64::min)
     }
