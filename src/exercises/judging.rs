@@ -136,7 +136,7 @@ impl JudgingContext {
             };
             match found {
                 found if found == of => {
-                    let value = callable(value, functions);
+                    let value = callable(name, value, functions);
                     _ = seen.push_dynamic(name.as_str(), value);
                 }
                 // Integers are accepted as numbers.
@@ -180,10 +180,18 @@ impl JudgingContext {
 }
 
 /// Makes a function of the attempt callable by the judge: it carries the functions of its file, and sees nothing of the judge.
-fn callable(value: Dynamic, functions: &AST) -> Dynamic {
+fn callable(name: &str, value: Dynamic, functions: &AST) -> Dynamic {
     let Some(function) = value.clone().try_cast::<FnPtr>() else { return value };
-    let functions = functions.clone();
+    let definition = functions.iter_functions().find(|known| known.name == function.fn_name());
+    let parameters = definition.map(|known| known.params.len() - function.iter_curry().count());
+    let (variable, functions) = (name.to_owned(), functions.clone());
     let call = move |native: NativeCallContext, arguments: &mut [&mut Dynamic]| {
+        if let Some(has) = parameters.filter(|count| *count != arguments.len()) {
+            let needed = arguments.len();
+            let told =
+                format!("the number of parameters of '{variable}' must be {needed}, but is {has}");
+            return Err(told.into());
+        }
         let mut surroundings = native.global_runtime_state().clone();
         surroundings.lib = [functions.shared_lib().clone()].into_iter().collect();
         let (engine, name) = (native.engine(), function.fn_name());

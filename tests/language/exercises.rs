@@ -88,10 +88,21 @@ fn every_plausible_mistake_is_explained() {
 /// Solutions with another right answer in them: what stands there, and what a student might write.
 const OTHER_ANSWERS: &[(&str, &str, &str)] = &[
     ("change_one_number", "const EI = 28;", "const EI = 27.0;"),
-    ("rectangle", "width * height^3 / 12", "area * height^2 / 12"),
-    ("circle", "2 * PI * strip.EI / 10", "-2 * PI * strip.EI / 10"),
-    ("stocky", "sqrt(27 * timber.EI / timber.GA)", "0.95"),
-    ("first_frequency", "0.003;", "10 / 3342;"),
+    ("rectangle", "width * height^3 / 12", "width * height * height^2 / 12"),
+    (
+        "rectangle",
+        "width * height^3 / 12",
+        "mean(linspace(-0.49995, 0.49995, 10000).map(|y| y^2)) * width * height^3",
+    ),
+    ("circle", "2 * PI * EI / length", "-2 * PI * EI / length"),
+    ("circle", "2 * PI * EI / length", "{ let curvature = 6.2832 / length; curvature * EI }"),
+    ("stocky", "sqrt(27 * EI / GA)", "3 * sqrt(3 * EI / GA)"),
+    ("first_frequency", "0.0003 * frequency", "0.005 * frequency / 16.71"),
+    (
+        "first_frequency",
+        "0.0003 * frequency",
+        "2 * PI * frequency * 0.5^2 / 1.875^2 * sqrt(12 * 7850 / 2.1e11)",
+    ),
     ("knot_vector", "knots(3, [0, 0, 0, 0, 0.25, 0.5, 0.75, 1, 1, 1, 1])", "knots(4)"),
     ("kink", "knots(2).insert(0.5, 2)", "knots(4).insert(0.5, 2)"),
     ("unlocking", "bspline(14)", "bspline(16)"),
@@ -106,8 +117,16 @@ const OTHER_ANSWERS: &[(&str, &str, &str)] = &[
     ("corner", "scene.rigid(leg.end, arm.start);", "scene.rigid(arm.start, leg.end);"),
     ("corner", "new_scene(\"corner\")", "new_scene(\"mine\")"),
     ("pendulum", "let sim =", "let middle = bar.at(0.5); let sim ="),
-    ("pendulum", "let period = 2 * PI * sqrt(1 / 3 / (9.81 / 2));", "let period = 1.64;"),
-    ("bead_clock", "9.81 * (2 / (2 * PI))^2", "9.81 / PI^2"),
+    ("pendulum", "2 * PI * sqrt(L / 3 / (g / 2))", "2 * PI * sqrt(2 / 3 * L / g)"),
+    ("bead_clock", "gravity * (period / (2 * PI))^2", "gravity * period^2 / 39.478"),
+    (
+        "bounces",
+        "(length - x + 2 * length * (n - 1)) / speed",
+        "((2 * n - 1) * length - x) / speed",
+    ),
+    ("launch", "behind / sqrt(2 * height / 9.81)", "behind * sqrt(9.81 / 2 / height)"),
+    ("best_angle", "linspace(20, 60, 41)", "linspace(15, 65, 101)"),
+    ("whose_stiffness", "let EI = 24.7;", "let EI = found.parameters.EI;"),
 ];
 
 #[test]
@@ -168,14 +187,14 @@ fn tricks_do_not_pass() {
     let exercise = find("keep_the_energy").unwrap();
     let tricks = [
         "print(\"passed: integrators/keep_the_energy\"); check(true);",
-        "let PI = 3; let check = |a, b| true; let flight = 1; let wander = 0; let damped = false;",
+        "let PI = 3; let check = |a, b| true; let flight = 1; let change = 0; let again = false;",
         "fn drift(history, what) { 0 }",
         "return;",
         "return true;",
     ];
     for trick in tricks {
         let said = told(exercise, &format!("{}\n{trick}\n", exercise.start));
-        assert!(said.contains("the energy wanders by"), "{trick}: {said}");
+        assert!(said.contains("the energy changes by"), "{trick}: {said}");
     }
     for taken in ["fn check(holds, message) { } fn check(holds) { }", "fn abs(x) { 0 }"] {
         let said = told(exercise, &format!("{}\n{taken}\n", exercise.solution));
@@ -190,181 +209,113 @@ fn tricks_do_not_pass() {
     assert!(half.contains("let it run to 7.5"), "{half}");
 }
 
-/// What stands in a solution, and what is written there.
-type Changes = &'static [(&'static str, &'static str)];
+/// A way to pass without the idea of the exercise: a changed solution, and a part of the message that rejects it.
+struct Cheat {
+    exercise: &'static Exercise,
+    title: String,
+    text: String,
+    message: String,
+}
 
-/// Ways to pass without the idea that were found: the exercise, the solution with what stands in it and what the cheat writes there,
-/// and what the cheat is told.
-const CHEATS: &[(&str, Changes, &str)] = &[
-    // Rows that hide what the energy does between them.
-    (
-        "keep_the_energy",
-        &[
-            ("energy_momentum()", "trapezoidal()"),
-            ("dt: 0.1", "dt: 0.1, record: nothing()"),
-            ("plot_history(sim,", "// (sim,"),
-        ],
-        "the energy wanders by",
-    ),
-    (
-        "keep_the_energy",
-        &[("energy_momentum()", "trapezoidal()"), ("dt: 0.1", "dt: 0.1, record: every(75)")],
-        "the energy wanders by",
-    ),
-    // A simulation of somebody else.
-    (
-        "keep_the_energy",
-        &[
-            ("energy_momentum()", "trapezoidal()"),
-            ("integrator: rule", "integrator: energy_momentum()"),
-            ("sim.run_to(7.5);", "sim.run_to(7.5); sim.save(\"a\"); sim = load_simulation(\"a\");"),
-        ],
-        "the energy wanders by",
-    ),
-    (
-        "sliding_rule",
-        &[
-            ("let rule = conserving()", "let rule = relaxed()"),
-            ("rule: rule", "rule: conserving()"),
-        ],
-        "the slider has left its beam",
-    ),
-    // The known error is drawn into the beam.
-    (
-        "budget",
-        &[
-            ("fourth_order()", "energy_momentum()"),
-            ("line([0, 8], [6, 0])", "line([-0.258, 8.665], [5.742, 0.665])"),
-        ],
-        "the end is off by",
-    ),
-    // A load that knows what the judge looks at.
-    (
-        "change_one_number",
-        &[
-            ("const EI = 28;", "const EI = 5;"),
-            (
-                "let sim =",
-                "scene.force(beam.end, [0, 1], |t| if t < 0.2 { 3 } else { 0 }); let sim =",
-            ),
-        ],
-        "the strip is too soft",
-    ),
-    (
-        "corner",
-        &[(
-            "scene.rigid(leg.end, arm.start);",
-            "scene.hinge(leg.end, arm.start); scene.moment(arm.end, 0.1);",
-        )],
-        "the corner opens",
-    ),
-    // So heavy that nothing moves.
-    (
-        "corner",
-        &[
-            ("scene.rigid(leg.end, arm.start);", "scene.hinge(leg.end, arm.start);"),
-            ("rho_A: 1, rho_I: 0.1", "rho_A: 1e15, rho_I: 1e15"),
-        ],
-        "leave the beams as they are",
-    ),
-    (
-        "pendulum",
-        &[("let sim =", "scene.moment(bar.start, 1e-3, |t| if t < 2 { 1 } else { 0 }); let sim =")],
-        "something besides gravity moves the bar",
-    ),
-    // The right scene with a wrong schedule beside it.
-    (
-        "load_inside_a_step",
-        &[(
-            "let push = hold_for(2.5);",
-            "let push = schedule(|t| if t < 0.4 { 1 } else { 0.75 }, [2.5]);",
-        )],
-        "8 \u{b7} 2.5 is 20",
-    ),
-    // Numbers near those that a measurement finds.
-    (
-        "order",
-        &[
-            ("log2(coarse / fine)", "2.01"),
-            ("measured(energy_momentum(), order)", "2.01"),
-            ("measured(fourth_order(), order)", "3.97"),
-        ],
-        "your order is 2.010: halving the step divides the error by 4",
-    ),
-    // A formula that knows what the runs of the exercise give.
-    (
-        "order",
-        &[("log2(coarse / fine)", "if coarse / fine < 8 { 2.0 } else { 4.0 }")],
-        "your order is",
-    ),
-    (
-        "order",
-        &[("log2(coarse / fine)", "ln(coarse / fine)")],
-        "a logarithm of the factor, and of another base",
-    ),
-    (
-        "order",
-        &[(
-            "log2(coarse / fine)",
-            "if coarse == 0.04 { throw \"passed\" } else { log2(coarse / fine) }",
-        )],
-        "the judge failed: passed",
-    ),
-    // Three control points in the corner make a curve with a kink, and no spline that has one.
-    (
-        "kink",
-        &[
-            (
-                "knots(2).insert(0.5, 2)",
-                "knots(3, [0, 0, 0, 0, 0.499, 0.4995, 0.5, 0.5005, 0.501, 1, 1, 1, 1])",
-            ),
-            ("let roof =", "for i in 3..6 { on_the_roof[i] = [1, 1]; } let roof ="),
-        ],
-        "at ξ = 1/2 the knot is written once",
-    ),
-    // A timber that yields in length, which the judge would bend as well.
-    ("stocky", &[("EA: 1e5", "EA: 1e-3")], "the timber is another one"),
-    // Scenes that are like the one asked for where somebody looks.
-    (
-        "corner",
-        &[(
-            "scene.rigid(leg.end, arm.start);",
-            "scene.rigid(leg.end, arm.start); scene.mass(leg.at(1), 1e-6);",
-        )],
-        "leave the beams as they are",
-    ),
-    (
-        "corner",
-        &[("hold_for(0.2)", "schedule(|t| if t < 0.2 { 1 } else { 0 }, [0.2])")],
-        "leave the beams as they are",
-    ),
-    ("pendulum", &[("rho_A: 1,", "rho_A: 1.001,")], "is not the bar of the start file"),
-    // A module of the student in the place of one of the language.
-    (
-        "budget",
-        &[("fourth_order()", "energy_momentum()"), ("let dt", "fn thrown(rule, dt) { 0 } let dt")],
-        "the end is off by",
-    ),
-];
+/// Cheats of a file in `tests/cheats`. `== ` begins an exercise and `-- ` a cheat; `- ` is text of the solution and `+ ` its replacement,
+/// `++ ` is a line at the end, and `=> ` a part of the expected message.
+fn cheats(file: &Path) -> Vec<Cheat> {
+    let (mut found, mut exercise, mut title) = (Vec::new(), &EXERCISES[0], String::new());
+    let (mut text, mut replaced) = (String::new(), String::new());
+    for line in fs::read_to_string(file).unwrap().lines().filter(|line| !line.is_empty()) {
+        let (mark, rest) = line.split_once(' ').unwrap();
+        match mark {
+            "==" => exercise = find(rest).unwrap(),
+            "--" => (title, text) = (rest.into(), exercise.solution.into()),
+            "-" => replaced = rest.into(),
+            "+" => {
+                assert!(text.contains(&replaced), "{title}: {replaced}");
+                text = text.replace(&replaced, rest);
+            }
+            "++" => text += &format!("{rest}\n"),
+            "=>" => found.push(Cheat {
+                exercise,
+                title: title.clone(),
+                text: text.clone(),
+                message: rest.into(),
+            }),
+            _ => panic!("{line}"),
+        }
+    }
+    found
+}
 
 #[test]
 fn cheats_do_not_pass() {
-    for (name, changes, phrase) in CHEATS {
-        let exercise = find(name).unwrap();
-        let mut text = exercise.solution.to_owned();
-        for (ours, theirs) in *changes {
-            assert!(text.contains(ours), "{name}: {ours}");
-            text = text.replace(ours, theirs);
+    let mut met = BTreeSet::new();
+    for file in fs::read_dir(root().join("tests/cheats")).unwrap() {
+        for Cheat { exercise, title, text, message } in cheats(&file.unwrap().path()) {
+            let said = told(exercise, &text);
+            assert!(said.contains(&message), "{}, {title}: {said}", exercise.id());
+            met.insert(exercise.id());
         }
-        let said = told(exercise, &text);
-        assert!(said.contains(phrase) && !said.is_empty(), "{name}: {changes:?}: {said}");
+    }
+    assert_eq!(met.len(), EXERCISES.len(), "every exercise has cheats: {met:?}");
+}
+
+/// Bodies of functions that are no formulas.
+const NO_FORMULAS: &[&str] = &[
+    "()",
+    "\"passed\"",
+    "true",
+    "[0, 0, 0, 0, 0, 0]",
+    "#{}",
+    "0",
+    "-1.5",
+    "1e300",
+    "1e308 * 10",
+    "1e308 * 10 - 1e308 * 10",
+    "|| 1",
+    "check(true)",
+    "{ check(true); 1 }",
+    "throw \"passed\"",
+    "return",
+    "return true",
+    "exit()",
+    "todo(\"nothing\")",
+    "{ print(\"passed\"); 1 }",
+    "{ let check = |holds, message| true; 1 }",
+    "endless(1)",
+    "this",
+    "vec(1, 2)",
+];
+
+#[test]
+fn a_function_that_is_no_formula_does_not_pass() {
+    for exercise in EXERCISES {
+        let needs = exercise.judge().needs;
+        for need in needs.iter().filter(|need| need.of == "function") {
+            let start = format!("let {} = |", need.name);
+            let (_, rest) = exercise.solution.split_once(&start).unwrap();
+            let (parameters, _) = rest.split_once('|').unwrap();
+            // What the judge does not need is left out: it takes time.
+            let base = if needs.len() == 1 { "" } else { exercise.solution };
+            let attempt = |parameters: &str, body: &str| {
+                let text = format!(
+                    "{base}\n{start}{parameters}| {body};\nfn endless(n) {{ endless(n + 1) }}"
+                );
+                told(exercise, &text)
+            };
+            for body in NO_FORMULAS {
+                assert!(!attempt(parameters, body).is_empty(), "{}: {body}", exercise.id());
+            }
+            let count = parameters.split(',').count();
+            let said = attempt("a, b, c, d, e, f", "a");
+            let phrase = format!("parameters of '{}' must be {count}, but is 6", need.name);
+            assert!(said.contains(&phrase), "{said}");
+        }
     }
 }
 
 /// Names of the attempt that the judge uses as well do no harm.
 #[test]
 fn names_of_attempts_and_judges_do_not_collide() {
-    let names = "let percent = \"x\"; let how = (); let damped = 3; fn drift(history, what) { 1 }";
+    let names = "let percent = \"x\"; let how = (); let change = 3; fn drift(history, what) { 1 }";
     let exercise = find("keep_the_energy").unwrap();
     assert_eq!(told(exercise, &format!("{names}\n{}", exercise.solution)), "");
 }
