@@ -31,25 +31,24 @@ const PLAIN: (&str, &str) = (
     "glibc.cpu.hwcaps=-AVX2,-FMA,-FMA4,-AVX512F,-AVX2_Usable,-FMA_Usable,-FMA4_Usable,-AVX512F_Usable",
 );
 
-/// Fingerprint of all digits of a value. Names of types are left out, so that renaming changes no fingerprint.
+/// Fingerprint of all digits of a value. Names are left out, so that renaming changes no fingerprint.
 fn hash(value: &impl Debug) -> u64 {
     // Scenes without springs have no such entries.
     let text = format!("{value:?}").replace(", stored: 0.0", "").replace(", dissipated: 0.0", "");
-    fingerprint(without_type_names(&text).bytes())
+    fingerprint(without_names(&text).bytes())
 }
 
-/// Removes the names before `{` and `(` from a text of `Debug`.
-fn without_type_names(text: &str) -> String {
-    let mut kept = String::with_capacity(text.len());
-    for c in text.chars() {
-        if c == '{' || c == '(' {
-            let name = kept.trim_end();
-            let start = name.trim_end_matches(|c: char| c.is_alphanumeric() || c == '_').len();
-            kept.truncate(start);
-        }
-        kept.push(c);
-    }
-    kept
+/// Removes the names of types, variants and fields from a text of `Debug`.
+fn without_names(text: &str) -> String {
+    let is_part = |c: char| c.is_alphanumeric() || c == '_';
+    text.split_inclusive(|c| !is_part(c))
+        .map(|part| {
+            let word = part.trim_end_matches(|c| !is_part(c));
+            let is_name = word.starts_with(|c: char| c.is_alphabetic() || c == '_')
+                && !["true", "false", "NaN", "inf"].contains(&word);
+            if is_name { &part[word.len()..] } else { part }
+        })
+        .collect()
 }
 
 /// Runs a scene: the state at the end, the history, and the refusal if a step had no solution, which is an outcome like others.
