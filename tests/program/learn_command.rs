@@ -247,8 +247,8 @@ fn watching_judges_what_is_saved_and_ends_with_ctrl_c() {
     wait_for(&printed, &format!("passed: {}", EXERCISES[0].id()));
     wait_for(&printed, &format!("Next: {}", EXERCISES[1].id()));
     wait_for(&printed, "waiting for a saved file");
-    fs::write(folder.join(EXERCISES[1].file()), "let strip = 1;").unwrap();
-    wait_for(&printed, "'strip' of your script must be a section, but is a whole number");
+    fs::write(folder.join(EXERCISES[1].file()), "let second_moment = 1;").unwrap();
+    wait_for(&printed, "'second_moment' of your script must be a function, but is a whole number");
     wait_for(&printed, "waiting for a saved file");
     Command::new("kill").args(["-INT", &watching.id().to_string()]).status().unwrap();
     assert_eq!(watching.wait().unwrap().code(), Some(0));
