@@ -16,11 +16,11 @@ pub enum RefinedParameter {
 }
 
 /// An error is significant if it exceeds the uncertainty of the reference by this factor.
-const WELL_ABOVE: f64 = 2.0;
+const SIGNIFICANCE: f64 = 2.0;
 
 /// Errors of one quantity with one integrator, from coarse to fine.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Ladder {
+pub struct Refinement {
     /// Integrator.
     pub method: Method,
     /// Description of the quantity.
@@ -31,7 +31,7 @@ pub struct Ladder {
     pub deviations: Vec<Option<Deviation>>,
 }
 
-impl Ladder {
+impl Refinement {
     /// Error at the rung with this index, if the run completed.
     pub fn error(&self, rung: usize) -> Option<f64> {
         self.deviations.get(rung).copied().flatten().map(|of| of.error())
@@ -41,7 +41,7 @@ impl Ladder {
     pub fn tells_an_order(&self, rung: usize) -> bool {
         let deviation = self.deviations.get(rung).copied().flatten();
         deviation.is_some_and(|of| {
-            of.distance.is_finite() && of.distance > WELL_ABOVE * of.estimated_error
+            of.distance.is_finite() && of.distance > SIGNIFICANCE * of.estimated_error
         })
     }
 
@@ -88,7 +88,7 @@ pub struct Convergence {
     /// Reference.
     pub reference: ReferenceSolution,
     /// Errors by integrator and quantity.
-    pub ladders: Vec<Ladder>,
+    pub ladders: Vec<Refinement>,
     /// Failed runs: size, integrator, reason.
     pub failures: Vec<(f64, Method, String)>,
 }
@@ -102,12 +102,12 @@ impl Convergence {
         method: Method,
         rungs: &[(f64, RunResult)],
         (observables, truth, length): (&[Observable], &ReferenceSolution, f64),
-    ) -> Vec<Ladder> {
+    ) -> Vec<Refinement> {
         let ladder = |quantity: String, read: &dyn Fn(&RunResult) -> Option<Deviation>| {
             let read =
                 |(_, trial): &(f64, RunResult)| read(trial).filter(|_| trial.outcome.is_finished());
             let sizes = rungs.iter().map(|(size, _)| *size).collect();
-            Ladder { method, quantity, sizes, deviations: rungs.iter().map(read).collect() }
+            Refinement { method, quantity, sizes, deviations: rungs.iter().map(read).collect() }
         };
         let together = ladder(ALL_POSITIONS.to_owned(), &|trial| {
             let all = truth.of_positions(observables, &trial.readings);
@@ -135,7 +135,7 @@ impl Convergence {
     }
 
     /// Ladders of a quantity, one per integrator.
-    pub fn ladders_with<'s>(&'s self, quantity: &'s str) -> impl Iterator<Item = &'s Ladder> {
+    pub fn ladders_with<'s>(&'s self, quantity: &'s str) -> impl Iterator<Item = &'s Refinement> {
         self.ladders.iter().filter(move |ladder| ladder.quantity == quantity)
     }
 
@@ -153,13 +153,13 @@ mod tests {
     use crate::beams::Station;
     use crate::integrators::INTEGRATORS;
 
-    fn ladder(errors: &[Option<(f64, f64)>]) -> Ladder {
+    fn ladder(errors: &[Option<(f64, f64)>]) -> Refinement {
         let deviation = |(distance, trusted)| Deviation {
             distance,
             estimated_error: trusted,
             is_of_own_run: false,
         };
-        Ladder {
+        Refinement {
             method: Method::EnergyMomentum,
             quantity: "q".into(),
             sizes: (0..errors.len()).map(|rung| 0.5_f64.powi(rung as i32)).collect(),

@@ -37,7 +37,7 @@ pub use combination::{
     Combination, ObservedScene, PART_OF_THE_SMALLEST_STEP, all_combinations, finest_mesh,
     highest_order,
 };
-pub use convergence::{ALL_POSITIONS, Convergence, Ladder, RefinedParameter};
+pub use convergence::{ALL_POSITIONS, Convergence, RefinedParameter, Refinement};
 pub use cost::{CostCase, StepCost, step_costs};
 pub use csv_table::{ParsedCsv, ParsedCsvError};
 pub use external_results::{ExternalResult, ExternalResultError, machines};

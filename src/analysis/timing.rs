@@ -22,7 +22,7 @@ pub struct Timing {
 }
 
 /// Time after which a case is not repeated.
-pub const ENOUGH: Duration = Duration::from_secs(10);
+pub const LONGEST_REPETITION: Duration = Duration::from_secs(10);
 
 /// Processor time of this thread on Linux; it is exact after a pause, otherwise updated only at scheduler ticks.
 fn processor_time() -> Option<Duration> {
@@ -47,7 +47,7 @@ impl Timing {
     ) -> Option<Self> {
         let begun = Instant::now();
         let (mut setups, mut runs, mut works) = (Vec::new(), Vec::new(), Vec::new());
-        while runs.is_empty() || (runs.len() < repeats && begun.elapsed() < ENOUGH) {
+        while runs.is_empty() || (runs.len() < repeats && begun.elapsed() < LONGEST_REPETITION) {
             let start = Instant::now();
             let mut simulation = case.start(patience).ok()?;
             setups.push(start.elapsed());

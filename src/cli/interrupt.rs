@@ -12,7 +12,7 @@ use crate::repl::editor::typed_ahead;
 use crate::script::state::limits::INTERRUPT_HEARD;
 
 /// Time for a run to react.
-const GRACE: Duration = Duration::from_millis(900);
+const REACTION_TIME: Duration = Duration::from_millis(900);
 
 /// Time for a run that reacted to save its results.
 const TO_WRITE: Duration = Duration::from_secs(20);
@@ -40,7 +40,7 @@ pub fn flag(at_stake: InterruptLoss) -> Arc<AtomicBool> {
             if at_stake == InterruptLoss::Run {
                 // A separate thread, because this one waits for the second Ctrl-C.
                 thread::spawn(|| {
-                    thread::sleep(GRACE);
+                    thread::sleep(REACTION_TIME);
                     if INTERRUPT_HEARD.load(Ordering::Relaxed) {
                         thread::sleep(TO_WRITE);
                     }

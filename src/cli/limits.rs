@@ -4,7 +4,7 @@ use std::time::Duration;
 
 use clap::Args;
 
-use crate::exercises::judging::PATIENCE;
+use crate::exercises::judging::DEFAULT_TIME_LIMIT;
 use crate::script::messages::stop::MEGABYTE;
 use crate::script::state::limits::{
     DEEPEST, DEFAULT_DEPTH, DEFAULT_FILES, DEFAULT_MEGABYTES, DEFAULT_MEGABYTES_WRITTEN, Limits,
@@ -54,7 +54,7 @@ impl LimitOptions {
     /// Limits of an attempt: less output, and always a time limit.
     pub fn for_an_attempt(&self) -> Limits {
         Limits {
-            time: self.max_time.or(Some(PATIENCE)),
+            time: self.max_time.or(Some(DEFAULT_TIME_LIMIT)),
             written: Some(self.max_written.unwrap_or(MEGABYTES_OF_AN_ATTEMPT) * MEGABYTE),
             files: Some(self.max_files.unwrap_or(FILES_OF_AN_ATTEMPT)),
             ..self.limits()

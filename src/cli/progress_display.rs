@@ -35,7 +35,7 @@ struct ProgressDisplay {
 
 const PARTS: u64 = 1000;
 /// No bar for runs shorter than this.
-const SOON: Duration = Duration::from_millis(300);
+const SHORTEST_SHOWN: Duration = Duration::from_millis(300);
 
 impl ProgressDisplay {
     fn create_bar(&self) -> ProgressBar {
@@ -50,7 +50,8 @@ impl ProgressDisplay {
 
     fn show(&self, reached: f64, message: impl FnOnce() -> String) {
         let mut shown = self.shown.borrow_mut();
-        if shown.is_none() && self.start.get().is_none_or(|begun| begun.elapsed() < SOON) {
+        if shown.is_none() && self.start.get().is_none_or(|begun| begun.elapsed() < SHORTEST_SHOWN)
+        {
             return;
         }
         let bar = shown.get_or_insert_with(|| self.create_bar());
@@ -106,7 +107,7 @@ mod tests {
         bar.begin("rod", 0.0, 1.0);
         bar.report_time(0.5);
         assert!(bar.shown.borrow().is_none());
-        std::thread::sleep(SOON);
+        std::thread::sleep(SHORTEST_SHOWN);
         bar.report_time(0.6);
         assert!(bar.shown.borrow().is_some());
         bar.end();
@@ -118,7 +119,7 @@ mod tests {
     fn a_study_has_a_bar_over_its_cases() {
         let bar = ProgressDisplay::default();
         bar.begin_cases("flight", 8);
-        std::thread::sleep(SOON);
+        std::thread::sleep(SHORTEST_SHOWN);
         bar.report_case(2);
         let shown = bar.shown.borrow();
         let shown = shown.as_ref().expect("a bar");

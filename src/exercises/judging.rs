@@ -20,7 +20,7 @@ use crate::script::source::program::Program;
 use crate::script::state::settings::RunSettings;
 
 /// Default time limit of an attempt, and of its judge.
-pub const PATIENCE: Duration = Duration::from_secs(20);
+pub const DEFAULT_TIME_LIMIT: Duration = Duration::from_secs(20);
 
 /// Verdict on an attempt.
 #[derive(Debug)]
@@ -40,7 +40,7 @@ pub enum AttemptVerdict {
 /// Runs an attempt, then its judge. The output of the attempt goes where the settings say.
 pub fn judge(exercise: &Exercise, attempt: &Program, settings: RunSettings) -> AttemptVerdict {
     let mut limits = settings.limits;
-    limits.time = limits.time.or(Some(PATIENCE));
+    limits.time = limits.time.or(Some(DEFAULT_TIME_LIMIT));
     let settings =
         RunSettings { limits, snapshots: SNAPSHOTS, folder: attempt.folder.clone(), ..settings };
     let hold = || match JudgingContext::open(settings)

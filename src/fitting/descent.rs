@@ -5,11 +5,11 @@ use std::cell::RefCell;
 use slsqp::{FailStatus, StopTols, minimize};
 
 use super::design::{PENALTY, Scaled};
-use super::gradient_check::{DISTRUST, matches_derivatives, test_points};
+use super::gradient_check::{REJECTED_DERIVATIVES, matches_derivatives, test_points};
 use super::{Design, Designed, Rating};
 
 /// Number of restarts; each tightens the constraints if the last solution violated one slightly.
-const ROUNDS: usize = 4;
+const RESTARTS: usize = 4;
 /// Final step size relative to the tolerance; convergence is fast near the end.
 const SHORTER: f64 = 0.1;
 
@@ -81,7 +81,7 @@ impl<E> Descent<'_, '_, E> {
                     if let Some(rating) = (self.rate)(&x).map_err(Ended::Error)? {
                         self.store_best(x, &rating);
                     }
-                    return Err(Ended::Unknown(DISTRUST.to_owned()));
+                    return Err(Ended::Unknown(REJECTED_DERIVATIVES.to_owned()));
                 }
                 self.store_best(x, &found.rating);
                 let sizes: Vec<f64> = self.design.ranges.iter().map(|of| of.width()).collect();
@@ -210,7 +210,7 @@ impl Design {
     fn descend<E>(&self, descent: &RefCell<Descent<'_, '_, E>>) -> bool {
         let Scaled { mut start, bounds } = self.scaled();
         let mut margin = 0.0;
-        for _ in 0..ROUNDS {
+        for _ in 0..RESTARTS {
             let left = self.most_runs.saturating_sub(descent.borrow().runs);
             let objective = |u: &[f64], slopes: Option<&mut [f64]>, _: &mut ()| {
                 let found = descent.borrow_mut().at(u);

@@ -3,7 +3,7 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::differences::{derivatives, only};
-use super::gradient_check::{DISTRUST, matches_derivatives, test_points};
+use super::gradient_check::{REJECTED_DERIVATIVES, matches_derivatives, test_points};
 use super::{Evaluate, Evaluation, SearchRange, Slopes};
 
 pub struct CountedEvaluator<'a, 'e, E> {
@@ -51,7 +51,7 @@ impl<'a, 'e, E> CountedEvaluator<'a, 'e, E> {
                             derivatives: Some(derivatives),
                         });
                     }
-                    unknown = Some(DISTRUST.to_owned());
+                    unknown = Some(REJECTED_DERIVATIVES.to_owned());
                 }
                 Err(reason) => unknown = Some(reason),
             }

@@ -12,7 +12,7 @@ const OFF: f64 = 0.02;
 const ROUNDING: f64 = 1e-7;
 
 /// Message for rejected derivatives.
-pub const DISTRUST: &str =
+pub const REJECTED_DERIVATIVES: &str =
     "the derivatives of the runs differ from finite differences of their results";
 
 /// Two points on both sides of `x`, or on one side at a bound; each parameter is moved by a different fraction of its size.

@@ -5,7 +5,7 @@ use nalgebra::{DMatrix, DVector};
 use super::evaluator::{CountedEvaluator, EvaluatedPoint};
 use super::{Estimate, Evaluate, RELATIVE_STEP, SearchRange, Slopes};
 
-const MOST_ROUNDS: usize = 30;
+const MOST_ITERATIONS: usize = 30;
 /// Maximum number of steps per round with updated derivatives, besides one per parameter.
 const MORE_STEPS: usize = 6;
 /// Convergence tolerance of a parameter, relative to its size.
@@ -218,7 +218,7 @@ impl LeastSquares {
             LeastSquaresState { x, residuals, derivatives: empty, sizes, damping: DAMPING.0 };
         let least = ROUNDING * state.squares();
         let (mut steps, mut settling) = (0, TerminationReason::Unfinished);
-        for _ in 0..MOST_ROUNDS {
+        for _ in 0..MOST_ITERATIONS {
             let found = match known.take() {
                 Some(known) => Ok(known),
                 None => {

@@ -8,7 +8,7 @@ use zip::{CompressionMethod, DateTime, ZipWriter};
 use super::OutputError;
 
 /// Magic bytes and version of `.npy` files.
-const MARK: &[u8; 8] = b"\x93NUMPY\x01\x00";
+const MAGIC: &[u8; 8] = b"\x93NUMPY\x01\x00";
 /// Alignment of the data [bytes].
 const ALIGNMENT: usize = 64;
 
@@ -69,9 +69,9 @@ impl NpzArray {
         let lengths: String = self.shape.iter().map(|length| format!("{length}, ")).collect();
         let lengths = lengths.trim_end();
         let header = format!("{{'descr': '<f8', 'fortran_order': False, 'shape': ({lengths}), }}");
-        let begun = MARK.len() + 2 + header.len() + 1;
+        let begun = MAGIC.len() + 2 + header.len() + 1;
         let filled = begun.next_multiple_of(ALIGNMENT) - begun;
-        let mut bytes = MARK.to_vec();
+        let mut bytes = MAGIC.to_vec();
         bytes.extend(((header.len() + filled + 1) as u16).to_le_bytes());
         bytes.extend(header.bytes());
         bytes.extend(std::iter::repeat_n(b' ', filled));

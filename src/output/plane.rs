@@ -10,7 +10,7 @@ const WIDTH: f64 = 740.0;
 const HEIGHTS: (f64, f64) = (220.0, 700.0);
 const LEAST_WIDTH: f64 = 300.0;
 /// White space around the data, as a fraction of its size.
-const SPARE: f64 = 0.05;
+const MARGIN: f64 = 0.05;
 
 /// User-defined ends of the axes.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -44,7 +44,7 @@ impl View {
             Some((low, high)) => (low / 2.0 + high / 2.0, high - low),
             None => {
                 let (low, high) = extent(seen.clone().map(pick)).unwrap_or((-0.5, 0.5));
-                (low / 2.0 + high / 2.0, (high - low) * (1.0 + 2.0 * SPARE))
+                (low / 2.0 + high / 2.0, (high - low) * (1.0 + 2.0 * MARGIN))
             }
         };
         let (x, width) = side(|point| point.0, limits.x);

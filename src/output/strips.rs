@@ -21,7 +21,7 @@ const NUMBER: f64 = 12.0;
 /// Largest ordinate, as a fraction of the size of all beams.
 const LARGEST: f64 = 0.2;
 /// Extremes below this fraction of the largest one are not labelled.
-const TELLING: f64 = 0.03;
+const SMALLEST_LABELLED: f64 = 0.03;
 const DIGITS: usize = 4;
 
 /// Side of a beam, seen along it, for positive values.
@@ -212,7 +212,7 @@ impl StripPicture {
         let finite = || ordinates.iter().filter(|ordinate| ordinate.value.is_finite());
         let most = finite().max_by(|a, b| a.value.total_cmp(&b.value)).filter(|at| at.value > 0.0);
         let least = finite().min_by(|a, b| a.value.total_cmp(&b.value)).filter(|at| at.value < 0.0);
-        let is_telling = |at: &&Ordinate| at.value.abs() > TELLING * self.largest();
+        let is_telling = |at: &&Ordinate| at.value.abs() > SMALLEST_LABELLED * self.largest();
         for at in most.into_iter().chain(least).filter(is_telling) {
             if frame.curve(plot, &[at.tip]).is_empty() {
                 continue;

@@ -10,7 +10,7 @@ use crate::script::handles::simulation::SimulationHandle;
 const DEEPEST: usize = 8;
 
 /// State that an input can change and that restoring variables does not undo.
-pub struct Footprint {
+pub struct SideEffects {
     simulations: Vec<(SimulationHandle, SimulationPosition)>,
     scenes: Vec<(SceneHandle, String)>,
     /// Variables shared by closures, with their values as text.
@@ -21,7 +21,7 @@ pub struct Footprint {
 /// Position of a simulation: counters, number of scheduled functions, and snapshot memory.
 type SimulationPosition = (usize, u64, usize, usize);
 
-impl Footprint {
+impl SideEffects {
     pub fn of(session: &Session) -> Self {
         let files = session.context().output().written().len();
         let mut print =

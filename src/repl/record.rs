@@ -25,7 +25,7 @@ enum RecordedInput {
 
 /// A named simulation and its position.
 #[derive(Clone)]
-pub struct Whereabouts {
+pub struct SimulationPositions {
     name: String,
     handle: SimulationHandle,
     time: f64,
@@ -55,7 +55,7 @@ impl SessionRecord {
     }
 
     /// Records how a failed statement has moved simulations since `before`; returns true if any moved.
-    pub fn record_movement(&mut self, before: &[Whereabouts]) -> bool {
+    pub fn record_movement(&mut self, before: &[SimulationPositions]) -> bool {
         let known = self.entries.len();
         for was in before {
             let (time, steps) = (was.handle.time(), was.handle.simulation().counts().steps);
@@ -154,8 +154,11 @@ impl RecordedInput {
 }
 
 /// Simulations held by variables, and the last simulation, without duplicates.
-pub fn simulation_positions(scope: &Scope, latest: Option<SimulationHandle>) -> Vec<Whereabouts> {
-    let mut found: Vec<Whereabouts> = Vec::new();
+pub fn simulation_positions(
+    scope: &Scope,
+    latest: Option<SimulationHandle>,
+) -> Vec<SimulationPositions> {
+    let mut found: Vec<SimulationPositions> = Vec::new();
     let held =
         scope.iter_raw().filter(|(name, ..)| *name != ANSWER).filter_map(|(name, _, value)| {
             Some((name.to_owned(), value.read_lock::<SimulationHandle>()?.clone()))
@@ -164,7 +167,7 @@ pub fn simulation_positions(scope: &Scope, latest: Option<SimulationHandle>) -> 
     for (name, handle) in held.chain(latest) {
         if !found.iter().any(|other| other.handle.is_same(&handle)) {
             let (time, steps) = (handle.time(), handle.simulation().counts().steps);
-            found.push(Whereabouts { name, handle, time, steps });
+            found.push(SimulationPositions { name, handle, time, steps });
         }
     }
     found

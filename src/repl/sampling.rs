@@ -11,7 +11,7 @@ use super::session::Rounds;
 /// Inputs that run longer than this are not repeated.
 pub const LONGEST: Duration = Duration::from_secs(1);
 /// Maximum total time of the repetitions.
-const PATIENCE: Duration = Duration::from_secs(2);
+const TOTAL_TIME_LIMIT: Duration = Duration::from_secs(2);
 /// Minimum total time. Sampling ends earlier if the relative uncertainty of the median is below [`KNOWN`].
 const LEAST_TIME: Duration = Duration::from_millis(200);
 const LEAST_RUNS: usize = 7;
@@ -64,7 +64,7 @@ impl Sampling {
 
     fn is_enough(&mut self, now: Duration) -> bool {
         let spent = now.saturating_sub(self.start.unwrap_or(now));
-        if spent >= PATIENCE || self.durations.len() >= MOST_RUNS {
+        if spent >= TOTAL_TIME_LIMIT || self.durations.len() >= MOST_RUNS {
             return true;
         }
         if spent < LEAST_TIME || self.durations.len() < self.next_evaluation {

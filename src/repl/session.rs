@@ -8,7 +8,7 @@ use std::sync::atomic::Ordering;
 
 use rhai::{AST, Caches, Dynamic, Engine, GlobalRuntimeState, ImmutableString, Scope, Stmt};
 
-use super::record::{SessionRecord, Whereabouts, functions_of, simulation_positions};
+use super::record::{SessionRecord, SimulationPositions, functions_of, simulation_positions};
 use super::transcript::{PROMPT, Transcript};
 use super::{scope, statements};
 use crate::script::bindings::catalog::Catalog;
@@ -48,7 +48,7 @@ struct StatementCheckpoint {
     scope: Scope<'static>,
     global: GlobalRuntimeState,
     constants: BTreeMap<ImmutableString, Dynamic>,
-    positions: Vec<Whereabouts>,
+    positions: Vec<SimulationPositions>,
 }
 
 /// Variables, functions, constants and imports, and the script engine.
@@ -159,12 +159,12 @@ impl Session {
     }
 
     /// Records the movement of simulations by actions that are not recorded themselves; returns true if any moved.
-    pub fn record_movement(&mut self, before: &[Whereabouts]) -> bool {
+    pub fn record_movement(&mut self, before: &[SimulationPositions]) -> bool {
         self.record.record_movement(before)
     }
 
     /// Named simulations and their positions.
-    pub fn simulation_positions(&self) -> Vec<Whereabouts> {
+    pub fn simulation_positions(&self) -> Vec<SimulationPositions> {
         let latest = self.context().latest_simulation();
         simulation_positions(&self.scope, latest.and_then(|latest| latest.try_cast()))
     }

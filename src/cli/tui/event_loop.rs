@@ -21,7 +21,7 @@ use crate::exercises::watch::{INTERVAL, Watcher};
 use crate::exercises::workbook::{Advice, Workbook};
 use crate::panics::caught;
 
-const PATIENCE: Duration = Duration::from_millis(50);
+const POLLING_INTERVAL: Duration = Duration::from_millis(50);
 
 /// Watches the attempts of a student and judges each saved one, until the user leaves or `stop` is set.
 ///
@@ -83,7 +83,7 @@ impl<'a> EventLoop<'a> {
             let size = terminal.size();
             let screen = screen(&self.state, size, &self.solution);
             terminal.show(&screen.lines, size)?;
-            let Some(key) = terminal.key(PATIENCE)? else { continue };
+            let Some(key) = terminal.key(POLLING_INTERVAL)? else { continue };
             match self.press(key, screen.window) {
                 KeyAction::Leave => break,
                 KeyAction::Suspend => terminal.suspend()?,

@@ -13,7 +13,7 @@ use crate::cli::limits::LimitOptions;
 use crate::exercises::attempt;
 use crate::exercises::captured_output::{CaptureWriter, CapturedOutput};
 use crate::exercises::exercise::Exercise;
-use crate::exercises::judging::{AttemptVerdict, PATIENCE, judge};
+use crate::exercises::judging::{AttemptVerdict, DEFAULT_TIME_LIMIT, judge};
 use crate::exercises::report::{AttemptError, AttemptOutcome, AttemptReport};
 use crate::exercises::workbook::Workbook;
 use crate::script::messages::stop::Stop;
@@ -56,7 +56,7 @@ impl JudgeProcess {
             let _ = send.send(String::from_utf8_lossy(&text).into_owned());
         });
         let mut limits = options.limits();
-        limits.time = limits.time.or(Some(PATIENCE));
+        limits.time = limits.time.or(Some(DEFAULT_TIME_LIMIT));
         Ok(Self { process, messages: said, start: Instant::now(), limits })
     }
 
@@ -66,7 +66,7 @@ impl JudgeProcess {
 
     /// Result of the attempt, once it is known.
     pub fn result(&mut self) -> Option<AttemptReport> {
-        let longest = self.limits.time.unwrap_or(PATIENCE) * 2 + SLACK;
+        let longest = self.limits.time.unwrap_or(DEFAULT_TIME_LIMIT) * 2 + SLACK;
         match self.messages.try_recv() {
             Ok(said) => Some(self.report(&said)),
             Err(TryRecvError::Disconnected) => Some(self.report("")),

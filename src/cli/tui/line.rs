@@ -15,8 +15,8 @@ pub const STRONG: LineStyle = Cow::Borrowed("1");
 pub const FAINT: LineStyle = Cow::Borrowed("2");
 pub const GOOD: LineStyle = Cow::Borrowed("1;32");
 pub const BAD: LineStyle = Cow::Borrowed("1;31");
-pub const LOOK: LineStyle = Cow::Borrowed("1;36");
-pub const WARM: LineStyle = Cow::Borrowed("33");
+pub const HEADING: LineStyle = Cow::Borrowed("1;36");
+pub const WARNING: LineStyle = Cow::Borrowed("33");
 
 /// A line without control characters.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -198,7 +198,7 @@ mod tests {
         let lines = wrapped(text, "  ", 20);
         assert_eq!(lines, ["A strip of length 1", "  is clamped at its", "  left end."]);
         let code =
-            ScreenLine::of("  let", LOOK).and(" a = f(123, 45678901234567890123456789);", PLAIN);
+            ScreenLine::of("  let", HEADING).and(" a = f(123, 45678901234567890123456789);", PLAIN);
         let code: Vec<String> = code.wrapped(20).iter().map(ScreenLine::text).collect();
         let expected = ["  let a = f(123, ", "      45678901234567", "      890123456789);"];
         assert_eq!(code, expected);
@@ -225,7 +225,7 @@ mod tests {
 
     #[test]
     fn a_label_has_its_own_style() {
-        let lines = labelled(("Hint 1:", LOOK), "look twice at it", "  ", 16);
+        let lines = labelled(("Hint 1:", HEADING), "look twice at it", "  ", 16);
         assert_eq!(lines[0].drawn(Colours::Ansi), "\x1b[1;36mHint 1:\x1b[0m look");
         assert_eq!(lines[1].text(), "  twice at it");
     }

@@ -1,6 +1,6 @@
 //! Result of an attempt as lines.
 
-use super::line::{BAD, FAINT, GOOD, LOOK, PLAIN, ScreenLine, WARM, labelled, paragraph};
+use super::line::{BAD, FAINT, GOOD, HEADING, PLAIN, ScreenLine, WARNING, labelled, paragraph};
 use super::state::TuiState;
 use crate::exercises::captured_output::CapturedOutput;
 use crate::exercises::catalogue::EXERCISES;
@@ -9,13 +9,13 @@ use crate::output::columns_of;
 
 const PRINTED: usize = 12;
 /// Shorter runs are not shown as running [s].
-const SOON: u64 = 1;
+const SHORTEST_SHOWN: u64 = 1;
 
 pub fn outcome(state: &TuiState, columns: usize) -> Vec<ScreenLine> {
     match (state.running, &state.last) {
-        (Some(seconds), last) if seconds >= SOON || last.is_none() => {
+        (Some(seconds), last) if seconds >= SHORTEST_SHOWN || last.is_none() => {
             let word = format!("Running, {seconds} s.");
-            labelled((&word, WARM), "Saving the file restarts it; q exits at once.", "", columns)
+            labelled((&word, WARNING), "Saving the file restarts it; q exits at once.", "", columns)
         }
         (_, Some(report)) => judged(state, report, columns),
         (_, None) => Vec::new(),
@@ -74,7 +74,7 @@ fn trouble(state: &TuiState, why: &AttemptError, columns: usize) -> Vec<ScreenLi
     lines.extend(
         why.calls.iter().flat_map(|call| paragraph(&format!("  {call}"), "  ", columns, &FAINT)),
     );
-    let help = why.help.iter().flat_map(|help| labelled(("help:", LOOK), help, "  ", columns));
+    let help = why.help.iter().flat_map(|help| labelled(("help:", HEADING), help, "  ", columns));
     lines.extend(help);
     lines
 }

@@ -12,7 +12,8 @@
 //! ```
 
 use super::line::{
-    FAINT, GOOD, LOOK, LineStyle, PLAIN, STRONG, ScreenLine, WARM, labelled, paragraph, wrapped,
+    FAINT, GOOD, HEADING, LineStyle, PLAIN, STRONG, ScreenLine, WARNING, labelled, paragraph,
+    wrapped,
 };
 use super::result_page::outcome;
 use super::state::{ScreenPage, ScrollPosition, ScrollWindow, TaskSection, TuiState};
@@ -100,7 +101,7 @@ fn visible_lines(lines: &mut Vec<ScreenLine>, window: ScrollWindow) -> Vec<Scree
         && below > 0
         && let Some(last) = shown.last_mut()
     {
-        *last = ScreenLine::of(&format!("↓ {below} lines below"), WARM);
+        *last = ScreenLine::of(&format!("↓ {below} lines below"), WARNING);
     }
     shown
 }
@@ -135,7 +136,12 @@ fn head(state: &TuiState, columns: usize) -> Vec<ScreenLine> {
             } else {
                 format!("Edit {}", state.file)
             };
-            lines.extend(labelled(("Edit", LOOK), whole.trim_start_matches("Edit "), "", columns));
+            lines.extend(labelled(
+                ("Edit", HEADING),
+                whole.trim_start_matches("Edit "),
+                "",
+                columns,
+            ));
         }
         ScreenPage::List(_) => {}
         ScreenPage::Solution => {
@@ -190,7 +196,7 @@ fn task(state: &TuiState, columns: usize) -> PageLayout {
         }
         hint = lines.len();
         let label = format!("Hint {} of {}:", index + 1, hints.len());
-        lines.extend(labelled((&label, LOOK), text, "  ", columns));
+        lines.extend(labelled((&label, HEADING), text, "  ", columns));
     }
     PageLayout { result, hint, ..PageLayout::of(lines) }
 }
@@ -198,7 +204,7 @@ fn task(state: &TuiState, columns: usize) -> PageLayout {
 fn set(paragraph: &Paragraph, columns: usize) -> Vec<ScreenLine> {
     match paragraph {
         Paragraph::Words(words) => match words.strip_prefix(TO_DO) {
-            Some(rest) => labelled((TO_DO, LOOK), rest.trim_start(), "", columns),
+            Some(rest) => labelled((TO_DO, HEADING), rest.trim_start(), "", columns),
             None => super::line::paragraph(words, "", columns, &PLAIN),
         },
         Paragraph::Set(lines) => {
@@ -232,7 +238,7 @@ fn list(state: &TuiState, chosen: usize, columns: usize) -> PageLayout {
             let name = format!(" {:>2}  {:<longest$}", index + 1, exercise.name);
             let (arrow, look) = if is_chosen { ("> ", "1;7".into()) } else { ("  ", PLAIN) };
             let line =
-                ScreenLine::of(arrow, LOOK).and(&format!("{mark:<6}"), style).and(&name, look);
+                ScreenLine::of(arrow, HEADING).and(&format!("{mark:<6}"), style).and(&name, look);
             lines.push(line.and("  ", PLAIN).and(exercise.title(), FAINT).cut(columns));
         }
     }
@@ -257,7 +263,7 @@ fn foot(state: &TuiState, window: ScrollWindow, columns: usize) -> Vec<ScreenLin
     keys.push(("q", "quit"));
     let mut lines = vec![rule(columns)];
     if let Some(notice) = &state.notice {
-        lines.extend(paragraph(notice, "", columns, &WARM));
+        lines.extend(paragraph(notice, "", columns, &WARNING));
     }
     let mut line = ScreenLine::default();
     for (key, does) in keys {
@@ -265,9 +271,9 @@ fn foot(state: &TuiState, window: ScrollWindow, columns: usize) -> Vec<ScreenLin
         let wide = line.width() + between.len() + crate::output::columns(key) + 1 + does.len();
         if wide > columns && line.width() > 0 {
             lines.push(std::mem::take(&mut line).and("", PLAIN));
-            line = ScreenLine::of(key, LOOK).and(&format!(" {does}"), PLAIN);
+            line = ScreenLine::of(key, HEADING).and(&format!(" {does}"), PLAIN);
         } else {
-            line = line.and(between, PLAIN).and(key, LOOK).and(&format!(" {does}"), PLAIN);
+            line = line.and(between, PLAIN).and(key, HEADING).and(&format!(" {does}"), PLAIN);
         }
     }
     lines.push(line);

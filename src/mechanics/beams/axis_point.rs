@@ -21,7 +21,7 @@ pub(super) struct AxisPoint<const N: usize> {
 
 impl<const N: usize> AxisPoint<N> {
     /// Placeholder of zero weight and functions.
-    pub(super) const NOWHERE: Self = Self { shape: [0.0; N], slope: [0.0; N], weight: 0.0 };
+    pub(super) const EMPTY: Self = Self { shape: [0.0; N], slope: [0.0; N], weight: 0.0 };
 }
 
 /// Neighbouring points of the axis in lanes, each with the first control point of its span.

@@ -25,8 +25,8 @@ pub(super) struct ForcePoint<const N: usize> {
 
 impl<const N: usize> ForcePoint<N> {
     /// Placeholder without strain for any movements.
-    pub(super) const NOWHERE: Self = Self {
-        axis: AxisPoint::NOWHERE,
+    pub(super) const EMPTY: Self = Self {
+        axis: AxisPoint::EMPTY,
         gradient: Vec2::new(1.0, 0.0),
         rotation: Rotation { cos: 1.0, sin: 0.0 },
         strain: Vec2::new(0.0, 0.0),

@@ -9,7 +9,7 @@ use super::dynamics::Movement;
 use super::sections::MassIntegral;
 
 /// Number of control points whose rows are processed together, to stay in the cache for all diagonals.
-const AT_ONCE: usize = 16;
+const ROWS_PER_PASS: usize = 16;
 
 /// Inertia matrix of a beam with `N` nonzero basis functions per span: `∫ ρA N_a N_b dX` for x and y, `∫ ρI N_a N_b dX` for rotations.
 #[derive(Debug, Clone)]
@@ -100,9 +100,9 @@ impl<const N: usize, I> WithSimd for Diagonals<'_, N, I> {
     fn with_simd<S: Simd>(self, simd: S) {
         let Self { matrix: InertiaMatrix { gram, diagonals, shares, .. }, points, factor, take } =
             self;
-        let mut entries = [0.0; 3 * AT_ONCE];
-        for first in points.clone().step_by(AT_ONCE) {
-            let end = points.end.min(first + AT_ONCE);
+        let mut entries = [0.0; 3 * ROWS_PER_PASS];
+        for first in points.clone().step_by(ROWS_PER_PASS) {
+            let end = points.end.min(first + ROWS_PER_PASS);
             for offset in 1 - N as isize..N as isize {
                 let k = offset.unsigned_abs();
                 // Entries before the diagonal are those of the transposed place behind it.

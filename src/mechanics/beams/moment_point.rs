@@ -20,11 +20,11 @@ pub(super) struct MomentPoint<const N: usize> {
 
 impl<const N: usize> MomentPoint<N> {
     /// Placeholder without curvature for any movements.
-    pub(super) const NOWHERE: Self =
-        Self { axis: AxisPoint::NOWHERE, curvature: 0.0, last_moment: 0.0 };
+    pub(super) const EMPTY: Self =
+        Self { axis: AxisPoint::EMPTY, curvature: 0.0, last_moment: 0.0 };
 
     pub(super) fn new(axis: AxisPoint<N>) -> Self {
-        Self { axis, ..Self::NOWHERE }
+        Self { axis, ..Self::EMPTY }
     }
 
     pub(super) fn write_static_rows(&self, section: &Section, span: &mut SpanStiffness) {

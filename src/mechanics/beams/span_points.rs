@@ -93,10 +93,10 @@ impl<const N: usize, S: Sections> SpanGroup<N, S> {
                 force_points.iter().map(|(_, (_, section))| *section).collect(),
                 moment_points.iter().map(|(_, (_, section))| *section).collect(),
             ),
-            force_points: in_lanes(&force_points, &ForcePoint::NOWHERE)
+            force_points: in_lanes(&force_points, &ForcePoint::EMPTY)
                 .map(|(points, first)| ForcePoints::side_by_side(points, first))
                 .collect(),
-            moment_points: in_lanes(&moment_points, &MomentPoint::NOWHERE)
+            moment_points: in_lanes(&moment_points, &MomentPoint::EMPTY)
                 .map(|(points, first)| MomentPoints::side_by_side(points, first))
                 .collect(),
         }

@@ -1,6 +1,6 @@
 //! Elimination order of the unknowns of a band together with the delayed unknowns of blocks, and the resulting profile.
 
-use super::block::{Block, MOST_DELAYED, NOWHERE};
+use super::block::{Block, MOST_DELAYED, UNTOUCHED};
 use super::{BlockLayout, reverse_cuthill_mckee};
 
 /// Work ratio, relative to the band without blocks, up to which the order of the band is kept.
@@ -31,9 +31,9 @@ impl Arrangement {
     pub(super) fn new(size: usize, layout: BlockLayout) -> Self {
         let blocks = layout.own.len();
         let mut new = Self {
-            position: vec![NOWHERE; size],
+            position: vec![UNTOUCHED; size],
             run_ends: vec![0; size],
-            delayed: vec![NOWHERE; blocks],
+            delayed: vec![UNTOUCHED; blocks],
             ends: Vec::with_capacity(size + MOST_DELAYED * blocks),
             own_ends: Vec::with_capacity(size + MOST_DELAYED * blocks),
             delayed_after: vec![0; size + 1],
@@ -55,7 +55,7 @@ impl Arrangement {
         self.touched.clear();
         for block in blocks.iter().filter(|block| block.can_delay_unknowns()) {
             self.touched.extend(&block.touched);
-            self.touched.push(NOWHERE);
+            self.touched.push(UNTOUCHED);
         }
         if self.touched != self.ordered_for {
             std::mem::swap(&mut self.touched, &mut self.ordered_for);
@@ -78,25 +78,25 @@ impl Arrangement {
     fn use_natural_order(&mut self) {
         self.position.fill(0);
         for &at in self.layout.own.iter().flatten() {
-            self.position[at] = NOWHERE;
+            self.position[at] = UNTOUCHED;
         }
-        let of_band = self.position.iter_mut().filter(|position| **position != NOWHERE);
+        let of_band = self.position.iter_mut().filter(|position| **position != UNTOUCHED);
         of_band.enumerate().for_each(|(next, position)| *position = next);
     }
 
     /// Uses a bandwidth-reducing order of the band including the unknowns touched by blocks.
     fn use_level_order(&mut self, blocks: &[Block]) {
         self.use_natural_order();
-        let position = |&at: &usize| Some(self.position[at]).filter(|&place| place != NOWHERE);
+        let position = |&at: &usize| Some(self.position[at]).filter(|&place| place != UNTOUCHED);
         let of_band = self.layout.groups.iter();
         let delaying = blocks.iter().filter(|block| block.can_delay_unknowns());
         let groups: Vec<Vec<usize>> = of_band
             .chain(delaying.map(|block| &block.touched))
             .map(|group| group.iter().filter_map(position).collect())
             .collect();
-        let count = self.position.iter().filter(|&&place| place != NOWHERE).count();
+        let count = self.position.iter().filter(|&&place| place != UNTOUCHED).count();
         let ordering = reverse_cuthill_mckee(count, &groups);
-        for place in self.position.iter_mut().filter(|place| **place != NOWHERE) {
+        for place in self.position.iter_mut().filter(|place| **place != UNTOUCHED) {
             *place = ordering.position[*place];
         }
     }
@@ -116,8 +116,8 @@ impl Arrangement {
         for (place, behind) in self.delayed_after.iter_mut().enumerate() {
             shift += std::mem::replace(behind, place + 1 + shift);
         }
-        self.delayed.fill(NOWHERE);
-        let mut size = self.position.iter().filter(|&&place| place != NOWHERE).count();
+        self.delayed.fill(UNTOUCHED);
+        let mut size = self.position.iter().filter(|&&place| place != UNTOUCHED).count();
         for (delayed, block) in self.delayed.iter_mut().zip(blocks) {
             if delaying(&block) {
                 let next = &mut self.delayed_after[last(block, &self.position)];
@@ -127,15 +127,14 @@ impl Arrangement {
             }
         }
         // The next place starts after the delayed unknowns of the previous one.
-        for position in self.position.iter_mut().filter(|position| **position != NOWHERE) {
+        for position in self.position.iter_mut().filter(|position| **position != UNTOUCHED) {
             *position = position.checked_sub(1).map_or(0, |before| self.delayed_after[before]);
         }
         let mut run = self.position.len();
         for at in (0..self.position.len()).rev() {
-            let follows = self
-                .position
-                .get(at + 1)
-                .is_some_and(|next| self.position[at] != NOWHERE && *next == self.position[at] + 1);
+            let follows = self.position.get(at + 1).is_some_and(|next| {
+                self.position[at] != UNTOUCHED && *next == self.position[at] + 1
+            });
             run = if follows { run } else { at };
             self.run_ends[at] = run;
         }
@@ -143,10 +142,10 @@ impl Arrangement {
         self.own_ends.extend(0..size);
         for group in &*self.layout.groups {
             let places = group.iter().map(|&at| self.position[at]);
-            couple(&mut self.own_ends, places.filter(|&place| place != NOWHERE));
+            couple(&mut self.own_ends, places.filter(|&place| place != UNTOUCHED));
         }
         for (block, &delayed) in blocks.iter().zip(&self.delayed) {
-            if delayed != NOWHERE {
+            if delayed != UNTOUCHED {
                 let places = block.touched.iter().map(|&at| self.position[at]);
                 couple(&mut self.own_ends, places.chain(delayed..delayed + MOST_DELAYED));
             }

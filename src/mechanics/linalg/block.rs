@@ -17,7 +17,7 @@ pub(super) const MOST_DELAYED: usize = 2;
 const LARGEST_FILL: f64 = 100.0;
 
 /// Marks an unknown of the band that a block does not touch.
-pub(super) const NOWHERE: usize = usize::MAX;
+pub(super) const UNTOUCHED: usize = usize::MAX;
 
 #[derive(Debug, Clone)]
 pub(super) struct Block {
@@ -152,7 +152,7 @@ impl Block {
         self.touched.clear();
         let of_band = self.columns.iter().map(|entry| entry.0);
         for at in of_band.chain(self.rows.iter().map(|entry| entry.1)) {
-            if places[at] == NOWHERE {
+            if places[at] == UNTOUCHED {
                 places[at] = candidates + self.touched.len();
                 self.touched.push(at);
             }
@@ -174,7 +174,7 @@ impl Block {
                 self.front[row * size + column] += band.get(at, other);
             }
         }
-        self.own.iter().chain(&self.touched).for_each(|&at| places[at] = NOWHERE);
+        self.own.iter().chain(&self.touched).for_each(|&at| places[at] = UNTOUCHED);
     }
 
     /// Largest entry among candidates from a place on; NaN if one is NaN.

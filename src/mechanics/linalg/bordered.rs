@@ -5,7 +5,7 @@
 
 use super::full_border::FullLu;
 use super::local_border::LocalLu;
-use super::together::{Together, TogetherLu};
+use super::together::{JointElimination, TogetherLu};
 use super::two_ended::{TwoEnded, TwoEndedLu};
 use super::{BandedLu, BandedMatrix, BlockLayout, FullBorder, LinearError, LocalBorder};
 
@@ -15,7 +15,7 @@ pub struct BorderedMatrix {
     band: BandedMatrix,
     border: Border,
     /// Joint elimination, if the band alone may be singular.
-    together: Option<Together>,
+    together: Option<JointElimination>,
     /// Elimination from both ends, if the band is long and has no border.
     ends: Option<Box<TwoEnded>>,
 }
@@ -139,7 +139,7 @@ impl BorderedMatrix {
     /// Returns the matrix with its dense border eliminated jointly with the band, which alone may be singular. The last `full` rows and columns,
     /// which couple with all others, remain a border.
     pub fn with_joint_elimination(self, full: usize) -> Self {
-        Self { together: Some(Together::new(self.size(), full)), ends: None, ..self }
+        Self { together: Some(JointElimination::new(self.size(), full)), ends: None, ..self }
     }
 
     /// Sets the number of threads for a long band, with unchanged results.

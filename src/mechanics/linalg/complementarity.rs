@@ -12,7 +12,7 @@ pub enum Pairing {
 }
 
 /// Number of block exchanges without progress before single exchanges are used.
-const PATIENCE: usize = 3;
+const MOST_BLOCK_EXCHANGES: usize = 3;
 
 /// Relative size below which negative unknowns and responses count as zero.
 const NOTHING: f64 = 1e-13;
@@ -34,7 +34,7 @@ pub fn complementary(
     let count = q.len();
     let pushes = |at: usize| pairings[at] == Pairing::Complementary;
     let mut acts: Vec<bool> = (0..count).map(|at| !pushes(at) || q[at] < 0.0).collect();
-    let (mut fewest, mut patience) = (usize::MAX, PATIENCE);
+    let (mut fewest, mut patience) = (usize::MAX, MOST_BLOCK_EXCHANGES);
     loop {
         let acting: Vec<usize> = (0..count).filter(|at| acts[*at]).collect();
         let mut active = BandedMatrix::zeros(acting.len(), acting.len().saturating_sub(1));
@@ -59,7 +59,7 @@ pub fn complementary(
         let wrong: Vec<usize> = (0..count).filter(|at| pushes(*at)).filter(is_wrong).collect();
         let Some(&last) = wrong.last() else { return Ok(z) };
         if wrong.len() < fewest {
-            (fewest, patience) = (wrong.len(), PATIENCE);
+            (fewest, patience) = (wrong.len(), MOST_BLOCK_EXCHANGES);
         } else if patience > 0 {
             patience -= 1;
         } else {

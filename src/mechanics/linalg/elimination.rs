@@ -19,7 +19,7 @@ const LANES: usize = 4;
 pub(super) const PANEL: usize = LANES;
 
 /// Smallest half-bandwidth for which a row has space for a panel followed by whole vectors.
-pub(super) const SMALLEST_REACH: usize = PANEL + LANES - 2;
+pub(super) const SMALLEST_HALF_BANDWIDTH: usize = PANEL + LANES - 2;
 
 /// Largest multiplier without row exchange.
 pub(super) const LARGEST_MULTIPLIER: f64 = 8.0;

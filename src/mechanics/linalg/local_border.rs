@@ -12,12 +12,12 @@
 use std::sync::Arc;
 
 use super::arrangement::Arrangement;
-use super::block::{BLOCK, Block, NOWHERE};
+use super::block::{BLOCK, Block, UNTOUCHED};
 use super::profile::{ProfileLu, ProfileMatrix};
 use super::{BandedMatrix, LinearError};
 
 /// Additional half-bandwidth before memory is reallocated.
-const SPARE_REACH: usize = 16;
+const EXTRA_HALF_BANDWIDTH: usize = 16;
 
 /// Structure of the blocks of a border, and of the band beside them.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -64,9 +64,9 @@ impl LocalBorder {
         let capacity = size + BLOCK * blocks.len();
         Self {
             arrangement: Arrangement::new(size, layout),
-            matrix: ProfileMatrix::with_capacity(capacity, half_bandwidth + SPARE_REACH),
+            matrix: ProfileMatrix::with_capacity(capacity, half_bandwidth + EXTRA_HALF_BANDWIDTH),
             blocks,
-            places: vec![NOWHERE; size],
+            places: vec![UNTOUCHED; size],
             right: Vec::with_capacity(capacity),
             own: Vec::with_capacity(candidates),
             all: Vec::with_capacity(BLOCK + entries),
@@ -127,9 +127,9 @@ impl LocalBorder {
     /// Copies the band in the order of the arrangement.
     fn copy(&mut self, band: &BandedMatrix) {
         let Arrangement { position, run_ends: runs_to, .. } = &self.arrangement;
-        for (row, &place) in position.iter().enumerate().filter(|(_, place)| **place != NOWHERE) {
+        for (row, &place) in position.iter().enumerate().filter(|(_, place)| **place != UNTOUCHED) {
             let (first, entries) = band.row(row);
-            if position[first] != NOWHERE && runs_to[first] >= first + entries.len() - 1 {
+            if position[first] != UNTOUCHED && runs_to[first] >= first + entries.len() - 1 {
                 self.matrix.copy_to_row(place, position[first], entries);
                 continue;
             }
@@ -164,7 +164,7 @@ fn add_schur_complement(
         }
     }
     // Unused places of delayed unknowns get an identity row.
-    if delayed != NOWHERE {
+    if delayed != UNTOUCHED {
         for place in delayed + count..delayed + super::block::MOST_DELAYED {
             matrix.add(place, place, 1.0);
         }
@@ -179,7 +179,7 @@ impl LocalLu<'_> {
         self.right.clear();
         self.right.resize(self.arrangement.size(), 0.0);
         for (&place, &value) in position.iter().zip(&*x) {
-            if place != NOWHERE {
+            if place != UNTOUCHED {
                 self.right[place] = value;
             }
         }
@@ -198,7 +198,7 @@ impl LocalLu<'_> {
         }
         self.factors.solve(self.right);
         for (&place, value) in position.iter().zip(&mut *x) {
-            if place != NOWHERE {
+            if place != UNTOUCHED {
                 *value = self.right[place];
             }
         }

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use super::elimination::{PANEL, SMALLEST_REACH};
+use super::elimination::{PANEL, SMALLEST_HALF_BANDWIDTH};
 
 /// Rows of a banded matrix, with data of the elimination.
 ///
@@ -61,7 +61,7 @@ impl Storage {
 
     /// Resets the storage to zero for another size. Memory is allocated only for a new maximum.
     pub(super) fn remake(&mut self, size: usize, half_bandwidth: usize) {
-        (self.size, self.reach) = (size, half_bandwidth.max(SMALLEST_REACH));
+        (self.size, self.reach) = (size, half_bandwidth.max(SMALLEST_HALF_BANDWIDTH));
         self.pivots.resize(size, 0);
         self.last_columns.resize(size, 0);
         self.multipliers.resize(self.reach, [0.0; PANEL]);

@@ -14,7 +14,7 @@ type MatrixEntry = (usize, usize, f64);
 
 /// Square sparse matrix with its own elimination order, followed by dense rows and columns.
 #[derive(Debug, Clone)]
-pub(super) struct Together {
+pub(super) struct JointElimination {
     size: usize,
     band: BandedMatrix,
     /// Place of each sparse row in the band.
@@ -49,7 +49,7 @@ struct Ordered<'a> {
     scales: &'a Equilibration,
 }
 
-impl Together {
+impl JointElimination {
     pub(super) fn new(size: usize, full: usize) -> Self {
         Self {
             size: size - full,

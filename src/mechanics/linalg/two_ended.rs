@@ -6,7 +6,7 @@
 
 use pulp::Arch;
 
-use super::elimination::{Elimination, PANEL, SMALLEST_REACH};
+use super::elimination::{Elimination, PANEL, SMALLEST_HALF_BANDWIDTH};
 use super::storage::{ActiveRows, Factors};
 use super::substitution::{Backward, Forward};
 use super::{BandedLu, BandedMatrix, LinearError};
@@ -76,7 +76,7 @@ impl TwoEnded {
     }
 
     fn new(size: usize, half_bandwidth: usize) -> Self {
-        let reach = half_bandwidth.max(SMALLEST_REACH);
+        let reach = half_bandwidth.max(SMALLEST_HALF_BANDWIDTH);
         let cut = BandCut::new(size, reach);
         let middle = cut.middle();
         Self {

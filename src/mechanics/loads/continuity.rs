@@ -24,7 +24,7 @@ const HALVINGS: usize = 15;
 const LEFT_OF_A_JUMP: f64 = 0.5;
 
 /// Ratio of a difference to the sum of all others in a step above which it is examined.
-const OUTSTANDING: f64 = 1.05;
+const JUMP_RATIO: f64 = 1.05;
 
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Jump {
@@ -88,7 +88,7 @@ pub(super) fn jump_between(
     let Some((at, largest)) = ways().enumerate().max_by(|a, b| a.1.total_cmp(&b.1)) else {
         return Ok(None);
     };
-    if largest <= noise || largest <= OUTSTANDING * (all - largest) {
+    if largest <= noise || largest <= JUMP_RATIO * (all - largest) {
         return Ok(None);
     }
     let mut ends = [(times[at], values[at]), (times[at + 1], values[at + 1])];

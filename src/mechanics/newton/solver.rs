@@ -13,7 +13,7 @@ const NEAR: f64 = 1e-4;
 const MOST_CORRECTIONS: i32 = 5;
 
 /// Largest number of corrections with the factors of similar equations. Each should gain some digits.
-const MOST_FOLLOWING: usize = 12;
+const MOST_SHARED_CORRECTIONS: usize = 12;
 
 /// Residual norm [-] at which a solution from similar equations is accepted: a billionth of the change of interest.
 const FOLLOWED: f64 = 1e-14;
@@ -199,7 +199,7 @@ impl Newton {
         // Only the condensation of internal unknowns is needed, not the tangent.
         equations.linearise(u, residual, &mut self.tangent);
         let mut before = f64::INFINITY;
-        for corrections in 1..=MOST_FOLLOWING {
+        for corrections in 1..=MOST_SHARED_CORRECTIONS {
             let imbalance = correct(equations, factors, &mut self.correction, u, residual);
             let largest = imbalance.largest();
             let stands_still = largest > STANDSTILL * before;

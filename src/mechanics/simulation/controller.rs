@@ -17,7 +17,7 @@ const MOST_GROWTH: f64 = 5.0;
 const LEAST_GROWTH: f64 = 0.2;
 
 /// Largest factor after a second rejection.
-const AGAIN: f64 = 0.5;
+const SECOND_REJECTION_FACTOR: f64 = 0.5;
 
 /// Exponent of the last error.
 const NOW: f64 = 0.7;
@@ -104,7 +104,7 @@ impl StepController {
 
     /// Updates the state after a step with too large an error.
     pub(super) fn reject(&self, pace: &mut StepSizeState, trial: TriedStep) {
-        let most = if pace.tries > 0 { AGAIN } else { SAFETY };
+        let most = if pace.tries > 0 { SECOND_REJECTION_FACTOR } else { SAFETY };
         // A NaN error counts as infinite.
         let error = if trial.error.is_nan() { f64::INFINITY } else { trial.error };
         self.shorten(pace, trial.duration, self.room(error).clamp(LEAST_GROWTH, most));
@@ -112,7 +112,7 @@ impl StepController {
 
     /// Updates the state after a step of a duration [time] that was not solved.
     pub(super) fn fail(&self, pace: &mut StepSizeState, duration: f64) {
-        self.shorten(pace, duration, AGAIN);
+        self.shorten(pace, duration, SECOND_REJECTION_FACTOR);
     }
 
     /// Factor by which a step with this error could have been longer.

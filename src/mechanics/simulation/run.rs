@@ -37,7 +37,7 @@ use crate::statics::Equilibrium;
 use crate::system::{Scene, System};
 
 /// Largest number of steps of a dry run.
-const MOST_PRETENDED: usize = 10_000;
+const MOST_DRY_STEPS: usize = 10_000;
 
 /// Largest number of controller samples per step.
 const MOST_SAMPLES: f64 = 1e4;
@@ -298,7 +298,7 @@ impl Simulation {
         let mut rows = 0;
         while !self.has_reached(end) {
             rows += 1;
-            let next = if rows < MOST_PRETENDED { self.next_stop(end) } else { end };
+            let next = if rows < MOST_DRY_STEPS { self.next_stop(end) } else { end };
             let dt = next - self.time();
             self.model.set_time(next);
             self.execute_due_releases()?;

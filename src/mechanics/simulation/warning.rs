@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 use std::fmt;
 
 use super::StepControl;
-use crate::system::{MotionCurvature, RESOLVED_BLOW, ShortBounce};
+use crate::system::{MotionCurvature, RESOLVED_IMPACT, ShortBounce};
 
 /// Largest rotation of a section in a step without a warning: ten steps per turn [rad].
 pub(super) const LARGEST_ROTATION: f64 = 0.1 * TAU;
@@ -13,13 +13,13 @@ pub(super) const LARGEST_ROTATION: f64 = 0.1 * TAU;
 pub(super) const MOST_SPANS: f64 = 1.0;
 
 /// Growth of the measure of a warning after which it is repeated.
-const WORSE: f64 = 2.0;
+const REPEAT_FACTOR: f64 = 2.0;
 
 /// Factor by which a step has to be shorter if a bounce took at most three.
 const BOUNCE: f64 = 5.0;
 
 /// Number of steps per period that needs no warning.
-const ENOUGH: f64 = 20.0;
+const RESOLVED_STEPS_PER_PERIOD: f64 = 20.0;
 
 /// Cause, other than vibration, of rate changes within a step.
 #[derive(Debug, Clone, PartialEq)]
@@ -187,7 +187,7 @@ impl Warning {
         !told.iter().any(|other| {
             std::mem::discriminant(other) == std::mem::discriminant(self)
                 && other.object_name() == self.object_name()
-                && self.measure() < WORSE * other.measure()
+                && self.measure() < REPEAT_FACTOR * other.measure()
         })
     }
 }
@@ -207,7 +207,7 @@ impl fmt::Display for Warning {
                     short(*dt),
                     short(dt / period),
                     short(*period),
-                    short(period / ENOUGH)
+                    short(period / RESOLVED_STEPS_PER_PERIOD)
                 )
             }
             Self::Motion { dt, unresolved_fraction: share, period, lowest, damping, .. } => {
@@ -233,7 +233,7 @@ impl fmt::Display for Warning {
                         short(*period)
                     )?,
                 }
-                write!(f, "; use dt below {}", short(shown / ENOUGH))?;
+                write!(f, "; use dt below {}", short(shown / RESOLVED_STEPS_PER_PERIOD))?;
                 match damping {
                     Some(method) => {
                         write!(f, ", or use the method {method} if this vibration does not matter")
@@ -248,7 +248,7 @@ impl fmt::Display for Warning {
                 short(*dt),
                 short(dt / period),
                 short(*period),
-                short(period / ENOUGH)
+                short(period / RESOLVED_STEPS_PER_PERIOD)
             ),
             Self::Rotation { dt, angle } => write!(
                 f,
@@ -332,7 +332,7 @@ impl fmt::Display for Warning {
                 short(*dt),
                 short(*blows),
                 short(dt / blows),
-                short(RESOLVED_BLOW * dt / blows)
+                short(RESOLVED_IMPACT * dt / blows)
             ),
         }
     }

@@ -19,7 +19,7 @@ const MOST_HALVINGS: u32 = 8;
 const FAR: f64 = 2.0;
 
 /// Multiple of the last movement per load beyond which the structure has snapped through.
-const FAR_UNDER_LOAD: f64 = 4.0;
+const SNAP_THROUGH_RATIO: f64 = 4.0;
 
 /// Movements below this fraction of the scene are never too far.
 const NEARBY: f64 = 1e-3;
@@ -293,7 +293,7 @@ impl<'s> Continuation<'s> {
             Control::ArcLength(arc) => FAR * arc.longest,
             Control::Load => {
                 let share = (factor - last.load_factor) / (last.load_factor - before.load_factor);
-                FAR_UNDER_LOAD * (last.distance * share.abs()).max(NEARBY)
+                SNAP_THROUGH_RATIO * (last.distance * share.abs()).max(NEARBY)
             }
         }
     }

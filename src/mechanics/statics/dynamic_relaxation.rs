@@ -11,7 +11,7 @@ const FAR: f64 = 0.15;
 const NEAR: f64 = 1e-2;
 
 /// and below which the configuration counts as stationary, even if unstable.
-const STILL: f64 = 1e-13;
+const STATIONARY: f64 = 1e-13;
 
 /// Factor of the rate after passes with small movement.
 const EASIER: f64 = 0.2;
@@ -26,7 +26,7 @@ const MOST_FIRST_PASSES: usize = 60;
 const MOST_PASSES: usize = 400;
 
 /// Total movement, relative to the size of the scene, from which the motion counts as endless.
-const NOWHERE: f64 = 30.0;
+const ENDLESS_MOVEMENT: f64 = 30.0;
 
 /// Number of departures after which a slider counts as leaving its master.
 const MOST_LEAVES: usize = 12;
@@ -53,7 +53,7 @@ impl Continuation<'_> {
                     let moved = self.distance_moved();
                     self.model.move_by(&self.unknowns, factor);
                     (way, iterations) = (way + moved, iterations + work);
-                    if moved < NEAR && (moved < STILL || self.unstable_directions() == 0) {
+                    if moved < NEAR && (moved < STATIONARY || self.unstable_directions() == 0) {
                         let near = self.model.state();
                         match self.balance_from(factor, 0.0) {
                             Ok(work) if self.distance_moved() <= NEAR => {
@@ -78,7 +78,7 @@ impl Continuation<'_> {
                     rate *= HARDER;
                 }
             }
-            if way > NOWHERE {
+            if way > ENDLESS_MOVEMENT {
                 miss = StepFailure::Mechanism;
                 break;
             }

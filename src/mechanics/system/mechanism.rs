@@ -28,7 +28,7 @@ pub(in crate::system) use release::DofNumbers;
 pub use rest::StaticForces;
 pub use state::SystemState;
 pub use stiffness::add_resistance;
-pub use stop_impact::{Arriving, RESOLVED_BLOW};
+pub use stop_impact::{Arriving, RESOLVED_IMPACT};
 
 use impulses::ExchangeLedger;
 

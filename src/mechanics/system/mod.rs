@@ -22,7 +22,7 @@ pub use errors::{
     refusal as refusal_of_name,
 };
 pub use mechanism::{
-    Arriving, BodyEnergy, Energy, Instant, Measures, OrderAtRest, RESOLVED_BLOW, Reactions,
+    Arriving, BodyEnergy, Energy, Instant, Measures, OrderAtRest, RESOLVED_IMPACT, Reactions,
     StaticForces, System, SystemState, add_resistance,
 };
 pub use queries::{
@@ -30,7 +30,7 @@ pub use queries::{
     SpringState, SystemFeature, Transmission, Usage,
 };
 pub use scene::{
-    BeamDefinition, ParticleDefinition, Probe, Quantity, RigidBodyDefinition, Scene, Sensor,
+    BeamDefinition, ParticleDefinition, Quantity, RigidBodyDefinition, Scene, Sensor, SensorSource,
     StartMotion, StationVelocity, Value,
 };
 pub use sliders::{AxialImpact, MasterEnd, MasterLimit, SliderState};

@@ -7,7 +7,7 @@ use std::sync::{Mutex, PoisonError};
 use super::pool::{keep_polling, notify_workers, pool};
 
 /// Number of polls before a thread sleeps: about 50 µs, the cost of sleeping and waking.
-const PATIENCE: usize = 2000;
+const MOST_POLLS: usize = 2000;
 
 /// Runs all tasks concurrently: the first one on this thread, each other one on a thread of the pool, or here if none has taken it.
 ///
@@ -39,7 +39,7 @@ pub fn run_concurrently<T: Send>(tasks: impl IntoIterator<Item = T>, work: impl 
         first.into_iter().for_each(&work);
         // Runs the tasks that no thread has taken.
         others.iter().for_each(take);
-        for _ in 0..PATIENCE {
+        for _ in 0..MOST_POLLS {
             if left.load(Ordering::Acquire) == 0 {
                 break;
             }

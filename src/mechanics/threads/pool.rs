@@ -9,7 +9,7 @@ use rayon_core::{ThreadPool, ThreadPoolBuilder};
 
 /// Time for which an idle thread polls for new parts before it sleeps. The parts of a step follow immediately, and waking a thread takes as long as
 /// many of them.
-const AWAKE: Duration = Duration::from_micros(300);
+const POLLING_TIME: Duration = Duration::from_micros(300);
 
 /// Number of hand-outs of parts.
 static HANDED_OUT: AtomicUsize = AtomicUsize::new(0);
@@ -34,7 +34,7 @@ pub(super) fn keep_polling() {
     let before = HANDED_OUT.load(Ordering::Acquire);
     rayon_core::spawn(move || {
         let begun = Instant::now();
-        while HANDED_OUT.load(Ordering::Acquire) == before && begun.elapsed() < AWAKE {
+        while HANDED_OUT.load(Ordering::Acquire) == before && begun.elapsed() < POLLING_TIME {
             yield_now();
         }
     });

@@ -17,7 +17,7 @@ use crate::linalg::{
 const SETTLED: f64 = 1e-8;
 
 /// Reduction by orthogonalisation below which a vector consists of rounding.
-const LOST: f64 = 1e-11;
+const ROUNDING_REDUCTION: f64 = 1e-11;
 
 /// Reduction below which a vector is orthogonalised a second time,
 const SHRUNK: f64 = 1e-4;
@@ -316,7 +316,8 @@ fn cholesky(gram: &Square4, sizes: &FourVectors) -> (Square4, Square4) {
             }
         }
         let left = gram[j][j] - (0..j).map(|k| square(upper[k][j])).sum::<f64>();
-        let is_left = left > 1e-14 * gram[j][j] && left > LOST * LOST * sizes[j];
+        let is_left =
+            left > 1e-14 * gram[j][j] && left > ROUNDING_REDUCTION * ROUNDING_REDUCTION * sizes[j];
         if is_left {
             upper[j][j] = left.sqrt();
             inverse[j][j] = 1.0 / upper[j][j];

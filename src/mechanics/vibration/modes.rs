@@ -11,7 +11,7 @@ use crate::integrators::Mechanism;
 use crate::system::System;
 
 /// Square, relative to that of the slowest bending, below which a movement is unrestrained.
-const LOOSE: f64 = 1e-10;
+const UNRESTRAINED: f64 = 1e-10;
 
 /// Natural mode of small vibration.
 #[derive(Debug, Clone, PartialEq)]
@@ -185,6 +185,6 @@ pub fn loose_movements(model: &System) -> usize {
     if !is_small(model.unknowns()) && model.slider_names().next().is_none() {
         return 0;
     }
-    let count = |pencil: Pencil| pencil.modes_below(LOOSE * pencil.scale).unwrap_or(0);
+    let count = |pencil: Pencil| pencil.modes_below(UNRESTRAINED * pencil.scale).unwrap_or(0);
     Pencil::of(model).map_or(0, count)
 }

@@ -13,7 +13,7 @@ use crate::elementary::hypot;
 use crate::geometry::larger;
 
 /// Largest `|λ|` relative to the shift that is accurate.
-const REACH: f64 = 1e6;
+const LARGEST_RATIO: f64 = 1e6;
 
 /// Largest `|λ|` relative to the shift that is accepted for the next eigenvalue beyond.
 const FARTHEST: f64 = 1e12;
@@ -79,12 +79,13 @@ impl Quadratic {
             let numbers = resolvent.numbers()?;
             let reached = match shift >= self.fastest() {
                 true => all,
-                false => {
-                    conjugate_pairs(&numbers, numbers.partition_point(|at| size(*at) <= REACH))
-                }
+                false => conjugate_pairs(
+                    &numbers,
+                    numbers.partition_point(|at| size(*at) <= LARGEST_RATIO),
+                ),
             };
             if let Some(next) = numbers.get(reached) {
-                shift *= size(*next).clamp(REACH, FARTHEST);
+                shift *= size(*next).clamp(LARGEST_RATIO, FARTHEST);
             }
             let new = numbers[known.min(reached)..reached].iter();
             let new: Vec<ComplexNumber> = new.copied().filter(|at| at.im >= 0.0).collect();

@@ -35,7 +35,7 @@ const FAR: f64 = 1e-4;
 
 /// as are changes above this value next to the shift if they exceed a multiple of rounding, which indicates a cluster with mixed shapes.
 const NEAR: f64 = 1e-10;
-const SPARE: f64 = 1e-12;
+const ROUNDING_CHANGE: f64 = 1e-12;
 
 /// Relative offset of inverse iteration from `λ`, where the matrix is not singular.
 const BESIDE: f64 = 1e-8;
@@ -160,7 +160,7 @@ impl Resolvent {
             (0..self.damping.len()).filter(|at| self.damping[*at] > STRONG).collect();
         let mut at = start;
         // `λ - σ` is the inverse of the computed value.
-        let rounding = SPARE * square(size(start - complex(1.0))) / size(start);
+        let rounding = ROUNDING_CHANGE * square(size(start - complex(1.0))) / size(start);
         let trusted = (NEAR + rounding).min(FAR) * size(start);
         let unknowns = modes + strong.len();
         let mut shape = DVector::from_fn(unknowns, |row, _| {

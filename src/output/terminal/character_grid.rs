@@ -18,7 +18,7 @@ pub enum TerminalColour {
 const HUES: [u8; 6] = [36, 33, 35, 32, 34, 31];
 
 /// Placeholder after a character of two columns.
-const COVERED: char = '\0';
+const WIDE_PLACEHOLDER: char = '\0';
 
 /// Characters in lines and columns; writing outside is ignored.
 #[derive(Clone, Debug)]
@@ -52,7 +52,8 @@ impl CharacterGrid {
                 wide if column + wide > self.style.width => return,
                 wide => {
                     self.put(column, row, letter, ink);
-                    (1..wide).for_each(|beside| self.put(column + beside, row, COVERED, ink));
+                    (1..wide)
+                        .for_each(|beside| self.put(column + beside, row, WIDE_PLACEHOLDER, ink));
                     column += wide;
                 }
             }
@@ -74,7 +75,7 @@ fn line(row: &[(char, TerminalColour)], colours: Colours) -> String {
     let mut line = String::new();
     for run in row[..end].chunk_by(|(_, a), (_, b)| a == b) {
         let text: String =
-            run.iter().map(|(letter, _)| letter).filter(|l| **l != COVERED).collect();
+            run.iter().map(|(letter, _)| letter).filter(|l| **l != WIDE_PLACEHOLDER).collect();
         match (colours, run[0].1) {
             (Colours::None, _) | (_, TerminalColour::Plain) => line.push_str(&text),
             (Colours::Ansi, TerminalColour::Faint) => {

@@ -15,7 +15,7 @@ const LEAST: (usize, usize) = (8, 3);
 const MOST_ROWS: usize = 3;
 const BETWEEN: usize = 3;
 /// Spacing of the letters that identify a curve if the terminal has no colours, in characters.
-const LETTER_EVERY: usize = 16;
+const LETTER_SPACING: usize = 16;
 
 impl LineChart {
     /// Text of the chart for a terminal, of at most the width and the height of `style`.
@@ -207,8 +207,8 @@ impl Layout {
         places.sort_unstable();
         places.dedup_by_key(|(column, _)| *column);
         let first = places.first().copied();
-        let offset = LETTER_EVERY / 4 + index * LETTER_EVERY / count;
-        places.retain(|(column, _)| column % LETTER_EVERY == offset % LETTER_EVERY);
+        let offset = LETTER_SPACING / 4 + index * LETTER_SPACING / count;
+        places.retain(|(column, _)| column % LETTER_SPACING == offset % LETTER_SPACING);
         if places.is_empty() { first.into_iter().collect() } else { places }
     }
 }

@@ -9,7 +9,7 @@ const WIDTHS: (usize, usize) = (20, 240);
 const HEIGHTS: (usize, usize) = (8, 60);
 
 /// Lines left free below a picture, so that it is visible together with the prompt.
-const LEFT_FREE: usize = 3;
+const FREE_LINES: usize = 3;
 
 impl TerminalStyle {
     /// Style for the terminal described by environment variables; `variable` returns the value of one.
@@ -40,7 +40,7 @@ impl TerminalStyle {
     /// Style for a terminal with the given number of columns and lines.
     #[must_use]
     pub fn on_terminal(self, columns: usize, lines: usize) -> Self {
-        let height = lines.saturating_sub(LEFT_FREE).clamp(HEIGHTS.0, HEIGHTS.1);
+        let height = lines.saturating_sub(FREE_LINES).clamp(HEIGHTS.0, HEIGHTS.1);
         self.sized(columns.clamp(WIDTHS.0, WIDTHS.1), height)
     }
 }

@@ -2,7 +2,7 @@
 
 use std::time::Duration;
 
-use crate::repl::effects::Footprint;
+use crate::repl::effects::SideEffects;
 use crate::repl::sampling::{Figures, LONGEST, Sampling};
 use crate::repl::session::Reply;
 use crate::repl::shell::{CommandOutcome, Shell};
@@ -13,7 +13,7 @@ pub fn time(shell: &mut Shell, operand: &str) -> CommandOutcome {
         let told = Diagnostic::general("no input to time");
         return shell.report_error(&told.with_hint("write :time followed by an input"));
     }
-    let before = Footprint::of(shell.session());
+    let before = SideEffects::of(shell.session());
     let earlier = shell.session().context().latest_simulation();
     let clock = shell.clock();
     let begun = clock.now();
@@ -41,7 +41,8 @@ pub fn time(shell: &mut Shell, operand: &str) -> CommandOutcome {
 
 fn repeat(shell: &mut Shell, operand: &str, first: Duration) -> CommandOutcome {
     let first = in_words(first);
-    let (before, places) = (Footprint::of(shell.session()), shell.session().simulation_positions());
+    let (before, places) =
+        (SideEffects::of(shell.session()), shell.session().simulation_positions());
     let context = shell.session().context().clone();
     let (checks, latest) =
         (context.with_checks(|checks| checks.clone()), context.latest_simulation());

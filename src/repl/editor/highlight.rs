@@ -3,7 +3,7 @@
 use super::commands::command_named;
 use super::completeness::is_command;
 use super::surroundings::{CommandOperand, CompletionContext};
-use crate::script::presentation::highlight::{self, HighlightStyle, STRAY, draw};
+use crate::script::presentation::highlight::{self, HighlightStyle, UNMATCHED, draw};
 
 const COMMAND: HighlightStyle = HighlightStyle("1");
 
@@ -60,7 +60,7 @@ fn highlight_command(text: &str, cursor: Option<usize>, vocabulary: &SessionName
     let style = match command.is_some() || is_question {
         true => Some(COMMAND),
         false if may_become => None,
-        false => Some(STRAY),
+        false => Some(UNMATCHED),
     };
     let mut drawn = String::new();
     draw(&mut drawn, word, style);
@@ -130,7 +130,7 @@ mod tests {
         assert_eq!(style_of(text, "a"), None);
         assert_eq!(style_of("`x ${1} y`", "1").as_deref(), Some(NUMBER.0));
         assert_eq!(style_of("`x ${1} y`", " y`").as_deref(), Some(TEXT.0));
-        assert_eq!(style_of("f(1))", ")").as_deref(), Some(STRAY.0));
+        assert_eq!(style_of("f(1))", ")").as_deref(), Some(UNMATCHED.0));
     }
 
     #[test]
@@ -164,7 +164,7 @@ mod tests {
     fn a_command_that_nobody_knows_is_red_unless_it_is_still_typed() {
         for unknown in [":nonsense 10", ":nonsense", ":s 10"] {
             let word = unknown.split(' ').next().unwrap_or_default();
-            assert_eq!(style_of(unknown, word).as_deref(), Some(STRAY.0), "{unknown}");
+            assert_eq!(style_of(unknown, word).as_deref(), Some(UNMATCHED.0), "{unknown}");
         }
         assert_eq!(pieces(":s", None), [], "it may become :step or :save");
         assert_eq!(style_of(":ste", ":ste").as_deref(), Some(COMMAND.0), "it will do");

@@ -42,9 +42,9 @@ mod of_system {
     use super::{Keyboard, Pressed};
 
     /// Polling interval for Ctrl-C [ms].
-    const WATCHFUL: u8 = 50;
+    const POLLING_INTERVAL: u8 = 50;
     /// Timeout for the rest of an escape sequence [ms].
-    const SOON: u8 = 30;
+    const ESCAPE_TIMEOUT: u8 = 30;
 
     /// The terminal in raw input mode.
     pub struct KeyboardTerminal(());
@@ -86,7 +86,7 @@ mod of_system {
                 if was_interrupted() {
                     return Ok(Pressed::Interrupt);
                 }
-                if has_keys(WATCHFUL)? {
+                if has_keys(POLLING_INTERVAL)? {
                     return next();
                 }
             }
@@ -94,7 +94,7 @@ mod of_system {
 
         fn rest_of_sequence(&mut self) -> io::Result<Vec<u8>> {
             let mut rest = Vec::new();
-            while has_keys(SOON)? {
+            while has_keys(ESCAPE_TIMEOUT)? {
                 match next()? {
                     Pressed::Byte(byte) => rest.push(byte),
                     _ => break,

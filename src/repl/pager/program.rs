@@ -8,7 +8,7 @@ use std::{env, thread};
 use crate::repl::editor::typed_ahead::TypedAhead;
 
 /// Polling interval for the end of the program.
-const WATCHFUL: Duration = Duration::from_millis(10);
+const POLLING_INTERVAL: Duration = Duration::from_millis(10);
 
 /// Default options of less: quit if one screen, show colours, keep the text on the screen.
 const LESS: (&str, &str) = ("LESS", "FRX");
@@ -33,7 +33,7 @@ pub fn show(program: &str, text: &str, was_interrupted: &dyn Fn() -> bool) -> io
     }
     while child.try_wait()?.is_none() {
         was_interrupted();
-        thread::sleep(WATCHFUL);
+        thread::sleep(POLLING_INTERVAL);
     }
     drop(lent);
     Ok(())

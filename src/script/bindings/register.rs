@@ -220,7 +220,7 @@ fn make(
 }
 
 /// Hint for a load that reads a simulation during a step.
-pub const STEERED: &str = "a load is a function of time; for a load that depends on the motion use a controller, or a \
+pub const CONTROLLER_HINT: &str = "a load is a function of time; for a load that depends on the motion use a controller, or a \
     variable that is set between steps: let u = 0.0; scene.force(station, [1, 0], |t| u); then \
     u = … before each sim.step()";
 
@@ -236,7 +236,7 @@ fn refuse_busy(
         let elements = elements.iter().flat_map(|array| array.iter());
         if let Some(reason) = elements.chain([value]).find_map(|value| context.busy(value)) {
             let refusal = ScriptError::new(format!("{}: {reason}", row.name));
-            return Err(refusal.hint(STEERED));
+            return Err(refusal.hint(CONTROLLER_HINT));
         }
     }
     Ok(())

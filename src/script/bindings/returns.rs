@@ -135,9 +135,9 @@ impl Returns {
     /// A number.
     pub const NUMBER: Self = Self::of(ValueKind::Number);
     /// An integer.
-    pub const WHOLE: Self = Self::of(ValueKind::Integer);
+    pub const INTEGER: Self = Self::of(ValueKind::Integer);
     /// `true` or `false`.
-    pub const TRUTH: Self = Self::of(ValueKind::Boolean);
+    pub const BOOLEAN: Self = Self::of(ValueKind::Boolean);
     /// A text.
     pub const TEXT: Self = Self::of(ValueKind::Text);
     /// A single character.
@@ -228,7 +228,7 @@ mod tests {
                 Returns::NUMBER.with_description("an angle from -PI to PI"),
                 "an angle from -PI to PI",
             ),
-            (Returns::TRUTH, "true or false"),
+            (Returns::BOOLEAN, "true or false"),
             (Returns::ANYTHING, "a value"),
             (Returns::ANYTHING_OR_NOTHING, "a value or nothing"),
             (Returns::ARRAY.with_remark(" [a, b]"), "an array [a, b]"),

@@ -52,7 +52,7 @@ pub fn explain(error: &ParseErrorType, word: &str) -> (String, Option<String>) {
         ),
         ParseErrorType::MismatchedType(wanted, got) if wanted == "an iterable value" => {
             let got = got.replace("an object map", "a map");
-            (format!("for cannot loop over {got}"), Some(GONE_OVER.into()))
+            (format!("for cannot loop over {got}"), Some(FOR_HINT.into()))
         }
         ParseErrorType::MismatchedType(wanted, got) => {
             let hint = (wanted == "a boolean expression")
@@ -66,7 +66,7 @@ pub fn explain(error: &ParseErrorType, word: &str) -> (String, Option<String>) {
     }
 }
 
-pub const GONE_OVER: &str = "for loops over an array, a text or a range: for i in 0..10 { … }; over a map with for key \
+pub const FOR_HINT: &str = "for loops over an array, a text or a range: for i in 0..10 { … }; over a map with for key \
     in map.keys() { … }";
 
 fn reserved(word: &str) -> (String, Option<String>) {

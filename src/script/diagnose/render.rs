@@ -62,7 +62,7 @@ impl Diagnostic {
 
 /// Longer lines are not drawn; the location is described instead.
 const LONGEST_DRAWN: usize = 1000;
-const TOLD: usize = 60;
+const LONGEST_EXCERPT: usize = 60;
 
 /// Columns before the hint: `  = help: `.
 const BESIDE_HINT: usize = 10;
@@ -134,7 +134,7 @@ impl Location {
 
     fn in_words(&self) -> String {
         let line = self.program.text.lines().nth(self.line - 1).unwrap_or_default();
-        let there: String = line.chars().skip(self.column - 1).take(TOLD).collect();
+        let there: String = line.chars().skip(self.column - 1).take(LONGEST_EXCERPT).collect();
         format!("at {}:{}:{}, in a long line: {there} …", self.program.name, self.line, self.column)
     }
 

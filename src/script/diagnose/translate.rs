@@ -10,7 +10,7 @@ use super::{CallFrame, Callee, Diagnostic, foreign_names, foreign_syntax, locate
 use crate::script::bindings::catalog::Catalog;
 use crate::script::bindings::kind::Scripted;
 use crate::script::bindings::parameter_variants::VariantValue;
-use crate::script::bindings::register::STEERED;
+use crate::script::bindings::register::CONTROLLER_HINT;
 use crate::script::bindings::sources::{FOLDER, Sources};
 use crate::script::bindings::table::{CallSyntax, FunctionBinding, SETTER};
 use crate::script::dialect::naming::not_visible;
@@ -221,7 +221,7 @@ impl Explainer<'_> {
                 (format!("{} cannot be indexed", with_article(indexed)), hint.map(str::to_owned))
             }
             Error::ErrorFor(_) => {
-                ("for cannot loop over this value".into(), Some(parsing::GONE_OVER.into()))
+                ("for cannot loop over this value".into(), Some(parsing::FOR_HINT.into()))
             }
             Error::ErrorAssignmentToConstant(name, _) => (
                 format!("the constant '{name}' cannot be changed"),
@@ -247,7 +247,7 @@ impl Explainer<'_> {
                 Some(format!(
                     "in sim.at, use the argument: sim.at(t, |sim| print(sim.t)); if a map holds \
                     the object, take it out first: let scene = parts.scene; \
-                    scene.record(\"height\", |q| q.position(parts.tip).y); {STEERED}"
+                    scene.record(\"height\", |q| q.position(parts.tip).y); {CONTROLLER_HINT}"
                 )),
             ),
             Error::ErrorTerminated(stop, _) => Stop::of_token(stop).message_and_hint(),

@@ -16,7 +16,7 @@ use crate::script::state::context::Context;
 use crate::script::state::settings::RunSettings;
 use crate::script::state::watchdog::Watchdog;
 
-const ONLY_DRY: &str =
+const DRY_RUN_NOTE: &str =
     "withy check runs no simulation: use withy run to test what depends on results";
 
 /// Catalog, engine and shared state.
@@ -99,7 +99,7 @@ impl ScriptEngine {
         let diagnostic = self.explain(error, program);
         match self.context.meter().depends_on_dry_run() {
             _ if is_waiting(error) => Halt::Undecided(diagnostic),
-            true => Halt::Failed(diagnostic.with_another_hint(ONLY_DRY)),
+            true => Halt::Failed(diagnostic.with_another_hint(DRY_RUN_NOTE)),
             false => Halt::Failed(diagnostic),
         }
     }

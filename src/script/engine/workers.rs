@@ -120,12 +120,12 @@ impl Worker {
 }
 
 #[derive(Default)]
-struct Post {
+struct WorkerState {
     interrupt: Arc<AtomicBool>,
     since: Mutex<Option<Instant>>,
 }
 
-impl Post {
+impl WorkerState {
     fn begin(&self, at: Option<Instant>) {
         if let Ok(mut since) = self.since.lock() {
             *since = at;
@@ -142,7 +142,7 @@ impl Post {
 
 /// Pool of worker threads that receives jobs and returns results while it is driven.
 pub struct WorkerPool<'c, J, R> {
-    posts: &'c [Post],
+    posts: &'c [WorkerState],
     jobs: mpsc::Sender<(usize, J)>,
     results: mpsc::Receiver<(usize, R)>,
     is_over: &'c AtomicBool,
@@ -209,12 +209,12 @@ pub fn with_crew<J: Send, R: Send, T>(
 ) -> Result<T, ScriptError> {
     let is_over = AtomicBool::new(false);
     let (count, stack) = blueprint.workers;
-    let posts: Vec<Post> = (0..count).map(|_| Post::default()).collect();
+    let posts: Vec<WorkerState> = (0..count).map(|_| WorkerState::default()).collect();
     let (jobs, given) = mpsc::channel();
     let (done, results) = mpsc::channel();
     let given = Mutex::new(given);
     let next = || given.lock().ok()?.recv().ok();
-    let labour = |post: &Post, done: mpsc::Sender<_>| -> Result<(), Diagnostic> {
+    let labour = |post: &WorkerState, done: mpsc::Sender<_>| -> Result<(), Diagnostic> {
         let worker = match Worker::open(blueprint, Arc::clone(&post.interrupt)) {
             // All jobs were done before this worker started.
             Err(_) if is_over.load(Ordering::Relaxed) => return Ok(()),

@@ -37,11 +37,11 @@ struct Variants {
     scene: Rc<RefCell<Scene>>,
     declared: RefCell<Option<Rc<ParameterSet>>>,
     /// Created by the first call with an argument that depends on a parameter.
-    beside: OnceCell<Beside>,
+    beside: OnceCell<PerturbedBuilds>,
 }
 
 /// Side variants of a scene, at parameters plus and minus a step.
-struct Beside {
+struct PerturbedBuilds {
     family: Rc<ParameterSet>,
     /// Scenes of the variants 1, 2, …, in this order.
     scenes: Vec<Rc<RefCell<Scene>>>,
@@ -98,7 +98,7 @@ impl SceneHandle {
         // The current call has not changed the scene yet, because variant 0 is evaluated last.
         let beside = beside.get_or_init(|| {
             let copy = |_| Rc::new(RefCell::new(scene.borrow().clone()));
-            Beside { scenes: (1..family.variants()).map(copy).collect(), family }
+            PerturbedBuilds { scenes: (1..family.variants()).map(copy).collect(), family }
         });
         beside.scenes.get(variant - 1).unwrap_or(scene)
     }
@@ -131,7 +131,7 @@ impl SceneHandle {
     /// # Errors
     /// Fails if the scene has script functions, which cannot be evaluated per variant.
     pub fn variations(&self) -> Result<Vec<Variation>, ScriptError> {
-        let Some(Beside { family, scenes }) = self.variants.beside.get() else {
+        let Some(PerturbedBuilds { family, scenes }) = self.variants.beside.get() else {
             return Ok(Vec::new());
         };
         if !self.functions.borrow().is_empty() {
@@ -164,7 +164,9 @@ impl SceneHandle {
     /// # Errors
     /// Fails if the length differs between the variants.
     pub fn expect_constant_length(&self, beam: usize) -> Result<(), ScriptError> {
-        let Some(Beside { scenes, .. }) = self.variants.beside.get() else { return Ok(()) };
+        let Some(PerturbedBuilds { scenes, .. }) = self.variants.beside.get() else {
+            return Ok(());
+        };
         let own = self.variants.scene.borrow();
         // Variant 0 is created after the side variants.
         let Some(own) = own.beams.get(beam) else { return Ok(()) };

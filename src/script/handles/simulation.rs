@@ -85,9 +85,9 @@ impl Monitor for ProgressMonitor<'_> {
 }
 
 /// Observer of a skipped run in a dry build, which is stopped like a real run but counts no steps.
-struct Pretence<'a>(&'a Context);
+struct DryRunObserver<'a>(&'a Context);
 
-impl Monitor for Pretence<'_> {
+impl Monitor for DryRunObserver<'_> {
     fn continues(&mut self, _time: f64) -> bool {
         !self.0.is_stopped()
     }
@@ -302,7 +302,7 @@ impl SimulationHandle {
     fn dry_run(&self, call: &Call, end: f64) -> Result<(), ScriptError> {
         call.context().meter().count_dry_run();
         call.context().proceed()?;
-        let mut watch = Pretence(call.context());
+        let mut watch = DryRunObserver(call.context());
         let pretended = self.0.simulation.borrow_mut().dry_run_to(end, &mut watch);
         pretended.map_err(|error| explain(error, call.context()))?;
         self.evaluate_columns()?;

@@ -5,7 +5,7 @@ use std::rc::Rc;
 use rhai::{Array, Dynamic};
 
 use super::integrators::INTEGRATOR;
-use crate::analysis::{Convergence, Ladder};
+use crate::analysis::{Convergence, Refinement};
 use crate::integrators::Method;
 use crate::script::bindings::call::Call;
 use crate::script::bindings::kind::{Details, Scripted, Type};
@@ -127,7 +127,7 @@ impl Scripted for ConvergenceStudy {
 fn order(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let ConvergenceStudy(study) = call.receiver()?;
     let (quantity, method) = (call.text("quantity")?, call.get::<Method>("integrator")?);
-    let order = find(call, &study, &quantity, &method)?.and_then(Ladder::fitted_order);
+    let order = find(call, &study, &quantity, &method)?.and_then(Refinement::fitted_order);
     Ok(order.unwrap_or(f64::NAN).into())
 }
 

@@ -188,7 +188,7 @@ pub const TABLE: BindingTable = BindingTable {
              check(norm(sim.position(rod.end) - rest.position(rod.end)) < 1e-9);",
         )
         .with_related(&["hold_for"]),
-        binding("is_stable", Returns::TRUTH, is_stable)
+        binding("is_stable", Returns::BOOLEAN, is_stable)
         .summary("True if the equilibrium is stable: every small disturbance increases the potential \
             energy.")
         .example("check(scene.equilibrium().is_stable);")
@@ -214,7 +214,7 @@ pub const TABLE: BindingTable = BindingTable {
         }))
         .summary("Strain energy of the equilibrium.")
         .example("check_close(scene.equilibrium().strain, (s.EI * 3.14159265358979 / 4)^2 * rod.length / s.EI / 2, 1e-6);"),
-        binding("iterations", Returns::WHOLE, |call| read(call, |of| {
+        binding("iterations", Returns::INTEGER, |call| read(call, |of| {
             let taken = of.path().points().iter().map(|point| point.iterations).sum::<usize>();
             Dynamic::from(taken as INT)
         }))

@@ -40,7 +40,7 @@ pub const TABLE: BindingTable = BindingTable {
             let is_like = own.scene().borrow().is_like(&other.scene().borrow());
             Ok(is_like.into())
         })
-        .returns(Returns::TRUTH)
+        .returns(Returns::BOOLEAN)
         .summary(
             "Returns true if another scene has the same beams, joints, masses, velocities and \
             loads, in the same order.",

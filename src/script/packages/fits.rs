@@ -104,7 +104,7 @@ pub const TABLE: BindingTable = BindingTable {
             .summary("Outcome of the search: settled, or the reason of the failure.")
             .example("check(found.outcome == \"settled\");"),
         of_fit("runs", |call| Ok((fit(call)?.fitted.runs as i64).into()))
-            .returns(Returns::WHOLE)
+            .returns(Returns::INTEGER)
             .summary("Number of calls of the function.")
             .example("check(found.runs <= 20);"),
         of_fit("derivatives", |call| Ok(fit(call)?.derivatives().into()))
@@ -150,7 +150,7 @@ pub const TABLE: BindingTable = BindingTable {
             .summary("Map of the results of the best design by name.")
             .example("check(best.results.y < 1e-6);"),
         of_design("runs", |call| Ok((design(call)?.runs as i64).into()))
-            .returns(Returns::WHOLE)
+            .returns(Returns::INTEGER)
             .summary("Number of calls of the function, without the call that detects missing \
                 derivatives.")
             .example("check(best.runs < 200);"),
@@ -159,7 +159,7 @@ pub const TABLE: BindingTable = BindingTable {
             .summary("Source of the derivatives: the runs, or none with the reason.")
             .example("check(best.derivatives == \"those of the runs\");"),
         of_design("settled", |call| Ok(design(call)?.is_settled.into()))
-            .returns(Returns::TRUTH)
+            .returns(Returns::BOOLEAN)
             .summary("True if the search finished before the largest number of runs was reached.")
             .example("check(best.settled);"),
         function("find_root", &[callback("function").doc("|x| …, returns a number"), FROM, TO, PLACE_TOLERANCE], find_root)

@@ -77,7 +77,7 @@ pub const TABLE: BindingTable = BindingTable {
             let rows = call.receiver::<HistoryHandle>()?.read(|history| history.samples().len());
             Ok(Dynamic::from(rows as INT))
         })
-        .returns(Returns::WHOLE)
+        .returns(Returns::INTEGER)
         .summary("Number of rows, including the start.")
         .example("sim.step(4);\ncheck(sim.history.rows == 5);"),
         property(HISTORY, "columns", |call| {

@@ -216,21 +216,21 @@ pub const TABLE: BindingTable = BindingTable {
             "Returns true if x is nan.",
             "check(is_nan(0 / 0));",
         )
-        .returns(Returns::TRUTH),
+        .returns(Returns::BOOLEAN),
         of_x(
             "is_finite",
             |call| Ok(x(call)?.is_finite().into()),
             "Returns true if x is neither infinite nor nan.",
             "check(!is_finite(1 / 0));",
         )
-        .returns(Returns::TRUTH),
+        .returns(Returns::BOOLEAN),
         of_x(
             "is_infinite",
             |call| Ok(x(call)?.is_infinite().into()),
             "Returns true if x is infinite.",
             "check(is_infinite(1 / 0));",
         )
-        .returns(Returns::TRUTH),
+        .returns(Returns::BOOLEAN),
         function("abs", &[numeric("x")], absolute)
             .returns(Returns::NUMBER.with_remark(", whole if x is"))
             .summary("Returns the absolute value of a number.")
@@ -265,7 +265,7 @@ pub const TABLE: BindingTable = BindingTable {
             .example("check(max(2, 0.5) == 2);")
             .corner(at_equality),
         function("quotient", &[integer("n"), integer("d")], quotient)
-            .returns(Returns::WHOLE)
+            .returns(Returns::INTEGER)
             .summary("Returns the quotient n/d rounded down to a whole number, for indices.")
             .example("check(quotient(7, 2) == 3);\ncheck(7 / 2 == 3.5);"),
         function("round_to", &[ANY_X, integer("digits").between(0.0, 15.0)], round_to)
@@ -277,7 +277,7 @@ pub const TABLE: BindingTable = BindingTable {
     ],
 };
 
-const WHOLE: Returns = Returns::WHOLE.with_remark(", or x itself if it is too large for one");
+const WHOLE: Returns = Returns::INTEGER.with_remark(", or x itself if it is too large for one");
 const ANY_X: Parameter = number("x").allow_non_finite();
 const ANY_Y: Parameter = number("y").allow_non_finite();
 

@@ -28,7 +28,7 @@ pub const TABLE: BindingTable = BindingTable {
     doc: "Modes of small vibration about a configuration: natural frequencies and mode shapes, \
         in ascending order. Rigid body motions have frequency 0.",
     types: &[MODES],
-    setup: VIBRATING,
+    setup: EXAMPLE,
     constants: &[],
     rows: &[
         method(SCENE, "modes", &[COUNT], |call| {
@@ -129,10 +129,10 @@ pub const TABLE: BindingTable = BindingTable {
             )
             .example("check(scene.modes(3).residuals.all(|residual| residual < 1e-6));")
             .with_related(&["angular_frequencies"]),
-        binding("is_stable", Returns::TRUTH, |call| Ok(modes(call)?.0.modes.is_stable().into()))
+        binding("is_stable", Returns::BOOLEAN, |call| Ok(modes(call)?.0.modes.is_stable().into()))
             .summary("True if no mode grows.")
             .example("check(scene.modes(1).is_stable);"),
-        binding("count", Returns::WHOLE, |call| Ok(Dynamic::from(modes(call)?.0.modes.all().len() as INT)))
+        binding("count", Returns::INTEGER, |call| Ok(Dynamic::from(modes(call)?.0.modes.all().len() as INT)))
             .summary("Number of modes.")
             .example("check(scene.modes(4).count == 4);"),
         method(MODES, "displacement", &[integer("mode").non_negative(), object("station", STATION)], |call| {
@@ -153,7 +153,7 @@ pub const TABLE: BindingTable = BindingTable {
     ],
 };
 
-const VIBRATING: &str = "let scene = new_scene(\"example\");\n\
+const EXAMPLE: &str = "let scene = new_scene(\"example\");\n\
     let s = section(#{ EA: 1e6, GA: 1e6, EI: 100, rho_A: 1, rho_I: 1e-4 });\n\
     let rod = scene.beam(#{ name: \"rod\", axis: line([0, 0], [4, 0]), basis: bspline(8), section: s });\n\
     scene.clamp(rod.start);";

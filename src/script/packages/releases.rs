@@ -70,7 +70,7 @@ enum ReleaseWording {
     When,
 }
 
-const SAID: KeySets<ReleaseWording> = KeySets {
+const WORDINGS: KeySets<ReleaseWording> = KeySets {
     description: "give a time `at` or a condition `when`: |q| …",
     always_allowed: &[],
     sets: &[
@@ -93,7 +93,7 @@ fn release(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let handle = call.receiver::<SceneHandle>()?;
     let hold = hold(call, &handle)?;
     let options = call.options("options")?;
-    let (trigger, condition) = match SAID.choose("release", &options)? {
+    let (trigger, condition) = match WORDINGS.choose("release", &options)? {
         ReleaseWording::At => (Trigger::Time(options.number("at")?), None),
         ReleaseWording::When => {
             let function = options.callback("when")?;

@@ -180,7 +180,7 @@ pub const JOINT: Type = Type::of::<JointHandle>();
 const SPANS: usize = 16;
 
 /// Relative error of a varying section on its mesh above which a warning is given.
-const MISSED: f64 = 5e-3;
+const TAPER_TOLERANCE: f64 = 5e-3;
 
 const AT: Parameter = object("station", STATION);
 const OTHER: Parameter =
@@ -253,7 +253,7 @@ fn warn_about_taper(call: &Call, scene: &SceneHandle, index: usize) -> Result<()
     let scene = scene.scene().borrow();
     let BeamDefinition { name, section, mesh, .. } = &scene.beams[index];
     let seen = TaperQuadrature::of(section, mesh)?;
-    if seen.largest() < MISSED {
+    if seen.largest() < TAPER_TOLERANCE {
         return Ok(());
     }
     let parts = [
@@ -261,7 +261,7 @@ fn warn_about_taper(call: &Call, scene: &SceneHandle, index: usize) -> Result<()
         ("axial stiffness", seen.stretching),
         ("bending stiffness", seen.bending),
     ];
-    let off = parts.into_iter().filter(|(_, part)| *part >= MISSED);
+    let off = parts.into_iter().filter(|(_, part)| *part >= TAPER_TOLERANCE);
     let told: Vec<String> =
         off.map(|(what, part)| format!("{what} by {} %", significant(100.0 * part, 2))).collect();
     call.context().print_message(&format!(

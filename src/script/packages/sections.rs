@@ -93,15 +93,15 @@ pub const TABLE: BindingTable = BindingTable {
             .example("let mesh = lagrange(#{ elements: 5, degree: 3 });\ncheck(mesh.degree == 3);")
             .with_related(&["bspline"]),
         property(MESH, "spans", |call| whole_number(call.receiver::<Mesh>()?.spans()))
-            .returns(Returns::WHOLE)
+            .returns(Returns::INTEGER)
             .summary("Number of spans or elements.")
             .example("check(bspline(7).spans == 7);"),
         property(MESH, "degree", |call| whole_number(call.receiver::<Mesh>()?.basis().degree()))
-            .returns(Returns::WHOLE)
+            .returns(Returns::INTEGER)
             .summary("Polynomial degree of the basis functions.")
             .example("check(bspline(7).degree == 3);"),
         property(MESH, "functions", |call| whole_number(call.receiver::<Mesh>()?.basis().functions()))
-            .returns(Returns::WHOLE)
+            .returns(Returns::INTEGER)
             .summary("Number of basis functions, equal to the number of control points or nodes.")
             .example("check(bspline(#{ spans: 7, continuity: 1 }).functions == 16);"),
     ],

@@ -253,7 +253,7 @@ const fn count(
     body: crate::script::bindings::table::NativeFunction,
 ) -> FunctionBinding {
     property(SIMULATION, name, body)
-        .returns(Returns::WHOLE)
+        .returns(Returns::INTEGER)
         .example("sim.step(2);\ncheck(sim.steps == 2 && sim.newton_iterations <= 8 && sim.retries == 0 && sim.rejected == 0 && sim.unknowns == 21);")
 }
 

@@ -152,7 +152,7 @@ pub const TABLE: BindingTable = BindingTable {
         .example("check_close(sim.slider_speed(ring), 1, 1e-12);")
         .with_related(&["slider_arc_length", "slider_position"]),
         property(SIMULATION, "ended", |call| Ok(call.receiver::<SimulationHandle>()?.simulation().has_ended().into()))
-            .returns(Returns::TRUTH)
+            .returns(Returns::BOOLEAN)
             .summary("True if a slider has reached the end of its beam and ended the run.")
             .doc("After that run_to returns at once, step is refused with an error, and \
                 functions registered for later times are not called.")

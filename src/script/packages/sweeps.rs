@@ -115,7 +115,7 @@ pub const TABLE: BindingTable = BindingTable {
             run.")
         .example("for row in sweep.table.rows { check(row.energy == row.mass * row.speed ** 2 / 2); }"),
         property(SWEEP_TABLE, "count", |call| Ok((call.receiver::<SweepTable>()?.length() as i64).into()))
-            .returns(Returns::WHOLE)
+            .returns(Returns::INTEGER)
             .summary("Number of rows.")
             .example("check(sweep.table.count == 6);"),
     ],

@@ -75,7 +75,7 @@ pub const TABLE: BindingTable = BindingTable {
             .example("check_close(track.length, ramp.length + floor.length, 1e-12);")
             .with_related(&["slider_arc_length"]),
         property(TRACK, "closed", |call| Ok(call.receiver::<TrackHandle>()?.is_closed().into()))
-            .returns(Returns::TRUTH)
+            .returns(Returns::BOOLEAN)
             .summary("True if the last beam leads back to the first one.")
             .example("check(!track.closed);"),
     ],

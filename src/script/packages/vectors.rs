@@ -102,11 +102,11 @@ pub const TABLE: BindingTable = BindingTable {
             .example("check(vec(1, 2) / 2 == vec(0.5, 1));")
             .corner(near_zero_divisor),
         operator("==", &[A, B], |call| Ok((a(call)? == b(call)?).into()))
-            .returns(Returns::TRUTH)
+            .returns(Returns::BOOLEAN)
             .summary("Compares vectors: true if both components are equal.")
             .example("check(vec(1, 2) == [1, 2]);"),
         operator("!=", &[A, B], |call| Ok((a(call)? != b(call)?).into()))
-            .returns(Returns::TRUTH)
+            .returns(Returns::BOOLEAN)
             .summary("Compares vectors: true if a component differs.")
             .example("check(vec(1, 2) != [1, 3]);"),
     ],

@@ -28,7 +28,7 @@ pub const UNKNOWN_MEMBER: HighlightStyle = HighlightStyle("4");
 /// Bracket at the cursor, and its partner.
 pub const PARTNER: HighlightStyle = HighlightStyle("1;4");
 /// Unmatched tokens.
-pub const STRAY: HighlightStyle = HighlightStyle("31");
+pub const UNMATCHED: HighlightStyle = HighlightStyle("31");
 
 /// Names with their own colours, built once for many texts.
 pub struct Vocabulary {
@@ -126,7 +126,7 @@ pub fn highlight(text: &str, cursor: Option<usize>, vocabulary: &Vocabulary) -> 
                 Some(TEXT)
             }
             TokenKind::Number => Some(NUMBER),
-            TokenKind::Close(_) if partners[index].is_none() => Some(STRAY),
+            TokenKind::Close(_) if partners[index].is_none() => Some(UNMATCHED),
             TokenKind::Word => {
                 let [value, sign] = before.map(|at: usize| tokens[at].of(text));
                 let style = match sign {

@@ -119,12 +119,12 @@ pub fn symbols(
     Ok(placed.chain(springs.flat_map(|spring| of_spring(spring, &mut ends))).collect())
 }
 
-const MOST_HOLDING: usize = 60;
+const MOST_CONSTRAINTS: usize = 60;
 
 /// Removes the symbols of supports, joints and sliders if there are too many.
 pub fn uncrowded(symbols: Vec<PlacedSymbol>) -> Vec<PlacedSymbol> {
     let holds = |placed: &PlacedSymbol| placed.symbol.is_constraint();
-    match symbols.iter().filter(|placed| holds(placed)).count() > MOST_HOLDING {
+    match symbols.iter().filter(|placed| holds(placed)).count() > MOST_CONSTRAINTS {
         true => symbols.into_iter().filter(|placed| !holds(placed)).collect(),
         false => symbols,
     }

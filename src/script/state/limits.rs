@@ -97,13 +97,13 @@ pub struct Meter {
 }
 
 /// Limit of `pretended`; loops that wait for a time end long before.
-const MOST_PRETENDED: u64 = 100_000;
+const MOST_DRY_ADVANCES: u64 = 100_000;
 
 /// True after a run of this process has noticed an interrupt. It is then about to stop and to save results.
 pub static INTERRUPT_HEARD: AtomicBool = AtomicBool::new(false);
 
 /// Watchdog states: no alarm, time limit, memory limit.
-pub(super) const QUIET: u8 = 0;
+pub(super) const NO_ALARM: u8 = 0;
 pub(super) const TOO_LATE: u8 = 1;
 pub(super) const TOO_LARGE: u8 = 2;
 
@@ -140,7 +140,7 @@ impl Meter {
             TOO_LARGE => self.limits.memory.map(Stop::Memory),
             _ if self.stopped.get().is_some() => self.stopped.get(),
             _ if self.wants_too_many_steps.get() => self.limits.steps.map(Stop::Steps),
-            _ if self.pretended.get() > MOST_PRETENDED => Some(Stop::Waiting),
+            _ if self.pretended.get() > MOST_DRY_ADVANCES => Some(Stop::Waiting),
             _ => None,
         }
     }
@@ -222,7 +222,7 @@ impl Meter {
     /// # Errors
     /// Fails if no thread can be started.
     pub fn watch(&self) -> io::Result<Watchdog> {
-        self.alarm.store(QUIET, Ordering::Relaxed);
+        self.alarm.store(NO_ALARM, Ordering::Relaxed);
         self.steps.set(0);
         self.wants_too_many_steps.set(false);
         self.written.set(0);

@@ -56,7 +56,7 @@ impl StudyPart {
 }
 
 /// Largest number of missing parts that a message lists.
-const MOST_TOLD: usize = 10;
+const MOST_LISTED: usize = 10;
 
 /// Files of all parts of a study in some folders, ordered by part.
 ///
@@ -104,10 +104,10 @@ pub fn find_parts(
         missing => {
             let is_there =
                 |number: u32| found.binary_search_by_key(&number, |(part, _)| part.number).is_ok();
-            let first = (1..=of).filter(|number| !is_there(*number)).take(MOST_TOLD);
+            let first = (1..=of).filter(|number| !is_there(*number)).take(MOST_LISTED);
             let mut first: Vec<String> = first.map(|number| number.to_string()).collect();
-            if missing > MOST_TOLD {
-                first.push(format!("and {} more", missing - MOST_TOLD));
+            if missing > MOST_LISTED {
+                first.push(format!("and {} more", missing - MOST_LISTED));
             }
             let told = format!(
                 "of the {of} parts of the study '{study}' these are missing: {}",

@@ -14,9 +14,9 @@ const INTERVAL: Duration = Duration::from_millis(10);
 
 /// Processor time that a run may use after it has exceeded a limit, as a fraction of the time limit. On an idle machine the run then ends within twice
 /// the limit.
-const PATIENCE: f64 = 0.7;
-const LEAST_PATIENCE: Duration = Duration::from_millis(700);
-const MOST_PATIENCE: Duration = Duration::from_secs(5);
+const OVERTIME: f64 = 0.7;
+const LEAST_OVERTIME: Duration = Duration::from_millis(700);
+const MOST_OVERTIME: Duration = Duration::from_secs(5);
 /// Ratio of wall time to processor time until the run is ended anyway.
 const SHARE_OF_PROCESSOR: u32 = 10;
 
@@ -108,8 +108,8 @@ fn first_exceeded(limits: &Limits, begun: Instant) -> Option<(Stop, u8)> {
 }
 
 fn next_wait(limits: &Limits) -> Duration {
-    let part = limits.time.map_or(LEAST_PATIENCE, |limit| limit.mul_f64(PATIENCE));
-    part.clamp(LEAST_PATIENCE, MOST_PATIENCE)
+    let part = limits.time.map_or(LEAST_OVERTIME, |limit| limit.mul_f64(OVERTIME));
+    part.clamp(LEAST_OVERTIME, MOST_OVERTIME)
 }
 
 impl Drop for Watchdog {

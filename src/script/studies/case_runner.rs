@@ -16,24 +16,24 @@ use crate::script::state::parts::find_parts;
 use crate::script::state::settings::RunMode;
 
 /// Result of a case.
-pub trait Finding: Serialize + DeserializeOwned {
+pub trait CaseResult: Serialize + DeserializeOwned {
     /// Returns true if the result is worth keeping in the journal; a run that exceeded its limits may complete another time.
     fn is_final(&self) -> bool;
 }
 
-impl Finding for RunResult {
+impl CaseResult for RunResult {
     fn is_final(&self) -> bool {
         !matches!(self.outcome, CaseOutcome::LimitExceeded { .. })
     }
 }
 
-impl Finding for StabilityVerdict {
+impl CaseResult for StabilityVerdict {
     fn is_final(&self) -> bool {
         !matches!(self.outcome, CaseOutcome::LimitExceeded { .. })
     }
 }
 
-impl Finding for Option<Timing> {
+impl CaseResult for Option<Timing> {
     fn is_final(&self) -> bool {
         self.is_some()
     }
@@ -102,7 +102,7 @@ impl<'c> CaseRunner<'c> {
     ///
     /// # Errors
     /// Fails if the run is stopped, with finished cases in the journal, or if a case is missing in merged parts.
-    pub fn in_parallel<R: Finding + Clone + Send>(
+    pub fn in_parallel<R: CaseResult + Clone + Send>(
         &self,
         task: CaseTask,
         cases: &[Case],
@@ -118,7 +118,7 @@ impl<'c> CaseRunner<'c> {
         self.all_in_parallel(task, &own, steps_of, work).map(|_| None)
     }
 
-    fn all_in_parallel<R: Finding + Clone + Send>(
+    fn all_in_parallel<R: CaseResult + Clone + Send>(
         &self,
         task: CaseTask,
         cases: &[Case],
@@ -171,7 +171,7 @@ impl<'c> CaseRunner<'c> {
     ///
     /// # Errors
     /// Fails if the run is stopped; finished cases are in the journal.
-    pub fn run_sequentially<R: Finding>(
+    pub fn run_sequentially<R: CaseResult>(
         &self,
         task: CaseTask,
         cases: &[Case],
@@ -229,7 +229,7 @@ impl<'c> CaseRunner<'c> {
         self.context.journals().find(self.journal?, task.fingerprint(case)?)
     }
 
-    fn write<R: Finding>(
+    fn write<R: CaseResult>(
         &self,
         task: CaseTask,
         case: &Case,

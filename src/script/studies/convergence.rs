@@ -10,7 +10,7 @@ use super::options::ErrorOptions;
 use super::plan::{ErrorStudyPlan, at_key};
 use super::reference::{self, Reference};
 use crate::analysis::{
-    ALL_POSITIONS, Case, Convergence, Ladder, RefinedParameter, RunResult, all_combinations,
+    ALL_POSITIONS, Case, Convergence, RefinedParameter, Refinement, RunResult, all_combinations,
 };
 use crate::integrators::Method;
 use crate::output::{CsvRecords, Panel, format_number};
@@ -129,7 +129,7 @@ fn records(study: &Convergence) -> CsvRecords {
 }
 
 /// Errors of one quantity as a script map.
-pub fn map_of(study: &Convergence, ladder: &Ladder) -> Map {
+pub fn map_of(study: &Convergence, ladder: &Refinement) -> Map {
     let array = |values: Vec<f64>| -> Dynamic {
         values.into_iter().map(Dynamic::from).collect::<rhai::Array>().into()
     };
@@ -171,7 +171,7 @@ pub fn find<'s>(
     study: &'s Convergence,
     quantity: &'s str,
     method: &Method,
-) -> Result<Option<&'s Ladder>, ScriptError> {
+) -> Result<Option<&'s Refinement>, ScriptError> {
     expect_quantity(call, study, quantity)?;
     if !study.ladders.iter().any(|of| of.method == *method) {
         let told =

@@ -1,7 +1,7 @@
 //! Chart of a convergence study.
 
 use super::labels;
-use crate::analysis::{Convergence, Ladder, RefinedParameter};
+use crate::analysis::{Convergence, RefinedParameter, Refinement};
 use crate::elementary::{ln, power};
 use crate::output::{AxisScale, LineChart, Marker, Series, SeriesColour, Stroke};
 
@@ -63,12 +63,12 @@ pub fn chart(study: &Convergence, quantity: &str) -> LineChart {
 }
 
 /// Rungs usable for an order, from coarse to fine.
-fn usable_rungs(ladder: &Ladder) -> impl DoubleEndedIterator<Item = usize> {
+fn usable_rungs(ladder: &Refinement) -> impl DoubleEndedIterator<Item = usize> {
     (0..ladder.sizes.len()).filter(|rung| ladder.tells_an_order(*rung))
 }
 
 /// Line of an order through the last usable point, over all sizes.
-fn claimed(ladder: &Ladder, order: u32, points: &[(f64, f64)]) -> Option<Slope> {
+fn claimed(ladder: &Refinement, order: u32, points: &[(f64, f64)]) -> Option<Slope> {
     let last = usable_rungs(ladder).next_back()?;
     let line = through(ladder, last, f64::from(order));
     Some(Slope {
@@ -79,7 +79,7 @@ fn claimed(ladder: &Ladder, order: u32, points: &[(f64, f64)]) -> Option<Slope> 
 
 /// Line of the order observed for the finest sizes, over the range where neighbours agree; `None` if the errors are not in the asymptotic
 /// range.
-fn observed_order_line(ladder: &Ladder) -> Option<Slope> {
+fn observed_order_line(ladder: &Refinement) -> Option<Slope> {
     let last = usable_rungs(ladder).next_back()?;
     let mut orders = vec![ladder.order(last)?];
     for rung in (1..last).rev() {
@@ -102,7 +102,7 @@ fn observed_order_line(ladder: &Ladder) -> Option<Slope> {
     })
 }
 
-fn through(ladder: &Ladder, rung: usize, order: f64) -> impl Fn(f64) -> Option<(f64, f64)> {
+fn through(ladder: &Refinement, rung: usize, order: f64) -> impl Fn(f64) -> Option<(f64, f64)> {
     let (size, error) = (ladder.sizes[rung], ladder.error(rung));
     move |other| Some((other, error? * power(other / size, order)))
 }
@@ -115,14 +115,14 @@ mod tests {
     use crate::analysis::Deviation;
     use crate::integrators::Method;
 
-    fn ladder(orders: &[f64]) -> Ladder {
+    fn ladder(orders: &[f64]) -> Refinement {
         let mut errors = vec![1.0];
         for order in orders {
             errors.push(errors[errors.len() - 1] / 2_f64.powf(*order));
         }
         let deviation =
             |distance| Some(Deviation { distance, estimated_error: 0.0, is_of_own_run: false });
-        Ladder {
+        Refinement {
             method: Method::default(),
             quantity: "positions".into(),
             sizes: (0..errors.len()).map(|rung| 0.5_f64.powi(rung as i32)).collect(),

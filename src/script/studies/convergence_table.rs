@@ -2,7 +2,7 @@
 
 use super::convergence::size_name;
 use super::labels;
-use crate::analysis::{ALL_POSITIONS, Convergence, Ladder, RefinedParameter};
+use crate::analysis::{ALL_POSITIONS, Convergence, RefinedParameter, Refinement};
 use crate::output::{Cell, TextTable, significant};
 
 /// Tables of all quantities: errors and orders of all integrators side by side, with the fitted order below.
@@ -29,7 +29,7 @@ pub(super) fn head(study: &Convergence) -> String {
 }
 
 fn table_of(study: &Convergence, quantity: &str) -> String {
-    let ladders: Vec<&Ladder> = study.ladders_with(quantity).collect();
+    let ladders: Vec<&Refinement> = study.ladders_with(quantity).collect();
     let names = ladders.iter().flat_map(|ladder| [labels::method(&ladder.method), "order".into()]);
     let heads: Vec<String> = std::iter::once(size_name(study).to_owned()).chain(names).collect();
     let heads: Vec<&str> = heads.iter().map(String::as_str).collect();

@@ -18,7 +18,7 @@ use crate::script::messages::error::ScriptError;
 const WIDTH: usize = 160;
 const RESULTS: [&str; 7] =
     ["finished", "outcome", "energy_growth", "iterations", "most_iterations", "retries", "steps"];
-const ABREAST: usize = 2;
+const COLUMNS: usize = 2;
 
 /// Quantity that colours the cells.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -274,7 +274,7 @@ impl StabilityMap {
     /// All maps of the study on one page.
     pub fn page(&self) -> Page {
         let maps = self.heat_maps(Self::in_lines);
-        let page = Page::grid(ABREAST.min(maps.len()));
+        let page = Page::grid(COLUMNS.min(maps.len()));
         let is_lone = matches!(self.plan.maps.labels.as_slice(), [label] if label.is_empty());
         let page = if is_lone { page } else { page.title(&self.plan.name) };
         maps.into_iter().fold(page, Page::panel)

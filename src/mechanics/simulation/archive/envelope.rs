@@ -11,7 +11,7 @@
 
 use super::ArchiveError;
 
-const MARK: [u8; 8] = *b"\x89withy\r\n";
+const MAGIC: [u8; 8] = *b"\x89withy\r\n";
 
 /// File format version. Increment it with any change of the stored data.
 const FORMAT: u16 = 22;
@@ -45,7 +45,7 @@ impl<'a> ArchiveReader<'a> {
 
 pub fn wrap(content: &[u8]) -> Vec<u8> {
     let program = &PROGRAM.as_bytes()[..PROGRAM.len().min(usize::from(u8::MAX))];
-    let mut file = MARK.to_vec();
+    let mut file = MAGIC.to_vec();
     file.extend(FORMAT.to_le_bytes());
     file.push(program.len() as u8);
     file.extend(program);
@@ -57,11 +57,11 @@ pub fn wrap(content: &[u8]) -> Vec<u8> {
 
 /// Checks versions, length and checksum, and returns the content.
 pub fn unwrap(file: &[u8]) -> Result<&[u8], ArchiveError> {
-    if file.is_empty() || !file.starts_with(&MARK[..file.len().min(MARK.len())]) {
+    if file.is_empty() || !file.starts_with(&MAGIC[..file.len().min(MAGIC.len())]) {
         return Err(ArchiveError::Foreign);
     }
     let mut reader = ArchiveReader { bytes: file, at: 0 };
-    reader.take(MARK.len())?;
+    reader.take(MAGIC.len())?;
     let format = u16::from_le_bytes(reader.array()?);
     let [length] = reader.array()?;
     let program = String::from_utf8_lossy(reader.take(usize::from(length))?).into_owned();

@@ -16,10 +16,10 @@ const COMPRESSED: f64 = 0.5;
 const STRETCHED: f64 = 1.5;
 
 /// Contact force, relative to the shear stiffness of the beam, above which the axis folds.
-const PRESSED: f64 = 0.1;
+const FOLDING_FORCE: f64 = 0.1;
 
 /// Relative distance to an end below which the kink under a slider keeps it off the end.
-const HOVERS: f64 = 5e-3;
+const END_DISTANCE: f64 = 5e-3;
 
 impl Simulation {
     /// Extreme conditions of the present configuration, appended to messages; empty if there are none.
@@ -91,13 +91,13 @@ impl Simulation {
             let pressed = force / beam.section.mean().shear_stiffness;
             let place = self.model.slider_position(index);
             let left = smaller(place, 1.0 - place);
-            let pressed = (pressed > PRESSED).then(|| {
+            let pressed = (pressed > FOLDING_FORCE).then(|| {
                 format!(
                     "the contact force of slider '{name}' on beam '{master}' is {} times its shear stiffness GA, which folds the axis; reduce the force or increase GA",
                     short(pressed)
                 )
             });
-            let hovers = (slider.rule == SlidingRule::Kinked && left < HOVERS).then(|| {
+            let hovers = (slider.rule == SlidingRule::Kinked && left < END_DISTANCE).then(|| {
                 format!(
                     "slider '{name}' is at a distance of {} of the length of beam '{master}' from its end, too close for the kinked rule; use the rule conserving()",
                     short(left)

@@ -3,7 +3,7 @@
 use super::Simulation;
 use crate::beams::{SectionForces, Station};
 use crate::system::{
-    BeamPlaces, BeamSample, BodyEnergy, Instant, Probe, SectionSample, SystemError,
+    BeamPlaces, BeamSample, BodyEnergy, Instant, SectionSample, SensorSource, SystemError,
 };
 
 impl Simulation {
@@ -57,14 +57,14 @@ impl Simulation {
     /// Number of columns that the caller fills after every row.
     pub fn outside_columns(&self) -> usize {
         let sensors = self.scene.sensors.iter();
-        sensors.filter(|sensor| sensor.probe == Probe::External).count()
+        sensors.filter(|sensor| sensor.probe == SensorSource::External).count()
     }
 
     /// Sets these columns in the last row of the history.
     pub fn fill_in(&mut self, values: &[f64]) {
         let first = self.record.history.extra_width() - self.scene.sensors.len();
         let sensors = self.scene.sensors.iter().enumerate();
-        let outside = sensors.filter(|(_, sensor)| sensor.probe == Probe::External);
+        let outside = sensors.filter(|(_, sensor)| sensor.probe == SensorSource::External);
         for ((column, _), value) in outside.zip(values) {
             self.record.history.fill_in(first + column, *value);
         }

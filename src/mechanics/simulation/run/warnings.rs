@@ -7,7 +7,7 @@ use crate::geometry::larger;
 use crate::integrators::{EnergyClaim, INTEGRATORS, Mechanism, Method};
 use crate::simulation::warning::{LARGEST_ROTATION, MOST_SPANS, RateChangeCause, short};
 use crate::simulation::{Invariant, StepSize, Warning};
-use crate::system::{RESOLVED_BLOW, Resolution, SpringLaw, System, SystemFeature};
+use crate::system::{RESOLVED_IMPACT, Resolution, SpringLaw, System, SystemFeature};
 use crate::vibration::{Modes, VibrationError};
 
 /// Unresolved fraction of the kinetic energy above which steps are too long. It is that of a single vibration with 3.5 steps per period, whose period
@@ -27,7 +27,7 @@ const NOTHING: f64 = 1e-8;
 const LARGEST_DRIFT: f64 = 1e-7;
 
 /// Relative rounding error of dissipated energies.
-const FED: f64 = 1e-7;
+const DISSIPATION_ROUNDING: f64 = 1e-7;
 
 /// Fraction of the total energy that counts as large.
 const MUCH: f64 = 0.3;
@@ -39,10 +39,10 @@ const MOST_UNKNOWNS: usize = 1200;
 const MODES: [usize; 3] = [4, 8, 16];
 
 /// Number of recent steps examined for alternating lengths.
-const LOOKED_BACK: usize = 200;
+const RECENT_STEPS: usize = 200;
 
 /// Relative difference of alternating step lengths.
-const UNEVEN: f64 = 0.1;
+const ALTERNATION: f64 = 0.1;
 
 /// Largest acceptable number of alternations.
 const MOST_TURNS: usize = 20;
@@ -93,7 +93,7 @@ impl Simulation {
                 }
             }
             let blows = self.model.steps_per_impact(index);
-            if blows > RESOLVED_BLOW {
+            if blows > RESOLVED_IMPACT {
                 notes.push(Warning::Bounce { slider, dt, steps_per_impact: blows });
             }
         }
@@ -145,11 +145,11 @@ impl Simulation {
             return None;
         }
         let rows = self.history().samples();
-        let last = &rows[rows.len().saturating_sub(LOOKED_BACK)..];
+        let last = &rows[rows.len().saturating_sub(RECENT_STEPS)..];
         let (mut turns, mut shortest, mut longest) = (0, f64::INFINITY, 0.0);
         for pair in last.windows(2) {
             let [before, now] = [pair[0].dt, pair[1].dt];
-            if before > 0.0 && (now - before).abs() > UNEVEN * larger(now, before) {
+            if before > 0.0 && (now - before).abs() > ALTERNATION * larger(now, before) {
                 turns += 1;
                 shortest = before.min(now).min(shortest);
                 longest = larger(longest, larger(before, now));
@@ -206,7 +206,7 @@ impl Simulation {
             let [before, now] = [pair[0].measures, pair[1].measures];
             let held = now.energy.kinetic + now.energy.strain + now.energy.stored;
             let energy = before.dissipated - now.dissipated;
-            (energy - FED * larger(held, now.dissipated.abs()), energy, &pair[1])
+            (energy - DISSIPATION_ROUNDING * larger(held, now.dissipated.abs()), energy, &pair[1])
         });
         let (beyond, energy, row) = given.max_by(|(a, ..), (b, ..)| a.total_cmp(b))?;
         let (time, dt) = (row.measures.time, row.dt);

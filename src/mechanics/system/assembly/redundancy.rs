@@ -7,7 +7,7 @@ use crate::system::errors::SliderError;
 use crate::system::{Scene, System, SystemError};
 
 /// Pivot of the Cholesky factorisation, relative to the diagonal, below which a response is due to rounding.
-const NOTHING_LEFT: f64 = 1e-13;
+const ROUNDING_PIVOT: f64 = 1e-13;
 
 /// Response below which only rounding acts on a slider, relative to the response of the total mass.
 const NO_RESPONSE: f64 = 1e-26;
@@ -31,8 +31,9 @@ impl System {
                 row.push((response[other] - sum) / before[other]);
             }
             let left = own - row.iter().map(|entry| entry * entry).sum::<f64>();
-            if left <= NOTHING_LEFT * own {
-                let takes_part = |(_, entry): &(usize, &f64)| *entry * *entry > NOTHING_LEFT * own;
+            if left <= ROUNDING_PIVOT * own {
+                let takes_part =
+                    |(_, entry): &(usize, &f64)| *entry * *entry > ROUNDING_PIVOT * own;
                 let others = row.iter().enumerate().filter(takes_part).map(|(other, _)| other);
                 let names = others.chain([slider]).map(|at| scene.sliders[at].name.as_str());
                 let sliders = names.collect::<Vec<_>>().join("', '");

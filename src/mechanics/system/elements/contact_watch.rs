@@ -7,7 +7,7 @@ const FEW: f64 = 3.0;
 const TURNED: f64 = 0.5;
 
 /// Contact depths below this fraction of the length or angle are attributed to rounding.
-const TOUCH: f64 = 1e-12;
+const ROUNDING_DEPTH: f64 = 1e-12;
 
 /// Bounce on a spring that the steps did not resolve.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -38,7 +38,7 @@ pub struct ContactWatch {
 
 impl ContactWatch {
     pub fn new(largest_stiffness: f64, extent: f64) -> Self {
-        Self { noise: TOUCH * largest_stiffness * extent, ..Self::default() }
+        Self { noise: ROUNDING_DEPTH * largest_stiffness * extent, ..Self::default() }
     }
 
     /// Records a step: slackness at its start and end, rates of elongation of the previous step and of this one, force and duration.

@@ -22,7 +22,7 @@ struct IterationState {
 }
 
 /// Number of linearisations after which the impedance is used. Smooth laws and most others converge earlier.
-const PATIENCE: u32 = 4;
+const PLAIN_LINEARISATIONS: u32 = 4;
 
 /// Target force of a configuration, and its derivative with respect to `Δq`.
 #[derive(Debug, Clone, Copy, Default)]
@@ -60,7 +60,8 @@ impl MixedForce {
         let IterationState { linearised, at: (rate_before, force_before) } = self.search;
         self.search = IterationState { linearised: linearised + 1, at: (rate, self.force) };
         let impedance = (force_before - self.force) / (rate - rate_before);
-        (linearised >= PATIENCE && impedance > 0.0 && impedance.is_finite()).then_some(impedance)
+        (linearised >= PLAIN_LINEARISATIONS && impedance > 0.0 && impedance.is_finite())
+            .then_some(impedance)
     }
 
     /// Stores target and derivative for the next correction.

@@ -4,7 +4,7 @@ use crate::integrators::Interval;
 use crate::loads::{MotionInStep, PrescribedMotion};
 
 /// Relative rate changes below this value belong to a smooth motion.
-const SHARPEST: f64 = 0.1;
+const LARGEST_SMOOTH_CHANGE: f64 = 0.1;
 
 /// Kink of a prescribed motion within a step that treats it as smooth.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -29,7 +29,7 @@ impl MotionCurvature {
             .iter()
             .fold(0.0, |size: f64, rate| size.max(rate.abs()));
         let missed = (step.first_rate - before).abs();
-        if missed <= SHARPEST * size
+        if missed <= LARGEST_SMOOTH_CHANGE * size
             || missed <= step.rounding
             || schedule.functions() == 0
             || schedule.is_sampled()

@@ -13,7 +13,7 @@ const SEGMENTS: usize = 32;
 const MOST_POINTS: usize = 20_000;
 
 /// Second test point of a segment besides its middle. An oscillating function may match at the middle by chance [-].
-const OFF_MIDDLE: f64 = 0.381_966;
+const SECOND_TEST_POINT: f64 = 0.381_966;
 
 /// Factor of the tolerance at the second test point.
 const OFF_MIDDLE_MARGIN: f64 = 4.0;
@@ -41,7 +41,7 @@ impl SpringLaw {
             let is_fine = finer.len() == points.len();
             let (finer, error) = match is_fine {
                 true => {
-                    let beside = (OFF_MIDDLE, OFF_MIDDLE_MARGIN * allowed);
+                    let beside = (SECOND_TEST_POINT, OFF_MIDDLE_MARGIN * allowed);
                     let (finer, besides) = refined(&points, &mut force, beside)?;
                     (finer, larger(error, besides))
                 }

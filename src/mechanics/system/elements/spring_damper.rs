@@ -23,7 +23,7 @@ use crate::system::bodies::Body;
 
 /// Tolerance of forces of laws with corners, relative to the rounding scale of the elongation. Mismatches of a linear law vanish in the next
 /// iteration; those of a law with corners do not.
-const SHARP: f64 = 2e-4;
+const CORNER_TOLERANCE: f64 = 2e-4;
 
 #[derive(Debug, Clone)]
 pub struct SpringDamper {
@@ -171,7 +171,7 @@ impl InternalForce for SpringDamper {
         }
         let extent = self.elongation.extent();
         let (restoring, damping) = (self.restoring(at.stage), self.damping(at));
-        let of_spring = if self.rises { SHARP * extent } else { extent };
+        let of_spring = if self.rises { CORNER_TOLERANCE * extent } else { extent };
         let mut missed = self.spring.compare(restoring, of_spring);
         let has_mean = matches!(at.stage, Stage::Midpoint | Stage::DampedMidpoint(_));
         let missing = if has_mean { self.spring.missing_change() } else { 0.0 };

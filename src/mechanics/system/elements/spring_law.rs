@@ -9,7 +9,7 @@ use crate::geometry::larger;
 const ROUNDING: f64 = 1e-12;
 
 /// A corner is sharp if the stiffness changes by more than this fraction of the largest.
-const SHARP: f64 = 0.5;
+const SHARP_CORNER: f64 = 0.5;
 
 /// Restoring force over an elongation `q`, a length or an angle.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -95,7 +95,7 @@ impl SpringLaw {
         match self {
             Self::Linear { .. } => Vec::new(),
             Self::Table { points } | Self::Sampled { points, .. } => {
-                let sharp = SHARP * self.largest_slope();
+                let sharp = SHARP_CORNER * self.largest_slope();
                 let at = |three: &[(f64, f64)]| {
                     let slopes = [[three[0], three[1]], [three[1], three[2]]].map(slope);
                     let jumps = (slopes[1] - slopes[0]).abs() > sharp;

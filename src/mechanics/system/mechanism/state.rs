@@ -6,13 +6,13 @@ use super::System;
 use crate::integrators::Checkpoint;
 use crate::system::SystemError;
 use crate::system::sliders::SliderState;
-use crate::system::state::Trend;
+use crate::system::state::Prediction;
 
 /// State of a [`System`], to be restored in the same one: everything that determines its later motion, and the accumulated work and impulse.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct SystemState {
     numbers: Vec<f64>,
-    prediction: Trend,
+    prediction: Prediction,
     knows_accelerations: bool,
     sliders: Vec<SliderState>,
 }

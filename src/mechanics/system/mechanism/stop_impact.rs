@@ -21,7 +21,7 @@ const TOGETHER: f64 = 1e-12;
 pub(super) const RIGID: f64 = 4.0;
 
 /// Largest ratio of step length to impact duration that resolves an impact [-].
-pub const RESOLVED_BLOW: f64 = 0.125;
+pub const RESOLVED_IMPACT: f64 = 0.125;
 
 /// Smallest approach speed relative to the fastest speed of the model.
 const APPROACHES: f64 = 1e-12;
@@ -101,7 +101,7 @@ impl System {
     pub fn resolves_impact(&mut self, limit: MasterLimit, dt: f64) -> Result<bool, SystemError> {
         let lasts = self.impact_duration(limit).map_err(|_| self.sliders.overdetermined())?;
         self.sliders[limit.slider].record_impact_ratio(dt / lasts);
-        Ok(lasts.is_finite() && dt <= RESOLVED_BLOW * lasts)
+        Ok(lasts.is_finite() && dt <= RESOLVED_IMPACT * lasts)
     }
 
     /// Duration of the impact of a slider at a limit [time]; infinite if nothing is compliant.

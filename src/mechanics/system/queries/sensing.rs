@@ -4,8 +4,8 @@ use crate::beams::{BodyIndex, BodyPoint, Station};
 use crate::geometry::Vec2;
 use crate::integrators::Mechanism;
 use crate::system::{
-    BodyEnergy, CrossSection, Instant, Probe, Reactions, Scene, System, SystemError, Transmission,
-    Value,
+    BodyEnergy, CrossSection, Instant, Reactions, Scene, SensorSource, System, SystemError,
+    Transmission, Value,
 };
 
 /// Sensors of a scene, located in its model.
@@ -36,26 +36,30 @@ impl SensorReader {
     /// Fails if the force of a joint is not determined.
     pub fn of(scene: &Scene, model: &System) -> Result<Self, SystemError> {
         let readings = scene.sensors.iter().map(|sensor| match &sensor.probe {
-            Probe::Station(station, quantity) => at_station(scene, model, station, quantity.value),
-            Probe::Body(BodyIndex::Beam(beam), quantity) => {
+            SensorSource::Station(station, quantity) => {
+                at_station(scene, model, station, quantity.value)
+            }
+            SensorSource::Body(BodyIndex::Beam(beam), quantity) => {
                 Ok(SensorReading::Body(*beam, quantity.value))
             }
-            Probe::Body(BodyIndex::Particle(particle), quantity) => {
+            SensorSource::Body(BodyIndex::Particle(particle), quantity) => {
                 Ok(SensorReading::Body(scene.beams.len() + particle, quantity.value))
             }
-            Probe::Body(BodyIndex::Rigid(body, _), quantity) => {
+            SensorSource::Body(BodyIndex::Rigid(body, _), quantity) => {
                 let first = scene.first_rigid_body();
                 Ok(SensorReading::Body(first + body, quantity.value))
             }
-            Probe::Joint(joint, quantity) => {
+            SensorSource::Joint(joint, quantity) => {
                 let transmission = model.transmission(scene, *joint)?;
                 Ok(match quantity.value.is_of_step() {
                     true => SensorReading::MeanJointForce(transmission, quantity.value),
                     false => SensorReading::Joint(transmission, quantity.value),
                 })
             }
-            Probe::Slider(slider, quantity) => Ok(SensorReading::Contact(*slider, quantity.value)),
-            Probe::External => Ok(SensorReading::External),
+            SensorSource::Slider(slider, quantity) => {
+                Ok(SensorReading::Contact(*slider, quantity.value))
+            }
+            SensorSource::External => Ok(SensorReading::External),
         });
         let readings = readings.collect::<Result<Vec<_>, SystemError>>()?;
         let needs_instant = readings.iter().any(|reading| {

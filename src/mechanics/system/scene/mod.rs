@@ -19,5 +19,5 @@ pub use definitions::{
     BeamDefinition, ParticleDefinition, RigidBodyDefinition, StartMotion, StationVelocity,
 };
 pub use description::Scene;
-pub use sensors::{Probe, Quantity, Sensor, Value};
+pub use sensors::{Quantity, Sensor, SensorSource, Value};
 pub use ties::{Ties, same_place};

@@ -19,12 +19,12 @@ pub struct Sensor {
     /// Name of the column.
     pub name: String,
     /// Source of the values.
-    pub probe: Probe,
+    pub probe: SensorSource,
 }
 
 /// Source of the values of a sensor.
 #[derive(Debug, Clone, PartialEq)]
-pub enum Probe {
+pub enum SensorSource {
     /// Quantity of a station or of its support.
     Station(Station, Quantity),
     /// Quantity of a beam, particle or rigid body as a whole.
@@ -152,22 +152,22 @@ impl Sensor {
     /// Dimension of the values.
     pub fn dimension(&self) -> &'static str {
         match &self.probe {
-            Probe::Station(_, quantity)
-            | Probe::Body(_, quantity)
-            | Probe::Joint(_, quantity)
-            | Probe::Slider(_, quantity) => quantity.dimension,
-            Probe::External => "-",
+            SensorSource::Station(_, quantity)
+            | SensorSource::Body(_, quantity)
+            | SensorSource::Joint(_, quantity)
+            | SensorSource::Slider(_, quantity) => quantity.dimension,
+            SensorSource::External => "-",
         }
     }
 
     /// Returns true if the values are averages over the last step.
     pub fn is_of_step(&self) -> bool {
-        matches!(&self.probe, Probe::Joint(_, quantity) if quantity.value.is_of_step())
+        matches!(&self.probe, SensorSource::Joint(_, quantity) if quantity.value.is_of_step())
     }
 
     /// Returns true if the sensor can be stored, that is, if its name defines it.
     pub fn can_be_stored(&self) -> bool {
-        self.probe != Probe::External
+        self.probe != SensorSource::External
     }
 }
 
@@ -189,7 +189,7 @@ impl Scene {
     pub fn record(&mut self, name: &str) -> Result<(), SystemError> {
         self.check_column(name)?;
         let probe = self.find_sensor(name)?;
-        if let Probe::Station(station, Quantity { value: Value::Angle, .. }) = probe
+        if let SensorSource::Station(station, Quantity { value: Value::Angle, .. }) = probe
             && let Some(beam) = station.beam()
         {
             self.station(beam, station.arc_length)?;
@@ -205,7 +205,7 @@ impl Scene {
     pub fn record_outside(&mut self, name: &str) -> Result<(), SystemError> {
         check_name(COLUMN, name)?;
         self.check_column(name)?;
-        self.sensors.push(Sensor { name: name.to_owned(), probe: Probe::External });
+        self.sensors.push(Sensor { name: name.to_owned(), probe: SensorSource::External });
         Ok(())
     }
 
@@ -267,7 +267,7 @@ impl Scene {
         self.joints.iter().map(name).collect()
     }
 
-    fn find_sensor(&self, name: &str) -> Result<Probe, SystemError> {
+    fn find_sensor(&self, name: &str) -> Result<SensorSource, SystemError> {
         let refused = |why: String| SystemError::NoSensor { name: name.to_owned(), reason: why };
         let of = |known: &str| {
             let rest = name.strip_prefix(known)?;
@@ -314,9 +314,9 @@ impl Scene {
             })
         };
         match object {
-            Object::Joint(at) => Ok(Probe::Joint(at, find(OF_JOINTS, rest)?)),
+            Object::Joint(at) => Ok(SensorSource::Joint(at, find(OF_JOINTS, rest)?)),
             Object::Slider(at) => match find(OF_SLIDERS, rest) {
-                Ok(quantity) => Ok(Probe::Slider(at, quantity)),
+                Ok(quantity) => Ok(SensorSource::Slider(at, quantity)),
                 Err(_) => Err(refused(format!(
                     "position, speed and force of slider '{}' have columns in every history and need no recording; its other quantities are {}",
                     self.sliders[at].name,
@@ -324,8 +324,8 @@ impl Scene {
                 ))),
             },
             Object::Particle(at) => match find(OF_BODIES, rest) {
-                Ok(quantity) => Ok(Probe::Body(BodyIndex::Particle(at), quantity)),
-                Err(_) => Ok(Probe::Station(
+                Ok(quantity) => Ok(SensorSource::Body(BodyIndex::Particle(at), quantity)),
+                Err(_) => Ok(SensorSource::Station(
                     Station::on_particle(at),
                     find(&OF_STATIONS[..OF_PARTICLES], rest)?,
                 )),
@@ -341,9 +341,9 @@ impl Scene {
                 };
                 match find(OF_BODIES, rest) {
                     Ok(quantity) if point == 0 => {
-                        Ok(Probe::Body(BodyIndex::Rigid(at, 0), quantity))
+                        Ok(SensorSource::Body(BodyIndex::Rigid(at, 0), quantity))
                     }
-                    _ => Ok(Probe::Station(
+                    _ => Ok(SensorSource::Station(
                         Station::on_rigid_body(at, point),
                         find(&OF_STATIONS[..OF_POINTS], rest)?,
                     )),
@@ -370,7 +370,7 @@ impl Scene {
                     let wanted = rest.strip_prefix('.').unwrap_or_default();
                     let known = OF_BODIES.iter().find(|quantity| quantity.name == wanted);
                     let beam = &self.beams[at].name;
-                    return known.map(|known| Probe::Body(BodyIndex::Beam(at), *known)).ok_or_else(|| {
+                    return known.map(|known| SensorSource::Body(BodyIndex::Beam(at), *known)).ok_or_else(|| {
                         let names: Vec<&str> = OF_BODIES.iter().map(|quantity| quantity.name).collect();
                         refused(format!(
                             "a whole beam has {}; its places have {beam}.start.x, {beam}.end.x, {beam}[s].x and so on",
@@ -379,7 +379,10 @@ impl Scene {
                     });
                 };
                 let dotted = format!(".{rest}");
-                Ok(Probe::Station(Station::on_beam(at, arc_length), find(OF_STATIONS, &dotted)?))
+                Ok(SensorSource::Station(
+                    Station::on_beam(at, arc_length),
+                    find(OF_STATIONS, &dotted)?,
+                ))
             }
         }
     }

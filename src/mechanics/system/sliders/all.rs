@@ -2,7 +2,7 @@
 
 use std::ops::{Deref, DerefMut};
 
-use super::master_curve::LANDED;
+use super::master_curve::END_TOLERANCE;
 use super::{MasterEnd, MasterLimit, Passing, SliderContact, SliderState};
 use crate::beams::SpanStiffness;
 use crate::geometry::{Vec2, larger};
@@ -187,10 +187,10 @@ impl Sliders {
         for limit in limits.filter(|limit| self[limit.slider].is_sliding()) {
             let distance = self[limit.slider].overshoot(unknowns, limit.end);
             let overshoot = Overshoot { limit: limit.number(), distance };
-            if aim == Some(limit) && distance.abs() > LANDED {
+            if aim == Some(limit) && distance.abs() > END_TOLERANCE {
                 return Err(overshoot);
             }
-            if distance > LANDED && furthest.is_none_or(|other| distance > other.distance) {
+            if distance > END_TOLERANCE && furthest.is_none_or(|other| distance > other.distance) {
                 furthest = Some(overshoot);
             }
         }

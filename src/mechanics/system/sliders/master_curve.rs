@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 use crate::geometry::{Curve, corresponding};
 
 /// Tolerance for a slider at the end of its master, relative to the parameter range [-].
-pub const LANDED: f64 = 4e-15;
+pub const END_TOLERANCE: f64 = 4e-15;
 
 /// End of the master of a slider.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
@@ -136,7 +136,7 @@ impl MasterCurve {
     /// Returns true if a parameter is in the range of the mesh, within rounding.
     pub fn has(&self, parameter: f64) -> bool {
         let (first, last) = self.domain;
-        let slack = LANDED * (last - first);
+        let slack = END_TOLERANCE * (last - first);
         (first - slack..=last + slack).contains(&parameter)
     }
 

@@ -6,7 +6,7 @@ use super::resolution::GuessErrors;
 
 /// Basis of the prediction of the next step.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
-pub enum Trend {
+pub enum Prediction {
     /// No step has been taken. Only the start rates are available.
     #[default]
     Unknown,
@@ -17,26 +17,26 @@ pub enum Trend {
 }
 
 /// Ratio of squared errors below which the mean rates are selected.
-const CLEARLY_LESS: f64 = 0.8;
+const SELECTION_RATIO: f64 = 0.8;
 
 /// Mean motion of the last step, with the selected prediction.
 #[derive(Debug, Clone)]
-pub struct Forecast {
+pub struct IncrementPrediction {
     mean_rates: Vec<f64>,
-    prediction: Trend,
+    prediction: Prediction,
     inertia: Vec<f64>,
 }
 
-impl Forecast {
+impl IncrementPrediction {
     pub fn new(rates: &[f64], inertia: Vec<f64>) -> Self {
-        Self { mean_rates: rates.to_vec(), prediction: Trend::Unknown, inertia }
+        Self { mean_rates: rates.to_vec(), prediction: Prediction::Unknown, inertia }
     }
 
     /// Rates that predict the next step, given those at its start [length/time, 1/time].
     pub fn rates<'a>(&'a self, at_start: &'a [f64]) -> &'a [f64] {
         match self.prediction {
-            Trend::Unknown | Trend::Smooth => at_start,
-            Trend::FromMeanRates => &self.mean_rates,
+            Prediction::Unknown | Prediction::Smooth => at_start,
+            Prediction::FromMeanRates => &self.mean_rates,
         }
     }
 
@@ -53,9 +53,9 @@ impl Forecast {
         }
         self.prediction = match self.prediction {
             // Start velocities may be those of single nodes, so the mean rates of the first step predict better.
-            Trend::Unknown => Trend::FromMeanRates,
-            _ if missed.by_mean < CLEARLY_LESS * missed.by_start => Trend::FromMeanRates,
-            _ => Trend::Smooth,
+            Prediction::Unknown => Prediction::FromMeanRates,
+            _ if missed.by_mean < SELECTION_RATIO * missed.by_start => Prediction::FromMeanRates,
+            _ => Prediction::Smooth,
         };
         missed
     }
@@ -82,7 +82,7 @@ impl Forecast {
         missed
     }
 
-    pub fn trend(&self) -> Trend {
+    pub fn trend(&self) -> Prediction {
         self.prediction
     }
 
@@ -90,7 +90,7 @@ impl Forecast {
         numbers.extend(&self.mean_rates);
     }
 
-    pub fn restore(&mut self, trend: Trend, next: &mut dyn FnMut() -> f64) {
+    pub fn restore(&mut self, trend: Prediction, next: &mut dyn FnMut() -> f64) {
         self.prediction = trend;
         self.mean_rates.iter_mut().for_each(|rate| *rate = next());
     }
@@ -102,7 +102,7 @@ mod tests {
 
     #[test]
     fn rates_that_alternate_are_averaged_and_rates_that_grow_are_not() {
-        let mut forecast = Forecast::new(&[0.0], vec![1.0]);
+        let mut forecast = IncrementPrediction::new(&[0.0], vec![1.0]);
         for step in 0..5 {
             let (start, end) = (f64::from(step), f64::from(step + 1));
             forecast.update(&[start], &[0.5 * (start + end)], 1.0);

@@ -8,7 +8,7 @@ mod step;
 mod unknowns;
 mod watched;
 
-pub use forecast::Trend;
+pub use forecast::Prediction;
 pub use present::MotionState;
 pub use resolution::Resolution;
 pub use step::StepMeasures;

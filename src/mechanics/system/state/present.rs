@@ -1,7 +1,7 @@
 //! Rates of a model, and the prediction of the next step.
 
 use super::accelerations::Accelerations;
-use super::forecast::{Forecast, Trend};
+use super::forecast::{IncrementPrediction, Prediction};
 use super::{MonitoredBody, Resolution, StepMeasures};
 
 /// Present time and rates, with statistics of the motion.
@@ -11,7 +11,7 @@ pub struct MotionState {
     /// Rates of the unknown movements at the present time [length/time, 1/time].
     pub rates: Vec<f64>,
     pub accelerations: Accelerations,
-    forecast: Forecast,
+    forecast: IncrementPrediction,
     resolution: Resolution,
     /// Bodies with separate resolution measures; empty if there is only one body.
     monitored: Vec<MonitoredBody>,
@@ -22,7 +22,7 @@ impl MotionState {
     pub fn new(rates: Vec<f64>, noise: f64) -> Self {
         Self {
             time: 0.0,
-            forecast: Forecast::new(&rates, Vec::new()),
+            forecast: IncrementPrediction::new(&rates, Vec::new()),
             rates,
             accelerations: Accelerations::default(),
             resolution: Resolution::above(noise),
@@ -32,7 +32,7 @@ impl MotionState {
 
     /// Starts the prediction from the present rates, in the norm of the diagonal inertia.
     pub fn begin(&mut self, inertia: Vec<f64>) {
-        self.forecast = Forecast::new(&self.rates, inertia);
+        self.forecast = IncrementPrediction::new(&self.rates, inertia);
     }
 
     /// Measures the resolution of the given bodies separately, by index and degrees of freedom.
@@ -89,7 +89,7 @@ impl MotionState {
     }
 
     /// Selected prediction, the non-numeric part of the state.
-    pub fn trend(&self) -> Trend {
+    pub fn trend(&self) -> Prediction {
         self.forecast.trend()
     }
 
@@ -101,7 +101,7 @@ impl MotionState {
         self.monitored.iter().for_each(|one| one.save(numbers));
     }
 
-    pub fn restore(&mut self, trend: Trend, next: &mut dyn FnMut() -> f64) {
+    pub fn restore(&mut self, trend: Prediction, next: &mut dyn FnMut() -> f64) {
         self.time = next();
         self.rates.iter_mut().for_each(|rate| *rate = next());
         self.forecast.restore(trend, next);

@@ -1,7 +1,7 @@
 //! Resolution of single bodies. The unresolved motion of a small body is negligible in the total of a scene with a large one.
 
 use super::Resolution;
-use super::forecast::Forecast;
+use super::forecast::IncrementPrediction;
 use crate::beams::RotationIncrement;
 
 /// Body with its degrees of freedom and resolution measures.
@@ -28,7 +28,7 @@ impl MonitoredBody {
     /// Records the increments of a step of a duration [time] with the rates at its start, before the prediction is updated.
     pub(super) fn add(
         &mut self,
-        forecast: &Forecast,
+        forecast: &IncrementPrediction,
         at_start: &[f64],
         increments: &[f64],
         duration: f64,

@@ -10,9 +10,9 @@ pub const TABLE: BuiltInTable = BuiltInTable {
         new array of both.",
     rows: &[
         built_in(&["array.len"], "Number of elements.", "check([1, 2, 3].len == 3);")
-            .returns(Returns::WHOLE),
+            .returns(Returns::INTEGER),
         built_in(&["array.is_empty"], "True if the array has no elements.", "check([].is_empty);")
-            .returns(Returns::TRUTH),
+            .returns(Returns::BOOLEAN),
         built_in(
             &["array.get(index)"],
             "Returns the element at an index, or nothing if there is none; array[index] is then \

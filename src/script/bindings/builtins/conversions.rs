@@ -20,14 +20,14 @@ pub const TABLE: BuiltInTable = BuiltInTable {
             "Converts a text to a whole number, to base 10 or another base up to 36.",
             "check(parse_int(\"42\") == 42);\ncheck(parse_int(\"ff\", 16) == 255);",
         )
-        .returns(Returns::WHOLE)
+        .returns(Returns::INTEGER)
         .with_related(&["parse_float"]),
         built_in(
             &["number.to_int()"],
             "Converts a number to a whole number, without the digits after the decimal point.",
             "check(2.7.to_int() == 2 && (-2.7).to_int() == -2);",
         )
-        .returns(Returns::WHOLE)
+        .returns(Returns::INTEGER)
         .with_related(&["floor", "round"]),
         built_in(
             &["number.to_float()"],
@@ -73,27 +73,27 @@ pub const TABLE: BuiltInTable = BuiltInTable {
             two numbers for sort.",
             "check(sign(-0.5) == -1 && sign(0) == 0 && sign(7) == 1);",
         )
-        .returns(Returns::WHOLE)
+        .returns(Returns::INTEGER)
         .with_related(&["abs", "sort"]),
         built_in(
             &["number.is_zero()"],
             "Returns true if a number is zero.",
             "check(0.is_zero() && !is_zero(1e-300));",
         )
-        .returns(Returns::TRUTH),
+        .returns(Returns::BOOLEAN),
         built_in(
             &["number.is_even()"],
             "Returns true if a whole number is even.",
             "check(is_even(4));",
         )
-        .returns(Returns::TRUTH)
+        .returns(Returns::BOOLEAN)
         .with_related(&["is_odd"]),
         built_in(
             &["number.is_odd()"],
             "Returns true if a whole number is odd.",
             "check(is_odd(3));",
         )
-        .returns(Returns::TRUTH)
+        .returns(Returns::BOOLEAN)
         .with_related(&["is_even"]),
         built_in(
             &["number.bits([start], [count])", "number.bits(range)", "number.bits"],

@@ -40,14 +40,14 @@ pub const TABLE: BuiltInTable = BuiltInTable {
             "True if the function was written as |x| … .",
             "check((|x| x).is_anonymous);",
         )
-        .returns(Returns::TRUTH),
+        .returns(Returns::BOOLEAN),
         built_in(
             &["is_def_fn(name, count)", "is_def_fn(type, name, count)"],
             "Returns true if the script defines a function with this name and number of \
             parameters.",
             "fn twice(x) { 2 * x }\ncheck(is_def_fn(\"twice\", 1) && !is_def_fn(\"twice\", 2));",
         )
-        .returns(Returns::TRUTH)
+        .returns(Returns::BOOLEAN)
         .with_related(&["is_def_var"]),
     ],
 };

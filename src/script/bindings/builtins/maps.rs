@@ -10,9 +10,9 @@ pub const TABLE: BuiltInTable = BuiltInTable {
         written with parentheses: map.len().",
     rows: &[
         built_in(&["map.len()"], "Returns the number of keys.", "check(#{ a: 1, b: 2 }.len() == 2);")
-            .returns(Returns::WHOLE),
+            .returns(Returns::INTEGER),
         built_in(&["map.is_empty()"], "Returns true if the map has no keys.", "check(#{}.is_empty());")
-            .returns(Returns::TRUTH),
+            .returns(Returns::BOOLEAN),
         built_in(&["map.keys()"], "Returns the keys in alphabetical order.", "check(#{ b: 2, a: 1 }.keys() == [\"a\", \"b\"]);")
             .returns(Returns::array_of(&ValueKind::Text))
             .with_related(&["values"]),
@@ -28,7 +28,7 @@ pub const TABLE: BuiltInTable = BuiltInTable {
             "Returns true if the map has a key; the same as key in map.",
             "let m = #{ dt: 0.1 };\ncheck(m.contains(\"dt\") && \"t\" !in m);",
         )
-        .returns(Returns::TRUTH),
+        .returns(Returns::BOOLEAN),
         built_in(
             &["map.get(key)"],
             "Returns the value of a key, or nothing if there is none.",

@@ -17,30 +17,30 @@ pub const TABLE: BuiltInTable = BuiltInTable {
         .returns(Returns::ANYTHING.with_description("numbers for a loop"))
         .with_related(&["linspace"]),
         built_in(&["range.start"], "Start of the range.", "check((2..5).start == 2);")
-            .returns(Returns::WHOLE),
+            .returns(Returns::INTEGER),
         built_in(&["range.end"], "End of the range.", "check((2..5).end == 5);")
-            .returns(Returns::WHOLE),
+            .returns(Returns::INTEGER),
         built_in(
             &["range.contains(n)"],
             "Returns true if a whole number is in the range; the same as n in range.",
             "check((0..3).contains(2));\ncheck(3 !in 0..3);",
         )
-        .returns(Returns::TRUTH),
+        .returns(Returns::BOOLEAN),
         built_in(&["range.is_empty"], "True if the range is empty.", "check((3..3).is_empty);")
-            .returns(Returns::TRUTH),
+            .returns(Returns::BOOLEAN),
         built_in(
             &["range.is_inclusive"],
             "True if the end belongs to the range.",
             "check((0..=3).is_inclusive && !(0..3).is_inclusive);",
         )
-        .returns(Returns::TRUTH)
+        .returns(Returns::BOOLEAN)
         .with_related(&["is_exclusive"]),
         built_in(
             &["range.is_exclusive"],
             "True if the end does not belong to the range.",
             "check((0..3).is_exclusive);",
         )
-        .returns(Returns::TRUTH)
+        .returns(Returns::BOOLEAN)
         .with_related(&["is_inclusive"]),
     ],
 };

@@ -72,28 +72,28 @@ pub const TABLE: BuiltInTable = BuiltInTable {
             -1 if there is none.",
             "check([5, 6, 7].index_of(6) == 1);\ncheck([5, 6, 7].index_of(|x| x > 6) == 2);\ncheck([5].index_of(1) == -1);",
         )
-        .returns(Returns::WHOLE)
+        .returns(Returns::INTEGER)
         .with_related(&["contains", "find"]),
         built_in(
             &["array.contains(value)"],
             "Returns true if a value is in the array; the same as value in array.",
             "check([1, 2].contains(2));\ncheck(3 !in [1, 2]);",
         )
-        .returns(Returns::TRUTH)
+        .returns(Returns::BOOLEAN)
         .with_related(&["index_of", "some"]),
         built_in(
             &["array.some(test)"],
             "Returns true if at least one element passes a test.",
             "check([1, -2].some(|x| x < 0));",
         )
-        .returns(Returns::TRUTH)
+        .returns(Returns::BOOLEAN)
         .with_related(&["all"]),
         built_in(
             &["array.all(test)"],
             "Returns true if every element passes a test.",
             "check([1, 2].all(|x| x > 0));",
         )
-        .returns(Returns::TRUTH)
+        .returns(Returns::BOOLEAN)
         .with_related(&["some"]),
         built_in(
             &["array.order([order])"],

@@ -10,36 +10,36 @@ pub const TABLE: BuiltInTable = BuiltInTable {
         change the variable they are called on.",
     rows: &[
         built_in(&["text.len"], "Number of characters.", "check(\"spline\".len == 6);")
-            .returns(Returns::WHOLE)
+            .returns(Returns::INTEGER)
             .with_related(&["bytes"]),
         built_in(
             &["text.bytes"],
             "Number of bytes of the text in UTF-8.",
             "check(\"°\".bytes == 2 && \"°\".len == 1);",
         )
-        .returns(Returns::WHOLE),
+        .returns(Returns::INTEGER),
         built_in(&["text.is_empty"], "True if the text has no characters.", "check(\"\".is_empty);")
-            .returns(Returns::TRUTH),
+            .returns(Returns::BOOLEAN),
         built_in(
             &["text.contains(part)"],
             "Returns true if the text contains a text or character; the same as part in text.",
             "check(\"flying spaghetti\".contains(\"spa\"));\ncheck(\"spa\" in \"spaghetti\");",
         )
-        .returns(Returns::TRUTH)
+        .returns(Returns::BOOLEAN)
         .with_related(&["index_of", "starts_with"]),
         built_in(
             &["text.starts_with(part)"],
             "Returns true if the text starts with a text.",
             "check(\"beam1\".starts_with(\"beam\"));",
         )
-        .returns(Returns::TRUTH)
+        .returns(Returns::BOOLEAN)
         .with_related(&["ends_with"]),
         built_in(
             &["text.ends_with(part)"],
             "Returns true if the text ends with a text.",
             "check(\"out.svg\".ends_with(\".svg\"));",
         )
-        .returns(Returns::TRUTH)
+        .returns(Returns::BOOLEAN)
         .with_related(&["starts_with"]),
         built_in(
             &["text.index_of(part, [start])"],
@@ -48,7 +48,7 @@ pub const TABLE: BuiltInTable = BuiltInTable {
             "check(\"a-b-c\".index_of(\"-\") == 1);\ncheck(\"a-b-c\".index_of(\"-\", 2) == 3);\n\
              check(\"abc\".index_of('x') == -1);",
         )
-        .returns(Returns::WHOLE),
+        .returns(Returns::INTEGER),
         built_in(
             &["text.sub_string(start, [count])", "text.sub_string(range)"],
             "Returns a part of the text; without a count, everything from start on.",

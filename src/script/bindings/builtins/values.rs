@@ -31,14 +31,14 @@ pub const TABLE: BuiltInTable = BuiltInTable {
             "Returns true if a variable with this name exists here.",
             "let dt = 0.1;\ncheck(is_def_var(\"dt\") && !is_def_var(\"tip\"));",
         )
-        .returns(Returns::TRUTH)
+        .returns(Returns::BOOLEAN)
         .with_related(&["is_def_fn"]),
         built_in(
             &["is_shared(variable)"],
             "Returns true if a closure shares the variable.",
             "let count = 0;\nlet add = || count += 1;\ncheck(is_shared(count));",
         )
-        .returns(Returns::TRUTH),
+        .returns(Returns::BOOLEAN),
         built_in(
             &["timestamp()"],
             "Returns the present time of the clock, to measure durations.",

@@ -5,7 +5,7 @@ use rhai::ParseErrorType;
 use super::fix::{ForeignSyntax, SyntaxFix};
 use super::token_window::TokenWindow;
 
-pub const HABITS: &[ForeignSyntax] =
+pub const PATTERNS: &[ForeignSyntax] =
     &[else_if, word_operator, counting_loop, colon, body, handler, case, end];
 
 fn else_if(spot: &TokenWindow) -> Option<SyntaxFix> {

@@ -5,7 +5,7 @@ use rhai::ParseErrorType;
 use super::fix::{ForeignSyntax, SyntaxFix};
 use super::token_window::TokenWindow;
 
-pub const HABITS: &[ForeignSyntax] = &[map_without_sign, assigned_key, unclosed];
+pub const PATTERNS: &[ForeignSyntax] = &[map_without_sign, assigned_key, unclosed];
 
 /// `{ EA: 1e4 }`.
 fn map_without_sign(spot: &TokenWindow) -> Option<SyntaxFix> {

@@ -6,7 +6,7 @@ use super::fix::{ForeignSyntax, SyntaxFix};
 use super::token_window::TokenWindow;
 use crate::script::messages::suggest::nearest;
 
-pub const HABITS: &[ForeignSyntax] = &[
+pub const PATTERNS: &[ForeignSyntax] = &[
     function,
     function_body,
     unnamed_function,

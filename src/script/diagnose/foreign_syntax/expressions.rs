@@ -6,7 +6,7 @@ use super::fix::{ForeignSyntax, SyntaxFix};
 use super::token_window::TokenWindow;
 use crate::script::bindings::table::CallSyntax;
 
-pub const HABITS: &[ForeignSyntax] = &[
+pub const PATTERNS: &[ForeignSyntax] = &[
     choice,
     whole_division,
     comprehension,

@@ -18,8 +18,13 @@ pub struct SyntaxFix {
 pub(super) type ForeignSyntax = fn(&TokenWindow) -> Option<SyntaxFix>;
 
 /// All patterns; those that need more context come first.
-const HABITS: &[&[ForeignSyntax]] =
-    &[signs::HABITS, blocks::HABITS, declarations::HABITS, expressions::HABITS, brackets::HABITS];
+const PATTERNS: &[&[ForeignSyntax]] = &[
+    signs::PATTERNS,
+    blocks::PATTERNS,
+    declarations::PATTERNS,
+    expressions::PATTERNS,
+    brackets::PATTERNS,
+];
 
 /// Explanation for a source that the parser rejected at `at` with `error`.
 pub fn explain(
@@ -29,5 +34,5 @@ pub fn explain(
     at: Position,
 ) -> Option<SyntaxFix> {
     let spot = TokenWindow::of(program, catalog, error, at);
-    HABITS.iter().copied().flatten().find_map(|habit| habit(&spot))
+    PATTERNS.iter().copied().flatten().find_map(|habit| habit(&spot))
 }

@@ -5,7 +5,7 @@ use rhai::{LexError, ParseErrorType};
 use super::fix::{ForeignSyntax, SyntaxFix};
 use super::token_window::TokenWindow;
 
-pub const HABITS: &[ForeignSyntax] = &[comment, sign, dotted_operator, quotes, formatted_text];
+pub const PATTERNS: &[ForeignSyntax] = &[comment, sign, dotted_operator, quotes, formatted_text];
 
 /// `# …` and, where a statement begins, `% …`.
 fn comment(spot: &TokenWindow) -> Option<SyntaxFix> {

@@ -6,7 +6,7 @@ use super::fix::SyntaxFix;
 use crate::script::bindings::catalog::Catalog;
 use crate::script::source::program::Program;
 
-const REACH: usize = 40;
+const WINDOW: usize = 40;
 
 struct Word {
     text: String,
@@ -42,8 +42,8 @@ impl<'s> TokenWindow<'s> {
             true => all.len(),
             false => all.partition_point(|(_, at)| order(*at) < order(place)),
         };
-        let start = found.saturating_sub(REACH);
-        let near = &all[start..all.len().min(found + REACH)];
+        let start = found.saturating_sub(WINDOW);
+        let near = &all[start..all.len().min(found + WINDOW)];
         let ends: Vec<usize> = near
             .iter()
             .map(|(_, at)| program.offset(order(*at).0, order(*at).1))

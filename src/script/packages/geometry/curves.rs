@@ -137,11 +137,11 @@ pub const TABLE: BindingTable = BindingTable {
             .example("let c = through([[0, 0], [1, 1], [2, 0]]);\nlet finer = c.insert(0.3);\ncheck(finer.control_points.len() == 7);\ncheck_close(distance(finer.at(0.7), c.at(0.7)), 0, 1e-14);")
             .with_related(&["knots"]),
         operator("==", &[A, B], |call| Ok((a(call)? == b(call)?).into()))
-            .returns(Returns::TRUTH)
+            .returns(Returns::BOOLEAN)
             .summary("Compares curves: true if both are of the same kind with equal numbers.")
             .example("check(line([0, 0], [1, 0]) == line([0, 0], [1, 0]));"),
         operator("!=", &[A, B], |call| Ok((a(call)? != b(call)?).into()))
-            .returns(Returns::TRUTH)
+            .returns(Returns::BOOLEAN)
             .summary("Compares curves: true if the kind or a number differs.")
             .example("check(line([0, 0], [1, 0]) != line([0, 0], [2, 0]));"),
     ],

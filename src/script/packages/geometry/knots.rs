@@ -40,7 +40,7 @@ pub const TABLE: BindingTable = BindingTable {
             .example("let k = knots(2, [0, 0, 0, 0.5, 1, 1, 1]);\ncheck(k.functions == 4 && k.multiplicity(0.5) == 1);")
             .with_related(&["curve", "basis"]),
         property(KNOTS, "degree", |call| Ok(count(knots(call)?.degree())))
-            .returns(Returns::WHOLE)
+            .returns(Returns::INTEGER)
             .summary("Polynomial degree.")
             .example("check(knots(7).degree == 3);"),
         property(KNOTS, "values", |call| Ok(numbers(knots(call)?.knots().iter().copied())))
@@ -49,16 +49,16 @@ pub const TABLE: BindingTable = BindingTable {
             .example("check(knots(#{ spans: 2, degree: 1 }).values == [0, 0, 0.5, 1, 1]);")
             .with_related(&["breaks"]),
         property(KNOTS, "functions", |call| Ok(count(knots(call)?.functions())))
-            .returns(Returns::WHOLE)
+            .returns(Returns::INTEGER)
             .summary("Number of basis functions, equal to the number of control points of a curve.")
             .example("check(knots(7).functions == 10);"),
         property(KNOTS, "spans", |call| Ok(count(knots(call)?.spans().len())))
-            .returns(Returns::WHOLE)
+            .returns(Returns::INTEGER)
             .summary("Number of spans between distinct knots.")
             .example("check(knots(7).spans == 7);")
             .with_related(&["span"]),
         property(KNOTS, "continuity", |call| Ok(count(basis(call)?.continuity())))
-            .returns(Returns::WHOLE)
+            .returns(Returns::INTEGER)
             .summary("Number of continuous derivatives at the least smooth interior knot; the degree \
                 if there is none.")
             .example("check(knots(7).continuity == 2);\ncheck(knots(7).insert(0.5, 3).continuity == 0);"),
@@ -93,7 +93,7 @@ pub const TABLE: BindingTable = BindingTable {
             .example("let s = knots(4).span(0.3);\ncheck(s.first == 1 && s.start == 0.25 && s.end == 0.5);")
             .with_related(&["spans", "basis"]),
         method(KNOTS, "multiplicity", &[XI], multiplicity)
-            .returns(Returns::WHOLE)
+            .returns(Returns::INTEGER)
             .summary("Returns the multiplicity of ξ among the knots.")
             .example("check(knots(4).multiplicity(0) == 4 && knots(4).multiplicity(0.3) == 0);"),
         method(KNOTS, "insert", &[XI, TIMES], insert)
@@ -101,11 +101,11 @@ pub const TABLE: BindingTable = BindingTable {
             .summary("Returns the knot vector with ξ inserted once or several times.")
             .example("let k = knots(4).insert(0.3, 2);\ncheck(k.functions == 9 && k.multiplicity(0.3) == 2);"),
         operator("==", &[A, B], |call| Ok((a(call)? == b(call)?).into()))
-            .returns(Returns::TRUTH)
+            .returns(Returns::BOOLEAN)
             .summary("Compares knot vectors: true if degree and all knots are equal.")
             .example("check(knots(#{ spans: 1, degree: 1 }) == knots(1, [0, 0, 1, 1]));"),
         operator("!=", &[A, B], |call| Ok((a(call)? != b(call)?).into()))
-            .returns(Returns::TRUTH)
+            .returns(Returns::BOOLEAN)
             .summary("Compares knot vectors: true if the degree or a knot differs.")
             .example("check(knots(3) != knots(4));"),
     ],

@@ -77,7 +77,7 @@ pub struct BestDesign {
     pub derivatives: String,
 }
 
-const TRUTH: &str = "return a number that must not be negative, such as #{ room: limit - sag }, and write \
+const CONSTRAINT_HINT: &str = "return a number that must not be negative, such as #{ room: limit - sag }, and write \
     constraints: #{ room: [0, ()] }";
 
 impl Objective {
@@ -100,7 +100,7 @@ impl Limit {
         let limit = |(name, value): (&rhai::Identifier, &Dynamic)| {
             let wrong = |what: String| {
                 let told = format!("the constraint on '{name}' {what}");
-                let hint = if value.is_bool() { TRUTH } else { shape };
+                let hint = if value.is_bool() { CONSTRAINT_HINT } else { shape };
                 // The name also occurs in the function; the error must point at the option.
                 at_key(call, "constraints", told, hint)
             };

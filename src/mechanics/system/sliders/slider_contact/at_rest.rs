@@ -8,7 +8,7 @@ use crate::joints::{
     AtStop, CONTACT_UNKNOWNS, Contact, ContactUnknowns, Equation, Released, Resting, SlidingLaw,
 };
 use crate::system::bodies::Body;
-use crate::system::sliders::master_curve::LANDED;
+use crate::system::sliders::master_curve::END_TOLERANCE;
 use crate::system::sliders::{KinkedAxis, MasterEnd, SliderState};
 
 impl Passing for AtRest {
@@ -79,7 +79,7 @@ impl SliderContact {
 
     pub fn passed_end(&self, unknowns: &[f64]) -> Option<MasterEnd> {
         let ends = [MasterEnd::Start, MasterEnd::End].into_iter();
-        let mut beyond = ends.filter(|end| self.overshoot(unknowns, *end) > LANDED);
+        let mut beyond = ends.filter(|end| self.overshoot(unknowns, *end) > END_TOLERANCE);
         if self.is_sliding() { beyond.next() } else { None }
     }
 

@@ -3,7 +3,7 @@
 use super::SliderContact;
 use crate::joints::TrackDirection;
 use crate::system::bodies::Body;
-use crate::system::sliders::master_curve::LANDED;
+use crate::system::sliders::master_curve::END_TOLERANCE;
 use crate::system::sliders::{MasterEnd, SliderState, TrackPath};
 
 impl SliderContact {
@@ -13,7 +13,7 @@ impl SliderContact {
     }
 
     pub fn is_at(&self, end: MasterEnd) -> bool {
-        self.distance_to(end) <= LANDED
+        self.distance_to(end) <= END_TOLERANCE
     }
 
     /// Position along the master or track as drawn, from 0 at the start to 1 at the end; unwrapped on closed tracks [-].
