@@ -3,11 +3,11 @@
 //! Layers; each uses only those to its right:
 //!
 //! ```text
-//! main → cli → repl, exercises → script → output, analysis → sampling, fitting, mechanics: simulation → … → model → …
+//! main → cli → repl, exercises → script → output, analysis → sampling, fitting, mechanics: simulation → … → system → …
 //! ```
 //!
 //! The mechanics is a crate of its own, so that changes of the language do not rebuild it. Its main layers are listed here too. The bottom
-//! layers are [`folders`], which opens all files, and [`panics`], which catches and reports internal errors.
+//! layers are `sandbox_fs`, which opens all files, and `panics`, which catches and reports internal errors.
 
 #![forbid(unsafe_code)]
 #![cfg_attr(not(test), warn(clippy::disallowed_methods))]
@@ -20,10 +20,10 @@ pub use withy_mechanics::{
 pub mod analysis;
 pub mod cli;
 pub mod exercises;
-pub mod fitting;
+mod fitting;
 pub mod output;
-pub mod panics;
+mod panics;
 pub mod repl;
-pub mod sampling;
-pub mod sandbox_fs;
+mod sampling;
+mod sandbox_fs;
 pub mod script;

@@ -8,12 +8,9 @@ use serde::{Deserialize, Serialize};
 /// Maximum captured length [bytes].
 const MOST: usize = 1 << 14;
 
-/// Captured output.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct CapturedOutput {
-    /// First lines.
     pub lines: Vec<String>,
-    /// Number of further lines.
     pub further_lines: usize,
 }
 

@@ -5,13 +5,10 @@ use std::path::PathBuf;
 
 use crate::output::OutputError;
 
-/// Error of a folder of exercises.
 #[derive(Debug, thiserror::Error)]
 pub enum ExerciseError {
-    /// Unknown exercise.
     #[error("there is no exercise '{name}'; {}", meant(.nearest.as_deref()))]
     Unknown {
-        /// Requested name.
         name: String,
         /// Suggested name.
         nearest: Option<String>,
@@ -22,7 +19,6 @@ pub enum ExerciseError {
     /// A file of the exercises could not be read.
     #[error("cannot read '{}': {source}; check that you may read it", path.display())]
     Read {
-        /// Path.
         path: PathBuf,
         /// Error of the operating system.
         source: io::Error,
@@ -30,7 +26,6 @@ pub enum ExerciseError {
     /// The file of marks could not be written.
     #[error("cannot write the marks to '{}': {source}; give --marks the name of a writable file", path.display())]
     Marks {
-        /// Path.
         path: PathBuf,
         /// Error of the operating system.
         source: io::Error,
@@ -50,23 +45,16 @@ pub enum ExerciseError {
     Keep {
         /// Old name.
         from: PathBuf,
-        /// New name.
         to: PathBuf,
         /// Error of the operating system.
         source: io::Error,
     },
     /// The progress file is invalid.
     #[error("'{}' is damaged ({why}); move it away to restart the record of progress; your attempts are kept", path.display())]
-    Progress {
-        /// Path.
-        path: PathBuf,
-        /// Error in the content.
-        why: serde_json::Error,
-    },
+    Progress { path: PathBuf, why: serde_json::Error },
     /// A folder without submissions.
     #[error("'{}' has no submissions; it must contain a folder for each student, with folders such as '{track}'", path.display())]
     NoSubmissions {
-        /// Path.
         path: PathBuf,
         /// Name of a track folder that it could contain.
         track: &'static str,

@@ -9,7 +9,6 @@ use super::exercise::Exercise;
 use super::judging::AttemptVerdict;
 use super::submissions::Submission;
 
-/// Mark of an attempt.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Mark {
     /// All checks of the judge passed.
@@ -27,7 +26,6 @@ pub enum Mark {
 }
 
 impl Mark {
-    /// Mark of a keyword.
     pub fn of(word: &str) -> Option<Self> {
         let all = [
             Self::Passed,
@@ -40,7 +38,6 @@ impl Mark {
         all.into_iter().find(|mark| mark.keyword() == word)
     }
 
-    /// Keyword of the mark.
     pub fn keyword(self) -> &'static str {
         match self {
             Self::Passed => "passed",
@@ -53,33 +50,26 @@ impl Mark {
     }
 }
 
-/// Mark of an exercise.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Graded {
-    /// Exercise.
     pub exercise: &'static Exercise,
-    /// Mark.
     pub mark: Mark,
     /// Message; may be empty.
     pub message: String,
 }
 
-/// Marks of a student.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct StudentReport {
-    /// Name of the student.
     pub student: String,
     /// Marks of all exercises, in the order of the catalogue.
     pub graded: Vec<Graded>,
 }
 
 impl StudentReport {
-    /// Number of passed exercises.
     pub fn passed(&self) -> usize {
         self.graded.iter().filter(|graded| graded.mark == Mark::Passed).count()
     }
 
-    /// Marks as JSON.
     pub fn json(&self) -> Value {
         let exercises: Vec<_> = self
             .graded
@@ -101,7 +91,6 @@ pub enum GradingTask {
 }
 
 impl GradingTask {
-    /// Inspects the submission for an exercise.
     pub fn of(submission: &Submission, exercise: &Exercise) -> Self {
         if submission.is_link() {
             let told = format!("the folder '{}' is a link", submission.folder.display());

@@ -19,7 +19,6 @@ pub struct Judge {
 /// A variable that an attempt must define.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Need {
-    /// Name.
     pub name: String,
     /// Type name, as in messages and help.
     pub of: String,

@@ -30,7 +30,6 @@ struct KnownMark {
     message: String,
 }
 
-/// An open file of marks.
 #[derive(Debug)]
 pub struct MarksFile(File);
 

@@ -3,21 +3,21 @@
 //! [`catalogue`] lists all exercises; [`judging`] runs an attempt and its judge; [`workbook`] is the folder of a student, [`submissions`]
 //! are the folders of a class, [`marks`] is the file of their marks. Output is left to `cli`.
 
-pub mod attempt;
-pub mod captured_output;
+pub(crate) mod attempt;
+pub(crate) mod captured_output;
 pub mod catalogue;
-pub mod class;
-pub mod error;
+pub(crate) mod class;
+pub(crate) mod error;
 pub mod exercise;
-pub mod fingerprint;
-pub mod grading;
-pub mod judge;
+pub(crate) mod fingerprint;
+pub(crate) mod grading;
+pub(crate) mod judge;
 pub mod judging;
-pub mod marks;
-pub mod progress;
-pub mod report;
+pub(crate) mod marks;
+pub(crate) mod progress;
+pub(crate) mod report;
 mod silenced_writer;
-pub mod submissions;
-pub mod task;
-pub mod watch;
-pub mod workbook;
+pub(crate) mod submissions;
+pub(crate) mod task;
+pub(crate) mod watch;
+pub(crate) mod workbook;

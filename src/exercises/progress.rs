@@ -62,17 +62,14 @@ impl StudentProgress {
         };
     }
 
-    /// Number of given hints of an exercise.
     pub fn hints(&self, exercise: &Exercise) -> usize {
         self.hints.get(&exercise.id()).copied().unwrap_or(0)
     }
 
-    /// Records another hint.
     pub fn record_hint(&mut self, exercise: &Exercise) {
         *self.hints.entry(exercise.id()).or_default() += 1;
     }
 
-    /// Removes the progress of an exercise.
     pub fn remove(&mut self, exercise: &Exercise) {
         self.passed.remove(&exercise.id());
         self.hints.remove(&exercise.id());

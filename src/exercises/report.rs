@@ -14,52 +14,39 @@ const EXCERPT: (usize, usize) = (400, 150);
 /// Result and output of an attempt.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct AttemptReport {
-    /// Result.
     pub outcome: AttemptOutcome,
-    /// Output.
     pub printed: CapturedOutput,
 }
 
-/// Result of an attempt.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum AttemptOutcome {
     /// All checks of the judge passed.
     Passed,
     /// The attempt runs, but these checks failed; messages of the judge.
     WrongResult(Vec<String>),
-    /// The attempt fails.
     Error(AttemptError),
     /// A limit was exceeded.
     Stopped(AttemptError),
-    /// Interrupted from outside.
     Interrupted,
 }
 
-/// Error of an attempt.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct AttemptError {
-    /// Error message.
     pub message: String,
-    /// Hint.
     pub help: Option<String>,
     /// Location in a script, if known.
     pub place: Option<ScriptPosition>,
-    /// Calls that led to the error.
     pub calls: Vec<String>,
 }
 
-/// Location of an error in a script.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct ScriptPosition {
-    /// File name.
     pub file: String,
-    /// Line, from 1.
     pub line: usize,
     /// Text of the line, or an excerpt around the location.
     pub text: String,
     /// Start of the location in `text`, in characters from 0.
     pub at: usize,
-    /// Length in characters.
     pub length: usize,
 }
 

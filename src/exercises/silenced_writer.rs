@@ -4,7 +4,6 @@ use std::io::{self, Write};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-/// Switch that silences all its writers.
 #[derive(Clone, Default)]
 pub struct SilenceSwitch(Arc<AtomicBool>);
 

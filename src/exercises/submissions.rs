@@ -8,12 +8,10 @@ use super::error::ExerciseError;
 use super::exercise::Exercise;
 use super::workbook;
 
-/// Submission of a student.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Submission {
     /// Name of the student: that of the folder.
     pub student: String,
-    /// Folder of the submission.
     pub folder: PathBuf,
 }
 

@@ -5,7 +5,6 @@ use super::exercise::Exercise;
 /// Beginning of the paragraph that states what to do.
 pub const TO_DO: &str = "To do:";
 
-/// A paragraph of a task.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Paragraph {
     /// Text that may be wrapped.

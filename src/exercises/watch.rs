@@ -11,7 +11,6 @@ use super::exercise::Exercise;
 use super::workbook::Workbook;
 use crate::sandbox_fs::read_file;
 
-/// Polling interval.
 pub const INTERVAL: Duration = Duration::from_millis(200);
 
 /// Contents of a student's attempts at the last check.

@@ -11,7 +11,6 @@ use super::progress::{self, StudentProgress};
 use crate::output::write_atomic;
 use crate::sandbox_fs::read_file;
 
-/// Name of the folder that is created.
 pub const FOLDER: &str = "withy-exercises";
 
 /// A folder with a file per exercise. Work of the student is never overwritten.
@@ -23,11 +22,8 @@ pub struct Workbook {
 /// A hint, or the solution after the last hint.
 #[derive(Debug, PartialEq, Eq)]
 pub enum Advice {
-    /// A hint with its number and the number of hints.
     Hint {
-        /// Text.
         text: String,
-        /// Number of the hint, from 1.
         number: usize,
         /// Number of hints of the exercise.
         count: usize,
@@ -65,12 +61,10 @@ impl Workbook {
         Ok(missing.len())
     }
 
-    /// Path of the folder.
     pub fn folder(&self) -> &Path {
         &self.folder
     }
 
-    /// File of the attempt at an exercise.
     pub fn file(&self, exercise: &Exercise) -> PathBuf {
         self.folder.join(exercise.track).join(format!("{}.rhai", exercise.name))
     }

@@ -16,11 +16,8 @@ const SHORTER: f64 = 0.1;
 /// Objective and constraints with derivatives by all parameters.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SlopedRating {
-    /// Values.
     pub rating: Rating,
-    /// Derivatives of the objective.
     pub objective: Vec<f64>,
-    /// Derivatives of each constraint.
     pub constraints: Vec<Vec<f64>>,
 }
 

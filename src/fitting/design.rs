@@ -18,20 +18,16 @@ pub(super) const PENALTY: f64 = 10.0;
 /// A minimisation problem.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Design {
-    /// Parameters.
     pub ranges: Vec<SearchRange>,
-    /// Number of constraints.
     pub constraints: usize,
     /// Tolerance of the parameters, relative to their sizes.
     pub tolerance: f64,
-    /// Maximum number of runs.
     pub most_runs: usize,
 }
 
 /// Result of a run.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Rating {
-    /// Objective to minimise.
     pub objective: f64,
     /// Constraints, met if non-negative, scaled to order one.
     pub constraints: Vec<f64>,
@@ -40,7 +36,6 @@ pub struct Rating {
 /// Best design found.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Designed {
-    /// Parameters.
     pub parameters: Vec<f64>,
     /// Objective and constraints.
     pub rating: Rating,
@@ -50,11 +45,9 @@ pub struct Designed {
     pub is_settled: bool,
     /// Index of an unbounded parameter that diverged, because the objective decreases without limit.
     pub runaway: Option<usize>,
-    /// Number of calls.
     pub runs: usize,
     /// Number of calls with derivatives, included in `runs`.
     pub gradient_runs: usize,
-    /// Reason for a derivative-free search.
     pub derivative_free_reason: Option<String>,
 }
 

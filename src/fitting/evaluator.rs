@@ -17,11 +17,9 @@ pub struct CountedEvaluator<'a, 'e, E> {
     pub differences: Option<String>,
 }
 
-/// Values and derivatives at a point.
 pub struct EvaluatedPoint {
     /// Values, or the reason of failure.
     pub values: Evaluation,
-    /// Derivatives, if known.
     pub derivatives: Option<DMatrix<f64>>,
 }
 

@@ -11,7 +11,6 @@ const OFF: f64 = 0.02;
 /// Differences below this fraction of the values are ignored.
 const ROUNDING: f64 = 1e-7;
 
-/// Message for rejected derivatives.
 pub const REJECTED_DERIVATIVES: &str =
     "the derivatives of the runs differ from finite differences of their results";
 

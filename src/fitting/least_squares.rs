@@ -22,10 +22,8 @@ const ROUNDING: f64 = 1e-26;
 /// Initial, minimum and maximum damping.
 const DAMPING: (f64, f64, f64) = (1e-3, 1e-14, 1e12);
 
-/// A least-squares problem.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LeastSquares {
-    /// Parameters.
     pub ranges: Vec<SearchRange>,
     /// Step of finite differences, relative to the size of a parameter.
     pub relative_step: f64,
@@ -34,7 +32,6 @@ pub struct LeastSquares {
 /// Reason for the end of a search.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum TerminationReason {
-    /// Converged.
     Settled,
     /// No step reduces the squares although the derivatives predict it: the noise of the runs or a discontinuity prevents further progress.
     Stalled,
@@ -45,21 +42,16 @@ pub enum TerminationReason {
 /// Result of a fit.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Fitted {
-    /// Parameters with the least sum of squares.
     pub parameters: Vec<f64>,
-    /// Residuals.
     pub residuals: Vec<f64>,
     /// Uncertainty of the parameters, if it can be estimated.
     pub estimate: Option<Estimate>,
-    /// Reason for the end.
     pub settling: TerminationReason,
-    /// Number of calls.
     pub runs: usize,
     /// Number of calls with derivatives, included in `runs`.
     pub gradient_runs: usize,
     /// Reason for finite differences, if they were used.
     pub differences: Option<String>,
-    /// Number of successful steps.
     pub steps: usize,
 }
 
@@ -172,7 +164,6 @@ impl LeastSquaresState {
 enum Round {
     /// Converged, or no further reduction is predicted.
     Converged,
-    /// New derivatives are needed, or given.
     NeedsDerivatives(Option<DMatrix<f64>>),
     /// Fresh derivatives predict a reduction that no step achieves.
     Stalled,

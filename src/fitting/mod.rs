@@ -20,13 +20,13 @@ mod range;
 mod root;
 mod student;
 
-pub use descent::{Rate, RateWithSlopes, SlopedRating, SlopesOfRating};
+pub use descent::{SlopedRating, SlopesOfRating};
 pub use design::{Design, Designed, Rating};
 pub use differences::RELATIVE_STEP;
 pub use estimate::Estimate;
 pub use least_squares::{Fitted, LeastSquares, TerminationReason};
 pub use range::SearchRange;
-pub use root::{Root, RootError, root};
+pub use root::{RootError, root};
 pub use student::student_quantile;
 
 /// Values of a function at a point, or the reason of failure.

@@ -3,7 +3,6 @@
 /// Start value and bounds, which may be infinite.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SearchRange {
-    /// Start value.
     pub start: f64,
     /// Lower bound.
     pub low: f64,

@@ -2,18 +2,14 @@
 
 const MOST_CALLS: usize = 200;
 
-/// A root.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Root {
     /// Argument at which the function is zero or changes its sign.
     pub at: f64,
-    /// Value there.
     pub value: f64,
-    /// Number of calls.
     pub calls: usize,
 }
 
-/// Error of root finding.
 #[derive(Clone, Debug, PartialEq)]
 pub enum RootError<E> {
     /// The function has the same sign at both ends; the values there.
@@ -24,7 +20,6 @@ pub enum RootError<E> {
     Pole(f64, f64),
     /// The search did not converge within the number of calls; best argument and its value.
     Unfinished(f64, f64),
-    /// The function failed.
     Function(E),
 }
 

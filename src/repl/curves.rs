@@ -13,7 +13,6 @@ const DIGITS: usize = 6;
 pub enum CurveAbscissa {
     Time,
     Index,
-    /// Numbers given by the user.
     Numbers,
 }
 
@@ -54,7 +53,6 @@ impl PlotCurve {
 pub enum PlotShape {
     /// All points of a curve, with its horizontal axis.
     Whole(CurveAbscissa, Vec<Point>),
-    /// A number: one point of a curve.
     Number(f64),
     /// A vector: one point of each of two curves.
     Vector(Vec2),

@@ -1,20 +1,20 @@
 //! Interactive sessions: inputs are evaluated and recorded, and failures undone. [`session`] and [`shell`] are independent of a terminal;
 //! [`editor`] handles line editing.
 
-pub mod batch;
+pub(crate) mod batch;
 pub mod clock;
-pub mod commands;
+pub(crate) mod commands;
 mod curves;
 pub mod editor;
 mod effects;
 mod history_expression;
 pub mod pager;
-pub mod prompt;
-pub mod record;
+pub(crate) mod prompt;
+pub(crate) mod record;
 mod sampling;
 mod scope;
 pub mod session;
 pub mod shell;
 mod statements;
 mod surroundings;
-pub mod transcript;
+pub(crate) mod transcript;

@@ -23,7 +23,6 @@ enum RecordedInput {
     Moved(Source),
 }
 
-/// A named simulation and its position.
 #[derive(Clone)]
 pub struct SimulationPositions {
     name: String,
@@ -44,7 +43,6 @@ impl SessionRecord {
         self.entries.push(RecordedInput::Statements(text.trim().into()));
     }
 
-    /// Records an input with a value.
     pub fn record_value(&mut self, text: &str) {
         self.entries.push(RecordedInput::Expression(text.trim().into()));
     }

@@ -32,7 +32,6 @@ impl Transcript {
         Self { pieces: Vec::new(), lines: 0, folder }
     }
 
-    /// Number of the next input line, from 1.
     pub fn next_line(&self) -> usize {
         self.lines + 1
     }
@@ -62,7 +61,6 @@ impl Transcript {
         }
     }
 
-    /// Removes the last input.
     pub fn remove_last(&mut self) {
         if let Some(last) = self.pieces.pop() {
             self.lines = last.before;

@@ -3,50 +3,35 @@
 use super::normal_quantile;
 use crate::elementary::{exp, ln};
 
-/// Distribution of a parameter.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Distribution {
     /// Uniform between `from` and `to`.
     Uniform {
-        /// Smallest value.
         from: f64,
-        /// Largest value.
         to: f64,
     },
     /// Uniform in the logarithm between positive `from` and `to`.
     LogUniform {
-        /// Smallest value.
         from: f64,
-        /// Largest value.
         to: f64,
     },
-    /// Normal distribution.
     Normal {
-        /// Mean and median.
         mean: f64,
-        /// Standard deviation.
         deviation: f64,
     },
-    /// Normal distribution of the logarithm.
     LogNormal {
-        /// Median.
         median: f64,
         /// Standard deviation of the natural logarithm.
         deviation: f64,
     },
-    /// Triangular distribution.
     Triangular {
-        /// Smallest value.
         from: f64,
-        /// Mode.
         mode: f64,
-        /// Largest value.
         to: f64,
     },
 }
 
 impl Distribution {
-    /// Returns true for distributions of the logarithm.
     pub fn is_of_logarithms(&self) -> bool {
         matches!(self, Self::LogUniform { .. } | Self::LogNormal { .. })
     }

@@ -24,7 +24,6 @@ impl Random {
         ((part as f64 + 0.5) / (1_u64 << BITS) as f64).min(1.0 - f64::EPSILON / 2.0)
     }
 
-    /// A random 32-bit word.
     pub fn word(&mut self) -> u32 {
         self.0.next_u32()
     }

@@ -7,16 +7,13 @@ use std::time::SystemTime;
 
 use super::folder::{Folder, is_plain};
 
-/// An entry of an open folder.
 #[derive(Debug)]
 pub struct FolderEntry {
-    /// Name in the folder.
     pub name: OsString,
     /// Length [bytes].
     pub length: u64,
     /// Time of the last change, if the system provides it.
     pub changed: Option<SystemTime>,
-    /// True for a folder.
     pub is_folder: bool,
 }
 

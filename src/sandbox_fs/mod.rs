@@ -10,7 +10,6 @@ mod scratch;
 mod whole;
 mod written_files;
 
-pub use entries::FolderEntry;
 pub use folder::{Folder, is_plain};
 pub use reading::{read_file, read_text};
 pub use scratch::Scratch;

@@ -45,7 +45,6 @@ impl Scratch {
         Ok(scratch)
     }
 
-    /// Path of the folder.
     pub fn path(&self) -> &Path {
         self.folder.path()
     }

@@ -13,21 +13,14 @@ const LARGEST: u64 = 16 << 20;
 /// Buffer size [bytes].
 const PIECE: usize = 1 << 16;
 
-/// Checksum and length of a file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct FileChecksum {
-    /// CRC-32.
     pub checksum: u32,
     /// Length [bytes].
     pub length: u64,
 }
 
 impl FileChecksum {
-    /// Checksum of a byte string.
-    pub fn of_bytes(bytes: &[u8]) -> Self {
-        Self { checksum: crc32fast::hash(bytes), length: bytes.len() as u64 }
-    }
-
     /// Checksum of a stream.
     ///
     /// # Errors
@@ -54,12 +47,10 @@ pub struct ChecksumWriter<W> {
 }
 
 impl<W: Write> ChecksumWriter<W> {
-    /// Wraps a writer.
     pub fn new(inner: W) -> Self {
         Self { inner, hasher: crc32fast::Hasher::new(), length: 0 }
     }
 
-    /// Checksum of everything written.
     pub fn checksum(&self) -> FileChecksum {
         FileChecksum { checksum: self.hasher.clone().finalize(), length: self.length }
     }
@@ -155,6 +146,10 @@ fn entry(line: &str) -> Option<(String, FileChecksum)> {
 mod tests {
     use super::*;
 
+    fn checksum(bytes: &[u8]) -> FileChecksum {
+        FileChecksum { checksum: crc32fast::hash(bytes), length: bytes.len() as u64 }
+    }
+
     #[test]
     fn only_files_just_as_they_were_written_may_be_replaced() {
         let home = tempfile::tempdir().unwrap();
@@ -164,10 +159,10 @@ mod tests {
         assert!(record.may_replace(&folder, "a b"));
         write(b"one");
         assert!(!record.may_replace(&folder, "a b"), "nobody has said whose it is");
-        record.record(&folder, "a b", FileChecksum::of_bytes(b"one")).unwrap();
+        record.record(&folder, "a b", checksum(b"one")).unwrap();
         assert!(record.may_replace(&folder, "a b"));
         write(b"two");
-        record.record(&folder, "a b", FileChecksum::of_bytes(b"two")).unwrap();
+        record.record(&folder, "a b", checksum(b"two")).unwrap();
         assert!(WrittenFiles::of(&folder).may_replace(&folder, "a b"), "the last line holds");
         write(b"2wo");
         assert!(!WrittenFiles::of(&folder).may_replace(&folder, "a b"));
@@ -179,7 +174,7 @@ mod tests {
         let folder = Folder::open(home.path()).unwrap();
         let mut record = WrittenFiles::of(&folder);
         for content in [&b"one"[..], b"two"] {
-            record.record(&folder, "a", FileChecksum::of_bytes(content)).unwrap();
+            record.record(&folder, "a", checksum(content)).unwrap();
             for on_disk in [&b"one"[..], content] {
                 folder.write_atomic(Path::new("a"), on_disk).unwrap();
                 assert!(WrittenFiles::of(&folder).may_replace(&folder, "a"));
@@ -188,7 +183,7 @@ mod tests {
         // The next entry terminates an incomplete line.
         folder.append(Path::new(FILE)).unwrap().write_all(b"0123").unwrap();
         let mut record = WrittenFiles::of(&folder);
-        record.record(&folder, "a", FileChecksum::of_bytes(b"three")).unwrap();
+        record.record(&folder, "a", checksum(b"three")).unwrap();
         folder.write_atomic(Path::new("a"), b"three").unwrap();
         assert!(WrittenFiles::of(&folder).may_replace(&folder, "a"));
     }
@@ -198,7 +193,7 @@ mod tests {
         let home = tempfile::tempdir().unwrap();
         let folder = Folder::open(home.path()).unwrap();
         let [mut first, mut second] = [WrittenFiles::of(&folder), WrittenFiles::of(&folder)];
-        first.record(&folder, "a", FileChecksum::of_bytes(b"one")).unwrap();
+        first.record(&folder, "a", checksum(b"one")).unwrap();
         folder.write_atomic(Path::new("a"), b"one").unwrap();
         assert!(second.may_replace(&folder, "a"));
     }

@@ -9,9 +9,9 @@
 
 pub mod bindings;
 pub mod diagnose;
-pub mod dialect;
+pub(crate) mod dialect;
 pub mod engine;
-pub mod handles;
+pub(crate) mod handles;
 pub mod help;
 pub mod library;
 pub mod messages;
@@ -19,4 +19,4 @@ pub mod packages;
 pub mod presentation;
 pub mod source;
 pub mod state;
-pub mod studies;
+pub(crate) mod studies;

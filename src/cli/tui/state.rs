@@ -39,7 +39,6 @@ pub enum ScreenPage {
 pub enum ScrollPosition {
     /// Scrolled so that this part is visible.
     Part(TaskSection),
-    /// Starts with this line, from 0.
     Line(usize),
 }
 

@@ -7,15 +7,12 @@ use crate::script::diagnose::Diagnostic;
 use crate::script::messages::suggest::nearest;
 use crate::script::presentation::quantities::NAMES;
 
-/// A command of the prompt.
 pub struct Command {
     /// Name of the command, including the colon.
     pub name: &'static str,
-    /// Kind of the operand.
     pub operand: CommandOperand,
     /// Operand as shown in the help; empty if there is none.
     pub placeholder: &'static str,
-    /// One-line summary.
     pub summary: &'static str,
     /// Further help text; may be empty.
     pub doc: &'static str,

@@ -31,7 +31,6 @@ impl Arguments {
         self.find(name).is_ok()
     }
 
-    /// Names of the arguments that have a value.
     pub fn present_names(&self) -> impl Iterator<Item = &'static str> {
         let pairs = self.parameters.iter().zip(&self.values);
         pairs.filter(|(_, value)| value.is_some()).map(|(parameter, _)| parameter.name)
@@ -41,17 +40,14 @@ impl Arguments {
         self.parameters.iter().find(|parameter| parameter.name == name)
     }
 
-    /// The argument as a number.
     pub fn number(&self, name: &str) -> Result<f64, ScriptError> {
         self.find(name)?.as_float().map_err(|held| wrong_type_read(name, held))
     }
 
-    /// The argument as a number, if present.
     pub fn optional_number(&self, name: &str) -> Option<f64> {
         self.number(name).ok()
     }
 
-    /// The argument as an integer.
     pub fn integer(&self, name: &str) -> Result<INT, ScriptError> {
         self.find(name)?.as_int().map_err(|held| wrong_type_read(name, held))
     }
@@ -61,7 +57,6 @@ impl Arguments {
         usize::try_from(self.integer(name)?).map_err(|_| wrong_type_read(name, "a negative number"))
     }
 
-    /// The argument as a text.
     pub fn text(&self, name: &str) -> Result<ImmutableString, ScriptError> {
         self.find(name)?.clone().into_immutable_string().map_err(|held| wrong_type_read(name, held))
     }
@@ -74,27 +69,22 @@ impl Arguments {
         self.has(name).then(|| self.text(name).map(String::from)).transpose()
     }
 
-    /// The argument as a boolean.
     pub fn boolean(&self, name: &str) -> Result<bool, ScriptError> {
         self.find(name)?.as_bool().map_err(|held| wrong_type_read(name, held))
     }
 
-    /// The argument as a point or vector.
     pub fn point(&self, name: &str) -> Result<Vec2, ScriptError> {
         self.get(name)
     }
 
-    /// The argument as an array of anything.
     pub fn array(&self, name: &str) -> Result<Array, ScriptError> {
         self.get(name)
     }
 
-    /// The argument as an array of numbers.
     pub fn numbers(&self, name: &str) -> Result<Vec<f64>, ScriptError> {
         self.get(name)
     }
 
-    /// The argument as an array of points.
     pub fn points(&self, name: &str) -> Result<Vec<Vec2>, ScriptError> {
         self.get(name)
     }
@@ -104,7 +94,6 @@ impl Arguments {
         self.get(name)
     }
 
-    /// The argument as a map of options.
     pub fn options(&self, name: &str) -> Result<Options, ScriptError> {
         self.get(name)
     }
@@ -129,7 +118,6 @@ impl Arguments {
         self.find(name).ok()?.clone().try_cast()
     }
 
-    /// The unconverted argument.
     pub fn value(&self, name: &str) -> Result<Dynamic, ScriptError> {
         self.find(name).cloned()
     }

@@ -8,7 +8,6 @@ pub struct BuiltInTable {
     pub name: &'static str,
     /// One or two sentences on the functions.
     pub doc: &'static str,
-    /// Functions of this kind of value.
     pub rows: &'static [BuiltIn],
 }
 
@@ -16,15 +15,11 @@ pub struct BuiltInTable {
 pub struct BuiltIn {
     /// Notations of the function: `array.push(value)`, `parse_int(text, [radix])`, `text.len`. All have the same name.
     pub forms: &'static [&'static str],
-    /// Return value.
     pub returns: Returns,
-    /// One-line summary.
     pub summary: &'static str,
     /// Further help text; may be empty.
     pub doc: &'static str,
-    /// Runnable example.
     pub example: &'static str,
-    /// Related names.
     pub related: &'static [&'static str],
 }
 
@@ -33,7 +28,6 @@ pub struct BuiltIn {
 pub struct FunctionForm {
     /// Kind of value before the dot, if any.
     pub receiver: Option<&'static str>,
-    /// Name of the function.
     pub name: &'static str,
     /// Arguments in parentheses; empty for a property.
     pub arguments: &'static str,
@@ -48,9 +42,7 @@ pub struct FunctionForm {
 /// Text after the name of a function.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum NameSuffix {
-    /// None: a property.
     Property,
-    /// Arguments.
     Arguments,
     /// Arguments, of which the last may be repeated.
     Repeated,
@@ -66,7 +58,6 @@ pub const fn built_in(
 }
 
 impl BuiltIn {
-    /// Sets the return value.
     pub const fn returns(mut self, returns: Returns) -> Self {
         self.returns = returns;
         self

@@ -6,7 +6,6 @@ use crate::script::messages::nouns::with_article;
 
 /// Alternative sets of keys of an option map, each with a meaning for its reader.
 pub struct KeySets<T: 'static> {
-    /// Description of the sets in messages.
     pub description: &'static str,
     /// Keys that are allowed with every set.
     pub always_allowed: &'static [&'static str],

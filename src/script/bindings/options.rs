@@ -25,7 +25,6 @@ impl Deref for Options {
 }
 
 impl Options {
-    /// Options with all defaults.
     pub fn defaults(keys: &'static [Parameter]) -> Self {
         Self { arguments: Arguments::new(keys, Vec::new()) }
     }

@@ -5,34 +5,22 @@ use std::fmt;
 use super::kind::Type;
 use crate::script::messages::nouns::with_article;
 
-/// Kind of a returned value.
 #[derive(Clone, Copy)]
 pub enum ValueKind {
-    /// No value.
     Nothing,
-    /// A value of any kind.
     Any,
-    /// A number, integer or not.
     Number,
-    /// An integer.
     Integer,
     /// `true` or `false`.
     Boolean,
-    /// A text.
     Text,
-    /// A single character.
     Character,
-    /// A function or closure.
     Function,
     /// A time of the clock.
     Timestamp,
-    /// A range of integers.
     Range,
-    /// A map.
     Map,
-    /// An array of values of one kind.
     Array(&'static ValueKind),
-    /// A value of a native type.
     Object(Type),
     /// A value of one of these kinds, the most likely one first.
     OneOf(&'static [ValueKind]),
@@ -52,7 +40,6 @@ const PLAIN: &[ValueKind] = &[
 ];
 
 impl ValueKind {
-    /// Array of values of any kind.
     pub const ARRAY: Self = Self::Array(&Self::Any);
 
     /// Kind of a built-in type by its name.
@@ -86,7 +73,6 @@ impl ValueKind {
         }
     }
 
-    /// Kind of the elements of an array.
     pub fn element(self) -> Option<Self> {
         match self {
             Self::Array(of) => Some(*of),
@@ -117,7 +103,6 @@ impl fmt::Display for ValueKind {
 /// Description of a return value: kind, dimension, remarks.
 #[derive(Clone, Copy)]
 pub struct Returns {
-    /// Kind of the value.
     pub kind: ValueKind,
     /// Dimension, such as `force`; `-` for a pure number where others have one; empty if not applicable.
     unit: &'static str,
@@ -128,44 +113,30 @@ pub struct Returns {
 }
 
 impl Returns {
-    /// No value.
     pub const NOTHING: Self = Self::of(ValueKind::Nothing);
-    /// A value of any kind.
     pub const ANYTHING: Self = Self::of(ValueKind::Any);
-    /// A number.
     pub const NUMBER: Self = Self::of(ValueKind::Number);
-    /// An integer.
     pub const INTEGER: Self = Self::of(ValueKind::Integer);
     /// `true` or `false`.
     pub const BOOLEAN: Self = Self::of(ValueKind::Boolean);
-    /// A text.
     pub const TEXT: Self = Self::of(ValueKind::Text);
-    /// A single character.
     pub const CHARACTER: Self = Self::of(ValueKind::Character);
-    /// A function.
     pub const FUNCTION: Self = Self::of(ValueKind::Function);
     /// A time of the clock.
     pub const TIMESTAMP: Self = Self::of(ValueKind::Timestamp);
-    /// A map.
     pub const MAP: Self = Self::of(ValueKind::Map);
-    /// An array of anything.
     pub const ARRAY: Self = Self::of(ValueKind::ARRAY);
-    /// An array of numbers.
     pub const NUMBERS: Self = Self::array_of(&ValueKind::Number);
-    /// A value of any kind, or nothing.
     pub const ANYTHING_OR_NOTHING: Self = Self::one_of(&[ValueKind::Any, ValueKind::Nothing]);
 
-    /// A value of this kind.
     pub const fn of(kind: ValueKind) -> Self {
         Self { kind, unit: "", description: "", remark: "" }
     }
 
-    /// A value of a native type.
     pub const fn object(of: Type) -> Self {
         Self::of(ValueKind::Object(of))
     }
 
-    /// An array of values of one kind.
     pub const fn array_of(element: &'static ValueKind) -> Self {
         Self::of(ValueKind::Array(element))
     }
@@ -193,7 +164,6 @@ impl Returns {
         self
     }
 
-    /// Returns true if nothing is returned.
     pub const fn is_nothing(&self) -> bool {
         matches!(self.kind, ValueKind::Nothing)
     }

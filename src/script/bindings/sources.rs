@@ -54,7 +54,6 @@ impl Sources {
         self.catalog.clone()
     }
 
-    /// Register of an engine.
     pub fn of(engine: &Engine) -> Self {
         engine.default_tag().clone().try_cast().unwrap_or_default()
     }
@@ -74,7 +73,6 @@ impl Sources {
         self.reader.stopped()
     }
 
-    /// Records the text of an imported file.
     pub fn record_import(&self, file: &str, content: &[u8]) {
         self.imported.borrow_mut().insert(file.to_owned(), crc32fast::hash(content));
     }

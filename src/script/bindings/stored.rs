@@ -79,7 +79,6 @@ impl StoredFunction {
 
 /// Reason why a script function returned no number.
 pub enum NoNumber {
-    /// The function failed.
     Failed(Box<EvalAltResult>),
     /// The function returned something else, described here.
     Other(String),

@@ -1,16 +1,13 @@
 //! Help topics on the language itself, each with a runnable example.
 
-/// A help topic.
 pub struct Topic {
     /// Name of the topic, used as a heading in the reference.
     pub name: &'static str,
     /// Keywords of the topic, and its other names.
     pub words: &'static [&'static str],
-    /// One-line summary.
     pub summary: &'static str,
     /// Help text.
     pub doc: &'static str,
-    /// Runnable example.
     pub example: &'static str,
     /// Related names.
     pub see: &'static [&'static str],

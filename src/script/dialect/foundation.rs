@@ -28,13 +28,10 @@ const TEXTS_SHARED: usize = 256;
 
 /// A function of Rhai that is not available.
 pub struct Refused {
-    /// Name of the function.
     pub name: &'static str,
     /// Numbers of arguments of the function.
     pub counts: &'static [usize],
-    /// Reason.
     pub reason: &'static str,
-    /// Replacement.
     pub instead: &'static str,
 }
 

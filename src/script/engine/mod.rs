@@ -6,6 +6,6 @@ pub mod parse;
 pub mod runner;
 pub mod script_engine;
 pub mod stack;
-pub mod workers;
+pub(crate) mod workers;
 
 pub use build::build;

@@ -103,11 +103,6 @@ impl Worker {
         self.host.context()
     }
 
-    /// Engine of the worker.
-    pub fn engine(&self) -> &Engine {
-        self.host.engine()
-    }
-
     /// Diagnostic of an error of the script.
     pub fn explain(&self, error: &rhai::EvalAltResult) -> Diagnostic {
         self.host.explain(error, &self.program)

@@ -9,10 +9,8 @@ use crate::script::bindings::parameter_variants::ParameterSet;
 use crate::script::messages::error::ScriptError;
 use crate::script::presentation::details;
 
-/// Handle of a beam of a scene.
 #[derive(Clone)]
 pub struct BeamHandle {
-    /// Scene of the beam.
     pub scene: SceneHandle,
     /// Index of the beam in its scene, from 0.
     pub index: usize,
@@ -30,7 +28,6 @@ impl BeamHandle {
         self.scene.scene().borrow().beams[self.index].axis.length()
     }
 
-    /// Name of the beam.
     pub fn name(&self) -> String {
         self.scene.scene().borrow().beams[self.index].name.clone()
     }

@@ -21,12 +21,10 @@ struct EquilibriumData {
 }
 
 impl EquilibriumHandle {
-    /// Creates the handle of an equilibrium of a scene.
     pub fn new(scene: SceneHandle, rest: Equilibrium) -> Self {
         Self(Rc::new(EquilibriumData { scene, rest: RefCell::new(rest) }))
     }
 
-    /// Scene of the equilibrium.
     pub fn scene(&self) -> &SceneHandle {
         &self.0.scene
     }

@@ -20,7 +20,6 @@ impl<F: Clone> Events<F> {
         self.functions.insert(place.max(self.called), (time, function));
     }
 
-    /// Time of the next function, if any.
     pub fn next_time(&self) -> Option<f64> {
         self.functions.get(self.called).map(|(time, _)| *time)
     }

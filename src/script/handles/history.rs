@@ -14,7 +14,6 @@ use crate::simulation::{History, Sample};
 /// Handle of a section of a history, which grows with the simulation.
 #[derive(Clone)]
 pub struct HistoryHandle {
-    /// Simulation of the history.
     pub of: SimulationHandle,
     /// First time of the section [time].
     pub from: f64,
@@ -40,7 +39,6 @@ impl HistoryHandle {
             .hint(format!("the simulation has run from t = 0 to {now}{recorded}"))
     }
 
-    /// Names of the columns in one line.
     pub fn column_names(&self) -> String {
         column_names(self.of.simulation().history())
     }

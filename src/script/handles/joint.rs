@@ -6,10 +6,8 @@ use super::scene::SceneHandle;
 use crate::script::bindings::kind::{Details, Scripted};
 use crate::script::bindings::parameter_variants::ParameterSet;
 
-/// Handle of a joint of a scene.
 #[derive(Clone)]
 pub struct JointHandle {
-    /// Scene of the joint.
     pub scene: SceneHandle,
     /// Index of the joint in its scene, from 0.
     pub index: usize,

@@ -85,7 +85,6 @@ impl Reporter for SimulationHandle {
     }
 }
 
-/// Table of all columns of a history.
 pub fn history_table(name: &str, history: &History) -> CsvTable {
     let table = CsvTable::new().comment(format!("simulation: {name}"));
     history.columns().fold(table, |table, (column, dimension)| {

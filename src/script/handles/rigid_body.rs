@@ -10,22 +10,18 @@ use crate::script::bindings::parameter_variants::ParameterSet;
 use crate::script::messages::error::ScriptError;
 use crate::script::presentation::details;
 
-/// Handle of a rigid body of a scene.
 #[derive(Clone)]
 pub struct RigidBodyHandle {
-    /// Scene of the body.
     pub scene: SceneHandle,
     /// Index of the body among the rigid bodies of its scene, from 0.
     pub index: usize,
 }
 
 impl RigidBodyHandle {
-    /// Name of the body.
     pub fn name(&self) -> String {
         self.scene.scene().borrow().rigid_bodies[self.index].name.clone()
     }
 
-    /// Station at the centre of mass.
     pub fn centre(&self) -> StationHandle {
         StationHandle { scene: self.scene.clone(), station: Station::on_rigid_body(self.index, 0) }
     }

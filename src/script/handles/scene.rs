@@ -21,7 +21,6 @@ const SHAPED: &str = "numbers of sections, loads, springs, masses and velocities
     scene.parameter(…); use plain numbers for shapes and places, and central differences, as \
     fit does";
 
-/// Handle of a scene.
 #[derive(Clone)]
 pub struct SceneHandle {
     variants: Rc<Variants>,
@@ -52,7 +51,6 @@ struct PerturbedBuilds {
 pub struct Condition {
     /// Script function, called with the simulation.
     pub function: Rc<StoredFunction>,
-    /// Index of the release in the scene.
     pub release: usize,
 }
 
@@ -60,14 +58,12 @@ pub struct Condition {
 pub struct Controller {
     /// Script function, called with the time and the simulation.
     pub function: StoredFunction,
-    /// Value for the current step.
     pub value: Rc<Cell<f64>>,
     /// Sampling of the controller; without it the function is called at every step.
     pub beat: Option<SampleClock>,
 }
 
 impl SceneHandle {
-    /// Creates the handle of a scene.
     pub fn new(scene: Scene) -> Self {
         let scene = Rc::new(RefCell::new(scene));
         let variants =
@@ -80,12 +76,10 @@ impl SceneHandle {
         }
     }
 
-    /// The scene in the current variant.
     pub fn scene(&self) -> &RefCell<Scene> {
         self.of_present()
     }
 
-    /// The scene in the current variant, shared.
     pub fn shared(&self) -> Rc<RefCell<Scene>> {
         Rc::clone(self.of_present())
     }
@@ -103,7 +97,6 @@ impl SceneHandle {
         beside.scenes.get(variant - 1).unwrap_or(scene)
     }
 
-    /// Parameters that the scene depends on.
     pub fn parameter_set(&self) -> Option<Rc<ParameterSet>> {
         self.variants.beside.get().map(|beside| Rc::clone(&beside.family))
     }
@@ -230,7 +223,6 @@ impl SceneHandle {
         }
     }
 
-    /// Release conditions.
     pub fn conditions(&self) -> Vec<Condition> {
         self.conditions.borrow().clone()
     }

@@ -50,9 +50,7 @@ struct Live {
 
 /// Target of a forward or backward run.
 pub enum RunTarget {
-    /// A number of steps.
     Steps(usize),
-    /// A time.
     Time(f64),
 }
 
@@ -161,7 +159,6 @@ impl SimulationHandle {
         self.0.events.borrow().waiting()
     }
 
-    /// Scene of the simulation.
     pub fn scene(&self) -> &SceneHandle {
         &self.0.scene
     }
@@ -171,7 +168,6 @@ impl SimulationHandle {
         Rc::ptr_eq(&self.0, &other.0)
     }
 
-    /// Name of the simulation.
     pub fn name(&self) -> &str {
         &self.0.name
     }
@@ -181,7 +177,6 @@ impl SimulationHandle {
         self.simulation().time()
     }
 
-    /// Schedules a script function for a time.
     pub fn at(&self, time: f64, function: StoredFunction) -> Result<(), ScriptError> {
         let now = self.time();
         let is_late = if self.0.is_firing.get() { time <= now } else { time < now };

@@ -16,12 +16,9 @@ use crate::script::messages::error::ScriptError;
 use crate::script::presentation::details;
 use crate::system::Scene;
 
-/// Handle of a station of a scene.
 #[derive(Clone)]
 pub struct StationHandle {
-    /// Scene of the station.
     pub scene: SceneHandle,
-    /// Station in its scene.
     pub station: Station,
 }
 

@@ -10,10 +10,8 @@ use crate::script::bindings::parameter_variants::ParameterSet;
 use crate::script::messages::error::ScriptError;
 use crate::script::presentation::details;
 
-/// Handle of a track of a scene.
 #[derive(Clone)]
 pub struct TrackHandle {
-    /// Scene of the track.
     pub scene: SceneHandle,
     /// Index of the track in its scene, from 0.
     pub index: usize,
@@ -36,7 +34,6 @@ impl TrackHandle {
         self.scene.scene().borrow().tracks[self.index].end == TrackEnd::Closed
     }
 
-    /// Name of the track.
     pub fn name(&self) -> String {
         self.scene.scene().borrow().tracks[self.index].name.clone()
     }

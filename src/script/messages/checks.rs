@@ -1,15 +1,12 @@
 //! Record of the checks made by a script.
 
-/// A failed check.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct FailedCheck {
-    /// Message of the script.
     pub message: String,
     /// Line of the check in the script, from 1.
     pub line: usize,
 }
 
-/// Number of checks, and the failed ones.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Checks {
     made: usize,
@@ -17,18 +14,15 @@ pub struct Checks {
 }
 
 impl Checks {
-    /// Counts a passed check.
     pub fn pass(&mut self) {
         self.made += 1;
     }
 
-    /// Records a failed check.
     pub fn fail(&mut self, check: FailedCheck) {
         self.made += 1;
         self.failed.push(check);
     }
 
-    /// Number of checks made.
     pub fn made(&self) -> usize {
         self.made
     }

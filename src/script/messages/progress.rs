@@ -18,7 +18,6 @@ pub trait Progress {
     }
 }
 
-/// No progress display.
 pub struct NoProgress;
 
 impl Progress for NoProgress {

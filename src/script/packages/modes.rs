@@ -189,7 +189,6 @@ impl ModesHandle {
         Self(Rc::new(ModesData { of, scene: scene.clone(), modes, about: ModesReference::Drawn }))
     }
 
-    /// Scene as it was built, and its modes.
     pub fn held(&self) -> (&Scene, &Modes) {
         (&self.0.scene, &self.0.modes)
     }

@@ -95,7 +95,6 @@ impl SectionForceProfile {
         }
     }
 
-    /// Strips perpendicular to the beams.
     pub fn strips(&self, quantity: &BeamQuantity) -> StripPicture {
         let caption = match quantity.name {
             "M" | "curvature" => "positive on the right of a beam from its start, the tension side",
@@ -138,7 +137,6 @@ impl SectionForceProfile {
         })
     }
 
-    /// Chart as text for a terminal.
     pub fn text(&self, quantity: &BeamQuantity, style: &TerminalStyle) -> String {
         self.chart(quantity).title(self.heading(quantity)).x_label("s").text(style)
     }

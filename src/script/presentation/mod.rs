@@ -1,13 +1,13 @@
 //! Presentation of values: prompt, charts, pictures, and colours.
 
-pub mod along;
-pub mod arrays;
-pub mod details;
-pub mod grids;
+pub(crate) mod along;
+pub(crate) mod arrays;
+pub(crate) mod details;
+pub(crate) mod grids;
 pub mod highlight;
-pub mod motion;
-pub mod plots;
+pub(crate) mod motion;
+pub(crate) mod plots;
 pub mod present;
-pub mod quantities;
-pub mod symbols;
+pub(crate) mod quantities;
+pub(crate) mod symbols;
 pub mod viewer_data;

@@ -15,20 +15,16 @@ const MOST_SPANS_WITH_DOTS: usize = 40;
 const MOST_SNAPSHOTS: f64 = 2000.0;
 const DIGITS: usize = 6;
 
-/// Times of the snapshots.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Times {
     /// First time.
     pub from: f64,
     /// Last time.
     pub to: f64,
-    /// Interval.
     pub every: f64,
 }
 
-/// Options of a motion picture.
 pub struct MotionOptions {
-    /// Times of the snapshots.
     pub times: Times,
     /// Stations whose paths are drawn, with their names.
     pub traces: Vec<(String, BodyPoint)>,
@@ -36,7 +32,6 @@ pub struct MotionOptions {
     pub magnify: Option<f64>,
     /// Marks at knots or nodes; `None` decides by the number of spans.
     pub dots: Option<bool>,
-    /// Display of symbols.
     pub symbols: Visibility,
     /// Ends of the axes.
     pub limits: AxisLimits,
@@ -45,11 +40,9 @@ pub struct MotionOptions {
 /// Display of symbols.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Visibility {
-    /// All.
     Yes,
     /// All, except kinds so numerous that they would hide the rest.
     IfFew,
-    /// None.
     None,
 }
 
@@ -135,7 +128,6 @@ impl MotionView {
         Ok(Self { beams, snapshots, traces, symbols, magnify, limits })
     }
 
-    /// Picture for a file.
     pub fn picture(self, title: impl Into<String>) -> MotionPicture {
         let picture =
             MotionPicture::new(title).beams(self.beams).symbols(self.symbols).limits(self.limits);
@@ -227,7 +219,6 @@ pub fn has_room_for_dots(simulation: &Simulation) -> bool {
     spans <= MOST_SPANS_WITH_DOTS
 }
 
-/// Converts a configuration to a snapshot.
 pub fn snapshot(configuration: &Configuration) -> MotionFrame {
     let plain = |point: &Vec2| (point.x, point.y);
     let plain_line = |line: &Vec<Vec2>| line.iter().map(plain).collect();

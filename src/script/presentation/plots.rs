@@ -193,7 +193,6 @@ fn expect_column(history: &History, name: &str) -> Result<&'static str, ScriptEr
     })
 }
 
-/// Hint for an unknown column name.
 pub fn column_hint(history: &History, name: &str) -> String {
     let missing = MISSING.iter().find(|(kind, _)| name.split('.').next() == Some(kind));
     let is_there = |kind: &str| history.columns().any(|(column, _)| column == kind);
@@ -219,7 +218,6 @@ const MISSING: [(&str, &str); 2] = [
     ),
 ];
 
-/// Names of the columns in one line.
 pub fn column_names(history: &History) -> String {
     history.columns().map(|(name, _)| name).collect::<Vec<_>>().join(", ")
 }

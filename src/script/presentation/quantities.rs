@@ -3,15 +3,12 @@
 use crate::output::BeamSide;
 use crate::system::BeamSample;
 
-/// A quantity along a beam.
 pub struct BeamQuantity {
-    /// Name in scripts.
     pub name: &'static str,
     /// Name in titles.
     pub words: &'static str,
     /// Symbol on axes.
     pub sign: &'static str,
-    /// Dimension of the quantity.
     pub dimension: &'static str,
     /// Evaluates the quantity at a sample of a beam.
     pub of: fn(&BeamSample) -> f64,
@@ -37,7 +34,6 @@ const QUANTITIES: [BeamQuantity; 8] = [
     quantity("speed", "speed", "length/time", |at| at.velocity.norm()),
 ];
 
-/// Names of the quantities.
 pub const NAMES: &[&str] =
     &["N", "Q", "M", "axial_strain", "shear_strain", "curvature", "strain_energy", "speed"];
 
@@ -52,7 +48,6 @@ const fn quantity(
 }
 
 impl BeamQuantity {
-    /// Quantity with this name.
     pub fn named(name: &str) -> Option<&'static Self> {
         const ALL: &[BeamQuantity] = &QUANTITIES;
         ALL.iter().find(|quantity| quantity.name == name)

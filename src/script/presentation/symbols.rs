@@ -14,21 +14,15 @@ const ARROWS: usize = 5;
 /// Offset for the tangent direction at a station, as a fraction of the beam length.
 const AROUND: f64 = 1e-3;
 
-/// A symbol at a station.
 pub struct StationSymbol<'a> {
-    /// Kind of symbol.
     pub symbol: Symbol,
-    /// Name of the element.
     pub name: &'a str,
-    /// Station.
     pub at: Station,
-    /// Direction.
     pub pointing: Pointing,
     /// Releasable connection that it represents.
     pub hold: Option<Releasable>,
 }
 
-/// Direction of a symbol.
 pub enum Pointing {
     /// Fixed in space.
     To(Vec2),
@@ -56,13 +50,9 @@ impl Pointing {
     }
 }
 
-/// A scene at a time.
 pub struct SceneAt<'a> {
-    /// Scene.
     pub scene: &'a Scene,
-    /// Time.
     pub time: f64,
-    /// Released connections.
     pub released: Vec<Releasable>,
 }
 
@@ -180,7 +170,6 @@ pub fn of_supports(scene: &Scene) -> impl Iterator<Item = StationSymbol<'_>> {
     joints.chain(scene.drives.iter().flat_map(|drive| of_drive(scene, drive)))
 }
 
-/// Symbols of all sliders, in order.
 pub fn of_sliders(scene: &Scene) -> impl Iterator<Item = StationSymbol<'_>> {
     scene.sliders.iter().enumerate().map(|(index, slider)| StationSymbol {
         hold: Some(Releasable::Slider(index)),

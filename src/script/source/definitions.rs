@@ -60,7 +60,6 @@ impl<'t> Definition<'t> {
         words.collect::<Vec<_>>().join(".")
     }
 
-    /// Names of the parameters.
     pub fn parameters(&self) -> impl Iterator<Item = &'t str> + use<'t> {
         self.tokens[self.opening..self.body].iter().filter_map(|(token, _)| name_of(token))
     }

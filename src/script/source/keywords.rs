@@ -7,7 +7,6 @@ pub const KEYWORDS: &[&str] = &[
     "true", "false", "this", "global",
 ];
 
-/// Returns true if a word is a keyword.
 pub fn is_keyword(word: &str) -> bool {
     KEYWORDS.contains(&word)
 }

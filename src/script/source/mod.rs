@@ -1,12 +1,12 @@
 //! Text of a script and its tokens: source text, lexer, declarations, and syntax extensions of Rhai.
 
-pub mod definitions;
-pub mod keywords;
-pub mod lexing;
-pub mod loop_scoping;
-pub mod outline;
+pub(crate) mod definitions;
+pub(crate) mod keywords;
+pub(crate) mod lexing;
+pub(crate) mod loop_scoping;
+pub(crate) mod outline;
 pub mod program;
-pub mod scanner;
-pub mod switch_rewrite;
-pub mod syntax;
-pub mod text;
+pub(crate) mod scanner;
+pub(crate) mod switch_rewrite;
+pub(crate) mod syntax;
+pub(crate) mod text;

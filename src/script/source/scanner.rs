@@ -5,7 +5,6 @@
 /// A piece of an input, `start..end` in bytes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Token {
-    /// Kind of the token.
     pub kind: TokenKind,
     /// Start in the input [bytes].
     pub start: usize,
@@ -13,7 +12,6 @@ pub struct Token {
     pub end: usize,
 }
 
-/// Kind of a token.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum TokenKind {
     /// Spaces and line ends.
@@ -32,20 +30,15 @@ pub enum TokenKind {
     OpenPiece,
     /// A name or keyword.
     Word,
-    /// A number.
     Number,
-    /// An opening bracket.
     Open(Bracket),
-    /// A closing bracket.
     Close(Bracket),
     /// An operator or punctuation.
     Symbol,
 }
 
-/// Kind of a bracket.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Bracket {
-    /// Parentheses.
     Round,
     /// The brackets `[` or `?[` of arrays and indices.
     Square,
@@ -68,7 +61,6 @@ impl Bracket {
 }
 
 impl Token {
-    /// Text of the token.
     pub fn of<'t>(&self, text: &'t str) -> &'t str {
         text.get(self.start..self.end).unwrap_or_default()
     }

@@ -10,7 +10,6 @@ use rhai::{Position, Token};
 
 use super::lexing::{Lexed, lex};
 
-/// A token and its position.
 pub type Lexeme = (Token, Position);
 
 /// A source text. Clones share the text and its tokens, which are computed on first use.
@@ -38,7 +37,6 @@ impl Source {
         Some(position(before.matches('\n').count() + 1, column))
     }
 
-    /// All names in the text, in order.
     pub fn names(&self) -> impl Iterator<Item = &str> {
         self.tokens().iter().filter_map(|(token, _)| name_of(token))
     }
@@ -82,7 +80,6 @@ impl Source {
     }
 }
 
-/// Name of an identifier token.
 pub fn name_of(token: &Token) -> Option<&str> {
     match token {
         Token::Identifier(name) => Some(name.as_str()),
@@ -96,7 +93,6 @@ pub fn position(line: usize, column: usize) -> Position {
     Position::new(counted(line), counted(column))
 }
 
-/// Moves a position down by some lines.
 pub fn moved_down(at: Position, lines: usize) -> Position {
     match (at.line(), at.position()) {
         (Some(line), column) if lines > 0 => position(line + lines, column.unwrap_or(1)),

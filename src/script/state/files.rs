@@ -28,10 +28,8 @@ pub struct OutputFolder {
     pretended: RefCell<HashMap<PathBuf, Vec<u8>>>,
 }
 
-/// A written file.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct WrittenFile {
-    /// Path of the file.
     pub path: PathBuf,
     /// Path under which an older file of the same name is kept, because it was not written by this program or was changed since.
     pub kept: Option<PathBuf>,
@@ -205,9 +203,7 @@ fn kept_name(path: &Path, number: usize) -> PathBuf {
 pub struct InputFolder {
     /// Name of the folder in messages.
     pub word: &'static str,
-    /// Path of the folder.
     pub path: PathBuf,
-    /// Function that opens the folder.
     pub open: fn(&Path) -> io::Result<Folder>,
 }
 

@@ -12,7 +12,6 @@ use super::settings::JournalPreference;
 use crate::analysis::{Journal, JournalError, RowEntry, RowJournal, read_rows, remove_rows};
 use crate::script::messages::error::ScriptError;
 
-/// Journals of a run.
 #[derive(Default)]
 pub struct Journals {
     open: RefCell<Vec<(Journal, JournalLifetime)>>,
@@ -23,7 +22,6 @@ pub struct Journals {
     kept: Cell<usize>,
 }
 
-/// Lifetime of a journal.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum JournalLifetime {
     /// Removed when the script has ended.

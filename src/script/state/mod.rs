@@ -1,9 +1,9 @@
 //! State shared by the calls of a run: settings, limits, files, journals, and the context that holds them.
 
 pub mod context;
-pub mod files;
-pub mod journals;
+pub(crate) mod files;
+pub(crate) mod journals;
 pub mod limits;
-pub mod parts;
+pub(crate) mod parts;
 pub mod settings;
-pub mod watchdog;
+pub(crate) mod watchdog;

@@ -10,9 +10,7 @@ use crate::script::messages::error::ScriptError;
 /// A part of every study of a script: every `of`-th case.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct StudyPart {
-    /// Number of parts.
     pub of: u32,
-    /// Index of the part, from 1.
     pub number: u32,
 }
 
@@ -35,7 +33,6 @@ impl FromStr for StudyPart {
 }
 
 impl StudyPart {
-    /// The whole study.
     pub const WHOLE: Self = Self { of: 1, number: 1 };
 
     /// Returns true if a case belongs to the part.
@@ -43,7 +40,6 @@ impl StudyPart {
         case % self.of as usize == self.number as usize - 1
     }
 
-    /// File name of the part of a study.
     pub fn file(self, study: &str) -> String {
         format!("{study}.{}-of-{}.part", self.number, self.of)
     }

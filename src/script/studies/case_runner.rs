@@ -15,7 +15,6 @@ use crate::script::state::journals::{JournalLifetime, JournalNumber};
 use crate::script::state::parts::find_parts;
 use crate::script::state::settings::RunMode;
 
-/// Result of a case.
 pub trait CaseResult: Serialize + DeserializeOwned {
     /// Returns true if the result is worth keeping in the journal; a run that exceeded its limits may complete another time.
     fn is_final(&self) -> bool;
@@ -57,7 +56,6 @@ pub struct CaseRunner<'c> {
 /// A kind of computation applied to the cases of a study.
 #[derive(Clone, Copy)]
 pub struct CaseTask<'t> {
-    /// Name of the computation.
     pub name: &'t str,
     /// Data that the results depend on besides the cases, as bytes.
     pub parts: &'t [u8],

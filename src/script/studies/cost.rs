@@ -26,11 +26,9 @@ const TRUSTED_RATIO: f64 = 1.1;
 /// Settings of all rows of a cost study, unless a row varies them.
 #[derive(Clone, Copy)]
 pub struct CostStepping {
-    /// Integrator.
     pub method: Method,
     /// Step size [time].
     pub dt: f64,
-    /// Number of steps of each run.
     pub steps: usize,
 }
 
@@ -128,7 +126,6 @@ impl CostTable {
         Self { name, costs }
     }
 
-    /// Name of the study.
     pub fn name(&self) -> &str {
         &self.name
     }
@@ -160,7 +157,6 @@ impl CostTable {
         self.costs.iter().map(row).collect()
     }
 
-    /// Table as text.
     pub fn text(&self) -> String {
         let heads = [
             "feature",
@@ -221,7 +217,6 @@ impl CostTable {
         })
     }
 
-    /// Table as CSV records.
     pub fn records(&self) -> CsvRecords {
         let rows = self.rows();
         let names = [

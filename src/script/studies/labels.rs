@@ -43,7 +43,6 @@ pub fn milliseconds(seconds: f64) -> String {
     significant(1e3 * seconds, 3)
 }
 
-/// Table cell with a number given as text.
 pub fn number(text: String) -> Cell {
     Cell::Number(text)
 }

@@ -19,13 +19,9 @@ const FINEST_RUN: Type = Type::of::<FinestRun>();
 option_set! {
     /// The options of `study_stability`.
     pub struct StabilityOptions {
-        /// Name of the study and its files.
         name: String = name("name").doc("name of the study and its files"),
-        /// Function that makes the scene of a cell.
         scene: FnPtr = callback("scene").doc("|cell| …, a function that returns the scene of a cell"),
-        /// Map with a name and its values.
         rows: Dynamic = of_any_type("rows").doc("a name and its values: #{ stiffness: [1e4, 1e8] }"),
-        /// Map with a name and its values.
         columns: Dynamic = of_any_type("columns").doc("a name and its values: #{ dt: [0.1, 0.2] }"),
         /// Map with a name and its values.
         maps: Option<Dynamic> =
@@ -55,9 +51,7 @@ option_set! {
 option_set! {
     /// The options of `study_cost`.
     pub struct CostOptions {
-        /// Name of the study and its files.
         name: String = name("name").doc("name of the study and its files"),
-        /// Function that makes the scene.
         scene: FnPtr = callback("scene").doc("|| …, a function that returns the scene"),
         /// Step size of all rows [time].
         dt: f64 = number("dt").positive().unit("time").doc("step size"),
@@ -67,7 +61,6 @@ option_set! {
         /// Integrator of all rows that do not vary it.
         integrator: Option<Method> =
             object("integrator", INTEGRATOR).doc("integrator; default: energy_momentum()").optional(),
-        /// Number of steps of each run.
         steps: usize = integer("steps").positive().or(Presence::Integer(200)).doc("number of steps of each run"),
         /// Number of timed repetitions.
         repeats: usize = integer("repeats")
@@ -78,15 +71,10 @@ option_set! {
 }
 
 option_set! {
-    /// Options of all studies of errors.
     pub struct ErrorOptions {
-        /// Name of the study and its files.
         name: String = name("name").doc("name of the study and its files"),
-        /// Function that makes the scene on a mesh.
         scene: FnPtr = callback("scene").doc("|mesh| …, returns the scene on a mesh"),
-        /// Arguments of the function.
         meshes: Array = array("meshes").doc("meshes, the arguments of `scene`"),
-        /// Integrators.
         integrators: Array = array("integrators").doc("at least one integrator"),
         /// Step sizes.
         dts: Array =
@@ -94,7 +82,6 @@ option_set! {
         /// Times of the comparison [time].
         times: Vec<f64> =
             numbers("times").unit("time").doc("times at which results are compared; the last one ends a run"),
-        /// Reference of the comparison.
         reference: Option<ReferenceOption> = either("reference", &[Kind::Text, Kind::Object(FINEST_RUN)])
             .doc("name of a table, or finest_run(…); default: finest_run()")
             .optional(),
@@ -124,7 +111,6 @@ option_set! {
         /// Name of a table with results of other programs.
         rivals: Option<String> =
             text("rivals").doc("name of a table with the run times of other programs").optional(),
-        /// Number of timed repetitions.
         repeats: usize = integer("repeats").positive().or(Presence::Integer(5)).doc(
             "number of timed runs, with every step recorded; fewer if they take more than 10 s",
         ),
@@ -137,11 +123,9 @@ pub const PRECISION_KEYS: &[Parameter] = &both::<12>(ErrorOptions::KEYS, TimedOp
 option_set! {
     /// Options of `finest_run`.
     pub struct FinestOptions {
-        /// Argument of the scene function.
         mesh: Option<Dynamic> = of_any_type("mesh").doc("mesh, the argument of `scene`").optional(),
         /// Step size [time].
         dt: Option<f64> = number("dt").positive().unit("time").doc("step size").optional(),
-        /// Integrator.
         integrator: Option<Method> = object("integrator", INTEGRATOR).optional(),
     }
 }
@@ -149,9 +133,7 @@ option_set! {
 /// Reference requested by a script.
 #[derive(Clone)]
 pub enum ReferenceOption {
-    /// A table file.
     Table(String),
-    /// A reference run.
     Run(FinestRun),
 }
 

@@ -12,14 +12,11 @@ use crate::script::messages::numbers::{as_number, format_number};
 
 const DIGITS: usize = 6;
 
-/// A named parameter with its values.
 #[derive(Clone, Debug)]
 pub struct StudyParameter {
     /// Key of the value in a cell of the study.
     pub name: String,
-    /// Values.
     pub values: Array,
-    /// Labels of the values.
     pub labels: Vec<String>,
 }
 

@@ -20,19 +20,14 @@ use crate::system::Scene;
 
 /// Plan of an error study, without its reference.
 pub struct ErrorStudyPlan {
-    /// Name of the study and its files.
     pub name: String,
-    /// One scene per mesh.
     pub subjects: Vec<ObservedScene>,
-    /// Integrators.
     pub methods: Vec<Method>,
-    /// Step sizes.
     pub dts: Vec<StepSize>,
     /// Times of the comparison, sorted [time].
     pub times: Vec<f64>,
     /// Length scale of position errors [length].
     pub length: f64,
-    /// Limits of a case.
     pub patience: RunLimits,
 }
 
@@ -70,7 +65,6 @@ impl ErrorStudyPlan {
         Ok(Self { name, subjects, methods, dts, times, length, patience })
     }
 
-    /// Settings of a run.
     pub fn settings(method: Method, dt: StepSize) -> SimulationSettings {
         SimulationSettings { method, dt, tolerance: Tolerance::default() }
     }
@@ -84,7 +78,6 @@ impl ErrorStudyPlan {
         self.methods.iter().flat_map(with).collect()
     }
 
-    /// Observables of the study.
     pub fn observables(&self) -> &[Observable] {
         &self.subjects[0].observables
     }
@@ -185,7 +178,6 @@ fn expect_all_different<T: PartialEq>(
     })
 }
 
-/// Error at an option of a call.
 pub fn at_key(
     call: &Call,
     key: &str,

@@ -93,12 +93,10 @@ fn facts(study: &Precision, row: &PrecisionRow) -> Vec<(String, Dynamic)> {
     facts
 }
 
-/// Row as a script map.
 pub fn map_of(study: &Precision, row: &PrecisionRow) -> Map {
     facts(study, row).into_iter().map(|(name, value)| (name.into(), value)).collect()
 }
 
-/// All rows as CSV records.
 pub fn records(study: &Precision) -> CsvRecords {
     let text = |value: Dynamic| match value.as_float() {
         Ok(number) => format_number(number),

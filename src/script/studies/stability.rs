@@ -57,20 +57,15 @@ impl MapColouring {
     }
 }
 
-/// Plan of a stability study.
 #[derive(Clone, Debug)]
 pub struct StabilityPlan {
     /// Name of the study and its files.
     pub name: String,
-    /// Parameter with one map per value.
     pub maps: StudyParameter,
-    /// Parameter of the rows, from the top.
     pub rows: StudyParameter,
-    /// Parameter of the columns, from the left.
     pub columns: StudyParameter,
 }
 
-/// A stability map with results.
 #[derive(Clone, Debug)]
 pub struct StabilityMap {
     plan: StabilityPlan,
@@ -80,7 +75,6 @@ pub struct StabilityMap {
 }
 
 impl StabilityPlan {
-    /// Reads the options of a study.
     pub fn read(call: &Call, options: &StabilityOptions) -> Result<Self, ScriptError> {
         let maps = match &options.maps {
             Some(maps) => StudyParameter::read(call, "maps", maps)?,
@@ -180,7 +174,6 @@ impl StabilityMap {
         (self.verdicts.len(), finished.count())
     }
 
-    /// Name of the study.
     pub fn name(&self) -> &str {
         &self.plan.name
     }
@@ -312,7 +305,6 @@ impl StabilityMap {
         text
     }
 
-    /// All cells as CSV records.
     pub fn records(&self) -> CsvRecords {
         let numbers = ["energy growth", "mean iterations", "most iterations", "retries", "steps"];
         let first = self.plan.labels([0; 3]);

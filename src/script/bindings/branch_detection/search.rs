@@ -41,7 +41,6 @@ struct VariableFacts {
     asked: BTreeSet<String>,
     /// Variables with schedules that jump at times which depend on a parameter.
     jumping: BTreeSet<String>,
-    /// Variables with functions.
     functions: BTreeMap<String, FnPtr>,
 }
 

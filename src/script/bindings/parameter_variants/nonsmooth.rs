@@ -17,11 +17,8 @@ const NEAR: f64 = 300.0;
 
 /// Arguments of a call at the parameter values, and at one of them plus and minus its step.
 pub struct Sides<'s> {
-    /// At the parameter values.
     pub at: &'s [Dynamic],
-    /// At plus one step.
     pub plus: &'s [Dynamic],
-    /// At minus one step.
     pub minus: &'s [Dynamic],
 }
 
@@ -175,7 +172,6 @@ pub fn at_multiples(sides: &Sides) -> Option<NoDerivative> {
     (plus != at || minus != at).then_some(NoDerivative::Discontinuous)
 }
 
-/// Near zero of the divisor.
 pub fn near_zero_divisor(sides: &Sides) -> Option<NoDerivative> {
     sides.nears_zero(|given| number(given, 1))
 }

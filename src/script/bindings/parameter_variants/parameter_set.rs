@@ -34,9 +34,7 @@ struct DeclaredParameter {
 /// Variant that the current call is evaluated for.
 #[derive(Clone)]
 pub struct CurrentVariant {
-    /// Parameter set.
     pub family: Rc<ParameterSet>,
-    /// Index of the variant.
     pub variant: usize,
 }
 
@@ -105,7 +103,6 @@ impl Drop for VariantGuard {
 }
 
 impl ParameterSet {
-    /// An empty parameter set.
     pub fn new() -> Rc<Self> {
         ANY.set(true);
         Rc::default()
@@ -165,7 +162,6 @@ impl ParameterSet {
         self.is_in_use.set(true);
     }
 
-    /// Number of variants.
     pub fn variants(&self) -> usize {
         1 + 2 * self.parameters.borrow().len()
     }

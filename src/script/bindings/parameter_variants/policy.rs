@@ -61,7 +61,6 @@ const WHOLE: &[&str] = &["quotient"];
 /// Methods that advance a simulation together with its variants, or return values that do not depend on them, such as the time.
 const ONCE: &[&str] = &["start", "step", "run_to", "at", "t", "dt", "invariants", "parameter"];
 
-/// Policy of a binding.
 pub fn lifting_of(table: &BindingTable, row: &FunctionBinding) -> Lifting {
     let is_of = |names: &[&str]| names.contains(&table.name);
     match row.form {

@@ -24,7 +24,6 @@ pub struct VariantValue {
 }
 
 impl VariantValue {
-    /// Creates a value from its variants.
     pub fn new(family: &Rc<ParameterSet>, values: Vec<Dynamic>, lost: Option<Rc<str>>) -> Self {
         Self { family: Rc::clone(family), values: values.into(), lost }
     }
@@ -34,17 +33,14 @@ impl VariantValue {
         project(value, variant)
     }
 
-    /// Number in the current variant.
     pub fn number(value: &Dynamic) -> Option<f64> {
         as_number(value).or_else(|| as_number(&value.read_lock::<Self>()?.at(present_variant())))
     }
 
-    /// Parameter set that a value depends on.
     pub fn parameter_set_of(value: &Dynamic) -> Option<Rc<ParameterSet>> {
         parameter_set_of(value)
     }
 
-    /// Parameter set of this value.
     pub fn parameter_set(&self) -> &Rc<ParameterSet> {
         &self.family
     }
@@ -53,7 +49,6 @@ impl VariantValue {
         self.lost.as_ref()
     }
 
-    /// Value in a variant.
     pub fn at(&self, variant: usize) -> Dynamic {
         self.values.get(variant).unwrap_or(&self.values[0]).clone()
     }

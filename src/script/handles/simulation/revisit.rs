@@ -48,7 +48,6 @@ impl Revisit {
         }
     }
 
-    /// The replaced simulation.
     pub fn original(&self) -> Ref<'_, Simulation> {
         self.original.borrow()
     }

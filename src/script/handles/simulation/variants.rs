@@ -18,7 +18,6 @@ pub(super) fn in_words(reason: &DerivativeError) -> String {
 }
 
 impl SimulationHandle {
-    /// The simulation in the current variant.
     pub fn simulation(&self) -> Ref<'_, Simulation> {
         Ref::map(self.0.simulation.borrow(), |run| {
             let Some((parameter, side)) = Self::present_side(run) else { return run };
@@ -44,7 +43,6 @@ impl SimulationHandle {
         }
     }
 
-    /// The simulation of variant 0.
     pub fn primary(&self) -> Ref<'_, Simulation> {
         self.0.simulation.borrow()
     }

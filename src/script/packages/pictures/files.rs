@@ -9,7 +9,6 @@ use crate::script::bindings::call::Call;
 use crate::script::bindings::parameter::{Parameter, text};
 use crate::script::messages::error::ScriptError;
 
-/// Parameter for a file name.
 pub const FILE: Parameter = text("file").doc("file name in the output folder");
 
 /// Writes a picture to the output folder, in the format of its extension. Returns the unit value.

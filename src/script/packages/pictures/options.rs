@@ -10,11 +10,8 @@ use crate::script::messages::error::{CallPart, ScriptError};
 use crate::script::messages::numbers::{as_number, format_number};
 use crate::script::presentation::motion::Visibility;
 
-/// Option for the title.
 pub const TITLE: Parameter = text("title").doc("title above the picture").optional();
-/// Option for the label of the horizontal axis.
 pub const X_LABEL: Parameter = text("x_label").doc("label of the horizontal axis").optional();
-/// Option for the label of the vertical axis.
 pub const Y_LABEL: Parameter = text("y_label").doc("label of the vertical axis").optional();
 /// Option for a logarithmic horizontal axis.
 pub const X_LOG: Parameter =
@@ -28,7 +25,6 @@ pub const X_LIMITS: Parameter =
 /// Option for the limits of the vertical axis.
 pub const Y_LIMITS: Parameter =
     numbers("y_limits").doc("[low, high]: limits of the vertical axis").optional();
-/// Option for markers.
 pub const MARKERS: Parameter = choice("markers", &["on_lines", "alone"])
     .doc("marks at every point, on the lines or without lines; default: no marks")
     .optional();
@@ -36,7 +32,6 @@ pub const MARKERS: Parameter = choice("markers", &["on_lines", "alone"])
 pub const LABELS: Parameter =
     array("labels").doc("names of the curves in the legend, texts or numbers").optional();
 
-/// Option for symbols.
 pub const SYMBOLS: Parameter = boolean("symbols")
     .doc(
         "true to show symbols of supports, joints, sliders, springs and loads; default: true, \
@@ -54,18 +49,15 @@ pub struct OptionError {
 }
 
 impl OptionError {
-    /// Converts to an error of a call.
     pub fn in_call(self, call: &Call) -> ScriptError {
         call.error(self.told).hint(self.hint).at(CallPart::Key(self.key))
     }
 
-    /// Converts to an error of a command.
     pub fn in_command(self, command: &str) -> ScriptError {
         ScriptError::new(format!("{command}: {}", self.told)).hint(self.hint)
     }
 }
 
-/// Value of the option for symbols.
 pub fn symbols(options: &Options) -> Visibility {
     match options.boolean("symbols") {
         Ok(false) => Visibility::None,
@@ -74,7 +66,6 @@ pub fn symbols(options: &Options) -> Visibility {
     }
 }
 
-/// Axis limits from the options.
 pub fn limits(options: &Options) -> Result<AxisLimits, OptionError> {
     let ends = |name: &str| match options.numbers(name).ok().as_deref() {
         None => Ok(None),

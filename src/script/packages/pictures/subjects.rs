@@ -14,7 +14,6 @@ use crate::script::packages::histories::HISTORY;
 use crate::script::packages::recording::expect_rows_between;
 use crate::script::packages::simulations::SIMULATION;
 
-/// Parameter for simulations.
 pub const MOVING: Parameter = either("of", &[Kind::Object(SIMULATION), Kind::Array])
     .doc("a simulation, or an array of simulations");
 /// Parameter for simulations or histories.
@@ -45,7 +44,6 @@ fn things<T: Scripted>(
     })
 }
 
-/// Simulations of the argument.
 pub fn simulations(call: &Call) -> Result<Vec<SimulationHandle>, ScriptError> {
     things(call, as_simulation)
 }
@@ -75,7 +73,6 @@ fn as_history(value: &Dynamic) -> Option<HistoryHandle> {
     value.clone().try_cast::<HistoryHandle>().or_else(|| as_simulation(value).map(whole))
 }
 
-/// Point as a pair.
 pub fn plain(point: &Vec2) -> (f64, f64) {
     (point.x, point.y)
 }

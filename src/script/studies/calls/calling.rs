@@ -9,9 +9,7 @@ use crate::script::messages::error::Failure;
 
 const LONGEST_REASON: usize = 300;
 
-/// Result of a call.
 pub enum CallOutcome {
-    /// Return value.
     Returned(Dynamic),
     /// The function threw, took too long, or a check failed; with the reason.
     Failed(String),
@@ -21,7 +19,6 @@ pub enum CallOutcome {
 
 /// Processed result of a call, with the steps of its simulations.
 pub struct CallWork<R> {
-    /// Processed result.
     pub result: R,
     /// Simulation steps, including failed ones.
     pub steps: u64,

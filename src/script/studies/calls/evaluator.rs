@@ -15,9 +15,7 @@ use crate::script::messages::numbers::as_number;
 
 const NO_FILES: &str = "a run of a study cannot write files: return the data as its result";
 
-/// Result of the function at a point.
 pub enum FunctionResult {
-    /// Numbers.
     Numbers(Vec<f64>),
     /// Failure, with the reason.
     Failed(String),
@@ -25,18 +23,12 @@ pub enum FunctionResult {
     Wrong(String),
 }
 
-/// Converts the return value of the function.
 pub type Read = fn(&Dynamic) -> FunctionResult;
 
-/// A function of parameters.
 pub struct FunctionQuery<'q> {
-    /// Option key of the function.
     pub key: &'static str,
-    /// Names of the parameters.
     pub names: &'q [String],
-    /// Function.
     pub function: &'q RunFunction,
-    /// Conversion of the return value.
     pub read: Read,
     /// Wall-clock limit of a call.
     pub wall: Duration,

@@ -12,7 +12,6 @@ use crate::script::messages::nouns::with_article;
 /// A script function in a form that can be sent to other threads.
 #[derive(Clone, Debug)]
 pub struct RunFunction {
-    /// Name of the function in the script.
     pub name: String,
     /// Names and values of the captured variables.
     pub captured: Vec<(String, Portable)>,

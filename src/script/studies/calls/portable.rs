@@ -18,21 +18,13 @@ use crate::simulation::StepControl;
 pub enum Portable {
     /// Unit, `()`.
     Nothing,
-    /// A boolean.
     Boolean(bool),
-    /// An integer.
     Integer(INT),
-    /// A number.
     Number(f64),
-    /// A character.
     Character(char),
-    /// A text.
     Text(String),
-    /// A vector of the plane.
     Vector(Vec2),
-    /// An array.
     Array(Vec<Self>),
-    /// A map.
     Map(Vec<(String, Self)>),
     /// A script function: name, number of parameters, and captured values.
     Function(String, usize, Vec<Self>),
@@ -45,13 +37,9 @@ pub enum Portable {
 pub enum DataKind {
     /// A constant or tapered section.
     Section,
-    /// A mesh.
     Mesh,
-    /// A curve.
     Curve,
-    /// A knot vector.
     Knots,
-    /// An integrator.
     Method,
     /// An adaptive step size.
     Control,

@@ -20,7 +20,6 @@ use crate::script::studies::plan::at_key;
 
 const DIGITS: usize = 6;
 
-/// Objective.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Objective {
     /// Minimise the result of this name.
@@ -32,7 +31,6 @@ pub enum Objective {
 /// Bounds of a result.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Limit {
-    /// Name of the result.
     pub name: String,
     /// Lower bound.
     pub low: Option<f64>,
@@ -42,28 +40,20 @@ pub struct Limit {
 
 /// Specification of a design optimisation.
 pub struct DesignRequest<'o> {
-    /// Parameters.
     pub ranges: Ranges,
-    /// Function that returns a map of numbers.
     pub function: &'o FnPtr,
-    /// Objective.
     pub goal: Objective,
-    /// Constraints.
     pub limits: Vec<Limit>,
     /// Tolerance of the parameters, as a fraction of their ranges.
     pub tolerance: f64,
-    /// Maximum number of runs.
     pub most_runs: usize,
-    /// Use of derivatives.
     pub derivatives: Derivatives,
     /// Wall-clock limit of a run.
     pub wall: Duration,
 }
 
-/// Best design found.
 #[derive(Clone)]
 pub struct BestDesign {
-    /// Parameters with their values.
     pub parameters: Vec<(String, f64)>,
     /// Results with these parameters.
     pub results: Vec<(String, f64)>,
@@ -73,7 +63,6 @@ pub struct BestDesign {
     pub runaway: Option<usize>,
     /// Number of calls of the function.
     pub runs: usize,
-    /// Description of the derivatives used.
     pub derivatives: String,
 }
 
@@ -330,7 +319,6 @@ impl DesignRequest<'_> {
 }
 
 impl BestDesign {
-    /// Design as a text table.
     pub fn text(&self) -> String {
         let outcome = match self.runaway.map(|at| &self.parameters[at].0) {
             Some(name) => format!("no least value: '{name}' has no bound and ran off,"),

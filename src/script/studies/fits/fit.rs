@@ -22,30 +22,23 @@ const ERROR_DIGITS: usize = 2;
 /// Meaning of the function's return value.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Compared {
-    /// Residuals.
     Residuals,
     /// Values of a model, to be compared with measurements.
     Model {
-        /// Measured values.
         measured: Vec<f64>,
         /// Abscissas of the measurements.
         over: Option<Vec<f64>>,
     },
 }
 
-/// Specification of a fit.
 pub struct FitRequest<'o> {
-    /// Name of the fit and its files.
     pub name: String,
-    /// Parameters.
     pub ranges: Ranges,
     /// Option key of the function.
     pub key: &'static str,
-    /// Function.
     pub function: &'o FnPtr,
     /// Further argument after the map of parameters.
     pub data: Option<Dynamic>,
-    /// Meaning of the return value.
     pub compared: Compared,
     /// Weights of the squares; `None` if all are one.
     pub weights: Option<Vec<f64>>,
@@ -53,13 +46,11 @@ pub struct FitRequest<'o> {
     pub confidence: f64,
     /// Step of finite differences, relative to the size of a parameter.
     pub step: f64,
-    /// Source of the derivatives.
     pub derivatives: Derivatives,
     /// Wall-clock limit of a run.
     pub wall: Duration,
 }
 
-/// Source of the derivatives.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Derivatives {
     /// Derivatives from the runs, or finite differences if they are missing.
@@ -68,16 +59,13 @@ pub enum Derivatives {
     Unknown,
 }
 
-/// A finished fit.
 #[derive(Clone)]
 pub struct Fit {
-    /// Name of the fit and its files.
     pub name: String,
     /// Names of the parameters, in order.
     pub names: Vec<String>,
     /// Result, with weighted residuals.
     pub fitted: Fitted,
-    /// Unweighted residuals.
     pub residuals: Vec<f64>,
     /// Meaning of the function's return value.
     pub compared: Compared,
@@ -285,7 +273,6 @@ impl Fit {
         }
     }
 
-    /// Description of the derivatives used.
     pub fn derivatives(&self) -> String {
         match (&self.fitted.differences, self.fitted.gradient_runs) {
             (None, _) => "those of the runs".into(),
@@ -294,7 +281,6 @@ impl Fit {
         }
     }
 
-    /// Fit as a text table.
     pub fn text(&self) -> String {
         let Fitted { parameters, estimate, runs, .. } = &self.fitted;
         let share = format!("± at {} %", significant(100.0 * self.confidence, 3));

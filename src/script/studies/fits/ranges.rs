@@ -11,7 +11,6 @@ use crate::script::studies::plan::at_key;
 
 /// Search parameters, in the order of their names.
 pub struct Ranges {
-    /// Names.
     pub names: Vec<String>,
     /// Start values and bounds.
     pub ranges: Vec<SearchRange>,
@@ -37,7 +36,6 @@ impl Ranges {
         Ok(Self { names, ranges })
     }
 
-    /// Map from names to values.
     pub fn named(&self, values: &[f64]) -> Map {
         let pairs = self.names.iter().zip(values);
         pairs.map(|(name, value)| (name.as_str().into(), Dynamic::from(*value))).collect()

@@ -18,20 +18,15 @@ const MOST_ROWS: usize = 100_000_000;
 /// Joint sampling of the parameters.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Samples {
-    /// Sampling method.
     pub kind: SampleKind,
     /// Number of points; for a Saltelli design the number of blocks.
     pub count: usize,
-    /// Seed of the random numbers.
     pub seed: u64,
 }
 
-/// Sampling method.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SampleKind {
-    /// Latin hypercube.
     LatinHypercube,
-    /// Sobol' sequence.
     Sobol,
     /// Saltelli blocks for Sobol' indices.
     Saltelli,
@@ -58,7 +53,6 @@ enum Spread {
 
 /// Design of a sweep, and the level values passed to the function.
 pub struct SweepPlan {
-    /// Design.
     pub design: SweepDesign,
     /// Level values of each parameter; empty if each row has its own number.
     levels: Vec<Vec<Portable>>,

@@ -28,7 +28,6 @@ const DECADE: f64 = 10.0;
 pub struct Picture<'t> {
     /// Rows that are drawn.
     pub table: &'t SweepTable,
-    /// Title.
     pub title: String,
 }
 
@@ -250,7 +249,6 @@ impl Picture<'_> {
         LineChart::new("").x_label(x_name).y_label(y_name).series(series)
     }
 
-    /// Histogram of a column.
     pub fn histogram(&self, name: &str) -> LineChart {
         let column = self.column(name);
         let numbers = self.table.rows().filter_map(|row| column.map(|column| column.number(row)));

@@ -7,7 +7,6 @@ use rhai::{Dynamic, Map};
 use crate::script::bindings::parameter_variants::VariantValue;
 use crate::script::studies::calls::calling::CallOutcome;
 
-/// Result of a row.
 #[derive(Clone, Debug)]
 pub enum RowOutcome {
     /// Names and numbers of the returned map.

@@ -24,13 +24,9 @@ const NO_FILES: &str = "a run of a sweep cannot write files: return the data in 
 /// Rows queued ahead per worker, enough to keep it busy while results are collected.
 const AHEAD: usize = 4096;
 
-/// Specification of a sweep.
 pub struct SweepRequest<'o> {
-    /// Name of the sweep and its files.
     pub name: String,
-    /// Plan.
     pub plan: SweepPlan,
-    /// Function of a run.
     pub function: &'o FnPtr,
     /// Wall-clock limit of a run.
     pub wall: Duration,

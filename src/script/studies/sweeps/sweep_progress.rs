@@ -7,13 +7,11 @@ use crate::script::state::parts::StudyPart;
 
 /// State of the rows.
 pub struct SweepProgress {
-    /// Results.
     pub results: SweepResults,
     /// True for rows with a result, or outside of the part.
     is_known: Vec<bool>,
     /// Number of rows with a result, or outside of the part.
     pub done: usize,
-    /// Number of rows.
     pub rows: usize,
     /// First completed row, which defines the names of the results.
     pub model: Option<usize>,
@@ -23,7 +21,6 @@ pub struct SweepProgress {
 pub enum SweepError {
     /// The function seems wrong: row and message.
     Row(usize, String),
-    /// Another error.
     Other(ScriptError),
 }
 
@@ -129,7 +126,6 @@ impl SweepProgress {
     }
 }
 
-/// Names in a line.
 pub fn listed(names: &[String]) -> String {
     names.join(", ")
 }

@@ -19,9 +19,7 @@ const DIGITS: usize = 6;
 
 /// A finished sweep with the values passed to its function.
 pub struct FinishedSweep {
-    /// Sweep.
     pub sweep: Sweep,
-    /// Plan with the values of the rows.
     pub plan: SweepPlan,
 }
 
@@ -33,17 +31,14 @@ pub struct SweepTable {
 }
 
 impl SweepTable {
-    /// Table of all rows.
     pub fn new(swept: Rc<FinishedSweep>) -> Self {
         Self { swept, chosen: None }
     }
 
-    /// The underlying sweep.
     pub fn into_swept(self) -> Rc<FinishedSweep> {
         self.swept
     }
 
-    /// Results of the sweep.
     pub fn sweep(&self) -> &Sweep {
         &self.swept.sweep
     }
@@ -58,7 +53,6 @@ impl SweepTable {
         self.swept.plan.is_spread_by_ratios(name)
     }
 
-    /// Table of some rows of this one.
     pub fn of_rows(&self, rows: Vec<u32>) -> Self {
         Self { swept: Rc::clone(&self.swept), chosen: Some(Rc::new(rows)) }
     }
@@ -74,7 +68,6 @@ impl SweepTable {
         )
     }
 
-    /// Number of rows.
     pub fn length(&self) -> usize {
         self.chosen.as_ref().map_or(self.sweep().design.rows, |chosen| chosen.len())
     }
