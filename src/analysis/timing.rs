@@ -37,7 +37,7 @@ impl Timing {
         self.processor.unwrap_or(self.run).as_secs_f64()
     }
 
-    /// Runs a case several times on this thread and takes medians. It stops repeating after [`ENOUGH`]. `None` if `is_wanted` returns false
+    /// Runs a case several times on this thread and takes medians. It stops repeating after [`LONGEST_REPETITION`]. `None` if `is_wanted` returns false
     /// or a run fails.
     pub fn of(
         case: &Case,

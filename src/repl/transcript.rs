@@ -85,7 +85,7 @@ impl Transcript {
         self.typed(&text)
     }
 
-    /// Variables declared outside functions, with their lines in [`Transcript::whole`].
+    /// Variables declared outside functions, with their lines in [`Transcript::to_program`].
     pub fn variables(&self) -> Vec<(String, usize)> {
         let shown = self.shown();
         let of_piece = |piece: &TranscriptInput| {

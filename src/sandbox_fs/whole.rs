@@ -16,7 +16,7 @@ pub(super) const TRIES: usize = 100;
 /// Age from which an unlocked temporary file counts as abandoned. A new file is unlocked for a moment.
 const ABANDONED: Duration = Duration::from_secs(60);
 
-/// Complete file under a temporary name. Dropping it removes the file unless it was [placed](Self::place).
+/// Complete file under a temporary name. Dropping it removes the file unless it was [placed](Self::rename_to_final).
 #[derive(Debug)]
 pub struct Prepared {
     folder: Folder,

@@ -1,11 +1,11 @@
 //! The scripting language: Rhai with scientific number semantics, bindings in tables, and helpful errors.
 //!
-//! A domain is a [`Table`](rows::table::Table) of bindings; [`engine`] registers the tables and runs a script on a large stack;
+//! A domain is a [`BindingTable`](bindings::table::BindingTable) of bindings; [`engine`] registers the tables and runs a script on a large stack;
 //! [`diagnose`] turns every error into a message at the script's line and column. There is no mechanics here: bindings are short and call
 //! the solver library.
 //!
-//! Modules depend on one another in this order only: [`words`], [`source`], [`state`], [`rows`], [`dialect`], [`library`], [`diagnose`],
-//! [`engine`], [`pages`], [`looks`], [`handles`], [`studies`], [`packages`].
+//! Modules depend on one another in this order only: [`messages`], [`source`], [`state`], [`bindings`], `dialect`, [`library`], [`diagnose`],
+//! [`engine`], [`help`], [`presentation`], `handles`, `studies`, [`packages`].
 
 pub mod bindings;
 pub mod diagnose;

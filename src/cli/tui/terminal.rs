@@ -99,7 +99,7 @@ impl RawTerminal {
     /// Restores the terminal, suspends the process, and sets the terminal up again.
     ///
     /// # Errors
-    /// See [`take`](Self::take).
+    /// See [`enter`](Self::enter).
     pub fn suspend(&mut self) -> io::Result<()> {
         restore();
         #[cfg(unix)]

@@ -4,8 +4,8 @@
 //! band is eliminated locally, with work proportional to their number.
 
 use super::full_border::FullLu;
+use super::joint_elimination::{JointElimination, TogetherLu};
 use super::local_border::LocalLu;
-use super::together::{JointElimination, TogetherLu};
 use super::two_ended::{TwoEnded, TwoEndedLu};
 use super::{BandedLu, BandedMatrix, BlockLayout, FullBorder, LinearError, LocalBorder};
 

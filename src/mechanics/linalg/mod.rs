@@ -12,6 +12,7 @@ mod elimination;
 mod error;
 mod fixed_band;
 mod full_border;
+mod joint_elimination;
 mod local_border;
 mod ordering;
 mod precise_band;
@@ -21,7 +22,6 @@ mod storage;
 mod strips;
 mod substitution;
 mod symmetric_factors;
-mod together;
 mod two_ended;
 
 pub use band_rows::BandRows;

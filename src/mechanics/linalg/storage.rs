@@ -10,7 +10,7 @@ use super::elimination::{PANEL, SMALLEST_HALF_BANDWIDTH};
 #[derive(Debug, Clone)]
 pub(super) struct Storage {
     pub(super) size: usize,
-    /// Half-bandwidth `b`, at least [`SMALLEST_REACH`].
+    /// Half-bandwidth `b`, at least `SMALLEST_HALF_BANDWIDTH`.
     pub(super) reach: usize,
     /// Row `i` holds the columns `i - b - (PANEL - 1) ..= i + 2 b`. Factors hold multipliers left of the diagonal and the inverse pivot on it.
     pub(super) rows: Vec<f64>,

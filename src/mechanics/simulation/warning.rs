@@ -43,7 +43,7 @@ impl fmt::Display for RateChangeCause {
 
 /// Motion that the steps do not resolve.
 ///
-/// To add a kind, add a variant, its message, and its condition in [`Simulation::notes`].
+/// To add a kind, add a variant, its message, and its condition in `Simulation::warnings`.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Warning {
     /// Unresolved vibration with a large fraction of the kinetic energy.

@@ -7,7 +7,7 @@
 //! - `^` and `**` become `num^0`, `num^1`, … along a chain of powers, each binding tighter than the one before, because
 //!   custom operators bind to the left and `2^3^2` would be 64;
 //! - `-x^2` is an error, because Rhai's minus binds tighter than any operator and would give the square of `-x`;
-//! - `/=`, `^=`, `**=`, `<<=` and `>>=` are lexed as two tokens, and loops get an additional statement ([`rounds`]), see [`mark`].
+//! - `/=`, `^=`, `**=`, `<<=` and `>>=` are lexed as two tokens, and loops get an additional statement (`loop_scoping`), see [`mark`].
 //!
 //! Rhai marks the hooks used here as volatile; they are used in this file and in `lexing` only.
 

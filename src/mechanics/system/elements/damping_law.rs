@@ -56,7 +56,7 @@ impl fmt::Display for NegativeDamping {
 }
 
 impl DampingLaw {
-    /// Samples a damping force over a range of rates that contains zero, with [`RestoringLaw::sampled`] on either side.
+    /// Samples a damping force over a range of rates that contains zero, with `SpringLaw::sampled` on either side.
     ///
     /// # Errors
     /// Errors of the function.

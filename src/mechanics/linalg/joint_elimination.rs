@@ -33,7 +33,7 @@ struct Equilibration {
     columns: Vec<f64>,
 }
 
-/// Factors of a [`Together`].
+/// Factors of a [`JointElimination`].
 #[derive(Debug)]
 pub(super) struct TogetherLu<'a> {
     others: Ordered<'a>,
