@@ -67,14 +67,14 @@ fn a_ruler_in_steps_of_many_periods_is_told_how_many_and_one_in_fine_steps_is_no
     for method in METHODS {
         let (scene, period) = ruler();
         let coarse = simulate(scene, method, 5.0, 500.0);
-        let (dt, share, lowest) = motion(&coarse.notes()).unwrap();
+        let (dt, share, lowest) = motion(&coarse.warnings()).unwrap();
         let periods = dt / lowest.unwrap();
         println!("{method:?}: {periods:.3} periods a step, share {share:.3}");
         assert!((periods * period / 5.0 - 1.0).abs() < 0.01, "{periods} of {}", 5.0 / period);
         assert!(share > 0.9, "{share}");
         let (scene, _) = ruler();
         let fine = simulate(scene, method, period / 20.0, 20.0 * period);
-        assert_eq!(fine.notes(), []);
+        assert_eq!(fine.warnings(), []);
     }
 }
 
@@ -93,10 +93,10 @@ fn vibration_that_hides_under_flight_is_told() {
         });
         simulate(scene, Method::EnergyMomentum, 0.5, 50.0)
     };
-    let (_, share, _) = motion(&spinning(1.0).notes()).unwrap();
+    let (_, share, _) = motion(&spinning(1.0).warnings()).unwrap();
     println!("share {share:.3}");
     assert!(share < 0.2, "{share}");
-    assert_eq!(spinning(0.0).notes(), []);
+    assert_eq!(spinning(0.0).warnings(), []);
 }
 
 #[test]
@@ -110,12 +110,12 @@ fn a_stiff_pendulum_in_long_steps_and_a_scene_at_rest_are_silent() {
     };
     // A period of 0.9: steps are as long as the third of the first natural period of bending, 0.02, and longer.
     for dt in [0.01, 0.03, 0.05] {
-        let notes = simulate(pendulum(1.0), Method::EnergyMomentum, dt, 10.0).notes();
+        let notes = simulate(pendulum(1.0), Method::EnergyMomentum, dt, 10.0).warnings();
         assert_eq!(notes, [], "dt = {dt}");
     }
     let mut floating = Scene::new("nothing happens");
     beam(&mut floating, at(0.3, 0.1), 8, steel());
-    assert_eq!(simulate(floating, Method::EnergyMomentum, 5.0, 500.0).notes(), []);
+    assert_eq!(simulate(floating, Method::EnergyMomentum, 5.0, 500.0).warnings(), []);
     let hanging = format!(
         "{RULER}let sim = scene.equilibrium().start(#{{ dt: 5 }});\nsim.run_to(500);\ncheck(sim.notes.is_empty());"
     );
@@ -128,7 +128,7 @@ fn sections_that_turn_far_in_a_step_are_told() {
         let mut scene = Scene::new("spinning");
         beam(&mut scene, at(0.3, 0.0), 4, steel());
         scene.beams[0].motion.spin = 1.0;
-        simulate(scene, Method::EnergyMomentum, dt, 10.0).notes()
+        simulate(scene, Method::EnergyMomentum, dt, 10.0).warnings()
     };
     assert_eq!(spinning(0.5), []);
     let notes = spinning(1.0);
@@ -176,7 +176,7 @@ fn bounces_are_silent_where_they_are_right_and_told_where_they_are_not() {
     {
         let bar = simulate(ring(stiffness, 1.0, 1.0), Method::EnergyMomentum, dt, 0.6);
         let rebound = -bar.model().velocity(&slave(&bar)).x;
-        let told = bar.notes().iter().any(|note| matches!(note, Warning::Bounce { .. }));
+        let told = bar.warnings().iter().any(|note| matches!(note, Warning::Bounce { .. }));
         println!("EA = {stiffness:e}, dt = {dt}: rebound {rebound:.4}, told: {told}");
         let is_right = (rebound / 0.6990 - 1.0).abs() < 0.05;
         assert_eq!(told, !is_right, "EA = {stiffness:e}, dt = {dt}: {rebound}");
@@ -187,7 +187,7 @@ fn bounces_are_silent_where_they_are_right_and_told_where_they_are_not() {
     held.join(JointKind::Rigid, end, Partner::Ground).unwrap();
     let held = simulate(held, Method::EnergyMomentum, 0.01, 0.6);
     assert!(!held.arrivals().is_empty());
-    assert_eq!(held.notes(), []);
+    assert_eq!(held.warnings(), []);
 }
 
 fn slave(simulation: &Simulation) -> withy::beams::BodyPoint {
@@ -199,14 +199,14 @@ fn slave(simulation: &Simulation) -> withy::beams::BodyPoint {
 #[test]
 fn a_slider_that_passes_more_than_a_span_in_a_step_is_told() {
     let passing = |speed: f64| simulate(ring(1e4, 1.0, -speed), Method::EnergyMomentum, 0.01, 0.02);
-    let notes = passing(25.0).notes();
+    let notes = passing(25.0).warnings();
     let way = notes.iter().find_map(|note| match note {
         Warning::SpansPerStep { spans, slider, .. } => Some((*spans, slider.clone())),
         _ => None,
     });
     let (spans, slider) = way.unwrap();
     assert!((spans - 2.5).abs() < 0.01 && slider == "ring", "{spans} {slider}");
-    assert_eq!(passing(9.0).notes(), []);
+    assert_eq!(passing(9.0).warnings(), []);
 }
 
 /// A pendulum of a beam, solved as well as a tolerance asks for.
@@ -233,8 +233,8 @@ fn solved_to(tolerance: f64) -> Simulation {
 #[test]
 fn an_energy_that_is_not_kept_as_promised_is_told() {
     let told = |notes: Vec<Warning>| notes.iter().any(|note| matches!(note, Warning::Drift { .. }));
-    assert!(told(solved_to(1e-3).notes()));
-    assert!(!told(solved_to(1e-11).notes()));
+    assert!(told(solved_to(1e-3).warnings()));
+    assert!(!told(solved_to(1e-11).warnings()));
 }
 
 #[test]
@@ -243,7 +243,7 @@ fn notes_are_those_of_the_steps_behind_the_present() {
         Simulation::start(ruler().0, settings(Method::EnergyMomentum, 0.005)).unwrap();
     simulation.enable_snapshots(10_000_000);
     run(&mut simulation, 0.1).unwrap();
-    assert_eq!(simulation.notes(), []);
+    assert_eq!(simulation.warnings(), []);
     let before = *simulation.model().resolution();
     // From here on steps are as coarse as jumps of the grid make them: another simulation of the same state.
     let (name, mut again) = Simulation::from_bytes(&simulation.to_bytes("ruler").unwrap()).unwrap();
@@ -260,13 +260,16 @@ fn notes_are_those_of_the_steps_behind_the_present() {
     let mut coarse = Simulation::start(ruler().0, settings(Method::EnergyMomentum, 5.0)).unwrap();
     coarse.enable_snapshots(10_000_000);
     run(&mut coarse, 50.0).unwrap();
-    assert!(motion(&coarse.notes()).is_some() && motion(&coarse.fork().unwrap().notes()).is_some());
+    assert!(
+        motion(&coarse.warnings()).is_some()
+            && motion(&coarse.fork().unwrap().warnings()).is_some()
+    );
     let (_, loaded) = Simulation::from_bytes(&coarse.to_bytes("coarse").unwrap()).unwrap();
-    assert_eq!(loaded.notes(), coarse.notes());
+    assert_eq!(loaded.warnings(), coarse.warnings());
     coarse.back(coarse.counts().steps).unwrap();
-    assert_eq!(coarse.notes(), []);
+    assert_eq!(coarse.warnings(), []);
     coarse.step(&mut NoMonitor).unwrap();
-    assert_eq!(coarse.notes(), []);
+    assert_eq!(coarse.warnings(), []);
 }
 
 fn outcome(script: &str) -> (RunOutcome, String) {
@@ -376,5 +379,5 @@ fn rounding_of_a_scene_at_rest_is_no_vibration() {
     let simulation = simulate(scene, Method::EnergyMomentum, 0.1, 10.0);
     let kinetic = simulation.history().column("kinetic").unwrap();
     assert!(kinetic.iter().any(|energy| *energy > 0.0), "it moves by rounding");
-    assert!(motion(&simulation.notes()).is_none());
+    assert!(motion(&simulation.warnings()).is_none());
 }

@@ -103,7 +103,7 @@ fn every_method_meets_a_stiff_bumper_in_time() {
                 entry.name, counts.steps, counts.rejected
             );
             // A method that takes forces at the ends of steps needs to see the blow: where it does not, that is told.
-            let is_told = run.notes().iter().any(|note| matches!(note, Warning::Contact { .. }));
+            let is_told = run.warnings().iter().any(|note| matches!(note, Warning::Contact { .. }));
             assert!(error < 6e-3 || is_told, "{}: {error:e}", entry.name);
             assert!(error < 2e-4 || entry.method != Method::EnergyMomentum, "{error:e}");
         }
@@ -211,7 +211,7 @@ fn what_a_damper_gives_back_is_told_of_the_method_that_leads_back_in_time() {
         let damper = Spring { name, kind, law: None, origin, damping: 10.0.into() };
         scene.add_spring(damper).unwrap();
         let run = simulate(scene, method, dt, 20.0 * dt);
-        run.notes().iter().any(|note| matches!(note, Warning::EnergyGain { .. }))
+        run.warnings().iter().any(|note| matches!(note, Warning::EnergyGain { .. }))
     };
     // The pole of its part that leads back lies at λΔt = 3.557.
     assert!(slowed(Method::FourthOrder, 0.3557));
@@ -249,7 +249,7 @@ fn bodies_at_rest_have_no_drift_and_nothing_is_told() {
             let drift = run.history().drift(Invariant::Energy);
             println!("{height} {directions:?}: {drift:e}");
             assert!(drift < 1e-9, "{height} {directions:?}: {drift:e}");
-            assert_eq!(run.notes(), [], "{height} {directions:?}");
+            assert_eq!(run.warnings(), [], "{height} {directions:?}");
         }
     }
 }
@@ -262,7 +262,7 @@ fn told(
 ) -> Vec<String> {
     let mut run = Simulation::start(scene, settings(method, dt)).unwrap();
     run.run_to(end, &mut withy::simulation::NoMonitor).unwrap();
-    run.notes().iter().map(Warning::to_string).collect()
+    run.warnings().iter().map(Warning::to_string).collect()
 }
 
 #[test]

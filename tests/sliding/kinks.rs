@@ -121,7 +121,7 @@ fn a_slider_as_fast_as_shear_waves_goes_on_with_the_kink_that_it_has_and_is_told
         scene.gravity = at(0.0, -10.0);
         for method in [Method::EnergyMomentum, Method::FourthOrder] {
             let simulation = simulate(scene.clone(), method, 0.002, 0.4);
-            let fast = simulation.notes().into_iter().find_map(|note| match note {
+            let fast = simulation.warnings().into_iter().find_map(|note| match note {
                 Warning::WaveSpeed { speed, limit, .. } => Some((speed, limit)),
                 _ => None,
             });

@@ -34,7 +34,7 @@ impl Notes {
             return;
         }
         let mut told = self.told.borrow_mut();
-        for note in simulation.notes() {
+        for note in simulation.warnings() {
             if note.is_new_or_worse(&told) {
                 context.print_message(&format!("note: simulation '{name}': {note}"));
                 told.push(note);

@@ -38,7 +38,7 @@ impl Reporter for SimulationHandle {
                 "blows_in_a_step": model.steps_per_impact(index),
             })
         };
-        let notes: Vec<String> = simulation.notes().iter().map(ToString::to_string).collect();
+        let notes: Vec<String> = simulation.warnings().iter().map(ToString::to_string).collect();
         let resolution = json!({
             "unresolved_share": model.resolution().unresolved_share(),
             "turn_in_a_step": model.resolution().angular_frequency() * simulation.dt(),

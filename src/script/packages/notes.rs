@@ -21,7 +21,7 @@ pub const TABLE: BindingTable = BindingTable {
     constants: &[],
     rows: &[property(SIMULATION, "notes", |call| {
         let handle = call.receiver::<SimulationHandle>()?;
-        let notes = handle.simulation().notes();
+        let notes = handle.simulation().warnings();
         let texts = notes.iter().map(|note| Dynamic::from(note.to_string()));
         Ok(texts.collect::<Array>().into())
     })

@@ -54,7 +54,7 @@ impl Simulation {
     /// Warnings about motion that the steps so far do not resolve. Undone steps do not count.
     ///
     /// The lowest period of the scene is computed when the first warning needs it.
-    pub fn notes(&self) -> Vec<Warning> {
+    pub fn warnings(&self) -> Vec<Warning> {
         let (dt, resolution) = (self.longest_step(), self.model.resolution());
         let mut notes = Vec::new();
         if self.is_unresolved(resolution) {
@@ -267,7 +267,7 @@ impl Simulation {
             );
         }
         let notes =
-            self.notes().into_iter().map(|note| SystemFeature::used("note", note.to_string()));
+            self.warnings().into_iter().map(|note| SystemFeature::used("note", note.to_string()));
         std::iter::once(SystemFeature::used("resolution", how)).chain(notes).collect()
     }
 }
