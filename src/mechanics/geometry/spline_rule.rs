@@ -190,12 +190,13 @@ impl Polynomial {
     }
 }
 
-/// Weights with which points integrate the derivative of every function of a run of spans exactly.
+/// Weights for which the quadrature points integrate the derivatives of all basis functions of a run of spans exactly.
 ///
 /// `points` lists the quadrature points of each span; their total is one less than the number of basis functions. Returns `None` if no such weights
 /// exist or a weight is not finite.
 ///
-/// The collocation matrix of the lower splines is totally positive. (Weights as in Auricchio, Calabrò, Hughes, Reali & Sangalli, A simple algorithm
+/// The weights solve a collocation system with the splines of one degree less, whose matrix is totally positive.
+/// (F. Auricchio, F. Calabrò, T. J. R. Hughes, A. Reali & G. Sangalli, A simple algorithm
 /// for obtaining nearly optimal quadrature rules for NURBS-based isogeometric analysis, Comput. Methods Appl. Mech. Eng. 249-252 (2012) 15-27.)
 fn derivative_weights(basis: &Basis, run: &[Span], points: &[Vec<f64>]) -> Option<Vec<f64>> {
     let (first, last) = (run.first()?, run.last()?);

@@ -200,10 +200,10 @@ impl Sensitivities {
         }
     }
 
-    /// Perturbed run of a parameter with its history up to the end of the derivatives.
+    /// Perturbed run of a parameter, with its history up to the end of the derivatives.
     ///
     /// # Errors
-    /// Fails if the run itself was changed since.
+    /// Fails if the main run was changed after the derivatives were computed.
     pub(super) fn perturbed_with_history(
         &self,
         parameter: usize,

@@ -50,8 +50,8 @@ impl Trajectory {
         self.every *= 2;
     }
 
-    /// Restores the state after `offered` configurations. Discarded configurations remain discarded. The final content is the same as without going
-    /// back.
+    /// Restores the trajectory as it was after `offered` configurations had been passed to it. Configurations discarded since then remain discarded.
+    /// After the run is repeated, the content is the same as without going back.
     pub fn truncate(&mut self, offered: usize) {
         self.offered = offered;
         let kept = offered.div_ceil(self.every);

@@ -22,19 +22,19 @@ pub struct Sides<'s> {
     pub minus: &'s [Dynamic],
 }
 
-/// Reason why a derivative does not exist.
+/// Reason why the derivative of a function does not exist.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum NoDerivative {
-    /// A corner or jump lies between the variants.
+    /// The function has a kink or a jump between the perturbed arguments.
     Discontinuous,
     /// A point of infinite slope is too near.
     InfiniteSlope,
 }
 
-/// Test for a missing derivative between the arguments of the variants.
+/// Check of a function for kinks, jumps and infinite slopes between the perturbed arguments.
 pub type NonsmoothCheck = fn(&Sides) -> Option<NoDerivative>;
 
-/// Message if the result of a function has no derivative although its arguments have.
+/// Error message if the function has no derivative at its arguments; `None` if it has one.
 pub fn corner_of(
     (name, corner): (&str, NonsmoothCheck),
     family: &ParameterSet,

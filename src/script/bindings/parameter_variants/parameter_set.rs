@@ -172,17 +172,17 @@ impl ParameterSet {
         parameters.iter().map(|of| (of.name.clone(), of.distance)).collect()
     }
 
-    /// Distance of the variants of a parameter from its value.
+    /// Perturbation of a parameter in its variants.
     pub fn distance(&self, parameter: usize) -> Option<f64> {
         self.parameters.borrow().get(parameter).map(|of| of.distance)
     }
 
-    /// Index of a parameter by its name, from 0.
+    /// Index of the parameter with a name, from 0.
     pub fn number_of(&self, name: &str) -> Option<usize> {
         self.parameters.borrow().iter().position(|of| of.name == name)
     }
 
-    /// Parameter index of a side variant, and true for its plus side.
+    /// Index of the parameter of a perturbed variant, and true for a positive perturbation; `None` for variant 0.
     pub fn side_of_variant(variant: usize) -> Option<(usize, bool)> {
         let beside = variant.checked_sub(1)?;
         Some((beside / 2, beside % 2 == 0))
