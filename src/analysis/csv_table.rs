@@ -1,4 +1,4 @@
-//! CSV tables of other programs, with `#` comment lines.
+//! CSV tables of other programs, with `#` comment lines, any of three separators and an optional line of units.
 
 /// Error of a table file.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -56,17 +56,21 @@ const LARGEST: f64 = 1e150;
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct ParsedCsv {
     columns: Vec<String>,
+    separator: u8,
     /// Cells with their line, from 1.
     rows: Vec<(u64, Vec<String>)>,
 }
 
 impl ParsedCsv {
-    /// Parses comma-separated values.
+    /// Parses values separated by commas, or by semicolons or tabs if the line of names has no comma. A line of dimensions below the names,
+    /// as withy writes it, is skipped.
     ///
     /// # Errors
     /// Fails if two columns have the same name, or a row has another number of cells than there are columns.
     pub fn parse(text: &str) -> Result<Self, ParsedCsvError> {
+        let separator = separator_of(text);
         let mut reader = csv::ReaderBuilder::new()
+            .delimiter(separator)
             .comment(Some(b'#'))
             .trim(csv::Trim::All)
             .from_reader(text.as_bytes());
@@ -89,7 +93,11 @@ impl ParsedCsv {
             let record = record.map_err(wrong)?;
             Ok((record.position().map_or(1, csv::Position::line), texts(&record)))
         });
-        Ok(Self { columns, rows: rows.collect::<Result<_, _>>()? })
+        let mut rows: Vec<(u64, Vec<String>)> = rows.collect::<Result<_, _>>()?;
+        if rows.first().is_some_and(|(_, cells)| is_line_of_units(cells)) {
+            rows.remove(0);
+        }
+        Ok(Self { columns, separator, rows })
     }
 
     /// Names of the columns, in order.
@@ -148,7 +156,13 @@ impl ParsedCsv {
     /// Fails when there is no such column, or something else than a finite number whose square is finite.
     pub fn number(&self, row: usize, column: &str) -> Result<f64, ParsedCsvError> {
         let text = self.text(row, column)?;
-        let number = text.parse().ok().filter(|number: &f64| number.abs() <= LARGEST);
+        // With another separator a comma is the decimal sign.
+        let has_decimal_comma = self.separator != b',' && !text.contains('.');
+        let parsed = match has_decimal_comma {
+            true => text.replace(',', ".").parse(),
+            false => text.parse(),
+        };
+        let number = parsed.ok().filter(|number: &f64| number.abs() <= LARGEST);
         number.ok_or_else(|| ParsedCsvError::Number {
             column: column.to_owned(),
             line: self.rows[row].0,
@@ -174,9 +188,50 @@ impl ParsedCsv {
     }
 }
 
+fn separator_of(text: &str) -> u8 {
+    let names = text.lines().find(|line| !line.trim().is_empty() && !line.starts_with('#'));
+    let has = |separator| names.is_some_and(|names| names.contains(separator));
+    match (has(','), has(';'), has('\t')) {
+        (false, true, _) => b';',
+        (false, false, true) => b'\t',
+        _ => b',',
+    }
+}
+
+/// Returns true if all cells are empty or dimensions such as `mass·length/time`, and not all are empty.
+fn is_line_of_units(cells: &[String]) -> bool {
+    let is_factor = |factor: &str| {
+        let name = factor.trim_end_matches(['²', '³']);
+        ["1", "time", "length", "mass", "force", "energy", "rad"].contains(&name)
+    };
+    let is_unit =
+        |cell: &String| cell.is_empty() || cell == "-" || cell.split(['·', '/']).all(is_factor);
+    cells.iter().all(is_unit) && cells.iter().any(|cell| cell.chars().any(char::is_alphabetic))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn separators_decimal_commas_and_a_line_of_units_are_recognised() {
+        for text in [
+            "t,x0\n0,1.5\n1,2\n",
+            "# made\nt,x0\ntime,length\n0,1.5\n1,2\n",
+            "t,x0\n,mass·length/time²\n0,1.5\n1,2\n",
+            "t;x0\n0;1,5\n1;2\n",
+            "t;x0\n0;1.5\n1;2\n",
+            "t\tx0\n-\trad\n0\t1,5\n1\t2\n",
+        ] {
+            let table = ParsedCsv::parse(text).unwrap();
+            let numbers: Vec<_> = (0..table.len()).map(|row| table.number(row, "x0")).collect();
+            assert_eq!(numbers, [Ok(1.5), Ok(2.0)], "{text:?}");
+        }
+        for text in ["t,x0\n0,\"1,5\"\n", "t;x0\n0;1.000,5\n", "t,x0\n-,-\n", "t,x0\n0,time\n"] {
+            let table = ParsedCsv::parse(text).unwrap();
+            assert!(table.number(0, "x0").is_err(), "{text:?}");
+        }
+    }
 
     #[test]
     fn what_is_wrong_with_a_table_is_said_with_its_place() {

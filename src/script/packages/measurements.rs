@@ -20,8 +20,10 @@ pub const TABLE: BindingTable = BindingTable {
             .returns(Returns::MAP)
             .summary("Reads a table of numbers and returns a map of its columns by name, each an \
                 array.")
-            .doc("Comma-separated values with the column names in the first line; lines that \
-                begin with # are ignored. Every cell must be a finite number.")
+            .doc("The first line has the column names, separated by commas, or by semicolons or \
+                tabs; numbers of the latter may have decimal commas. Lines that begin with # and \
+                a second line of dimensions, as write_csv writes it, are ignored. Every cell must \
+                be a finite number.")
             .example(
                 "write_csv([#{ t: 0, x: 1 }, #{ t: 0.5, x: 0.25 }], \"measured.csv\");\nlet measured = read_csv(\"measured.csv\");\ncheck(measured.x == [1, 0.25]);",
             )

@@ -113,8 +113,28 @@ pub const WORDS: &[ForeignName] = &[
     ),
     entry(
         &["rand", "random", "randn", "randint", "rng", "seed"],
-        "random numbers are not available: the same script always has the same results",
-        &["numbers"],
+        "a script always has the same results: sobol(count, seed) and latin_hypercube(count, seed) \
+        are reproducible samples; there is no other random number",
+        &["sobol", "latin_hypercube", "study_sweep"],
+    ),
+    entry(
+        &["fft", "fourier", "psd", "power spectrum"],
+        "sim.history.spectrum(column) computes the amplitude spectrum of a column",
+        &["spectrum"],
+    ),
+    entry(
+        &[
+            "optimise",
+            "optimize",
+            "optimisation",
+            "optimization",
+            "minimize",
+            "fmincon",
+            "fminsearch",
+        ],
+        "minimise(#{ … }) finds the best parameters of a function with constraints, fit(#{ … }) \
+        those that match measured values",
+        &["minimise", "fit", "find_root"],
     ),
     entry(&["typeof", "isinstance", "class", "getClass"], "write type_of(x)", &["type_of"]),
     entry(

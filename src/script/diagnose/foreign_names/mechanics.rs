@@ -13,6 +13,9 @@ pub const WORDS: &[ForeignName] = &[
             "encastre",
             "boundary",
             "boundary conditions",
+            "boundary condition",
+            "degree of freedom",
+            "degrees of freedom",
             "bc",
             "constraint",
             "constrain",
@@ -57,12 +60,16 @@ pub const WORDS: &[ForeignName] = &[
             "axes",
             "animate",
             "animation",
-            "movie",
-            "video",
         ],
         "plot_motion(sim, \"name\") plots the beams, plot_history(sim, [\"energy\"], \"name\") \
         columns over time; at the prompt use :show and :plot",
         &["plot_motion", "plot_history", "plot_drift", "plot_modes"],
+    ),
+    entry(
+        &["movie", "video", "gif", "mp4", "apng"],
+        "write_animation(sim, \"name.png\") writes an animated PNG, which browsers and \
+        presentation programs play; write_viewer(sim, \"name.html\") a page with a time slider",
+        &["write_animation", "write_viewer", "plot_motion"],
     ),
     entry(
         &[
@@ -134,6 +141,8 @@ pub const WORDS: &[ForeignName] = &[
             "natural frequency",
             "resonance",
             "modal",
+            "rigid-body mode",
+            "rigid body mode",
         ],
         "scene.modes(4) computes frequencies and shapes of small vibrations",
         &["modes", "angular_frequencies"],
@@ -144,21 +153,65 @@ pub const WORDS: &[ForeignName] = &[
         &["equilibrium", "load_control"],
     ),
     entry(
-        &["buckling", "snap", "snap-through", "instability", "critical load", "post-buckling"],
+        &[
+            "buckling",
+            "snap",
+            "snap-through",
+            "instability",
+            "critical load",
+            "post-buckling",
+            "imperfection",
+            "bifurcation",
+        ],
         "arc_length follows a path past limit points; is_stable shows the stability of an \
-        equilibrium",
+        equilibrium; a perfect column needs a small imperfection, such as a lateral force",
         &["arc_length", "is_stable", "equilibrium"],
     ),
     entry(
-        &["contact", "collision", "impact", "bounce"],
-        "a slider bounces at the ends of its beam with ends: \"bounce\"; other collisions are \
-        not modelled",
-        &["slider", "contact_force"],
+        &["contact", "collision", "impact", "bounce", "wall", "obstacle", "collide", "bumper"],
+        "a slider bounces at the ends of its beam with ends: \"bounce\"; a spring with acts: \
+        \"push\" is a bumper between two points; other collisions are not modelled",
+        &["slider", "spring", "contact_force"],
     ),
     entry(
-        &["cable", "rope", "string", "wire", "chain", "thread"],
-        "a cable is a beam with a small EI; std/mechanisms has a chain",
-        &["section", "std/mechanisms"],
+        &["friction", "coulomb", "stick-slip", "stiction", "frictionless"],
+        "friction is not modelled: sliders, hinges and tendons are frictionless; a damper or a \
+        force controller such as |t, q| -mu * norm(q.contact_force(ring)) * \
+        tanh(q.slider_speed(ring) / 1e-3) along the beam approximates slip, without sticking",
+        &["slider", "damper", "force", "contact_force"],
+    ),
+    entry(
+        &["cable", "rope", "string", "wire", "chain", "thread", "pulley", "sheave"],
+        "scene.tendon(places, #{ stiffness: k, acts: \"pull\" }) is a massless rope over pulleys \
+        without radius; a rope with mass is a beam with a small EI; std/mechanisms has a chain",
+        &["tendon", "section", "std/mechanisms"],
+    ),
+    entry(
+        &[
+            "rest length",
+            "natural length",
+            "winch",
+            "cylinder",
+            "hydraulic",
+            "piston",
+            "muscle",
+            "linear actuator",
+        ],
+        "the option length of a spring or tendon is its constant length without force; a length \
+        that changes over time is not available: prescribe the motion of an end with scene.move",
+        &["spring", "tendon", "move", "motor"],
+    ),
+    entry(
+        &["initial velocity", "initial velocities", "initial condition", "initial conditions"],
+        "the options velocity, spin and about of a beam, and velocity of a particle set the \
+        initial motion; velocities: \"project\" of a slider makes it compatible",
+        &["beam", "particle", "slider"],
+    ),
+    entry(
+        &["wheel", "disc", "flywheel", "rigid body", "gear"],
+        "scene.body(…) is a rigid body with mass and moment of inertia; rolling and gears are \
+        not modelled",
+        &["body", "motor", "torsion_spring"],
     ),
     entry(
         &["bead", "ball", "point mass", "lumped"],

@@ -4,4 +4,4 @@ mod entry;
 mod languages;
 mod mechanics;
 
-pub use entry::{ForeignName, called_with, find, find_exactly};
+pub use entry::{called_with, find, find_exactly};

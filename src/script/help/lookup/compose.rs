@@ -23,7 +23,11 @@ pub fn page(catalog: &Catalog, name: &str) -> Result<HelpPage, UnknownTopic> {
         return Ok(overview(catalog));
     }
     let subjects = find(catalog, name);
-    if subjects.is_empty() {
+    let foreign = match subjects.is_empty() {
+        true => foreign_names::find(name.trim()),
+        false => foreign_names::find_exactly(name.trim()),
+    };
+    if subjects.is_empty() && foreign.is_none() {
         return Err(UnknownTopic::new(catalog, name.trim()));
     }
     let mut page = HelpPage::default();
@@ -51,7 +55,7 @@ pub fn page(catalog: &Catalog, name: &str) -> Result<HelpPage, UnknownTopic> {
         separate(&mut page);
         describe_option(&mut page, &options);
     }
-    if let Some(found) = foreign_names::find_exactly(name.trim()) {
+    if let Some(found) = foreign {
         separate(&mut page);
         page.paragraph(&found.explanation());
     }

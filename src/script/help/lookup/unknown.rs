@@ -5,7 +5,6 @@ use std::fmt;
 use super::find::names;
 use crate::script::bindings::catalog::Catalog;
 use crate::script::bindings::topics::TOPICS;
-use crate::script::diagnose::foreign_names::{self, ForeignName};
 use crate::script::messages::suggest::{nearest, related};
 
 const MOST_MENTIONS: usize = 8;
@@ -17,8 +16,6 @@ pub struct UnknownTopic {
     pub name: String,
     /// Nearest name with help, if one is near.
     pub meant: Option<&'static str>,
-    /// Entry for a word of other programs.
-    pub elsewhere: Option<&'static ForeignName>,
     /// Names with help that contain the word.
     pub related: Vec<&'static str>,
     /// Names whose help mentions the word.
@@ -29,37 +26,30 @@ impl UnknownTopic {
     /// Collects suggestions for `name`.
     pub fn new(catalog: &Catalog, name: &str) -> Self {
         let known = names(catalog);
-        let elsewhere = foreign_names::find(name);
         let related = related(name, known.iter().copied());
         // A known word is not misspelt.
-        let is_known = elsewhere.is_some() || !related.is_empty();
-        let meant = if is_known { None } else { nearest(name, known) };
-        Self { name: name.to_owned(), meant, elsewhere, related, mentions: mentions(catalog, name) }
+        let meant = if related.is_empty() { nearest(name, known) } else { None };
+        Self { name: name.to_owned(), meant, related, mentions: mentions(catalog, name) }
     }
 
     /// Text of the suggestions.
     pub fn hint(&self) -> String {
-        let elsewhere = self.elsewhere.map(ForeignName::explanation);
-        let related = (elsewhere.is_none() && !self.related.is_empty())
-            .then(|| format!("there is {}", self.related.join(", ")));
+        let related =
+            (!self.related.is_empty()).then(|| format!("there is {}", self.related.join(", ")));
         let meant = self.meant.map(|near| format!("did you mean '{near}'?"));
-        let mentions = (elsewhere.is_none() && !self.mentions.is_empty()).then(|| {
+        let mentions = (!self.mentions.is_empty()).then(|| {
             format!("'{}' is mentioned in the help of {}", self.name, self.mentions.join(", "))
         });
-        let told: Vec<String> =
-            [elsewhere, related, meant, mentions].into_iter().flatten().collect();
-        match told.is_empty() {
-            true => "help() lists what there is".into(),
-            false => told.join("\n"),
+        let hints: Vec<String> = [related, meant, mentions].into_iter().flatten().collect();
+        match hints.is_empty() {
+            true => "help() lists all topics".into(),
+            false => hints.join("\n"),
         }
     }
 
     /// Returns true if there is no suggestion.
     pub fn is_strange(&self) -> bool {
-        self.elsewhere.is_none()
-            && self.related.is_empty()
-            && self.meant.is_none()
-            && self.mentions.is_empty()
+        self.related.is_empty() && self.meant.is_none() && self.mentions.is_empty()
     }
 }
 
