@@ -169,7 +169,7 @@ impl Returns {
     }
 }
 
-/// Description: `a vector [force]`, `a number, whole if x is`; empty for nothing.
+/// Description such as `a vector [force]` or `a number, whole if x is`; empty for nothing.
 impl fmt::Display for Returns {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match (self.is_nothing(), self.description) {
