@@ -1,4 +1,4 @@
-//! Reading of attempts, which are arbitrary files.
+//! Reading of attempts. The files may have any content.
 
 use std::io::ErrorKind;
 use std::path::Path;
@@ -13,7 +13,7 @@ pub const LARGEST: u64 = 1 << 20;
 /// Reads an attempt in a folder.
 ///
 /// # Errors
-/// Fails if it is not a regular UTF-8 file of at most a megabyte, or is a link.
+/// Fails if the file is a link, not regular, not UTF-8, or larger than a megabyte.
 pub fn load(path: &Path, folder: &Path) -> Result<Program, Diagnostic> {
     let refused = |why: &str| {
         let told = format!("cannot read the attempt '{}': {why}", path.display());

@@ -76,7 +76,7 @@ pub const EXERCISES: &[Exercise] = &[
 /// Exercise identified by `name`, `track/name`, or the path of its file.
 ///
 /// # Errors
-/// Fails if there is none; the error contains a suggestion.
+/// Fails if there is no such exercise. The error contains a suggestion.
 pub fn find(name: &str) -> Result<&'static Exercise, ExerciseError> {
     let wanted = name.strip_suffix(".rhai").unwrap_or(name);
     let is_meant = |exercise: &&Exercise| {

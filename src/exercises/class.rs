@@ -1,4 +1,4 @@
-//! Parallel grading of the attempts of a class. Each attempt is judged independently, and marks are reported in order.
+//! Parallel grading of the attempts of a class. Each attempt is judged independently; marks are reported in order.
 
 use std::collections::BTreeMap;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
@@ -9,9 +9,8 @@ use super::catalogue::EXERCISES;
 use super::exercise::Exercise;
 use super::submissions::Submission;
 
-/// Grades a class: calls `judge` for every mark, from `workers` threads. Each mark is passed to `note` as soon as it is known, and to
-/// `tell` by student in the order of the exercises. Returns true if grading completed: it ends early if `judge` returns `None` or `stop` is
-/// set.
+/// Grades a class: calls `judge` for every mark, from `workers` threads. `note` is called with each mark as soon as it is known, and `tell` with the
+/// marks by student, in the order of the exercises. Returns true if grading completed. It ends early if `judge` returns `None` or `stop` is set.
 pub fn grade<M: Send>(
     submissions: &[Submission],
     workers: usize,

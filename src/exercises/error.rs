@@ -10,7 +10,7 @@ pub enum ExerciseError {
     #[error("there is no exercise '{name}'; {}", meant(.nearest.as_deref()))]
     Unknown {
         name: String,
-        /// Suggested name.
+        /// Name of an exercise that is similar to the given one.
         nearest: Option<String>,
     },
     /// A file of the exercises could not be written.
@@ -35,15 +35,15 @@ pub enum ExerciseError {
         "cannot use this terminal: {0}; 'withy learn watch | cat' prints the same as plain lines"
     )]
     Terminal(io::Error),
-    /// No temporary folder for the output of attempts.
+    /// A temporary folder for the output of attempts could not be created.
     #[error(
         "cannot create a folder for the output of attempts: {0}; set TMPDIR to a writable folder"
     )]
     Scratch(io::Error),
-    /// The file of an attempt could not be renamed to keep it.
+    /// The file of an attempt could not be renamed.
     #[error("cannot copy '{}' to '{}': {source}; nothing was changed", from.display(), to.display())]
     Keep {
-        /// Old name.
+        /// Name before the renaming.
         from: PathBuf,
         to: PathBuf,
         /// Error of the operating system.
@@ -56,7 +56,7 @@ pub enum ExerciseError {
     #[error("'{}' has no submissions; it must contain a folder for each student, with folders such as '{track}'", path.display())]
     NoSubmissions {
         path: PathBuf,
-        /// Name of a track folder that it could contain.
+        /// Name of a track, for the description of the expected folders.
         track: &'static str,
     },
 }

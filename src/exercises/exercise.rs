@@ -2,7 +2,7 @@
 
 use super::judge::Judge;
 
-/// An exercise with its task, solution and judge. The texts are files of `scripts/exercises`, embedded by [`catalogue`](super::catalogue).
+/// An exercise with its task, solution and judge. The texts are files of `scripts/exercises`, which [`catalogue`](super::catalogue) embeds.
 #[derive(Debug, PartialEq, Eq)]
 pub struct Exercise {
     /// Track, which is also its folder.

@@ -1,4 +1,4 @@
-//! Fingerprints of everything that the mark of an attempt depends on, to detect outdated marks.
+//! Fingerprints of all data on which the mark of an attempt depends, to detect outdated marks.
 
 use super::attempt;
 use super::exercise::Exercise;
@@ -31,11 +31,11 @@ fn reads_files(attempt: &Source) -> bool {
     attempt.imports().next().is_some() || attempt.names().any(reads)
 }
 
-/// Maximum number of files, and maximum bytes read of each; larger files count by length and time.
+/// Maximum number of files, and maximum number of bytes read of each file. Of larger files, length and time are used.
 const MOST_FILES: usize = 1000;
 const MOST_READ: u64 = 1 << 20;
 
-/// Records names and contents of all files in a folder and its subfolders. Links are not followed, as in scripts.
+/// Adds names and contents of all files in a folder and its subfolders. Links are not followed, as in scripts.
 fn note_files(folder: &Folder, noted: &mut Vec<u8>, count: &mut usize) {
     for entry in folder.entries().unwrap_or_default() {
         *count += 1;

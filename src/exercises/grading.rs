@@ -1,4 +1,4 @@
-//! Grading of submissions: a mark for every exercise of a student, whatever the files contain.
+//! Grading of submissions. Every exercise of a student gets a mark, whatever the files contain.
 
 use std::path::PathBuf;
 
@@ -82,9 +82,9 @@ impl StudentReport {
     }
 }
 
-/// Work needed to find a mark.
+/// Work that is needed to find a mark.
 pub enum GradingTask {
-    /// None: the mark and its message are known without judging.
+    /// No work: the mark and its message are known without judging.
     Known(Mark, String),
     /// The attempt in this file must be judged.
     Judge(PathBuf),

@@ -1,5 +1,5 @@
-//! The judge sees only the variables named in its header, so that functions, constants and names of the attempt cannot replace those that
-//! the judge uses. Only checks of the judge count.
+//! Running of an attempt and its judge. The judge sees only the variables named in its header, so that functions, constants and names of the attempt
+//! cannot replace those of the judge. Only checks of the judge count.
 
 use std::any::TypeId;
 use std::time::Duration;
@@ -27,7 +27,7 @@ pub const DEFAULT_TIME_LIMIT: Duration = Duration::from_secs(20);
 pub enum AttemptVerdict {
     /// All checks of the judge passed.
     Passed,
-    /// The attempt runs, but these checks failed; messages of the judge.
+    /// The attempt runs, but checks failed, with these messages of the judge.
     WrongResult(Vec<String>),
     /// The attempt fails.
     Error(Diagnostic),
@@ -37,7 +37,7 @@ pub enum AttemptVerdict {
     Interrupted,
 }
 
-/// Runs an attempt, then its judge. The output of the attempt goes where the settings say.
+/// Runs an attempt, then its judge. The output of the attempt goes to the writers in `settings`.
 pub fn judge(exercise: &Exercise, attempt: &Program, settings: RunSettings) -> AttemptVerdict {
     let mut limits = settings.limits;
     limits.time = limits.time.or(Some(DEFAULT_TIME_LIMIT));
@@ -72,7 +72,7 @@ impl JudgingContext {
     fn run_judge(&self, exercise: &Exercise, attempt: &Program) -> Result<(), AttemptVerdict> {
         let mut scope = Scope::new();
         let held = self.run_judge_within(&mut scope, exercise, attempt);
-        // Dropping the data of the attempt may take time and memory too.
+        // The limits still apply while the data of the attempt are dropped, because this may take time and memory too.
         let _limits_kept = self.engine.watch().map_err(|halt| self.verdict(halt))?;
         drop(scope);
         held
@@ -128,7 +128,7 @@ impl JudgingContext {
                 continue;
             };
             let value = value.flatten_clone();
-            // The engine has other names for texts and functions.
+            // The engine's type names for texts and functions differ from those in headers.
             let found = match value.type_id() {
                 _ if value.is_string() => "text",
                 function if function == TypeId::of::<FnPtr>() => "function",
@@ -179,7 +179,7 @@ impl JudgingContext {
     }
 }
 
-/// Makes a function of the attempt callable by the judge: it carries the functions of its file, and sees nothing of the judge.
+/// Makes a function of the attempt callable by the judge. It carries the functions of its file, and sees nothing of the judge.
 fn callable(name: &str, value: Dynamic, functions: &AST) -> Dynamic {
     let Some(function) = value.clone().try_cast::<FnPtr>() else { return value };
     let definition = functions.iter_functions().find(|known| known.name == function.fn_name());
@@ -200,7 +200,7 @@ fn callable(name: &str, value: Dynamic, functions: &AST) -> Dynamic {
             arguments.iter_mut().map(|argument| std::mem::take(*argument)).collect();
         function.call_raw(&inner, None, arguments)
     };
-    // "Deprecated" only marks the function as volatile.
+    // The function is marked as deprecated only because it is volatile.
     #[allow(deprecated)]
     FnPtr::from_fn("of_the_attempt", call).map_or(value, Dynamic::from)
 }

@@ -1,4 +1,4 @@
-//! File of the marks of a class: one JSON line per mark, appended to those of earlier runs. Marks of unchanged attempts are reused.
+//! File of the marks of a class, with one JSON line per mark. Each run appends its marks. Marks of unchanged attempts are reused.
 
 use std::collections::BTreeMap;
 use std::fs::{File, TryLockError};
@@ -41,7 +41,7 @@ pub fn open(path: &Path) -> io::Result<(KnownMarks, MarksFile)> {
     let folder = path.parent().unwrap_or(Path::new("."));
     let (folder, name) = (Folder::open(folder)?, Path::new(path.file_name().unwrap_or_default()));
     let mut file = folder.append(name)?;
-    // Locked before reading, so that marks of another run are not missed.
+    // The file is locked before it is read, so that marks of another run are not missed.
     file.try_lock().map_err(|refused| match refused {
         TryLockError::WouldBlock => io::Error::other("another process is writing to it"),
         TryLockError::Error(error) => error,
@@ -49,12 +49,12 @@ pub fn open(path: &Path) -> io::Result<(KnownMarks, MarksFile)> {
     let bytes = folder.read(name, LARGEST)?;
     let text = String::from_utf8_lossy(&bytes);
     let known: Vec<_> = text.lines().filter_map(read_line).collect();
-    // A kill during the very first mark leaves an incomplete line.
+    // If a run was killed while it wrote the first mark, the file has a single incomplete line.
     let begun = text.trim();
     if known.is_empty() && !begun.starts_with(HEAD) && !HEAD.starts_with(begun) {
         return Err(io::Error::other("the file exists and is not a file of marks"));
     }
-    // Completes or removes an incomplete last line left by a kill.
+    // If a run was killed, its last line may be incomplete. The line is completed or removed.
     let whole = bytes.iter().rposition(|byte| *byte == b'\n').map_or(0, |end| end + 1);
     match &bytes[whole..] {
         [] => (),
@@ -68,7 +68,7 @@ fn read_line(line: &str) -> Option<(StudentExercise, KnownMark)> {
     let line: Value = serde_json::from_str(line).ok()?;
     let text = |key: &str| Some(line.get(key)?.as_str()?.to_owned());
     let mark = Mark::of(&text("result")?)?;
-    // Marks without a fingerprint are judged again.
+    // Attempts whose marks have no fingerprint are judged again.
     let fingerprint = text("fingerprint").unwrap_or_default();
     let known = KnownMark { fingerprint, mark, message: text("message")? };
     Some(((text("student")?, text("exercise")?), known))
@@ -88,7 +88,7 @@ impl KnownMarks {
 }
 
 impl MarksFile {
-    /// Appends a mark and syncs the file. Without a fingerprint the attempt will be judged again.
+    /// Appends a mark and writes the file to disk. Without a fingerprint, the attempt will be judged again.
     ///
     /// # Errors
     /// Fails if writing fails.

@@ -1,4 +1,4 @@
-//! Progress of a student: passed exercises and given hints, in a small file written atomically.
+//! Progress of a student: passed exercises and given hints, in a small file.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::io::ErrorKind;
@@ -17,7 +17,7 @@ const LARGEST: u64 = 1 << 20;
 /// Name of the progress file, which identifies the folder of a student.
 pub const FILE: &str = "withy-progress.json";
 
-/// Progress of a student. Exercises unknown to this version are kept.
+/// Progress of a student. Entries of exercises that this version does not have are kept.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct StudentProgress {
@@ -43,7 +43,7 @@ impl StudentProgress {
     /// Writes the progress to a student's folder.
     ///
     /// # Errors
-    /// Fails if writing fails; the old file is kept.
+    /// Fails if writing fails. The old file is then unchanged.
     pub fn write(&self, folder: &Path) -> Result<(), ExerciseError> {
         let text = format!("{:#}\n", serde_json::json!(self));
         Ok(write_atomic(folder.join(FILE), text.as_bytes())?)

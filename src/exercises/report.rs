@@ -1,4 +1,4 @@
-//! Serialisable verdicts, passed from the process of an attempt to the display.
+//! Serialisable verdicts, which the process of an attempt sends to the process that displays them.
 
 use serde::{Deserialize, Serialize};
 
@@ -8,7 +8,7 @@ use crate::script::diagnose::{Diagnostic, Location};
 
 /// Maximum length of a message in characters.
 const LONGEST: usize = 4000;
-/// Maximum length of an excerpt of a source line, and of its part before the error, in characters.
+/// Maximum lengths of an excerpt of a source line, and of its part before the error [characters].
 const EXCERPT: (usize, usize) = (400, 150);
 
 /// Result and output of an attempt.
@@ -22,7 +22,7 @@ pub struct AttemptReport {
 pub enum AttemptOutcome {
     /// All checks of the judge passed.
     Passed,
-    /// The attempt runs, but these checks failed; messages of the judge.
+    /// The attempt runs, but checks failed, with these messages of the judge.
     WrongResult(Vec<String>),
     Error(AttemptError),
     /// A limit was exceeded.

@@ -12,7 +12,7 @@ impl SilenceSwitch {
         self.0.store(true, Ordering::Relaxed);
     }
 
-    /// Wraps a writer so that the switch can silence it.
+    /// Wraps a writer, so that it can be silenced.
     pub fn wrap(&self, writer: Box<dyn Write + Send>) -> Box<dyn Write + Send> {
         Box::new(SilencedWriter { silence: self.clone(), writer })
     }

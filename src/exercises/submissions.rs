@@ -16,7 +16,7 @@ pub struct Submission {
 }
 
 impl Submission {
-    /// Submissions in a folder, by name: each subfolder is one, or the folder itself if it contains attempts.
+    /// Submissions in a folder, by name. Each subfolder is a submission. If the folder itself contains attempts, it is the only submission.
     ///
     /// # Errors
     /// Fails if the folder cannot be read, or there is nothing to grade.
@@ -46,7 +46,7 @@ impl Submission {
     }
 
     fn new(folder: &Path) -> Self {
-        // If the path cannot be resolved, it is used as given; errors are reported when its files are read.
+        // If the path cannot be resolved, it is used as given. Errors are reported when its files are read.
         let real = folder.canonicalize().unwrap_or_else(|_| folder.into());
         let name = real.file_name().map(|name| name.to_string_lossy().into_owned());
         Self { student: name.unwrap_or_else(|| ".".into()), folder: folder.into() }
@@ -57,7 +57,7 @@ impl Submission {
         fs::symlink_metadata(&self.folder).is_ok_and(|about| about.is_symlink())
     }
 
-    /// File of the student's attempt: in the folder of its track, with or without the folder created by `withy learn`, or directly in the
+    /// File of the student's attempt. It may be in the folder of its track, with or without the folder that `withy learn` creates, or directly in the
     /// submission.
     pub fn attempt(&self, exercise: &Exercise) -> Option<PathBuf> {
         let inside = self.folder.join(workbook::FOLDER);

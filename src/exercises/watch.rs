@@ -1,7 +1,7 @@
 //! Detection of saved attempts.
 //!
-//! Files are read and compared a few times per second. This works with all file systems and editors, including those that replace the file,
-//! and files saved without changes are ignored.
+//! Files are read and compared a few times per second. This works with all file systems and editors, including editors that replace the file. Files
+//! saved without changes are ignored.
 
 use std::time::Duration;
 
@@ -21,7 +21,7 @@ pub struct Watcher<'a> {
 
 struct Seen {
     content: Option<Vec<u8>>,
-    /// True if the file was empty or missing at the last check; some editors empty or move a file before writing it.
+    /// True if the file was empty or missing at the last check. Some editors empty or move a file before they write it.
     was_missing: bool,
 }
 
@@ -32,8 +32,8 @@ impl<'a> Watcher<'a> {
         Self { workbook, files: EXERCISES.iter().map(look).collect() }
     }
 
-    /// First exercise in the order of the catalogue whose file has changed. A file that is empty or missing for one check, as during
-    /// saving, has not changed.
+    /// First exercise in the order of the catalogue whose file has changed. A file that is empty or missing at a single check, as while it is saved,
+    /// has not changed.
     pub fn changed(&mut self) -> Option<&'static Exercise> {
         EXERCISES.iter().zip(&mut self.files).find_map(|(exercise, seen)| {
             let now = content(self.workbook, exercise);
@@ -49,7 +49,7 @@ impl<'a> Watcher<'a> {
     }
 }
 
-/// Content of a file; `None` if unreadable, which the resulting run reports.
+/// Content of a file; `None` if it is unreadable, which the next run reports.
 fn content(workbook: &Workbook, exercise: &Exercise) -> Option<Vec<u8>> {
     read_file(&workbook.file(exercise), LARGEST).ok()
 }

@@ -13,7 +13,7 @@ use crate::sandbox_fs::read_file;
 
 pub const FOLDER: &str = "withy-exercises";
 
-/// A folder with a file per exercise. Work of the student is never overwritten.
+/// A folder with one file per exercise. The student's work is never overwritten.
 #[derive(Debug)]
 pub struct Workbook {
     folder: PathBuf,
@@ -28,14 +28,14 @@ pub enum Advice {
         /// Number of hints of the exercise.
         count: usize,
     },
-    /// All hints were given; the solution.
+    /// The solution, after all hints were given.
     Solution(&'static str),
 }
 
 impl Workbook {
     /// Workbook near the folder `here`: `here` or its nearest parent that is a workbook, otherwise a subfolder of `here`. Writes nothing.
     pub fn near(here: &Path) -> Self {
-        // If the path cannot be resolved, it is used as given; errors are reported when it is read.
+        // If the path cannot be resolved, it is used as given. Errors are reported when it is read.
         let real = here.canonicalize().unwrap_or_else(|_| here.into());
         let is_workbook = |folder: &&Path| folder.join(progress::FILE).exists();
         match real.ancestors().find(is_workbook) {
@@ -82,7 +82,7 @@ impl Workbook {
         StudentProgress::read(&self.folder)
     }
 
-    /// First exercise that has not passed; `None` if all have.
+    /// First exercise that was not passed; `None` if all were passed.
     ///
     /// # Errors
     /// Fails if the progress file cannot be used.
@@ -99,7 +99,7 @@ impl Workbook {
         self.change(|progress| progress.record(exercise, passed))
     }
 
-    /// Next hint of an exercise, which is recorded as given.
+    /// Next hint of an exercise. The hint is recorded as given.
     ///
     /// # Errors
     /// Fails if the progress file cannot be used.
@@ -113,10 +113,10 @@ impl Workbook {
         Ok(Advice::Hint { text, number: given + 1, count: hints.len() })
     }
 
-    /// Restores the start file of an exercise. Returns the file that keeps the old attempt.
+    /// Restores the start file of an exercise. Returns the path under which the attempt is kept.
     ///
     /// # Errors
-    /// Fails if writing fails; the attempt is kept.
+    /// Fails if writing fails. The attempt is then unchanged.
     pub fn reset(&self, exercise: &Exercise) -> Result<PathBuf, ExerciseError> {
         let file = self.file(exercise);
         let kept = free_name(&file);
@@ -139,7 +139,7 @@ impl Workbook {
     }
 }
 
-/// `name.old`, or `name.old2` and so on if that exists.
+/// `name.old`; if it exists, `name.old2` and so on.
 fn free_name(file: &Path) -> PathBuf {
     let numbered = |number: usize| match number {
         1 => file.with_extension("old"),

@@ -276,7 +276,7 @@ impl UnknownName<'_> {
         self.catalog.built_ins().filter(move |known| known.is_of(of)).map(BuiltIn::name)
     }
 
-    /// Text of the receiver before the dot at this position, if it is a name, a number or in parentheses.
+    /// Text of the receiver before the dot at this position; empty unless it is a name, a number or in parentheses.
     fn before_dot(&self, at: Position) -> &str {
         let (Some(line), Some(column)) = (at.line(), at.position()) else { return "…" };
         let before = self.program.text[..self.program.offset(line, column)].trim_end();

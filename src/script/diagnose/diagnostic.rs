@@ -64,7 +64,7 @@ pub enum Callee {
     Closure,
     /// An imported file.
     File(String),
-    /// No call: the line of the standard library at which the error occurred.
+    /// No call, but the line of the standard library at which the error occurred.
     Library,
 }
 

@@ -32,7 +32,7 @@ pub fn end_of(program: &Program, text: &str) -> Location {
     location(program, line, column, 1)
 }
 
-/// Part of the call at `position` that an error refers to; the function name if that part cannot be found.
+/// Part of the call at `position` to which an error refers; the function name if this part cannot be found.
 pub fn part_of_call(
     program: &Program,
     catalog: &Catalog,
@@ -92,7 +92,7 @@ fn argument_of(
     let called = word_at(program, position)?;
     let is_function =
         catalog.named(called.text()).any(|row| matches!(row.form, CallSyntax::Function));
-    // In `a.norm()` the first argument of the function stands before the dot.
+    // In `a.norm()`, the first argument of the function is before the dot.
     let number = if dotted && is_function { number.checked_sub(1)? } else { number };
     argument(program, call, number)
 }
@@ -116,7 +116,7 @@ fn argument(program: &Program, call: &[Lexeme], number: usize) -> Option<Locatio
     None
 }
 
-/// From `start` up to the separator at `end`, without trailing blanks; one token if the argument spans several lines.
+/// Location from `start` up to the separator at `end`, without trailing blanks; a single token if the argument spans several lines.
 fn span(program: &Program, start: Position, end: Position) -> Option<Location> {
     let (line, column) = (start.line()?, start.position()?);
     if end.line()? != line {

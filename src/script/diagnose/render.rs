@@ -44,7 +44,7 @@ impl Diagnostic {
         };
         match term::emit_to_write_style(&mut buffer, &Config::default(), &file, &drawing) {
             Ok(()) => format!("{}\n", String::from_utf8_lossy(buffer.as_slice()).trim_end()),
-            // The location lies outside the text, which is an internal error; the message is still shown.
+            // A location outside the text is an internal error, but the message is still shown.
             Err(_) => format!("error: {}\n", printable(&self.message)),
         }
     }
@@ -60,11 +60,11 @@ impl Diagnostic {
     }
 }
 
-/// Longer lines are not drawn; the location is described instead.
+/// Length of a line above which it is not drawn. The location is then described instead [characters].
 const LONGEST_DRAWN: usize = 1000;
 const LONGEST_EXCERPT: usize = 60;
 
-/// Columns before the hint: `  = help: `.
+/// Number of columns before the hint: `  = help: `.
 const BESIDE_HINT: usize = 10;
 
 const NARROWEST: usize = 30;
@@ -138,7 +138,7 @@ impl Location {
         format!("at {}:{}:{}, in a long line: {there} …", self.program.name, self.line, self.column)
     }
 
-    /// Byte range of the position in a text with the same number of characters as the script, but other lengths in bytes.
+    /// Byte range of the location in a text with the same number of characters as the script, but different lengths in bytes.
     fn bytes_in(&self, text: &str) -> Range<usize> {
         let bytes = self.bytes();
         let characters = |end: usize| self.program.text[..end].chars().count();

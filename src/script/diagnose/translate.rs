@@ -39,7 +39,7 @@ struct Unwrapped<'e> {
     trace: Vec<CallFrame>,
     /// Position of the innermost call.
     called_at: Option<(Program, Position)>,
-    /// Position of the call of the standard library, if the error occurred inside it.
+    /// Position of the call of the standard library; `None` unless the error occurred in the library.
     library_called_at: Option<(Program, Position)>,
 }
 
@@ -104,7 +104,7 @@ impl Explainer<'_> {
                 EvalAltResult::ErrorRuntime(payload, _) => payload.read_lock::<Failure>(),
                 _ => None,
             };
-            // An option key passed on by the library also appears in the user's call; argument positions differ.
+            // If the library passes on an option, the option key also occurs in the user's call, but positions of arguments differ.
             let place = match place.map(|failure| failure.place.clone()) {
                 Some(CallPart::Key(key)) => CallPart::Key(key),
                 _ => CallPart::Call,
@@ -307,7 +307,7 @@ fn word_of(program: &Program, at: Position) -> String {
     locate::word_at(program, at).map(|place| place.text().to_owned()).unwrap_or_default()
 }
 
-/// Message for `import numpy`, which reads a variable.
+/// Message for `import numpy`, which Rhai treats as a variable.
 fn not_imported(name: &str) -> Diagnosis {
     let hint = match foreign_names::find(name) {
         Some(found) => found.cure.to_owned(),

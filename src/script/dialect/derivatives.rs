@@ -1,4 +1,4 @@
-//! Operators on numbers and vectors that depend on parameters of a scene, applied per variant.
+//! Operators on numbers and vectors that depend on parameters of a scene, evaluated for each variant.
 
 use std::any::TypeId;
 use std::rc::Rc;
@@ -18,7 +18,7 @@ use crate::script::source::syntax::{LONGEST_CHAIN, OWN, power_name};
 #[derive(Clone, Copy)]
 struct OnNumbers {
     of: fn(f64, f64) -> f64,
-    /// Points without derivative.
+    /// Check for arguments without a derivative.
     corner: Option<NonsmoothCheck>,
 }
 
@@ -61,7 +61,7 @@ pub fn install(engine: &mut Engine) {
     engine.register_raw_fn("+", varied, |_, operands| -> EngineResult<Dynamic> {
         Ok(operands[0].clone())
     });
-    // A variant number is a float already.
+    // The values of the variants are floats already.
     engine.register_fn("to_float", |number: VariantValue| number);
     for name in ["to_int", "sign", "is_zero", "is_even", "is_odd"] {
         engine.register_raw_fn(name, varied, move |context: NativeCallContext, operands| {

@@ -1,5 +1,5 @@
-//! Methods of arrays and maps with a function argument. Unlike Rhai's own, they do not treat non-boolean results as false, and `for_each`
-//! passes the element instead of the index.
+//! Methods of arrays and maps with a function argument. In contrast to the methods of Rhai, non-boolean results are errors instead of false, and
+//! `for_each` gives the element instead of the index to its function.
 
 use std::any::TypeId;
 use std::cell::Cell;
@@ -101,7 +101,7 @@ fn install_sieves(engine: &mut Engine) {
     }
 }
 
-/// Assigns `kept` to the receiver and returns `given`.
+/// Assigns `kept` to the receiver, and returns `given`.
 fn replace(values: &mut [&mut Dynamic], kept: Dynamic, given: Dynamic) -> Dynamic {
     if let Some(own) = values.first_mut() {
         **own = kept;
@@ -156,7 +156,7 @@ fn array_and_test(values: &[&mut Dynamic]) -> EngineResult<(Array, FnPtr)> {
 }
 
 fn function_of(values: &[&mut Dynamic]) -> EngineResult<FnPtr> {
-    // The engine calls with these types only.
+    // The engine calls this only with these types.
     let function = values.get(1).and_then(|function| (**function).clone().try_cast::<FnPtr>());
     function.ok_or_else(|| {
         ScriptError::internal_error("a test is no function").into_engine(Position::NONE)
@@ -167,7 +167,7 @@ fn function_of(values: &[&mut Dynamic]) -> EngineResult<FnPtr> {
 enum CallbackArguments {
     Element,
     ElementAndIndex,
-    /// No argument; the element is `this`.
+    /// Function without arguments. The element is `this`.
     ElementAsThis,
 }
 
@@ -182,7 +182,7 @@ impl<'a> ElementCallback<'a> {
         Self { native, function, given: Cell::new(None) }
     }
 
-    /// Calls the function for an element. The number of its arguments is determined on the first call.
+    /// Calls the function for an element. The first call determines the number of its arguments.
     fn call_function(&self, index: usize, element: &mut Dynamic) -> EngineResult<Dynamic> {
         if let Some(given) = self.given.get() {
             return self.call(given, index, element);

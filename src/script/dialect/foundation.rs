@@ -1,7 +1,7 @@
 //! Selection of Rhai's packages, and removed functions.
 //!
-//! Not included are Rhai's byte arrays and bit fields; its reflection, tags, `take` and JSON parser; and `sleep`, which cannot be
-//! interrupted. Functions that users may expect but that are missing or surprising in Rhai have an error with a suggestion.
+//! The language excludes Rhai's byte arrays and bit fields, its reflection, tags, `take` and JSON parser, and `sleep`, which cannot be interrupted.
+//! Functions that users may expect, but that Rhai does not have or defines surprisingly, cause an error with a suggestion.
 
 use std::any::TypeId;
 
@@ -19,8 +19,8 @@ rhai::def_package! {
         BasicMathPackage, BasicStringPackage, BasicTimePackage, LogicPackage, MoreStringPackage {}
 }
 
-/// Seed of Rhai's hashes. Names of closures (`anon$…`), which scripts can print, contain such hashes; without a fixed seed they would
-/// differ between processes.
+/// Seed of Rhai's hashes. Names of closures (`anon$…`), which scripts can print, contain such hashes. Without a fixed seed they would differ between
+/// processes.
 const SEED: [u64; 4] =
     [0x7769_7468_7920_0001, 0x7769_7468_7920_0002, 0x7769_7468_7920_0003, 0x7769_7468_7920_0004];
 
@@ -101,7 +101,7 @@ pub fn engine() -> Engine {
     let mut engine = Engine::new_raw();
     engine.set_max_strings_interned(TEXTS_SHARED);
     engine.register_global_module(FromRhai::new().as_shared_module());
-    // Code from strings has no line numbers, and nothing needs it.
+    // Code from strings has no line numbers, and no script needs it.
     engine.disable_symbol("eval");
     for refused in REFUSED {
         for count in refused.counts {
@@ -112,7 +112,7 @@ pub fn engine() -> Engine {
 }
 
 fn refuse(engine: &mut Engine, refused: &'static Refused, count: usize) {
-    // Rhai defines some of these for exact types, which take precedence over functions of any type.
+    // Rhai defines some of these functions for exact types, which take precedence over functions of any type.
     let mut types =
         vec![TypeId::of::<Dynamic>(), TypeId::of::<f64>(), TypeId::of::<ImmutableString>()];
     if count == 0 {

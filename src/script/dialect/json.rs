@@ -1,4 +1,5 @@
-//! `map.to_json()`: like Rhai's, but vectors become arrays, variant values become their value, and values without a JSON form are an error.
+//! `map.to_json()`: as in Rhai, but vectors become arrays, values that depend on parameters become plain values, and values without a JSON form are
+//! an error.
 
 use rhai::{
     Array, Dynamic, Engine, EvalAltResult, FnPtr, Map, NativeCallContext, Position,
@@ -10,7 +11,7 @@ use crate::script::bindings::parameter_variants::{VariantValue, present_variant}
 use crate::script::messages::error::ScriptError;
 use crate::script::messages::numbers::describe;
 
-/// Replaces Rhai's function.
+/// Replaces the function of Rhai.
 pub fn install(engine: &mut Engine) {
     engine.register_fn(
         "to_json",
@@ -48,7 +49,7 @@ fn writable(
         };
         return Ok(map.iter().map(entry).collect::<Result<Map, _>>()?.into());
     }
-    // JSON has no infinity and no NaN.
+    // JSON has neither infinity nor NaN.
     if value.as_float().is_ok_and(|number| !number.is_finite()) {
         return Ok(Dynamic::UNIT);
     }

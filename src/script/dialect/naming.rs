@@ -1,5 +1,5 @@
-//! Names with a misleading meaning, rejected before a script runs: functions named like functions of the language, which would replace them
-//! everywhere, and constants of the language used in functions of a file that has a variable of that name, which functions do not see.
+//! Names with a misleading meaning, which are rejected before a script runs. A function with the name of a function of the language would replace it
+//! everywhere. If a file has a variable with the name of a constant of the language, functions of the file see the constant instead of the variable.
 
 use rhai::{Engine, EvalAltResult, Position, Token};
 
@@ -43,7 +43,7 @@ pub fn judge(
     Ok(())
 }
 
-/// Hint for a variable that a function does not see.
+/// Hint for a variable that a function cannot see.
 pub fn not_visible(name: &str, line: usize) -> String {
     format!(
         "'{name}' of line {line} is not visible inside functions: pass it as an argument, or \
@@ -82,7 +82,7 @@ impl NamedFunction<'_> {
             .into_engine(self.place(*at)))
     }
 
-    /// Rejects a constant of the language that a reader would take for a variable which the function does not see.
+    /// Rejects a constant of the language in a function if a reader would expect the variable of the same name, which the function cannot see.
     fn refuse_hidden(&self, name: &str, line: usize) -> Result<(), Box<EvalAltResult>> {
         let used = self.names().find(|(used, _)| *used == name);
         let Some((_, at)) = used.filter(|_| !self.declares(name)) else { return Ok(()) };

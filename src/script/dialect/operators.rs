@@ -1,11 +1,11 @@
 //! Scientific number semantics: implementation of the operators of [`syntax`](crate::script::source::syntax).
 //!
-//! Comparisons follow IEEE 754 for every mix of integers and floats, division is never truncated, and a power of integers with a
-//! non-negative exponent is an integer; integer overflow is an error. Other types keep the engine's operators, except that ordering values
-//! of different types is an error instead of silently `false`.
+//! Comparisons follow IEEE 754 for every mix of integers and floats. Division is never truncated. A power of integers with a non-negative exponent is
+//! an integer, and integer overflow is an error. Other types keep the operators of the engine, except that ordering values of different types is an
+//! error instead of silently `false`.
 //!
-//! Two limits of the engine remain: `switch` also compares the kind of number (`3.0` is not `case 3`), and a minus binds tighter than a
-//! power, therefore `-x^2` is an error.
+//! Two limits of the engine remain. `switch` also compares the kind of number (`3.0` is not `case 3`). A minus binds tighter than a power, so `-x^2`
+//! is an error.
 
 use std::any::TypeId;
 use std::cmp::Ordering;
@@ -16,7 +16,7 @@ use crate::elementary::power;
 use crate::script::messages::error::{EngineResult, ScriptError};
 use crate::script::source::syntax::{DivisionOperand, LONGEST_CHAIN, OWN, REPLACED, power_name};
 
-/// Registers the operators on numbers, under the language's names and if possible under the engine's.
+/// Registers the operators on numbers, under the language's names and, if possible, under the engine's names.
 pub fn install(engine: &mut Engine) {
     use Ordering::{Equal, Greater, Less};
     register_comparison(engine, "<", |order| order == Some(Less));
@@ -62,9 +62,9 @@ pub fn written(operator: &str) -> &str {
     }
 }
 
-/// Registers a comparison of numbers; NaN has no order.
+/// Registers a comparison of numbers. NaN has no order.
 fn register_comparison(engine: &mut Engine, symbol: &str, holds: fn(Option<Ordering>) -> bool) {
-    // Registered under the engine's name too, because arrays use it to compare and search elements.
+    // The engine's name is registered too, because arrays use it to compare and search elements.
     for name in [symbol.to_owned(), format!("{OWN}{symbol}")] {
         engine.register_fn(&name, move |x: f64, y: f64| holds(x.partial_cmp(&y)));
         engine.register_fn(&name, move |m: INT, n: INT| holds(Some(m.cmp(&n))));
@@ -73,9 +73,9 @@ fn register_comparison(engine: &mut Engine, symbol: &str, holds: fn(Option<Order
     }
 }
 
-/// Exact order of a whole number and a floating-point number.
+/// Exact order of an integer and a float.
 fn order(whole: INT, x: f64) -> Option<Ordering> {
-    /// Smallest double that exceeds all whole numbers, 2^63.
+    /// Smallest float above all integers, 2^63.
     const BEYOND: f64 = 9_223_372_036_854_775_808.0;
     if x >= BEYOND {
         return Some(Ordering::Less);
@@ -119,7 +119,7 @@ fn whole_power(base: INT, exponent: INT) -> EngineResult<Dynamic> {
     })
 }
 
-/// `number << places`, an error if bits are lost.
+/// `number << places`. It is an error if bits are lost.
 fn shifted_up(number: INT, places: INT) -> EngineResult<INT> {
     let shifted = number << shift(places)?;
     match shifted >> places == number {
@@ -146,7 +146,7 @@ fn shift(places: INT) -> EngineResult<INT> {
     }
 }
 
-/// Forwards all operands except two numbers to the engine's operator `symbol`.
+/// Forwards all operands, except two numbers, to the engine's operator `symbol`.
 fn forward_to_engine(engine: &mut Engine, name: String, symbol: &'static str) {
     let any_two = [TypeId::of::<Dynamic>(); 2];
     engine.register_raw_fn(

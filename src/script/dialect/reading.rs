@@ -1,7 +1,6 @@
-//! Parsing of scripts. All parsing goes through this module.
+//! Parsing of scripts. All parsing uses this module.
 //!
-//! Rhai stores lines and columns in 16 bits. Powers, loops and errors are identified by position, so larger texts are rejected instead of
-//! being misread.
+//! Rhai stores lines and columns in 16 bits. Powers, loops and errors are identified by position, so larger texts are rejected.
 
 use rhai::{AST, Engine, EvalAltResult, Position, Scope};
 
@@ -13,7 +12,7 @@ use crate::script::source::text::Source;
 /// Maximum number of lines of a source, and of characters per line; slightly below Rhai's limit.
 pub const MOST: usize = 65_000;
 
-/// Parses `source` as if it followed `lines_before` empty lines, with the constants of `scope` known.
+/// Parses `source` as if `lines_before` empty lines preceded it. The constants of `scope` are known.
 ///
 /// # Errors
 /// Fails if the text is too large or has a syntax error, or the run was stopped.

@@ -1,4 +1,4 @@
-//! `array.dedup()`: like Rhai's, but it can be interrupted and passes on errors of its function.
+//! `array.dedup()`: as in Rhai, but it can be interrupted, and it returns the errors of its function.
 
 use std::any::TypeId;
 
@@ -21,7 +21,7 @@ pub fn install(engine: &mut Engine, context: &Context) {
                 Some(same) => without_repetitions(&native, &context, values, |earlier, later| {
                     truth(&native, &same.call_raw(&native, None, [earlier, later])?)
                 })?,
-                // Elements without "==" are different.
+                // Elements without an operator "==" are different.
                 None => {
                     without_repetitions(&native, &context, values, |mut earlier, mut later| {
                         let both = &mut [&mut earlier, &mut later];

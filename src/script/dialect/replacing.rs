@@ -1,4 +1,4 @@
-//! `text.replace(found, other)`: like Rhai's, but the length is checked before memory is allocated.
+//! `text.replace(found, other)`: as in Rhai, but the length is checked before memory is allocated.
 
 use rhai::{Engine, EvalAltResult, ImmutableString};
 
@@ -20,7 +20,7 @@ impl TextPiece for ImmutableString {
     }
 }
 
-/// Registers `text.replace(found, other)` for strings and characters, in place of Rhai's own.
+/// Registers `text.replace(found, other)` for strings and characters, in place of the functions of Rhai.
 pub fn install(engine: &mut Engine) {
     engine.register_fn("replace", replace::<ImmutableString, ImmutableString>);
     engine.register_fn("replace", replace::<ImmutableString, char>);

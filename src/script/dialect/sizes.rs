@@ -1,7 +1,8 @@
 //! Limits on the size of texts, arrays and maps of a script.
 //!
-//! Rhai's own limits count all nested elements in every call of a method, so appending would be quadratic. Here the length of a variable is checked
-//! when the variable is used, and functions that create large values check the size first. Growth of nested values is stopped by the limit of memory.
+//! The limits of Rhai count all nested elements in every call of a method, so that appending would have quadratic cost. Here the length of a variable
+//! is checked when the variable is used, and functions that create large values check the size first. The memory limit bounds the growth of nested
+//! values.
 
 use rhai::{Array, Dynamic, Engine, EvalAltResult, INT, ImmutableString, Map, Position};
 
@@ -39,7 +40,7 @@ pub fn check(value: &Dynamic) -> EngineResult<()> {
     }
 }
 
-/// Checks the length of a text; `None` is too long.
+/// Checks the length of a text. `None` is too long.
 pub fn expect_text(bytes: Option<usize>) -> EngineResult<()> {
     expect(bytes.is_some_and(|bytes| bytes <= LONGEST_TEXT), TEXT)
 }
@@ -52,7 +53,7 @@ fn expect(is_allowed: bool, what: &str) -> EngineResult<()> {
     }
 }
 
-/// Number of elements of a value, with nested ones.
+/// Number of elements of a value, including nested elements.
 fn elements(value: &Dynamic) -> usize {
     if let Some(array) = value.read_lock::<Array>() {
         array.iter().map(elements).fold(1, usize::saturating_add)
@@ -74,7 +75,7 @@ fn pad_array(array: &mut Array, length: INT, element: Dynamic) -> EngineResult<(
     Ok(())
 }
 
-/// Lengthens a text to `length` characters by repeating the padding; the last repetition may be cut.
+/// Lengthens a text to `length` characters by repeating the padding. The last repetition may be cut.
 fn pad_text<P: ToString>(text: &mut ImmutableString, length: INT, padding: P) -> EngineResult<()> {
     let padding = padding.to_string();
     let length = usize::try_from(length).unwrap_or(0);

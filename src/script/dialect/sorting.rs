@@ -1,5 +1,5 @@
-//! Sorting by a script function or in natural order. Rhai's own ignores errors of the function and non-integer differences, and rejects
-//! arrays that mix integers and floats.
+//! Sorting by a script function or in natural order. Rhai's `sort` ignores errors of the function and non-integer differences, and rejects arrays
+//! that contain both integers and floats.
 
 use std::any::TypeId;
 use std::cmp::Ordering;
@@ -67,7 +67,7 @@ fn sorted_naturally(
         let hint = "give the order: sort(|a, b| a.x - b.x)";
         return Err(ScriptError::new(told).hint(hint).into_engine(native.call_position()));
     }
-    // Beyond 2^53 integers are more exact than floats; the two comparisons must not be mixed.
+    // Beyond 2^53 integers are more exact than floats, so both comparisons must not be mixed.
     let order: fn(&Dynamic, &Dynamic) -> Ordering = match array.iter().all(Dynamic::is_int) {
         true => |x, y| x.as_int().ok().cmp(&y.as_int().ok()),
         false => |x, y| natural_order(x, y).unwrap_or(Ordering::Equal),
@@ -104,9 +104,9 @@ fn sorted(native: &NativeCallContext, values: &[&mut Dynamic]) -> EngineResult<A
     })
 }
 
-/// Returns true if the first of two elements belongs after the second, by the result of the function.
+/// Returns true if the result of the function puts the first of two elements after the second.
 fn is_after(native: &NativeCallContext, order: &Dynamic) -> EngineResult<bool> {
-    // `true` means that the first comes before the second.
+    // `true` means that the first element comes before the second.
     if let Ok(is_before) = order.as_bool() {
         return Ok(!is_before);
     }
@@ -124,7 +124,7 @@ fn is_after(native: &NativeCallContext, order: &Dynamic) -> EngineResult<bool> {
     )
 }
 
-/// Merge sort: stable, and safe with an inconsistent comparison function.
+/// Merge sort, which is stable and safe with an inconsistent comparison function.
 fn merged(
     mut left: Array,
     is_after: &mut impl FnMut(&Dynamic, &Dynamic) -> Result<bool, Box<EvalAltResult>>,

@@ -1,4 +1,5 @@
-//! Check of `switch` values: numbers, texts, booleans, and arrays and maps of these. Rhai silently takes the default case for all others.
+//! Check of `switch` values. Allowed are numbers, texts, booleans, and arrays and maps of these. For all other values Rhai silently takes the default
+//! case.
 
 use rhai::{Array, Dynamic, Engine, FnPtr, Map};
 
@@ -10,7 +11,7 @@ use crate::script::source::switch_rewrite;
 /// Registers the check.
 pub fn install(engine: &mut Engine) {
     switch_rewrite::install(engine, |engine, value, at| {
-        // Inside a variant call a variant value stands for its value in the present variant.
+        // While a variant is evaluated, a value that depends on parameters is replaced by its value in this variant.
         let value = match present() {
             Some(present) => VariantValue::project(&value, present.variant),
             None => value,

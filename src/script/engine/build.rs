@@ -18,15 +18,15 @@ use crate::script::source::syntax;
 use crate::script::state::context::Context;
 use crate::script::state::limits::DEEPEST;
 
-/// Maximum nesting of an expression at the top level, and inside a function, where it adds to the call depth.
+/// Maximum nesting of an expression at the top level, and in a function, where it adds to the call depth.
 const EXPRESSION_DEPTH: usize = 256;
 const EXPRESSION_DEPTH_IN_FUNCTION: usize = 64;
 /// Number of operations between checks for interruption.
 const PULSE: u64 = 256;
 
-/// An engine for the language of `catalog` that reports to `context`.
+/// Engine for the language of `catalog` that reports to `context`.
 ///
-/// An error means that a token hook of Rhai behaves differently than required.
+/// An error means that a token hook of Rhai does not behave as required.
 pub fn build(catalog: &Catalog, context: &Context) -> Result<Engine, String> {
     let mut engine = foundation::engine();
     // Rhai's optimiser replaces shadowed names by constants and drops statements with side effects.

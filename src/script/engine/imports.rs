@@ -1,4 +1,4 @@
-//! Imports: modules of the standard library, named `std/…`, and files of the script's folder, each read once unless it changes. Circular
+//! Imports: modules of the standard library, named `std/…`, and files of the script's folder. Each file is read once, unless it changes. Circular
 //! imports are an error.
 
 use std::cell::RefCell;
@@ -26,9 +26,9 @@ pub struct FolderResolver {
     read: RefCell<HashMap<PathBuf, ReadModule>>,
 }
 
-/// A module in the state of its file when it was read; in a session files may change.
+/// A module with the content of its file when it was read. During a session, files may change.
 struct ReadModule {
-    /// Empty for modules of the library.
+    /// Content of the file; empty for modules of the library.
     content: Vec<u8>,
     module: Shared<Module>,
 }

@@ -16,7 +16,7 @@ pub struct SourcePiece<'a> {
     pub name: &'a str,
     /// Text.
     pub text: &'a Source,
-    /// Number of lines before it.
+    /// Number of lines before the text.
     pub before: usize,
     /// Visible variables.
     pub scope: &'a Scope<'static>,
@@ -34,8 +34,8 @@ pub fn parse(engine: &Engine, program: &Program) -> EngineResult<AST> {
     Ok(ast)
 }
 
-/// Parses a piece of a program, with positions relative to the whole. `variables` are the top-level variables of the whole, with their
-/// lines.
+/// Parses a piece of a program, with positions relative to the whole program. `variables` are the top-level variables of the whole program, with
+/// their lines.
 ///
 /// # Errors
 /// Fails if the piece has an error.

@@ -1,4 +1,4 @@
-//! Execution of a script on a stack that its limits cannot exhaust.
+//! Execution of a script on a stack that is large enough for its limits.
 
 use std::path::PathBuf;
 
@@ -24,7 +24,7 @@ pub enum Ending {
     Finished,
     /// The script has an error.
     Failed(Diagnostic),
-    /// A dry run reached a loop that waits for a simulation result; no error was found before.
+    /// A dry run reached a loop that waits for a simulation result. Until then there was no error.
     Undecided,
     /// Interrupted from outside.
     Interrupted,
@@ -54,7 +54,7 @@ pub struct RunOutcome {
     pub simulations: Vec<serde_json::Value>,
     /// Files written.
     pub files: Vec<PathBuf>,
-    /// Interrupt or limit that stopped the run, if any.
+    /// Interrupt or limit that stopped the run, if it was stopped.
     pub stopped_by: Option<Stop>,
     /// Number of finished study cases that a repeated run will reuse.
     pub kept_cases: usize,
@@ -80,10 +80,10 @@ pub fn run(program: &Program, catalog: &Catalog, settings: RunSettings) -> RunOu
     on_large_stack(&limits, run).unwrap_or_else(RunOutcome::refused)
 }
 
-/// Default memory for the snapshots of a simulation in a script that goes back in time [bytes].
+/// Default memory for the snapshots of a simulation, in a script that rewinds [bytes].
 pub const SNAPSHOTS: usize = 256_000_000;
 
-/// Returns true if a script may go back in time; only then snapshots are stored. The library never goes back; other imported files might.
+/// Returns true if a script may rewind. Only then snapshots are stored. The library never rewinds; other imported files might.
 fn may_go_back(program: &Program) -> bool {
     let is_library = |path: Option<&str>| path.is_some_and(|path| path.starts_with(FOLDER));
     let source = &program.text;

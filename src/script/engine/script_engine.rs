@@ -1,4 +1,4 @@
-//! Environment of scripts: catalog, engine and shared state. A run, a prompt and a judge each have one.
+//! Environment of scripts: catalog, engine and shared state. A run, a prompt and the grading of an exercise each have one.
 
 use std::rc::Rc;
 
@@ -23,7 +23,7 @@ const DRY_RUN_NOTE: &str =
 pub struct ScriptEngine {
     catalog: Catalog,
     context: Context,
-    /// Shared with functions stored by scenes and simulations.
+    /// Shared with the functions that scenes and simulations store.
     engine: Rc<Engine>,
 }
 
@@ -32,7 +32,7 @@ pub struct ScriptEngine {
 pub enum Halt {
     /// An error in the script, an exceeded limit, or an internal error.
     Failed(Diagnostic),
-    /// A dry run reached a point where the script waits for a simulation result, as the diagnostic says.
+    /// A dry run reached a point at which the script waits for a simulation result, which the diagnostic describes.
     Undecided(Diagnostic),
     /// Interrupted from outside.
     Interrupted,
@@ -41,7 +41,7 @@ pub enum Halt {
 }
 
 impl ScriptEngine {
-    /// An engine for the language of `catalog` within the limits of the settings; imports are found in their folder.
+    /// Creates an engine for the language of `catalog` within the limits of the settings. Imports are searched in their folder.
     ///
     /// # Errors
     /// Only on internal errors.
@@ -56,7 +56,7 @@ impl ScriptEngine {
         Ok(Self { catalog, context, engine })
     }
 
-    /// Resets the counters and enforces the limits while the guard lives.
+    /// Resets the counters and enforces the limits until the guard is dropped.
     ///
     /// # Errors
     /// Fails if no thread can be started.
@@ -67,7 +67,7 @@ impl ScriptEngine {
         })
     }
 
-    /// Runs `work` with the engine, then ends its progress and flushes its output; `program` returns the text for error messages.
+    /// Runs `work` with the engine, then ends the progress display and flushes the output. `program` returns the text for error messages.
     ///
     /// # Errors
     /// Fails if the work does not complete. A panic in native code is an internal error; earlier results remain valid.
@@ -119,13 +119,13 @@ impl ScriptEngine {
         &self.context
     }
 
-    /// Engine, for showing values and parsing.
+    /// Engine, for printing values and for parsing.
     pub fn engine(&self) -> &Engine {
         &self.engine
     }
 }
 
-/// Breaks the cycle of simulations, stored functions, and the context with the last simulation.
+/// Breaks the reference cycle of simulations, stored functions, and the context with the last simulation.
 impl Drop for ScriptEngine {
     fn drop(&mut self) {
         self.context.clear_simulations();

@@ -1,4 +1,4 @@
-//! Stack sizes of scripts and workers: large enough for the limits of the script, smaller if the address space is limited.
+//! Stack sizes of scripts and workers. They are large enough for the limits of the script, but smaller if the address space is limited.
 
 use std::sync::Mutex;
 use std::thread;
@@ -7,7 +7,7 @@ use crate::panics::caught;
 use crate::script::diagnose::Diagnostic;
 use crate::script::state::limits::Limits;
 
-/// Runs `work` on a thread whose stack suffices for the limits of the script, or a smaller one if the address space of the process is limited.
+/// Runs `work` on a thread with a stack that is large enough for the limits of the script, or smaller if the address space of the process is limited.
 ///
 /// # Errors
 /// Fails if no thread can be started, or the work panics.
@@ -18,7 +18,7 @@ pub fn on_large_stack<T: Send>(
     on_stack(script_stack(limits, room()), limits, work)
 }
 
-/// Runs `work` on a thread with a stack of `bytes`, or less if that fails, down to the minimum for nested calls.
+/// Runs `work` on a thread with a stack of `bytes`. If this fails, smaller stacks are tried, down to the minimum for nested calls.
 ///
 /// # Errors
 /// Fails if no thread can be started, or `work` panics.
@@ -48,7 +48,7 @@ pub fn on_stack<T: Send>(
     })
 }
 
-/// Number of workers, at most `most`, and the stack size of each [bytes]; `None` if the address space has no room for one.
+/// Number of workers, at most `most`, and the stack size of each [bytes]; `None` if the address space is too small for one worker.
 pub fn workers(limits: &Limits, most: usize) -> Option<(usize, usize)> {
     worker_stacks(limits, most, room())
 }
@@ -67,7 +67,7 @@ fn room() -> Option<usize> {
     None
 }
 
-/// Stack size of a script: a quarter of the remaining address space if that is too small for the limits.
+/// Stack size of a script, at most a quarter of the remaining address space.
 fn script_stack(limits: &Limits, room: Option<usize>) -> usize {
     let whole = limits.stack();
     match room.filter(|room| *room < whole.saturating_add(limits.address_space())) {
@@ -76,7 +76,7 @@ fn script_stack(limits: &Limits, room: Option<usize>) -> usize {
     }
 }
 
-/// Number of workers and stack size of each: together half of the remaining address space if that is too small for the limits.
+/// Number of workers and stack size of each. Together they use at most half of the remaining address space.
 fn worker_stacks(limits: &Limits, most: usize, room: Option<usize>) -> Option<(usize, usize)> {
     let (whole, least) = (limits.stack(), limits.least_stack());
     let needed = whole.saturating_mul(most).saturating_add(limits.address_space());

@@ -21,10 +21,10 @@ use crate::script::state::limits::Limits;
 use crate::script::state::settings::{RunMode, RunSettings};
 use crate::simulation::cores;
 
-/// Interval of checks for interruption while no job ends.
+/// Interval between checks for interruption while no job ends.
 const PULSE: Duration = Duration::from_millis(50);
 
-/// Waiting time for batches of results.
+/// Waiting time before a batch of results is collected.
 const REST: Duration = Duration::from_millis(1);
 
 /// Configuration of an engine on another thread.
@@ -40,11 +40,11 @@ pub struct EngineConfig {
 }
 
 impl EngineConfig {
-    /// Configuration of worker engines. `None` if the script is not available as a whole, as at the prompt, or the address space has no room for a
-    /// worker. `refusal` is the error for functions that write files.
+    /// Configuration of worker engines. `None` if there is no complete script, as at the prompt, or if the address space is too small for one worker.
+    /// `refusal` is the error of functions that write files.
     pub fn of(engine: &Engine, context: &Context, refusal: &'static str) -> Option<Self> {
         let catalog = Sources::of(engine).catalog()?;
-        // Time and memory are supervised by the run itself for the whole process.
+        // The run itself supervises time and memory of the whole process.
         let limits = Limits { time: None, memory: None, ..*context.meter().limits() };
         let program = context.program()?.clone();
         let snapshots = context.snapshots();
@@ -54,7 +54,7 @@ impl EngineConfig {
     }
 }
 
-/// Engine of another thread, with the functions and imports of the script, whose statements were not executed.
+/// Engine of another thread, with the functions and imports of the script. The statements of the script are not executed.
 pub struct Worker {
     host: ScriptEngine,
     script: AST,
@@ -108,7 +108,7 @@ impl Worker {
         self.host.explain(error, &self.program)
     }
 
-    /// Returns true if the work was stopped from outside.
+    /// Returns true if the job was stopped.
     pub fn is_stopped(&self) -> bool {
         self.interrupt.load(Ordering::Relaxed)
     }
@@ -135,7 +135,7 @@ impl WorkerState {
     }
 }
 
-/// Pool of worker threads that receives jobs and returns results while it is driven.
+/// Pool of worker threads that receives jobs and returns results.
 pub struct WorkerPool<'c, J, R> {
     posts: &'c [WorkerState],
     jobs: mpsc::Sender<(usize, J)>,
@@ -160,13 +160,13 @@ impl<J, R> WorkerPool<'_, J, R> {
         self.posts.len()
     }
 
-    /// Queues a job; its result has the same number.
+    /// Queues a job. Its result has the same number.
     pub fn submit(&self, number: usize, job: J) {
-        // Without workers the loss is noticed on receiving.
+        // If there are no workers, this is detected on receiving.
         let _ = self.jobs.send((number, job));
     }
 
-    /// Like [`receive`](Self::receive), for many queued jobs: results are collected in batches, because each wake-up costs time.
+    /// Waits for results as [`receive`](Self::receive), for many queued jobs. Results are collected in batches, because each wake-up costs time.
     pub fn receive_batch(&self) -> WorkerEvent<R> {
         match self.results.try_recv() {
             Ok((number, result)) => WorkerEvent::Done(number, result),
@@ -190,8 +190,8 @@ impl<J, R> WorkerPool<'_, J, R> {
     }
 }
 
-/// Calls `drive` with a pool of worker threads, each with its own engine. A job that takes longer than `wall` is stopped; a panic is
-/// converted by `panicked`. Unfinished jobs are stopped when `drive` returns.
+/// Calls `drive` with a pool of worker threads, each with its own engine. A job that takes longer than `wall` is stopped. `panicked` converts a panic
+/// to a result. When `drive` returns, unfinished jobs are stopped.
 ///
 /// # Errors
 /// Fails if no worker can be created.
@@ -236,7 +236,7 @@ pub fn with_crew<J: Send, R: Send, T>(
             let is_over = &is_over;
             scope.spawn(move || {
                 let ended = on_stack(stack, &limits, || labour(post, done)).flatten();
-                // Errors of workers that are no longer needed are ignored.
+                // When the pool has ended, errors of workers are ignored.
                 if is_over.load(Ordering::Relaxed) { Ok(()) } else { ended }
             })
         };

@@ -1,6 +1,6 @@
 //! Script functions scheduled for a simulation time.
 
-/// Scheduled functions with their times, and the number of those already called.
+/// Scheduled functions with their times, and the number of functions that were called.
 #[derive(Clone)]
 pub struct Events<F> {
     functions: Vec<(f64, F)>,
@@ -14,7 +14,7 @@ impl<F> Default for Events<F> {
 }
 
 impl<F: Clone> Events<F> {
-    /// Schedules a function; functions for the same time are called in the order of insertion.
+    /// Schedules a function. Functions for the same time are called in the order of insertion.
     pub fn insert(&mut self, time: f64, function: F) {
         let place = self.functions.partition_point(|(other, _)| *other <= time);
         self.functions.insert(place.max(self.called), (time, function));
@@ -31,7 +31,7 @@ impl<F: Clone> Events<F> {
         Some(due.clone())
     }
 
-    /// Reschedules the functions after `now` when time goes back.
+    /// Schedules the functions after `now` again, after a rewind.
     pub fn reschedule_after(&mut self, now: f64) {
         let passed = self.functions.partition_point(|(time, _)| *time <= now);
         self.called = self.called.min(passed);

@@ -39,7 +39,7 @@ struct Variants {
     beside: OnceCell<PerturbedBuilds>,
 }
 
-/// Side variants of a scene, at parameters plus and minus a step.
+/// Perturbed variants of a scene, with parameters plus and minus a perturbation.
 struct PerturbedBuilds {
     family: Rc<ParameterSet>,
     /// Scenes of the variants 1, 2, …, in this order.
@@ -54,12 +54,12 @@ pub struct Condition {
     pub release: usize,
 }
 
-/// Script function of time and simulation whose value is held during a step or a sample interval.
+/// Script function of time and simulation, whose value is constant during a step or a sampling interval.
 pub struct Controller {
     /// Script function, called with the time and the simulation.
     pub function: StoredFunction,
     pub value: Rc<Cell<f64>>,
-    /// Sampling of the controller; without it the function is called at every step.
+    /// Sampling clock of the controller; `None` if the function is called at every step.
     pub beat: Option<SampleClock>,
 }
 
@@ -101,7 +101,7 @@ impl SceneHandle {
         self.variants.beside.get().map(|beside| Rc::clone(&beside.family))
     }
 
-    /// Declares a parameter, and returns its value as a variant number with side values at a step.
+    /// Declares a parameter, and returns its value with the perturbed values.
     ///
     /// # Errors
     /// Fails if the name is in use, or other parameters are in use already.
@@ -119,7 +119,7 @@ impl SceneHandle {
             .declare(name, value, distance)
     }
 
-    /// Dependence of the scene on its parameters.
+    /// Scenes at the perturbed parameters.
     ///
     /// # Errors
     /// Fails if the scene has script functions, which cannot be evaluated per variant.
@@ -161,12 +161,12 @@ impl SceneHandle {
             return Ok(());
         };
         let own = self.variants.scene.borrow();
-        // Variant 0 is created after the side variants.
+        // Variant 0 is created after the perturbed variants.
         let Some(own) = own.beams.get(beam) else { return Ok(()) };
         let length = own.axis.length();
         let is_other = |scene: &Rc<RefCell<Scene>>| {
             let scene = scene.borrow();
-            // The length of a rotated beam differs by rounding.
+            // The length of a rotated beam may differ by rounding.
             let apart = scene.beams.get(beam).map_or(0.0, |of| (length - of.axis.length()).abs());
             apart > ROUNDING_OF_PLACES * length
         };
@@ -177,7 +177,7 @@ impl SceneHandle {
         Ok(())
     }
 
-    /// Returns true in variant 0, so that functions are stored only once.
+    /// Returns true in variant 0. Functions are stored only in this variant, so that they are stored once.
     fn keeps(&self) -> bool {
         present().is_none_or(|present| present.variant == 0)
     }
@@ -200,7 +200,7 @@ impl SceneHandle {
         }
     }
 
-    /// Stores a controller that is called at the start of every step or at samples; returns the cell of its value.
+    /// Stores a controller that is called at the start of every step or at samples. Returns the cell of its value.
     pub fn store_controller(
         &self,
         function: StoredFunction,
@@ -227,7 +227,7 @@ impl SceneHandle {
         self.conditions.borrow().clone()
     }
 
-    /// Rejects a scene with functions that are called between steps, because a study runs it without its script.
+    /// Rejects a scene with functions that are called between steps, because a study runs the scene without its script.
     ///
     /// # Errors
     /// Fails if a load or drive has a controller, or a release a condition.

@@ -12,7 +12,7 @@ const DIGITS: usize = 7;
 pub struct SectionHandle {
     /// Stiffness and inertia along a beam.
     pub variation: SectionVariation,
-    /// Material and shape from which it was made; needed for tapers.
+    /// Material and shape from which the section was computed; needed for tapers.
     pub solid: Option<Solid>,
     /// Relaxation times of the material; `None` if elastic.
     pub relaxation: Option<Relaxation>,

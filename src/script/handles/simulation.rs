@@ -40,7 +40,7 @@ struct Live {
     scene: SceneHandle,
     simulation: RefCell<Simulation>,
     events: RefCell<Events<Rc<StoredFunction>>>,
-    /// While an event is called, no other may be scheduled for the same time.
+    /// True while a scheduled function runs. Then no other function may be scheduled for the same time.
     is_firing: Cell<bool>,
     /// True once an early end of the run was reported.
     is_ending_told: Cell<bool>,
@@ -54,14 +54,14 @@ pub enum RunTarget {
     Time(f64),
 }
 
-/// Step observer that updates the progress, counts steps, and stops on interruption or at a limit.
+/// Observer of steps that updates the progress, counts steps, and stops the run on interruption or at a limit.
 struct ProgressMonitor<'a> {
     context: &'a Context,
-    /// Steps after this time are not needed.
+    /// Time after which steps are not needed.
     end: f64,
     /// True if script functions must be called after every step.
     pauses: bool,
-    /// True if the run was stopped only for these functions.
+    /// True if the run was stopped only to call these functions.
     is_paused: bool,
 }
 
@@ -82,7 +82,7 @@ impl Monitor for ProgressMonitor<'_> {
     }
 }
 
-/// Observer of a skipped run in a dry run, which is stopped like a real run but counts no steps.
+/// Observer of a simulation in a dry run. It stops like a real run but counts no steps.
 struct DryRunObserver<'a>(&'a Context);
 
 impl Monitor for DryRunObserver<'_> {
@@ -193,7 +193,7 @@ impl SimulationHandle {
         Ok(())
     }
 
-    /// Rewinds the simulation to an earlier state; a dry run approximates this.
+    /// Rewinds the simulation to an earlier state. In a dry run this is approximate.
     pub fn rewind_to(&self, call: &Call, goal: &RunTarget) -> Result<(), ScriptError> {
         self.0.sensing.expect_idle()?;
         let mut simulation = self.0.simulation.borrow_mut();
@@ -215,7 +215,7 @@ impl SimulationHandle {
         self.simulation().slack()
     }
 
-    /// Advances the simulation and calls the scheduled functions on the way.
+    /// Advances the simulation, and calls the functions that are scheduled on the way.
     pub fn advance(&self, call: &Call, goal: &RunTarget) -> Result<(), ScriptError> {
         self.0.sensing.expect_idle()?;
         let context = call.context();
@@ -242,7 +242,7 @@ impl SimulationHandle {
 
     fn take_steps(&self, call: &Call, steps: usize) -> Result<(), ScriptError> {
         for taken in 0..steps {
-            // The first step after the end is an error; later ones are only reported.
+            // The first step after the end is an error. Later ends of the run are only reported.
             if taken > 0 && self.has_ended() {
                 self.report_end(call.context(), &format!("before it had taken {steps} steps"));
                 break;
@@ -293,7 +293,7 @@ impl SimulationHandle {
         }
     }
 
-    /// Replacement of a run in a dry run: time advances, and events are called.
+    /// Dry run: time advances, and scheduled functions are called.
     fn dry_run(&self, call: &Call, end: f64) -> Result<(), ScriptError> {
         call.context().meter().count_dry_run();
         call.context().proceed()?;

@@ -29,7 +29,7 @@ impl StationHandle {
         self.within(handle.scene(), simulation.scene(), simulation.model().meshes())
     }
 
-    /// Location of the station on the meshes of a scene `built` from the scene `of`, if it belongs to that scene.
+    /// Location of the station on the meshes of a scene `built` from the scene `of`; an error if the station belongs to another scene.
     pub fn within(
         &self,
         of: &SceneHandle,

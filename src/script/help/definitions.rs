@@ -1,7 +1,7 @@
 //! Definition files (`.d.rhai`) for the Rhai language server of editors, generated from the bindings.
 //!
-//! The format has no optional arguments: a function is declared once per number of arguments. Allowed values, units, options and examples
-//! are in the comment above, which editors show.
+//! The format has no optional arguments, so a function is declared once per number of arguments. Allowed values, units, options and examples are in
+//! the comment above the declaration, which editors show.
 
 mod types;
 

@@ -1,7 +1,7 @@
 //! TextMate grammar for editors, generated from the keywords and bindings.
 //!
-//! Its rules are those of the scanner ([`scan`](crate::script::source::scanner::scan)) as Oniguruma regular expressions. Editors do not
-//! know types, so every called name after a dot counts as a member.
+//! Its rules are those of the scanner ([`scan`](crate::script::source::scanner::scan)), as regular expressions of Oniguruma. Editors do not know
+//! types, so every called name after a dot is treated as a member.
 
 use std::collections::BTreeSet;
 

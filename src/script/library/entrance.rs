@@ -1,5 +1,4 @@
-//! Native wrappers of library functions, which remember the calling line. A failed check inside the library is therefore reported at the
-//! user's line.
+//! Native wrappers of library functions, which store the calling line. A failed check in the library is therefore reported at the user's line.
 
 use std::any::TypeId;
 
@@ -71,7 +70,7 @@ impl ModuleScope {
         let at = native.call_position();
         let _inside = sources.enter_library(native.global_runtime_state().source(), at.line());
         let mut inside = native.global_runtime_state().clone();
-        // The called function is looked up in the first library; its own calls start with the last one.
+        // The called function is searched in the first library; its own calls start the search with the last one.
         inside.lib.insert(0, self.functions.clone());
         inside.lib.push(self.functions.clone());
         inside.source = Some(self.file.as_str().into());

@@ -1,5 +1,5 @@
-//! Help pages of the library, parsed from the comments `//!` of a file and `///` of its functions. They are parsed when help is requested,
-//! not on import.
+//! Help pages of the library, from the comments `//!` of a file and `///` of its functions. They are parsed when help is requested, not at the
+//! import.
 
 use std::sync::LazyLock;
 
@@ -118,7 +118,7 @@ impl ModuleFunction {
         });
         for clause in items.flat_map(|item| item.split(';')) {
             let about = clause.replace('`', "").trim().to_owned();
-            // Every second piece is in backquotes.
+            // Every second piece of the clause is in backquotes.
             for name in clause.split('`').skip(1).step_by(2) {
                 let is_key = name.chars().all(|letter| letter.is_alphanumeric() || letter == '_');
                 if is_key && keys.iter().all(|(known, _)| known != name) {

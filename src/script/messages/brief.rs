@@ -1,7 +1,7 @@
-//! Limits the length of messages: long quoted values are cut in the middle.
+//! Limits of the length of messages. Long quoted values are cut in the middle.
 
 const MOST: usize = 1600;
-/// Characters kept at the end, where messages state what is allowed.
+/// Number of characters that are kept at the end, where messages state what is allowed.
 const END: usize = 600;
 
 /// Returns the text, with its middle cut out if it is too long.

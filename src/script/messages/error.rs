@@ -15,7 +15,7 @@ pub(in crate::script) const BUG: &str = "a bug in withy";
 pub enum ScriptError {
     /// The request of the script is invalid.
     Failure(Failure),
-    /// The run was interrupted or exceeded a limit; scripts cannot catch this.
+    /// The run was interrupted or exceeded a limit. Scripts cannot catch this error.
     Stopped(Stop),
     /// An internal error, which the user is asked to report.
     Internal(String),
@@ -39,9 +39,9 @@ pub struct Failure {
 pub enum CallPart {
     /// The name of the function.
     Call,
-    /// The argument with this index, from 0; in method notation argument 0 precedes the dot.
+    /// The argument with this index, from 0. In method notation, argument 0 is before the dot.
     Argument(usize),
-    /// The argument of a method with this index, from 0, without the receiver.
+    /// The argument of a method with this index, from 0. The receiver does not count.
     ArgumentOfMethod(usize),
     /// This key of an option map among the arguments.
     Key(String),
@@ -75,7 +75,7 @@ impl ScriptError {
         }
     }
 
-    /// Moves the error to an argument or key.
+    /// Sets the position of the error to an argument or key.
     pub fn at(mut self, place: CallPart) -> Self {
         if let Self::Failure(failure) = &mut self {
             failure.place = place;
@@ -83,7 +83,7 @@ impl ScriptError {
         self
     }
 
-    /// Converts the argument index to that of a method, which does not count its receiver.
+    /// Converts the index of an argument to the index of a method, whose receiver does not count.
     pub fn of_method(mut self) -> Self {
         if let Self::Failure(Failure { place, .. }) = &mut self
             && let CallPart::Argument(number) = *place
@@ -106,7 +106,7 @@ impl ScriptError {
     }
 }
 
-/// Errors of lower layers become failures with their own message and a hint. Errors caused by a script function are passed on unchanged.
+/// Errors of lower layers become failures with their own message and a hint. Errors of a script function are returned unchanged.
 impl<E: std::error::Error + 'static> From<E> for ScriptError {
     fn from(error: E) -> Self {
         match Raised::script_error_in(&error) {

@@ -2,7 +2,7 @@
 
 /// Adds the indefinite article to a noun: `a vector`, `an array`; plurals such as `knots` have none.
 pub fn with_article(noun: &str) -> String {
-    // The noun before "of" or "with" decides: "a table of costs".
+    // The noun before "of" or "with" determines the article: "a table of costs".
     let head =
         [" of ", " with "].iter().fold(noun, |head, of| head.split(of).next().unwrap_or(head));
     match noun.chars().next() {
@@ -12,7 +12,7 @@ pub fn with_article(noun: &str) -> String {
     }
 }
 
-/// Name of a type in the language, also for the engine's Rust names.
+/// Name of a type in the language, also for Rust names that the engine gives.
 pub fn type_word(name: &str) -> &str {
     match name.trim() {
         "i64" => "whole number",

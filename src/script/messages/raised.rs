@@ -1,4 +1,4 @@
-//! Errors of script functions that are called from native code, while they pass through the layers in between.
+//! Errors of script functions that native code calls. They pass through the lower layers.
 
 use std::cell::RefCell;
 use std::error::Error;
@@ -6,12 +6,12 @@ use std::fmt;
 
 use rhai::EvalAltResult;
 
-/// Error of a script function as carried by the layers below the script. They report its message; on return to the script the original
-/// error is taken out, with its position, trace and thrown value.
+/// Error of a script function, wrapped for the lower layers, which report its message. When it returns to the script, the original error is taken
+/// out, with its position, trace and thrown value.
 #[derive(Debug)]
 pub struct Raised {
     words: String,
-    /// The engine needs errors by value and cannot clone them; `None` after the error was taken.
+    /// `None` after the error was taken. The engine needs the error by value and cannot clone it.
     error: RefCell<Option<Box<EvalAltResult>>>,
 }
 

@@ -5,17 +5,17 @@ use std::collections::HashSet;
 
 /// An object that contributes to the report of a run, such as a simulation.
 pub trait Reporter {
-    /// Returns the entry in the report, called when the run ends for any reason.
+    /// Returns the entry in the report. It is called when the run ends, for any reason.
     fn report(&self) -> serde_json::Value;
 
-    /// Name and content of a rescue file for a script that was stopped, with about `numbers` numbers.
+    /// Name and content of a rescue file with about `numbers` values, for a script that was stopped.
     fn remains(&self, numbers: usize) -> Option<(String, String)>;
 }
 
 /// Maximum number of rescue files, so that a script with thousands of simulations ends soon after an interrupt.
 const MOST_REMAINS: usize = 20;
 
-/// Approximate largest number of numbers in all rescue files together. Writing them takes part of a second.
+/// Approximate maximum number of values in all rescue files together. Writing them takes less than a second.
 const MOST_NUMBERS: usize = 1_000_000;
 /// Length of a number with its separator in a file [bytes].
 const LONGEST_NUMBER: u64 = 26;
@@ -30,8 +30,8 @@ impl Reports {
         self.0.borrow_mut().push(reporter);
     }
 
-    /// Unique names and contents of the rescue files of the first simulations of a run, of about `bytes` in total. The second value is a note if
-    /// there are more simulations.
+    /// Unique names and contents of the rescue files of the first simulations of a run, with about `bytes` in total. If there are more simulations,
+    /// the second value is a note.
     pub fn remains(&self, bytes: u64) -> (Vec<(String, String)>, Option<String>) {
         let reporters = self.0.borrow();
         let numbers = usize::try_from(bytes / LONGEST_NUMBER).unwrap_or(MOST_NUMBERS);

@@ -62,9 +62,9 @@ const ANIMATION: &[Parameter] = &[
     Y_LIMITS,
 ];
 
-/// Width of an animation of one, and of several simulations [pixels].
+/// Width of an animation of one simulation, and of several simulations [pixels].
 const WIDTHS: (f64, f64) = (640.0, 960.0);
-/// Minimum height of a plot; less leaves no space for ticks and arrows [pixels].
+/// Minimum height of a plot, so that ticks and arrows have enough space [pixels].
 const LEAST_HEIGHT: f64 = 100.0;
 
 type TimedPath = Vec<(f64, Point)>;

@@ -1,4 +1,4 @@
-//! Checks: a script judges its own results; a failed check does not stop the others.
+//! Checks of a script of its own results. After a failed check, the script continues.
 
 use rhai::Dynamic;
 

@@ -1,4 +1,4 @@
-//! Explanations: the models a scene uses, and the properties of a value.
+//! Explanations: the models that a scene uses, and the properties of a value.
 
 use rhai::Dynamic;
 

@@ -139,7 +139,7 @@ fn named(call: &Call, ending: &str) -> Result<String, ScriptError> {
 struct VtkFiles {
     /// Name of the collection without extension.
     stem: String,
-    /// The same without its folder.
+    /// Name of the collection without extension and folder.
     base: String,
     digits: usize,
 }

@@ -27,7 +27,7 @@ const ORDER: Parameter = integer("order")
 const TIMES: Parameter =
     integer("times").non_negative().doc("number of insertions").or(Presence::Integer(1));
 
-/// Components below this fraction of a vector print as 0.
+/// Component of a vector, relative to its length, below which it is printed as 0.
 const ROUNDING: f64 = 1e-14;
 
 /// Derivatives of all functions of `basis` for the arguments `xi` and `order` of `call`.
@@ -63,7 +63,7 @@ fn brief(x: f64) -> String {
     format_number(format!("{x:.5e}").parse().unwrap_or(x))
 }
 
-/// Point with six digits; a component that is rounding relative to the other is shown as 0.
+/// Point with six digits. A component that is due to rounding of the other is shown as 0.
 fn brief_point(point: Vec2) -> String {
     let [x, y] = [point.x, point.y].map(|x| match x.abs() < ROUNDING * point.norm() {
         true => brief(0.0),

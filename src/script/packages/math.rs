@@ -331,6 +331,6 @@ fn quotient(call: &mut Call) -> Result<Dynamic, ScriptError> {
 
 fn round_to(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let (x, digits) = (x(call)?, call.count("digits")?);
-    // Via the decimal text, so that the result is the double nearest to what is printed.
+    // The decimal text is parsed, so that the result is the float nearest to the printed number.
     Ok(format!("{x:.digits$}").parse().unwrap_or(x).into())
 }

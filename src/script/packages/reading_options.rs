@@ -1,4 +1,4 @@
-//! Checking of options and arguments of script functions, like those of the language.
+//! Checks of options and arguments of script functions, as for functions of the language.
 
 use rhai::{Array, Dynamic, Map};
 
@@ -76,7 +76,7 @@ pub const TABLE: BindingTable = BindingTable {
     ],
 };
 
-/// Descriptions of kinds; all other words are type names.
+/// Descriptions of kinds. All other words are type names.
 const KINDS: &[(&str, Kind)] = &[
     ("a value", Kind::Any),
     ("a number", Kind::Number(NumberRange::Finite)),
@@ -100,7 +100,7 @@ const KINDS: &[(&str, Kind)] = &[
 struct OptionInfo {
     name: String,
     wanted: String,
-    /// Default; without it the option is required.
+    /// Default; `None` if the option is required.
     default: Option<Dynamic>,
 }
 
@@ -161,7 +161,7 @@ fn unknown_option(owner: &str, unknown: &str, known: &[OptionInfo]) -> ScriptErr
         .at(CallPart::Key(unknown.to_owned()))
 }
 
-/// Converts a value to the form used in scripts, if it is what was `wanted`.
+/// Converts a value to the form used in scripts, if it is of a `wanted` kind.
 fn accept(
     call: &Call,
     owner: &str,
@@ -181,7 +181,7 @@ fn accept(
         if words == type_name {
             return Ok(value);
         }
-        // If a kind rejects the value, the next one is tried; failure of all is reported below.
+        // If a kind rejects the value, the next kind is tried. If all reject it, the error is reported below.
         let accept = |kind| call.accept(owner, name, (kind, wanted), value.clone()).ok();
         if let Some(accepted) = kind_named(words).and_then(accept) {
             return Ok(written(accepted));

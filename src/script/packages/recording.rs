@@ -89,8 +89,7 @@ pub(super) struct Missing {
     pub instead: &'static str,
 }
 
-/// Reports that the states of a run cannot be reproduced from `time` on: as an error if the data was requested explicitly, otherwise as a
-/// note.
+/// Reports that the states of a run cannot be reproduced from `time` on. It is an error if the data was requested explicitly, otherwise a note.
 pub(super) fn report_diverged_rerun(
     call: &Call,
     of: &SimulationHandle,

@@ -179,7 +179,7 @@ pub const JOINT: Type = Type::of::<JointHandle>();
 
 const SPANS: usize = 16;
 
-/// Relative error of a varying section on its mesh above which a warning is given.
+/// Relative error of integrals of a varying section, on the mesh of the beam, above which a warning is given.
 const TAPER_TOLERANCE: f64 = 5e-3;
 
 const AT: Parameter = object("station", STATION);
@@ -243,7 +243,7 @@ fn beam(call: &mut Call) -> Result<Dynamic, ScriptError> {
         scene.scene().borrow_mut().add_damping(index, relaxation)?;
     }
     warn_about_taper(call, &scene, index)?;
-    // Variant 0 is evaluated last, after the beams of the side variants exist.
+    // Variant 0 is evaluated last, when the beams of the perturbed variants exist.
     scene.expect_constant_length(index).map_err(|error| error.at(CallPart::Key("axis".into())))?;
     Ok(Dynamic::from(BeamHandle { scene, index }))
 }

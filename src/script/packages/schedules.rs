@@ -227,7 +227,7 @@ fn stored(call: &Call, function: FnPtr, breaks: Vec<f64>) -> Result<Schedule, Sc
 fn words(context: &Context, error: &EvalAltResult) -> String {
     let Some(engine) = context.engine() else { return error.to_string() };
     let Some(catalog) = Sources::of(&engine).catalog() else { return error.to_string() };
-    // The error names its file; the source of the script is not available here.
+    // The error contains the name of its file; the source of the script is not available here.
     let program = Program::named("", "");
     Explainer { program: &program, catalog: &catalog, engine: &engine }.explain(error).line()
 }
@@ -247,8 +247,8 @@ pub(super) fn schedule_of(
     }
 }
 
-/// Schedule of a load or drive: as for [`schedule_of`], or a controller, which is a function of time and simulation evaluated at the start
-/// of every step or at samples.
+/// Schedule of a load or drive, as for [`schedule_of`], or a controller: a function of time and simulation that is evaluated at the start of every
+/// step or at samples.
 pub(super) fn controlled_schedule_of(
     call: &Call,
     arguments: &Arguments,

@@ -109,7 +109,7 @@ pub(super) fn damping(call: &Call, options: &Options) -> Result<DampingLaw, Scri
     Ok(law)
 }
 
-/// Law of a function, which is sampled over a range of elongations now and not called again.
+/// Law of a function. The function is sampled over a range of elongations when the spring is created, and not called again.
 fn sampled(call: &Call, options: &Options, ease: &str) -> Result<ParsedLaw, ScriptError> {
     let function = options.callback("law")?;
     call.expect_arguments(&function, 1, "law: |e| 100 * e, where e is the elongation")?;
@@ -153,7 +153,7 @@ fn force_of<'a>(
     }
 }
 
-/// Rejects a function that the finest polygon does not approximate well; the hint suggests an alternative.
+/// Rejects a function that the finest polygon does not approximate well. The hint suggests an alternative.
 fn expect_smooth(
     call: &Call,
     polygon: &SpringLaw,

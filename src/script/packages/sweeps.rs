@@ -1,4 +1,4 @@
-//! Sweeps: a function called for all values of its parameters.
+//! Sweeps: calls of a function for all values of its parameters.
 
 use std::rc::Rc;
 use std::time::Duration;
@@ -248,7 +248,7 @@ fn study(call: &mut Call) -> Result<Dynamic, ScriptError> {
     Ok(Dynamic::from(SweepHandle(table.into_swept())))
 }
 
-/// Rejects results named like a parameter, because both are columns of one table.
+/// Rejects results with the name of a parameter, because both are columns of one table.
 fn expect_other_names(call: &Call, sweep: &Sweep) -> Result<(), ScriptError> {
     let own = |name: &&String| sweep.design.parameters.iter().any(|of| of.name == **name);
     let wrong = sweep.results.names.iter().find(|name| own(name) || *name == FAILURE);
@@ -263,13 +263,13 @@ fn expect_other_names(call: &Call, sweep: &Sweep) -> Result<(), ScriptError> {
     })
 }
 
-/// Result of a dry run: the function is called for the first row, whose results are used for all rows.
+/// Result of a dry run: the function is called for the first row, and its results are used for all rows.
 fn dry_run(call: &Call, order: SweepRequest) -> Result<FinishedSweep, ScriptError> {
     RunFunction::read(call, "run", order.function)?;
     let given = order.invoked(call, 0)?;
     let (names, values) = match found(&given) {
         RowOutcome::Computed(names, values) => (names.to_vec(), values),
-        // A simulation that was skipped may return non-numbers.
+        // A function whose simulation was skipped may return values that are not numbers.
         RowOutcome::Failed(_) => (
             given
                 .read_lock::<Map>()

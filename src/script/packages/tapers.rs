@@ -68,7 +68,7 @@ fn taper(call: &mut Call) -> Result<Dynamic, ScriptError> {
     Ok(Dynamic::from(SectionHandle { variation, solid: None, relaxation }))
 }
 
-/// Interpolates dimensions between solids of one kind, otherwise stiffnesses and inertias.
+/// Interpolates the dimensions of solids of one kind. For other sections, it interpolates stiffnesses and inertias.
 fn variation(all: &[(f64, SectionHandle)]) -> SectionVariation {
     let solids: Option<Vec<(f64, Solid)>> =
         all.iter().map(|(place, section)| Some((*place, section.solid?))).collect();

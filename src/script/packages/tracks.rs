@@ -114,7 +114,7 @@ impl SliderGuide {
         }
     }
 
-    /// First beam of a slider and its arc length: as given, or at the nearest point.
+    /// First beam of a slider and its arc length on it: the given place, or the nearest one.
     pub(super) fn start(
         self,
         scene: &Scene,

@@ -129,7 +129,7 @@ fn write_viewer(call: &mut Call) -> Result<Dynamic, ScriptError> {
     Ok(Dynamic::UNIT)
 }
 
-/// Fields computed from the states of a simulation: from snapshots, or by repeating the run. `None` if the repeated run differs, which is a
+/// Fields computed from the states of a simulation, by snapshots or by repeating the run. If the repeated run differs, the result is `None` with a
 /// note, or an error if the fields were requested explicitly.
 fn inside(
     call: &Call,
@@ -192,7 +192,7 @@ pub(super) fn span(
     Ok((from, to))
 }
 
-/// Stations by simulation; each must belong to at least one.
+/// Stations by simulation. Each station must belong to at least one simulation.
 fn assigned(
     given: &[StationHandle],
     simulations: &[SimulationHandle],

@@ -30,7 +30,7 @@ struct BeamProfile {
 }
 
 impl SectionForceProfile {
-    /// Results at the present time of a simulation, for the beams with these indices, or all if there are none.
+    /// Results of a simulation at the present time, for the beams with these indices, or for all beams if `beams` is empty.
     ///
     /// # Errors
     /// Fails if an axis has a point without a tangent.
@@ -74,7 +74,7 @@ impl SectionForceProfile {
         })
     }
 
-    /// Removes symbols if there are so many that they would hide the beams.
+    /// Removes symbols that are so numerous that they would hide the beams.
     pub fn with_uncrowded_symbols(mut self) -> Self {
         self.scenery.symbols = uncrowded(self.scenery.symbols);
         self
@@ -141,7 +141,7 @@ impl SectionForceProfile {
         self.chart(quantity).title(self.heading(quantity)).x_label("s").text(style)
     }
 
-    /// Summary in lines, without a terminal.
+    /// Summary in lines of text, for output without a terminal.
     pub fn summary(&self, quantity: &BeamQuantity) -> String {
         let number = |value: f64| significant(value, DIGITS);
         let line = |beam: &BeamProfile| {

@@ -1,4 +1,4 @@
-//! VTK grids of a simulation: beams as lines through their knots and three points in between, point masses as dots.
+//! VTK grids of a simulation: beams as lines through their knots and three points between consecutive knots, point masses as dots.
 
 use crate::beams::BodyPoint;
 use crate::geometry::Vec2;

@@ -1,4 +1,4 @@
-//! Syntax highlighting, which preserves the text, also of incomplete or wrong input.
+//! Syntax highlighting. It preserves the text, also of incomplete or invalid input.
 
 use std::collections::{HashMap, HashSet};
 
@@ -30,7 +30,7 @@ pub const PARTNER: HighlightStyle = HighlightStyle("1;4");
 /// Unmatched tokens.
 pub const UNMATCHED: HighlightStyle = HighlightStyle("31");
 
-/// Names with their own colours, built once for many texts.
+/// Names with colours, built once for many texts.
 pub struct Vocabulary {
     functions: HashSet<String>,
     constants: HashSet<String>,
@@ -40,7 +40,7 @@ pub struct Vocabulary {
 }
 
 impl Vocabulary {
-    /// Vocabulary of the language, sufficient for files.
+    /// Vocabulary of the language, which is sufficient for files.
     pub fn of_language(catalog: &Catalog) -> Self {
         let built_in = catalog.built_ins().filter(|known| known.is_function());
         let built_in = built_in.map(|known| known.name().to_owned());
@@ -104,7 +104,7 @@ impl Vocabulary {
 
 /// Text with colours. A bracket at the cursor and its partner are emphasised.
 pub fn highlight(text: &str, cursor: Option<usize>, vocabulary: &Vocabulary) -> String {
-    // An escape character in the input would interfere with the inserted sequences.
+    // An escape character in the input would interfere with the inserted colour sequences.
     if text.contains('\x1b') {
         return text.to_owned();
     }
@@ -112,7 +112,7 @@ pub fn highlight(text: &str, cursor: Option<usize>, vocabulary: &Vocabulary) -> 
     let (partners, _) = pair(&tokens);
     let touched = cursor.and_then(|cursor| bracket_at(&tokens, cursor));
     let marked = touched.and_then(|at| partners[at].map(|partner| [at, partner]));
-    // Parameters and local variables may shadow session variables, so members are not checked.
+    // Parameters and local variables may shadow variables of the session, so members are not checked.
     let has_parameters =
         tokens.iter().any(|token| matches!(token.of(text), "fn" | "|" | "let" | "for"));
     let mut drawn = String::with_capacity(text.len() * 2);

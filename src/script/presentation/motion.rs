@@ -10,7 +10,7 @@ use crate::output::{
 use crate::script::messages::error::ScriptError;
 use crate::simulation::{Configuration, Simulation};
 
-/// With more spans, knots are marked only on request.
+/// Number of spans above which knots are marked only on request.
 const MOST_SPANS_WITH_DOTS: usize = 40;
 const MOST_SNAPSHOTS: f64 = 2000.0;
 const DIGITS: usize = 6;
@@ -30,7 +30,7 @@ pub struct MotionOptions {
     pub traces: Vec<(String, BodyPoint)>,
     /// Magnification of displacements since the start; `None` for 1.
     pub magnify: Option<f64>,
-    /// Marks at knots or nodes; `None` decides by the number of spans.
+    /// Marks at knots or nodes. If `None`, they are shown for a small number of spans.
     pub dots: Option<bool>,
     pub symbols: Visibility,
     /// Ends of the axes.
@@ -41,7 +41,7 @@ pub struct MotionOptions {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Visibility {
     Yes,
-    /// All, except kinds so numerous that they would hide the rest.
+    /// All symbols, except kinds so numerous that they would hide the others.
     IfFew,
     None,
 }
@@ -71,7 +71,7 @@ impl Magnifier {
 }
 
 impl MotionView {
-    /// Collects the content from a simulation; `expect` checks each snapshot, with the requested and the recorded time.
+    /// Collects the content from a simulation. `expect` checks each snapshot, from the requested and the recorded time.
     ///
     /// # Errors
     /// Fails if no or too many snapshots lie in the interval, or `expect` fails.
@@ -180,7 +180,7 @@ fn mark(placed: &PlacedSymbol) -> Option<PictureMark> {
         Symbol::Clamp | Symbol::Guided | Symbol::Carriage => Some(PictureMark::Clamp),
         Symbol::Slider => Some(PictureMark::Slider),
         Symbol::Joint | Symbol::RigidJoint => Some(PictureMark::Joint),
-        // Springs are lines; loads are not drawn.
+        // Springs are lines. Loads are not drawn.
         _ => None,
     }
 }
@@ -204,7 +204,7 @@ fn times(simulation: &Simulation, times: &Times) -> Result<Vec<f64>, ScriptError
     Ok(met.chain((!is_met).then_some(last)).collect())
 }
 
-/// Configuration nearest to a time; at the present time the current one, recorded or not.
+/// Recorded configuration nearest to a time. For the present time it is the current configuration, whether recorded or not.
 fn configuration(simulation: &Simulation, time: f64) -> Result<Option<Configuration>, ScriptError> {
     Ok(match time >= simulation.time() {
         true => Some(simulation.configuration()?),

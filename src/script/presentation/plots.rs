@@ -15,7 +15,7 @@ const DIGITS: usize = 6;
 /// Chart of history columns over time, as text for a terminal.
 ///
 /// # Errors
-/// Fails if no column or an unknown one is named; the error lists the columns.
+/// Fails if no column is named or a column is unknown. The error lists the columns.
 pub fn history_chart(
     history: &History,
     columns: &[String],
@@ -41,7 +41,7 @@ pub fn drift_chart(history: &History, style: &TerminalStyle) -> String {
     drift_lines("", history).text(style)
 }
 
-/// Summary of the drifts in lines, without a terminal.
+/// Summary of the drifts in lines of text, for output without a terminal.
 pub fn drift_summary(history: &History) -> String {
     let line = |(name, of): &(&str, Invariant)| {
         format!("drift of {}: {}", name.replace('_', " "), scientific(history.drift(*of), 2))
@@ -50,10 +50,10 @@ pub fn drift_summary(history: &History) -> String {
     moving.map(line).collect::<Vec<_>>().join("\n")
 }
 
-/// One-line summary of a column, without a terminal.
+/// One-line summary of a column, for output without a terminal.
 ///
 /// # Errors
-/// Fails if the column is unknown; the error lists the columns.
+/// Fails if the column is unknown. The error lists the columns.
 pub fn column_summary(history: &History, column: &str) -> Result<String, ScriptError> {
     let dimension = expect_column(history, column)?;
     let values = history.column(column).unwrap_or_default();
@@ -77,7 +77,7 @@ pub fn column_summary(history: &History, column: &str) -> Result<String, ScriptE
     Ok(format!("{name}: {first} at the start, least {least}, most {most}, now {last} ({rows})"))
 }
 
-/// Configuration at the present time or nearest to a time, as text for a terminal, with the initial configuration dotted.
+/// Present configuration, or the recorded one nearest to a time, as text for a terminal. The initial configuration is dotted.
 ///
 /// # Errors
 /// Fails if an axis has a point without a tangent.
@@ -104,7 +104,7 @@ pub fn configuration_picture(
     Ok(marked(picture, &symbols).text(style))
 }
 
-/// Summary of a configuration in lines, without a terminal.
+/// Summary of a configuration in lines of text, for output without a terminal.
 ///
 /// # Errors
 /// Fails if an axis has a point without a tangent.
@@ -162,7 +162,7 @@ pub fn drift_lines(title: impl Into<String>, history: &History) -> LineChart {
         .y_scale(AxisScale::Logarithmic);
     let invariants = Invariant::ALL.iter().filter(|(_, of)| *of != Invariant::Gap);
     invariants.fold(chart, |chart, (name, of)| {
-        // The first row is zero by definition.
+        // The drift in the first row is zero by definition.
         let points =
             over_time(history, history.drifts(*of)).split_off(1.min(history.samples().len()));
         chart.series(Series::new(name.replace('_', " "), points))

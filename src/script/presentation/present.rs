@@ -9,26 +9,26 @@ use crate::output::{beginning, columns, cut, padded, significant};
 use crate::script::bindings::catalog::Catalog;
 use crate::script::bindings::kind::{Details, Type};
 
-/// Digits of a number, few enough to hide binary rounding.
+/// Number of digits of a number, small enough to hide binary rounding.
 const DIGITS: usize = 10;
 const MOST_ITEMS: usize = 8;
-/// Number of leading items shown of an abbreviated array, besides the last one.
+/// Number of first items of an abbreviated array that are shown before the last item.
 const FIRST_ITEMS: usize = 3;
 const MOST_KEYS: usize = 12;
-/// Maximum nesting depth; nesting may be infinite.
+/// Maximum nesting depth that is shown, because the nesting may be infinite.
 const DEEPEST: usize = 4;
 const LONGEST_TEXT: usize = 40;
 /// Minimum width of the values in summaries.
 const LEAST_ROOM: usize = 20;
 const MOST_LINES: usize = 200;
 
-/// Formats values to a line width; texts with several lines are excepted.
+/// Formatter of values for a line width. Texts with several lines may be wider.
 pub struct Presenter<'a> {
     catalog: &'a Catalog,
     width: usize,
 }
 
-/// A line with limited space; surplus values are not even formatted.
+/// A line with limited space. Values beyond its end are not formatted.
 struct OutputLine {
     text: String,
     room: usize,
@@ -40,7 +40,7 @@ impl OutputLine {
     }
 
     fn write(&mut self, text: &str) {
-        // Enough to detect the overflow, also with wide characters.
+        // Two additional characters are enough to detect the overflow, also for wide characters.
         self.text.push_str(beginning(text, self.room + 2));
         self.room = self.room.saturating_sub(columns(text));
     }
@@ -56,13 +56,13 @@ impl OutputLine {
     }
 }
 
-/// Formats a value on lines of `width` columns: numbers with up to ten digits, long arrays and maps abbreviated, native values with their
-/// summary below. The unit value gives an empty text.
+/// Formats a value on lines of `width` columns. Numbers have up to ten digits, long arrays and maps are abbreviated, and native values are followed
+/// by their summary. The unit value gives an empty text.
 pub fn present(catalog: &Catalog, value: &Dynamic, width: usize) -> String {
     Presenter { catalog, width: width.max(20) }.show(value)
 }
 
-/// Formats a value in one line of `width` columns: abbreviated collections, or the first line.
+/// Formats a value in one line of `width` columns. Collections are abbreviated; of other values the first line is used.
 pub fn present_in_a_line(catalog: &Catalog, value: &Dynamic, width: usize) -> String {
     let presenter = Presenter { catalog, width };
     if is_collection(value) {
@@ -122,7 +122,7 @@ impl Presenter<'_> {
     fn native(&self, value: &Dynamic) -> Option<(Type, String)> {
         let mut types = self.catalog.tables().flat_map(|table| table.types);
         let (of, shown) = types.find_map(|of| Some((*of, of.show(value)?)))?;
-        // Brackets are used for arrays here.
+        // Brackets denote arrays here.
         let vector = value.read_lock::<Vec2>().map(|vector| written(&vector));
         Some((of, vector.unwrap_or(shown)))
     }
@@ -142,7 +142,7 @@ impl Presenter<'_> {
         } else if let Some(map) = value.read_lock::<Map>() {
             self.write_map(line, &map, depth);
         } else if let Some((of, shown)) = self.native(value) {
-            // Tables do not fit into a line.
+            // Tables do not fit into one line.
             line.write(if shown.contains('\n') { of.name() } else { &shown });
         } else {
             let longest = if depth == 0 { self.width } else { LONGEST_TEXT };
@@ -240,7 +240,7 @@ fn pieces(word: &str, room: usize) -> Vec<String> {
     let mut rest = word;
     let mut pieces = Vec::new();
     while !rest.is_empty() {
-        // At least one character per piece, however narrow the space is.
+        // Each piece has at least one character, however narrow the space is.
         let least = rest.chars().next().map_or(0, char::len_utf8);
         let (piece, behind) = rest.split_at(beginning(rest, room).len().max(least));
         pieces.push(piece.to_owned());
@@ -271,7 +271,7 @@ fn written_key(key: &str) -> String {
 }
 
 fn plain(value: &Dynamic, longest: usize) -> String {
-    // Variables captured by closures are shared values behind a lock.
+    // Variables that closures capture are shared values with a lock.
     let value = value.flatten_clone();
     if let Ok(x) = value.as_float() {
         return significant(x, DIGITS);

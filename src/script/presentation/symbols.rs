@@ -11,7 +11,7 @@ use crate::statics::Equilibrium;
 use crate::system::{Anchor, Drive, Scene, Spring, SpringKind, System, SystemError};
 
 const ARROWS: usize = 5;
-/// Offset for the tangent direction at a station, as a fraction of the beam length.
+/// Distance of the points for the tangent direction at a station, as a fraction of the beam length.
 const AROUND: f64 = 1e-3;
 
 pub struct StationSymbol<'a> {
@@ -19,7 +19,7 @@ pub struct StationSymbol<'a> {
     pub name: &'a str,
     pub at: Station,
     pub pointing: Pointing,
-    /// Releasable connection that it represents.
+    /// Releasable object that the symbol represents.
     pub hold: Option<Releasable>,
 }
 
@@ -80,7 +80,7 @@ impl<'a> SceneAt<'a> {
     }
 }
 
-/// Symbols of a scene at a time. `places` returns the positions of stations. Loads that are zero have no symbol.
+/// Symbols of a scene at a time. `places` returns the positions of stations. Zero loads have no symbol.
 ///
 /// # Errors
 /// Errors of `places`.
@@ -92,7 +92,7 @@ pub fn symbols(
     let is_there = |sign: &StationSymbol| sign.hold.is_none_or(|hold| !at.released.contains(&hold));
     let held = of_supports(scene).chain(of_sliders(scene)).filter(is_there);
     let unplaced: Vec<StationSymbol> = held.chain(of_loads(scene, time)).collect();
-    // Each symbol takes three positions: its own, and one before and after it on the beam. Positions of the springs come after these.
+    // Each symbol uses three positions: its own, one before and one after it on the beam. The positions of the springs follow.
     let around = unplaced.iter().flat_map(|symbol| around(scene, &symbol.at));
     let springs = scene.springs().enumerate();
     let springs = springs.filter(|(index, _)| !at.released.contains(&Releasable::Spring(*index)));
@@ -206,13 +206,13 @@ fn of_held(scene: &Scene, at: &Station, held: Components) -> (Symbol, Pointing) 
     }
 }
 
-/// Perpendicular to an inclined roller, upwards, with the support below.
+/// Direction normal to an inclined roller, upwards, with the support below.
 fn across(along: Vec2) -> Pointing {
     let across = perpendicular(along);
     Pointing::To(if across.y < 0.0 { -across } else { across })
 }
 
-/// Direction away from a support; at the end of a beam this is backwards.
+/// Direction away from a support. At the end of a beam it is backwards.
 fn away(scene: &Scene, at: &Station) -> Pointing {
     let is_end = at.beam().is_some() && at.arc_length > 0.5 * scene.length_at(at);
     Pointing::WithBeam(if is_end { -Vec2::x() } else { Vec2::x() })
@@ -286,7 +286,7 @@ fn of_loads(scene: &Scene, time: f64) -> impl Iterator<Item = StationSymbol<'_>>
     })
 }
 
-/// Sign of a load just before a time, or just after the start. Script functions are not called.
+/// Sign of the factor of a load just before a time, or just after the start. Script functions are not called.
 fn factor(load: &Load, time: f64) -> f64 {
     if load.schedule.functions() > 0 {
         return 1.0;

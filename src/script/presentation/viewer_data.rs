@@ -19,7 +19,7 @@ use crate::script::messages::error::ScriptError;
 use crate::simulation::{Axes, AxisStation, Outline, Simulation};
 use crate::system;
 
-/// Paths of free ends are drawn if there are at most this many.
+/// Number of free ends up to which their paths are drawn.
 const MOST_FREE_ENDS: usize = 8;
 const ARROWS_A_BEAM: usize = 6;
 
@@ -31,7 +31,7 @@ pub struct ViewerOptions<'a> {
     pub frames: Vec<usize>,
     /// Label of the motion.
     pub label: String,
-    /// Stations whose paths are drawn; free ends by default.
+    /// Stations whose paths are drawn; if `None`, the free ends.
     pub trails: Option<&'a [Station]>,
     /// Columns of the history.
     pub columns: &'a [String],
@@ -214,7 +214,7 @@ fn trails(
     stations.iter().map(trail).collect()
 }
 
-/// Unsupported beam ends, one per joint, and point masses; empty if there are many.
+/// Unsupported ends of beams (one per joint) and point masses; empty if there are many.
 fn free_ends(simulation: &Simulation) -> Vec<Station> {
     let scene = simulation.scene();
     let of_beam = |beam: usize| {
@@ -276,7 +276,7 @@ fn arrows(simulation: &Simulation, shown: &FrameSelection) -> Result<Vec<Arrow>,
     Ok(arrows)
 }
 
-/// Load vector in space; a follower load is drawn as if the section were perpendicular to the axis.
+/// Load vector in space. A follower load is drawn as if sections were normal to the axis.
 fn turned(force: Vec2, frame: LoadFrame, axis: Option<&AxisStation>, points: &[Vec2]) -> Vec2 {
     match (frame, axis) {
         (LoadFrame::Follower, Some(axis)) => {

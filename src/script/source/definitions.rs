@@ -11,7 +11,7 @@ pub struct Definition<'t> {
     /// Index of the first token: `fn`, or `private` before it.
     pub first: usize,
     start: usize,
-    /// Index of the bracket before the parameters, or of the body if there is none.
+    /// Index of the bracket before the parameters; of the body if there is no such bracket.
     opening: usize,
     body: usize,
     /// Index after the last token.
@@ -42,7 +42,7 @@ impl<'t> Definition<'t> {
         Self { tokens, first, start, opening, body, end: closing(tokens, body) }
     }
 
-    /// Name of the function and its token; `None` for a method of a type.
+    /// Name of the function and the token of the name; `None` for a method of a type.
     pub fn name(&self) -> Option<(&'t str, &'t Lexeme)> {
         match &self.tokens[self.start + 1..self.opening] {
             [lexeme] => Some((name_of(&lexeme.0)?, lexeme)),
@@ -50,7 +50,7 @@ impl<'t> Definition<'t> {
         }
     }
 
-    /// Name of the function, for a method with its type: `number.twice`.
+    /// Name of the function; for a method, preceded by its type: `number.twice`.
     pub fn full_name(&self) -> String {
         let words =
             self.tokens[self.start + 1..self.opening].iter().filter_map(|(token, _)| match token {
@@ -83,7 +83,7 @@ pub fn nesting(token: &Token) -> isize {
     }
 }
 
-/// Index of the bracket that closes the one at `open`; the number of tokens if there is none.
+/// Index of the bracket that closes the bracket at `open`; the number of tokens if it is not closed.
 pub fn closing(tokens: &[Lexeme], open: usize) -> usize {
     let mut depth = 0;
     for (index, (token, _)) in tokens.iter().enumerate().skip(open) {

@@ -1,4 +1,4 @@
-//! Keywords of the grammar; all other words of the language are in the catalog.
+//! Keywords of the grammar. All other names of the language are in the catalog.
 
 /// Keywords of the language, in teaching order. Rhai does not provide a list.
 pub const KEYWORDS: &[&str] = &[

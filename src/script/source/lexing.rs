@@ -18,7 +18,7 @@ pub(super) fn lex(text: &str) -> Lexed {
     let inputs = [text];
     let (mut stream, control) = engine.lex(&inputs);
     let mut depth = 0_usize;
-    // Bracket depths of open interpolations `${ … }`; their closing brace returns to the string literal.
+    // Bracket depths of open interpolations `${ … }`. The closing brace of an interpolation returns to the string literal.
     let mut interpolations = Vec::new();
     let mut tokens = Vec::new();
     for (token, position) in stream.by_ref() {

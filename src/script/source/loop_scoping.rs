@@ -1,9 +1,9 @@
 //! Fresh loop variables for every iteration of a `for` loop, so that a closure captures the values of its iteration.
 //!
-//! In Rhai all iterations of a loop share one variable, so that closures of the first iteration would see the last value. If the body
-//! contains a closure that uses the loop variable, it gets an additional first statement that declares the variable again in the scope of
-//! the iteration. The statement is inserted into the text before parsing, in place of blanks around the opening brace, so that columns stay
-//! right; without two blanks the rest of the line moves one or two columns to the right.
+//! In Rhai all iterations of a loop share one variable, so that closures of the first iteration would see the last value. If the body contains a
+//! closure that uses the loop variable, an additional first statement declares the variable again in the scope of the iteration. The statement is
+//! inserted into the text before parsing. It replaces blanks around the opening brace, so that columns are unchanged. Without two blanks, the rest of
+//! the line moves by one or two columns.
 
 use rhai::{Dynamic, Engine, EvalContext, Position, Token};
 
@@ -35,7 +35,7 @@ pub fn install(engine: &mut Engine) {
     }
 }
 
-/// Declares the last variables of the scope again, with their values; the loop assigns its own variables in every iteration.
+/// Declares the last variables of the scope again, with their values. The loop assigns its own variables in every iteration.
 fn declare_again(context: &mut EvalContext, variables: usize) {
     let scope = context.scope_mut();
     // The newest variables come first.
@@ -90,7 +90,7 @@ fn opening(tokens: &[Lexeme], after: usize) -> Option<usize> {
     None
 }
 
-/// Inserts the scoping statement after the brace at `column`, from 0, of a line, in place of blanks if there are any.
+/// Inserts the scoping statement after the brace at `column` of a line, from 0. It replaces blanks if there are any.
 pub fn insert_scope(line: &mut Vec<char>, column: usize, letter: char) {
     const LENGTH: usize = 2;
     let is_blank = |letter: &&char| matches!(letter, ' ' | '\t');

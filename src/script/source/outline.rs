@@ -8,7 +8,7 @@ use super::text::{Lexeme, Source, name_of};
 /// Names declared by a script.
 #[derive(Debug, Default)]
 pub struct ScriptOutline {
-    /// Variables and constants outside functions and blocks, with their lines.
+    /// Variables and constants outside functions and blocks, with the lines of their declarations.
     pub top_level: Vec<(String, usize)>,
     /// Names of all variables, loop variables and parameters.
     pub variables: Vec<String>,

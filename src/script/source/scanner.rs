@@ -51,7 +51,7 @@ pub enum Bracket {
 }
 
 impl Bracket {
-    /// Returns true if the bracket `closer` closes this one; `}` closes maps too.
+    /// Returns true if the bracket `closer` closes this one. `}` closes maps too.
     pub fn is_closed_by(self, closer: Self) -> bool {
         match self {
             Self::Map => closer == Self::Curly,
@@ -268,7 +268,7 @@ impl Scanner<'_> {
         TokenKind::OpenComment
     }
 
-    /// A number; the dots of `0..3` and `1.abs()` do not belong to it.
+    /// A number. The dots of `0..3` and `1.abs()` do not belong to it.
     fn number(&mut self) -> TokenKind {
         let is_decimal = !self.rest().starts_with("0x");
         self.skip(is_name);
@@ -291,7 +291,7 @@ impl Scanner<'_> {
     }
 }
 
-/// Maximum number of `#` before a raw string, which bounds the run time on a long row of `#`.
+/// Maximum number of `#` before a raw string. It bounds the run time for a long row of `#`.
 const MOST_MARKS: usize = 16;
 
 fn begins_marked(rest: &str) -> bool {

@@ -1,7 +1,7 @@
 //! Checking of `switch` values. Rhai silently takes the default case for values that it cannot compare.
 //!
-//! A private-use character after the keyword `switch` wraps the expression that follows. It is inserted into the text before parsing, in
-//! place of a blank, so that columns stay right; without a blank the rest of the line moves one column to the right.
+//! A private-use character after the keyword `switch` wraps the expression that follows. It is inserted into the text before parsing. It replaces a
+//! blank, so that columns are unchanged. Without a blank, the rest of the line moves by one column.
 
 use rhai::{Dynamic, Engine, Position, Token};
 
@@ -16,7 +16,7 @@ pub const CHOICE_NAME: &str = "\u{E007}";
 
 const WORD: usize = 6;
 
-/// Registers the wrapper; `judge` checks the value of the `switch` expression and returns the value to compare.
+/// Registers the wrapper. `judge` checks the value of the `switch` expression and returns the value to compare.
 pub fn install(
     engine: &mut Engine,
     judge: impl Fn(&Engine, Dynamic, Position) -> EngineResult<Dynamic> + 'static,
@@ -40,7 +40,7 @@ pub fn words(tokens: &[Lexeme]) -> impl Iterator<Item = Position> + '_ {
     tokens.iter().filter(|(token, _)| matches!(token, Token::Switch)).map(|(_, at)| *at)
 }
 
-/// Inserts the wrapper after the keyword at `column`, from 0, of a line, in place of a blank if there is one.
+/// Inserts the wrapper after the keyword at `column` of a line, from 0. It replaces a blank if there is one.
 pub fn insert_wrapper(line: &mut Vec<char>, column: usize) {
     let behind = column + WORD;
     match line.get_mut(behind) {

@@ -40,10 +40,10 @@ pub const REPLACED: [(&str, u8); 9] = [
 /// Maximum length of a chain of powers `a^b^c^…`.
 pub const LONGEST_CHAIN: u8 = 16;
 
-/// Rhai's precedence of the power; the next operator above it is at 210.
+/// Rhai's precedence of the power. The next operator above it is at 210.
 const POWER_PRECEDENCE: u8 = 190;
 
-/// Private-use characters: operator halves of `/=`, `^=`, `<<=` and `>>=`, and the half that wraps the right-hand side.
+/// Private-use characters: the operator halves of `/=`, `^=`, `<<=` and `>>=`, and the half that wraps the right-hand side.
 const DIVIDE_HALF: char = '\u{E000}';
 const POWER_HALF: char = '\u{E001}';
 const OPERAND_HALF: char = '\u{E002}';
@@ -51,7 +51,7 @@ const UP_HALF: char = '\u{E005}';
 const DOWN_HALF: char = '\u{E006}';
 const OPERAND: &str = "\u{E002}";
 
-/// Right-hand side of `x /= y`. A separate type keeps Rhai's built-in integer `/=` from applying.
+/// Right-hand side of `x /= y`. With a separate type, Rhai's built-in integer `/=` does not apply.
 #[derive(Clone)]
 pub struct DivisionOperand(pub Dynamic);
 
@@ -84,13 +84,13 @@ impl TokenReader {
         result
     }
 
-    /// Reason that stopped parsing, if any.
+    /// Reason for which parsing was stopped, if it was.
     pub fn stopped(&self) -> Option<Stop> {
         self.stopped.get()
     }
 }
 
-/// Number of tokens between checks of the stop condition; the parser searches all known names for each token.
+/// Number of tokens between checks of the stop condition. For each token the parser searches all known names.
 const PULSE: u32 = 64;
 
 /// Registers the tokens of this language. The returned reader must be reset before each text. `stop` returns a reason to stop parsing.
@@ -119,7 +119,7 @@ pub fn install(
     let reader = TokenReader::default();
     let TokenReader { nesting, stopped, is_undisturbed } = reader.clone();
     let count = Cell::new(0_u32);
-    // The hook is "deprecated" only to mark it as volatile.
+    // Rhai marks the hook as deprecated only to declare it volatile.
     #[allow(deprecated)]
     engine.on_parse_token(move |token, _, _| {
         count.set(count.get().wrapping_add(1));
@@ -128,7 +128,7 @@ pub fn install(
         }
         match (stopped.get(), &token) {
             (None, _) => nesting.borrow_mut().map(token),
-            // Inside a string the parser expects no foreign errors, and would panic.
+            // Inside a string, the parser does not expect errors of the hook and would panic.
             (Some(_), Token::StringConstant(_) | Token::InterpolatedString(_)) => token,
             (Some(_), _) => refuse("the reading was stopped"),
         }
@@ -136,8 +136,8 @@ pub fn install(
     Ok(reader)
 }
 
-/// Rewrites `/=`, `^=`, `**=`, `<<=` and `>>=` so that they lex as an operator and a wrapper of the operand, and marks loop bodies and
-/// `switch` expressions. Columns do not move.
+/// Rewrites `/=`, `^=`, `**=`, `<<=` and `>>=` so that they lex as an operator and a wrapper of the operand, and marks loop bodies and `switch`
+/// expressions. Columns are unchanged where blanks are available.
 pub fn mark(source: &Source) -> Cow<'_, str> {
     let tokens = source.tokens();
     let halves = |token: &Token| -> &[char] {
@@ -164,7 +164,7 @@ pub fn mark(source: &Source) -> Cow<'_, str> {
     if marks.is_empty() {
         return Cow::Borrowed(source);
     }
-    // From the end, because a mark may move the text after it.
+    // The marks are inserted from the end, because each may move the text after it.
     marks.sort_by_key(|(at, _)| std::cmp::Reverse((at.line(), at.position())));
     let mut lines: Vec<Vec<char>> = source.split('\n').map(|line| line.chars().collect()).collect();
     for (at, mark) in marks {
@@ -190,7 +190,7 @@ enum InsertedMark<'m> {
     Choice,
 }
 
-/// Operands seen so far at one bracket depth.
+/// Operands so far at one bracket depth.
 #[derive(Clone, Copy, Default)]
 struct Chain {
     powers: u8,

@@ -1,6 +1,6 @@
 //! Text of a script with cached tokens, so that it is tokenised only once.
 //!
-//! Rhai's parser makes its own pass over the text, with the replacements of [`syntax`](super::syntax), because it cannot take tokens.
+//! Rhai's parser tokenises the text again, with the replacements of [`syntax`](super::syntax), because it cannot use tokens.
 
 use std::fmt;
 use std::ops::Deref;
@@ -27,7 +27,7 @@ impl Source {
         &self.lexed().tokens
     }
 
-    /// Position of a block comment that is never closed; Rhai would silently ignore the rest of the script.
+    /// Position of a block comment that is never closed. Rhai would silently ignore the rest of the script.
     pub fn open_comment(&self) -> Option<Position> {
         if !self.lexed().ends_in_comment {
             return None;

@@ -49,7 +49,7 @@ struct ContextData {
     study_names: RefCell<HashSet<PathBuf>>,
     snapshots: usize,
     latest_simulation: RefCell<Option<Dynamic>>,
-    /// Weak, because all functions of the engine hold this context.
+    /// A weak reference, because all functions of the engine hold this context.
     engine: RefCell<Weak<Engine>>,
     level: Cell<usize>,
     is_calling_back: Cell<bool>,
@@ -145,8 +145,7 @@ impl Context {
         }
     }
 
-    /// Reason why a loop that polls for interruption was stopped: a limit or an interrupt. It is an internal error if `what` stopped
-    /// without a reason.
+    /// Reason for which a loop was stopped: a limit or an interrupt. It is an internal error if `what` stopped without a reason.
     pub fn why_stopped(&self, what: &str) -> ScriptError {
         match self.proceed() {
             Err(stopped) => stopped,
@@ -154,12 +153,12 @@ impl Context {
         }
     }
 
-    /// Returns true if the run should end as soon as possible.
+    /// Returns true if the run must end as soon as possible.
     pub fn is_stopped(&self) -> bool {
         self.stopped_by().is_some()
     }
 
-    /// Reason to end the run, if there is one.
+    /// Reason for which the run must end, if there is one.
     pub fn stopped_by(&self) -> Option<Stop> {
         if self.0.pipe_closed.get() {
             return Some(Stop::PipeClosed);
@@ -171,8 +170,8 @@ impl Context {
         self.0.meter.passed()
     }
 
-    /// Resource use and limits of the run. Code that runs a script calls [`watch`](Meter::watch) before and keeps the guard until the
-    /// script has ended.
+    /// Resource use and limits of the run. Code that runs a script must call [`watch`](Meter::watch) before, and keep the guard until the script has
+    /// ended.
     pub fn meter(&self) -> &Meter {
         &self.0.meter
     }
@@ -192,7 +191,7 @@ impl Context {
         self.print_drawn(&printable(text));
     }
 
-    /// Prints a line; the colour sequences of this program are kept.
+    /// Prints a line. The colour sequences of this program are kept.
     pub fn print_drawn(&self, text: &str) {
         if self.0.is_silent.get() || !self.meter().allows_to_write(text.len() as u64 + 1) {
             return;
@@ -208,13 +207,13 @@ impl Context {
         self.print_styled_message(&printable(text));
     }
 
-    /// Prints a message for the user; the colour sequences of this program are kept.
+    /// Prints a message for the user. The colour sequences of this program are kept.
     pub fn print_styled_message(&self, text: &str) {
         if self.0.is_silent.get() {
             return;
         }
         self.0.progress.without_progress_bar(&mut || {
-            // Errors are ignored; the exit code still reports the result.
+            // Errors are ignored, because the exit code still reports the result.
             let _ = writeln!(self.0.told.borrow_mut(), "{}", printable_in_colours(text));
         });
     }
@@ -227,7 +226,7 @@ impl Context {
         result
     }
 
-    /// Calls `work` without printing anything and without writing files; `refusal` is the message for attempts to write.
+    /// Calls `work` without printing anything and without writing files. `refusal` is the error message for attempts to write.
     pub fn without_output_or_files<T>(&self, refusal: &'static str, work: impl FnOnce() -> T) -> T {
         let refused_before = self.0.refuses_files.replace(Some(refusal));
         let result = self.silently(work);
@@ -235,7 +234,7 @@ impl Context {
         result
     }
 
-    /// Prints a message that the script requested besides its output, and counts it as output.
+    /// Prints a message that the script requested in addition to its output, and counts it as output.
     pub fn print_debug(&self, text: &str) {
         if self.meter().allows_to_write(text.len() as u64 + 1) {
             self.print_message(text);
@@ -248,7 +247,7 @@ impl Context {
         self.check_write(written);
     }
 
-    /// A closed pipe ends the run quietly; other write failures are errors.
+    /// A closed pipe ends the run without a message; other write failures are errors.
     fn check_write(&self, written: io::Result<()>) {
         match written {
             Err(error) if error.kind() == io::ErrorKind::BrokenPipe => {
@@ -269,7 +268,7 @@ impl Context {
         self.0.snapshots
     }
 
-    /// Sets the last used simulation.
+    /// Sets the simulation that was used last.
     pub fn set_latest_simulation(&self, simulation: Dynamic) {
         self.0.latest_simulation.replace(Some(simulation));
     }
@@ -285,7 +284,7 @@ impl Context {
         self.clear_reporters();
     }
 
-    /// Sets the engine for calls of stored functions; the caller keeps it alive.
+    /// Sets the engine for calls of stored functions. The caller must keep the engine alive.
     pub fn set_engine(&self, engine: &Rc<Engine>) {
         self.0.engine.replace(Rc::downgrade(engine));
     }
@@ -346,13 +345,13 @@ impl Context {
         note.inspect(|note| self.print_message(note));
     }
 
-    /// Drops the reporters and the names of studies. A session writes no report, and its next input may repeat a study.
+    /// Drops the reporters and the names of studies, because a session writes no report and its next input may repeat a study.
     pub fn clear_reporters(&self) {
         self.0.study_names.borrow_mut().clear();
         self.0.reports.clear();
     }
 
-    /// Report entries of all simulations; the reporters are dropped.
+    /// Report entries of all simulations. The reporters are then dropped.
     pub fn report(&self) -> Vec<serde_json::Value> {
         self.0.latest_simulation.take();
         self.0.reports.take()

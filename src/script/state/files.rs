@@ -22,7 +22,7 @@ pub struct OutputFolder {
     written: RefCell<Vec<PathBuf>>,
     /// Record of the files written by earlier runs, read before the first file is written.
     record: OnceCell<RefCell<WrittenFiles>>,
-    /// Folders whose abandoned temporary files were removed.
+    /// Folders in which abandoned temporary files were removed.
     tidied: RefCell<HashSet<Option<PathBuf>>>,
     /// Files that a dry run would have written, for reading them again.
     pretended: RefCell<HashMap<PathBuf, Vec<u8>>>,
@@ -31,7 +31,7 @@ pub struct OutputFolder {
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct WrittenFile {
     pub path: PathBuf,
-    /// Path under which an older file of the same name is kept, because it was not written by this program or was changed since.
+    /// Path under which an older file of the same name is kept. Such a file was not written by this program, or was changed since.
     pub kept: Option<PathBuf>,
 }
 
@@ -82,7 +82,7 @@ impl OutputFolder {
         Ok(WrittenFile { path, kept })
     }
 
-    /// Opens the folder for each file, because it may be moved while a session waits.
+    /// The folder is opened for each file, because it may be moved while a session waits.
     fn open_folder(
         &self,
         name: &str,
@@ -103,7 +103,7 @@ impl OutputFolder {
             written = Some(file.checksum());
             Ok(())
         })?;
-        // If a later call fails, the existing file is recorded or kept under another name.
+        // If a later call fails, the existing file is already recorded, or kept under another name.
         let is_ours = record.may_replace(&folder, name);
         written.map_or(Ok(()), |written| record.record(&folder, name, written))?;
         let kept = if is_ours {
@@ -136,10 +136,10 @@ impl OutputFolder {
         Ok(written)
     }
 
-    /// Reads the file `name` of the output folder or else of the script's folder, at most `most` bytes.
+    /// Reads the file `name` of the output folder or, if there is none, of the script's folder, at most `most` bytes.
     ///
     /// # Errors
-    /// Fails if there is none, or it is too long or no regular file.
+    /// Fails if the file does not exist, is too long, or is not a regular file.
     pub fn read(&self, name: &str, most: Option<u64>) -> Result<Vec<u8>, ScriptError> {
         if let Some(content) = self.pretended.borrow().get(&self.folder.join(name)) {
             return Ok(content.clone());
@@ -223,10 +223,10 @@ impl InputFolders {
         Self(folders.into_iter().collect())
     }
 
-    /// Content of the file `name` in the first folder that has it, at most `most` bytes.
+    /// Content of the file `name` in the first folder that contains it, at most `most` bytes.
     ///
     /// # Errors
-    /// Fails if no folder has it, a link or the name leads out of the folder, or it is too long or no regular file.
+    /// Fails if no folder contains the file, a link or the name leads out of the folder, or the file is too long or not regular.
     pub fn read(&self, name: &str, most: u64) -> Result<Vec<u8>, ScriptError> {
         let words = self
             .0

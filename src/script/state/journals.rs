@@ -15,7 +15,7 @@ use crate::script::messages::error::ScriptError;
 #[derive(Default)]
 pub struct Journals {
     open: RefCell<Vec<(Journal, JournalLifetime)>>,
-    /// Paths of the journals of sweeps, which hold them open themselves.
+    /// Paths of the journals of sweeps. The sweeps themselves hold them open.
     of_rows: RefCell<Vec<PathBuf>>,
     /// True if the run computes parts, whose journals are kept.
     has_parts: Cell<bool>,
@@ -24,9 +24,9 @@ pub struct Journals {
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum JournalLifetime {
-    /// Removed when the script has ended.
+    /// Journal that is removed when the script has ended.
     Run,
-    /// Kept, because it is a part to be merged.
+    /// Journal that is kept, because it is a part to be merged.
     Persistent,
 }
 
@@ -82,7 +82,7 @@ impl Journals {
         found
     }
 
-    /// Writes the result of a case; returns the number of bytes.
+    /// Writes the result of a case. Returns the number of bytes.
     ///
     /// # Errors
     /// Fails if the file cannot be written.
@@ -99,8 +99,8 @@ impl Journals {
         Ok(bytes)
     }
 
-    /// Opens the journal of a sweep, if the run uses journals. `recall` receives its entries if the journal is of the same sweep, which
-    /// `about` identifies.
+    /// Opens the journal of a sweep, if the run uses journals. If an existing journal belongs to the same sweep, which `about` identifies, `recall`
+    /// receives its entries.
     ///
     /// # Errors
     /// Fails if it cannot be read or written.
@@ -141,7 +141,7 @@ impl Journals {
         Ok(Some(keeper))
     }
 
-    /// Number of finished cases of this run that are kept for the next one.
+    /// Number of finished cases of this run that the next run can reuse.
     pub fn stored_cases(&self) -> usize {
         self.kept.get()
     }
@@ -171,7 +171,7 @@ pub struct RowKeeper {
 }
 
 impl RowKeeper {
-    /// Writes an entry; returns the number of bytes.
+    /// Writes an entry. Returns the number of bytes.
     ///
     /// # Errors
     /// Fails if it cannot be written.
@@ -186,7 +186,7 @@ impl RowKeeper {
         self.journal.write(entry).map_err(|error| refused_rows(&self.path, &error))
     }
 
-    /// Syncs the file periodically.
+    /// Writes the file to disk periodically.
     ///
     /// # Errors
     /// Fails if it cannot be written.
@@ -194,7 +194,7 @@ impl RowKeeper {
         self.journal.flush_periodically().map_err(|error| refused_rows(&self.path, &error))
     }
 
-    /// Syncs the file.
+    /// Writes the file to disk.
     ///
     /// # Errors
     /// Fails if it cannot be written.

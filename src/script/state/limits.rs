@@ -17,9 +17,9 @@ pub const DEFAULT_MEGABYTES_WRITTEN: u64 = 10_000;
 pub const DEFAULT_FILES: u64 = 100_000;
 /// Default limit of the call depth.
 pub const DEFAULT_DEPTH: usize = 400;
-/// Maximum call depth that can be set; it fits [`LEAST_STACK`].
+/// Maximum call depth that can be set. The stack [`LEAST_STACK`] is large enough for it.
 pub const DEEPEST: usize = 1000;
-/// Address space of the stack for [`DEEPEST`] nested calls [bytes]; memory is used only as needed.
+/// Address space of the stack for [`DEEPEST`] nested calls [bytes]. Memory is used only as needed.
 pub const LEAST_STACK: usize = 256 << 20;
 /// Maximum address space of the stack for dropping nested values [bytes].
 const LARGEST_FOR_VALUES: usize = 16 << 30;
@@ -37,18 +37,17 @@ pub struct Limits {
     pub depth: usize,
     /// Maximum amount of printed and written output [bytes].
     pub written: Option<u64>,
-    /// Maximum number of written files; rewriting a file counts again.
+    /// Maximum number of written files. A file that is written again counts again.
     pub files: Option<u64>,
 }
 
-/// Ends the whole program when a limit is exceeded and the run does not react.
+/// Action that ends the whole program when a limit is exceeded and the run does not react.
 pub type HardAbort = Arc<dyn Fn(Stop) + Send + Sync>;
 
 impl Limits {
     /// Address space of a stack that a script within these limits cannot exhaust [bytes].
     ///
-    /// Nested closures are dropped recursively. A link of such a chain takes less stack than twice its memory, so the memory limit bounds
-    /// the stack.
+    /// Nested closures are dropped recursively. Each of them uses less stack than twice its memory, so the memory limit bounds the stack.
     pub fn stack(&self) -> usize {
         LEAST_STACK + 2 * self.memory_or_default().min(LARGEST_FOR_VALUES)
     }
@@ -58,7 +57,7 @@ impl Limits {
         LEAST_STACK / DEEPEST * self.depth.clamp(DEFAULT_DEPTH, DEEPEST)
     }
 
-    /// Address space for the values of a script [bytes]. Freed memory is not returned at once, hence the factor.
+    /// Address space for the values of a script [bytes]. The factor allows for freed memory that is not returned at once.
     pub fn address_space(&self) -> usize {
         self.memory_or_default().saturating_mul(2)
     }
@@ -96,10 +95,10 @@ pub struct Meter {
     pretended: Cell<u64>,
 }
 
-/// Limit of `pretended`; loops that wait for a time end long before.
+/// Limit of `pretended`. Loops that wait for a time end long before it.
 const MOST_DRY_ADVANCES: u64 = 100_000;
 
-/// True after a run of this process has noticed an interrupt. It is then about to stop and to save results.
+/// True after a run of this process has detected an interrupt. The run is then about to stop and to save results.
 pub static INTERRUPT_HEARD: AtomicBool = AtomicBool::new(false);
 
 /// Watchdog states: no alarm, time limit, memory limit.
@@ -113,7 +112,7 @@ impl Meter {
         Self::guarded(limits, None)
     }
 
-    /// Meter of a new run; `resort` ends the program when a limit is exceeded and the run does not react.
+    /// Meter of a new run. `resort` ends the program when a limit is exceeded and the run does not react.
     pub fn guarded(limits: Limits, resort: Option<HardAbort>) -> Self {
         Self {
             limits,
@@ -133,7 +132,7 @@ impl Meter {
         &self.limits
     }
 
-    /// Limit that was exceeded, if any.
+    /// Limit that was exceeded, if one was.
     pub fn passed(&self) -> Option<Stop> {
         match self.alarm.load(Ordering::Relaxed) {
             TOO_LATE => self.limits.time.map(Stop::Time),
@@ -160,7 +159,7 @@ impl Meter {
         self.steps.set(self.steps.get() + 1);
     }
 
-    /// Counts steps made elsewhere.
+    /// Counts steps of other engines.
     pub fn count_steps(&self, steps: usize) {
         self.steps.set(self.steps.get().saturating_add(steps as u64));
     }
@@ -170,7 +169,7 @@ impl Meter {
         self.steps.get()
     }
 
-    /// Returns true if another step is allowed; otherwise the limit counts as exceeded.
+    /// Returns true if another step is allowed. Otherwise the limit counts as exceeded.
     pub fn allows_a_step(&self) -> bool {
         let allowed = self.limits.steps.is_none_or(|limit| self.steps.get() < limit);
         if !allowed {
@@ -199,7 +198,7 @@ impl Meter {
         }
     }
 
-    /// Bytes that rescue files may still use: the remaining budget and a twentieth of the limit.
+    /// Number of bytes that rescue files may still use: the remaining budget plus a twentieth of the limit.
     pub fn rescue_budget(&self) -> u64 {
         let left = |limit: u64| (limit + limit / 20).saturating_sub(self.written.get());
         self.limits.written.map_or(u64::MAX, left)
@@ -227,7 +226,7 @@ impl Meter {
         self.wants_too_many_steps.set(false);
         self.written.set(0);
         self.files.set(0);
-        // Lost output stays an error.
+        // A loss of output remains an error.
         self.stopped.set(self.stopped.get().filter(|stop| matches!(stop, Stop::OutputLost(_))));
         Watchdog::start(self.limits, Arc::clone(&self.alarm), self.resort.clone())
     }

@@ -57,7 +57,7 @@ const MOST_LISTED: usize = 10;
 /// Files of all parts of a study in some folders, ordered by part.
 ///
 /// # Errors
-/// Fails if there are none, some are missing or duplicate, the numbers of parts differ, or a folder cannot be read.
+/// Fails if there are no files, if parts are missing or occur twice, if the numbers of parts differ, or if a folder cannot be read.
 pub fn find_parts(
     study: &str,
     folders: &[PathBuf],

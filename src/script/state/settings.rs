@@ -15,15 +15,15 @@ use crate::script::source::program::Program;
 pub enum RunMode {
     /// Full execution.
     Run,
-    /// Scenes are built and checked; nothing is stepped, printed, judged or written.
+    /// Scenes are built and checked. Nothing is stepped, printed, judged or written (dry run).
     DryBuild,
 }
 
-/// Settings of a run, made by the command line, the prompt or a test.
+/// Settings of a run, from the command line, the prompt or a test.
 pub struct RunSettings {
     /// Mode of the run.
     pub mode: RunMode,
-    /// Folder for output files, created when the first one is written.
+    /// Folder for output files, created with the first file.
     pub out: PathBuf,
     /// Folder of the script, where it may read files.
     pub folder: PathBuf,
@@ -41,11 +41,11 @@ pub struct RunSettings {
     pub progress: Box<dyn Progress + Send>,
     /// Options of the studies.
     pub studies: StudyPreferences,
-    /// Ends the whole program when a limit is exceeded and the run does not react.
+    /// Action that ends the whole program when a limit is exceeded and the run does not react.
     pub last_resort: Option<HardAbort>,
-    /// Script of the run, which engines of other threads compile too; `None` at the prompt.
+    /// Script of the run, which the engines of other threads also compile; `None` at the prompt.
     pub program: Option<Program>,
-    /// Reason why the run may not write files, if it may not.
+    /// Reason why the run must not write files; `None` if it may.
     pub refuses_files: Option<&'static str>,
 }
 
@@ -56,7 +56,7 @@ pub struct StudyPreferences {
     pub journal: JournalPreference,
     /// Number of timing repetitions, overriding the script.
     pub repeats: Option<usize>,
-    /// Part of each study to compute; no other files are written.
+    /// Part of each study to be computed. No other files are written.
     pub part: Option<StudyPart>,
     /// Folders with parts that are merged instead of computing the studies.
     pub merge: Vec<PathBuf>,
@@ -70,7 +70,7 @@ pub enum JournalPreference {
     None,
     /// Finished cases are kept in the output folder and reused.
     Resume,
-    /// Finished cases are kept in the output folder; earlier ones are removed first.
+    /// Finished cases are kept in the output folder. Earlier cases are removed first.
     Restart,
 }
 

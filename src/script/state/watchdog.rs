@@ -12,12 +12,12 @@ use crate::script::messages::stop::Stop;
 
 const INTERVAL: Duration = Duration::from_millis(10);
 
-/// Processor time that a run may use after it has exceeded a limit, as a fraction of the time limit. On an idle machine the run then ends within twice
-/// the limit.
+/// Processor time that a run may use after it has exceeded a limit, as a fraction of the time limit. On an otherwise idle machine the run then ends
+/// within twice the limit.
 const OVERTIME: f64 = 0.7;
 const LEAST_OVERTIME: Duration = Duration::from_millis(700);
 const MOST_OVERTIME: Duration = Duration::from_secs(5);
-/// Ratio of wall time to processor time until the run is ended anyway.
+/// Ratio of elapsed wall time to allowed processor time at which the run is ended even if it has used less processor time.
 const SHARE_OF_PROCESSOR: u32 = 10;
 
 /// Guard of a thread that supervises time and memory of a run; dropping it ends the thread.
@@ -75,7 +75,7 @@ impl Clocks {
         Self { wall: Instant::now(), processor: processor_time() }
     }
 
-    /// Returns true if the processor time has passed, or a multiple of it in wall time.
+    /// Returns true if both wall time and processor time exceed `patience`, or wall time exceeds a multiple of it.
     fn are_over(self, patience: Duration) -> bool {
         let wall = self.wall.elapsed();
         let had = || match (self.processor, processor_time()) {

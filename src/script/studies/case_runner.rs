@@ -16,7 +16,7 @@ use crate::script::state::parts::find_parts;
 use crate::script::state::settings::RunMode;
 
 pub trait CaseResult: Serialize + DeserializeOwned {
-    /// Returns true if the result is worth keeping in the journal; a run that exceeded its limits may complete another time.
+    /// Returns true if the result may be reused from the journal. A run that exceeded its limits may complete another time.
     fn is_final(&self) -> bool;
 }
 
@@ -57,7 +57,7 @@ pub struct CaseRunner<'c> {
 #[derive(Clone, Copy)]
 pub struct CaseTask<'t> {
     pub name: &'t str,
-    /// Data that the results depend on besides the cases, as bytes.
+    /// Serialised data other than the cases on which the results depend.
     pub parts: &'t [u8],
 }
 
@@ -69,7 +69,7 @@ impl CaseTask<'_> {
 }
 
 impl<'c> CaseRunner<'c> {
-    /// Starts a study, whose name is that of its files; opens a journal if requested.
+    /// Starts a study, and opens its journal if requested. The files of the study have its name.
     ///
     /// # Errors
     /// Fails if the name is not valid for a file in the output folder, or the journal cannot be read.
@@ -94,12 +94,12 @@ impl<'c> CaseRunner<'c> {
         Ok(Self { context, name: name.to_owned(), journal })
     }
 
-    /// Computes all cases that are not in the journal, in parallel. `steps_of` returns the steps of a result, which count against the
-    /// limits of the run. A panic affects only its case. If the run computes a part of the study, only the cases of that part are computed,
-    /// and `None` is returned.
+    /// Computes all cases that are not in the journal, in parallel. `steps_of` returns the number of steps of a result, which counts towards the
+    /// limits of the run. A panic affects only its case. If the run computes a part of the study, only the cases of the part are computed, and the
+    /// result is `None`.
     ///
     /// # Errors
-    /// Fails if the run is stopped, with finished cases in the journal, or if a case is missing in merged parts.
+    /// Fails if the run is stopped (finished cases are then in the journal), or if a case is missing in merged parts.
     pub fn in_parallel<R: CaseResult + Clone + Send>(
         &self,
         task: CaseTask,
@@ -164,8 +164,8 @@ impl<'c> CaseRunner<'c> {
         })
     }
 
-    /// Computes the cases one by one on this thread, for timing; cases in the journal are skipped. `work` receives a function that returns
-    /// false to stop.
+    /// Computes the cases one by one on this thread, for timing. Cases in the journal are skipped. `work` receives a function that returns false if
+    /// the case must stop.
     ///
     /// # Errors
     /// Fails if the run is stopped; finished cases are in the journal.

@@ -68,7 +68,7 @@ pub fn study(call: &Call, options: &ErrorOptions) -> Result<Convergence, ScriptE
     Ok(study)
 }
 
-/// The refined quantity, step or mesh; the other must have one value.
+/// The refined quantity: step or mesh. The other one must have a single value.
 fn refined(call: &Call, plan: &ErrorStudyPlan) -> Result<RefinedParameter, ScriptError> {
     let is_adaptive = |dt: &StepSize| matches!(dt, StepSize::Adaptive(_));
     if plan.dts.len() > 1 && plan.dts.iter().any(is_adaptive) {
@@ -148,7 +148,7 @@ pub fn map_of(study: &Convergence, ladder: &Refinement) -> Map {
     facts.into_iter().map(|(name, value)| (name.into(), value)).collect()
 }
 
-/// Rejects an unknown quantity; the error lists the known ones.
+/// Rejects an unknown quantity. The error lists the known quantities.
 pub fn expect_quantity(
     call: &Call,
     study: &Convergence,
@@ -165,7 +165,7 @@ pub fn expect_quantity(
 /// Errors of a quantity with an integrator; `None` in a dry run.
 ///
 /// # Errors
-/// Fails if the quantity or integrator is not in the study; the error lists the known ones.
+/// Fails if the quantity or integrator is not in the study. The error lists the known ones.
 pub fn find<'s>(
     call: &Call,
     study: &'s Convergence,

@@ -17,10 +17,10 @@ use crate::system::Scene;
 /// Memory for snapshots in the row with snapshots [bytes].
 const SNAPSHOTS: usize = 256_000_000;
 
-/// Names of the first two rows: the plain scene, and its repetition, which shows the reliability of the times.
+/// Names of the first two rows: the plain scene and its repetition. Their difference shows the reliability of the times.
 const PLAIN: [&str; 2] = ["the scene alone", "the same again"];
 
-/// A larger ratio between the times of equal work casts doubt on all ratios.
+/// Ratio of the times of both plain rows above which all ratios are unreliable.
 const TRUSTED_RATIO: f64 = 1.1;
 
 /// Settings of all rows of a cost study, unless a row varies them.

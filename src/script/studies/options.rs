@@ -58,7 +58,7 @@ option_set! {
         /// Map of names and functions that add a feature to a scene.
         features: Option<Dynamic> =
             of_any_type("features").doc("names and functions: #{ gravity: |scene| … }").optional(),
-        /// Integrator of all rows that do not vary it.
+        /// Integrator of all rows that do not set another one.
         integrator: Option<Method> =
             object("integrator", INTEGRATOR).doc("integrator; default: energy_momentum()").optional(),
         steps: usize = integer("steps").positive().or(Presence::Integer(200)).doc("number of steps of each run"),
@@ -130,7 +130,7 @@ option_set! {
     }
 }
 
-/// Reference requested by a script.
+/// Reference that a script requests.
 #[derive(Clone)]
 pub enum ReferenceOption {
     Table(String),

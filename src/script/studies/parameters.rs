@@ -1,4 +1,4 @@
-//! Swept parameters of a study.
+//! Parameters that a study varies.
 
 use rhai::{Array, Dynamic, Map};
 
@@ -59,7 +59,7 @@ impl StudyParameter {
     }
 }
 
-/// Short label of a value: numbers, large ones as powers of ten; texts unchanged; integrators and maps by name.
+/// Short label of a value. Large numbers are powers of ten, texts are unchanged, integrators and maps have their names.
 pub fn label(call: &Call, value: &Dynamic) -> String {
     if let Some(number) = as_number(value) {
         let short = significant(number, DIGITS);

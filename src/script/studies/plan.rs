@@ -32,7 +32,7 @@ pub struct ErrorStudyPlan {
 }
 
 impl ErrorStudyPlan {
-    /// Reads the common options of error studies. All scenes are made and the first is built, so that errors show before anything runs.
+    /// Reads the common options of error studies. All scenes are created and the first is built, so that errors are reported before any run.
     pub fn read(call: &Call, options: &ErrorOptions) -> Result<Self, ScriptError> {
         let name = study_name(call, &options.name)?;
         let methods = all_of::<Method>(call, "integrators", &options.integrators, "an integrator")?;
@@ -82,7 +82,7 @@ impl ErrorStudyPlan {
         &self.subjects[0].observables
     }
 
-    /// History at the start of a run, which provides the columns; the scene is built for this.
+    /// History at the start of a run, from which the columns are taken. The scene is built for this.
     pub fn history(&self) -> Result<History, ScriptError> {
         let (scene, stops) = (self.subjects[0].scene.clone(), self.times.clone());
         let case = Case { scene, settings: self.all_settings()[0], stops };
@@ -155,7 +155,7 @@ fn column_of(
     Ok(Observable::of_column(name, &column, factor))
 }
 
-/// Checks the name of a study and its files, which must be unique in the run.
+/// Checks the name of a study and of its files, which must be unique in the run.
 pub fn study_name(call: &Call, name: &str) -> Result<String, ScriptError> {
     if !call.context().claim_study(name) {
         let told = format!("this run already has a study '{name}'");
@@ -313,7 +313,7 @@ fn usual_stations(scene: &Scene) -> Vec<(String, Station)> {
     ends.chain(particles).chain(bodies).collect()
 }
 
-/// Rejects scenes whose stations differ from those of the first one; columns are checked later.
+/// Rejects scenes whose stations differ from those of the first scene. Columns are checked later.
 pub fn expect_same_observables(
     call: &Call,
     first: &ObservedScene,
@@ -329,7 +329,7 @@ pub fn expect_same_observables(
     })
 }
 
-/// Length of the longest beam, or largest distance of a point mass from the first one; 1 if there is none.
+/// Length of the longest beam, or largest distance of a point mass from the first point mass; 1 if there is none.
 fn size_of(scene: &Scene) -> f64 {
     let first = scene.particles.first().map(|first| first.position).unwrap_or_default();
     let particles = scene.particles.iter().map(|other| (other.position - first).norm());

@@ -65,7 +65,7 @@ pub fn comparison(study: &Precision, errors: &[f64]) -> String {
     format!("{}{measured}{confirmed}", table.to_string().trim_end())
 }
 
-/// Note on the fastest combination confirmed by smaller steps, if the fastest one is accurate only by chance.
+/// Note on the fastest combination that smaller steps confirm, if the fastest combination may be accurate by chance.
 fn confirmation(study: &Precision, error: f64) -> Option<String> {
     let fastest = study.cheapest(error)?;
     let told = match study.cheapest_confirmed(error) {
@@ -77,7 +77,7 @@ fn confirmation(study: &Precision, error: f64) -> Option<String> {
     Some(format!("\n{error} also at all smaller steps of the mesh, confirmed: {told}"))
 }
 
-/// Other programs with a run of at most this error, or the first one; `None` without other programs.
+/// Other programs with a run of at most this error, or the first other program if there is no such run.
 fn programs_with_error(study: &Precision, error: f64) -> Vec<Option<&str>> {
     let peers = study.program_names();
     let able = peers.iter().copied().filter(|peer| study.cheapest_of(peer, error).is_some());

@@ -1,4 +1,4 @@
-//! Reference solutions: an independent table, or a finer run.
+//! Reference solutions: an independent table, or a run with finer steps and mesh.
 
 use rhai::{Dynamic, Map};
 
@@ -22,7 +22,7 @@ use crate::simulation::{StepControl, StepSize};
 /// A reference run, as specified by the script.
 #[derive(Clone, Default)]
 pub struct FinestRun {
-    /// Mesh of the reference run, passed to the scene function; by default the finest mesh of the study.
+    /// Mesh of the reference run, with which the scene function is called; by default the finest mesh of the study.
     pub mesh: Option<Dynamic>,
     /// Step size [time]; by default a quarter of the smallest step size of the study.
     pub dt: Option<f64>,
@@ -43,7 +43,7 @@ impl Scripted for FinestRun {
     }
 }
 
-/// A fraction of the smallest fixed step size, or else of the smallest tolerance.
+/// A fraction of the smallest fixed step size; without fixed sizes, of the smallest tolerance.
 fn finer(dts: &[StepSize]) -> StepSize {
     let fixed = dts.iter().filter_map(|dt| match dt {
         StepSize::Fixed(dt) => Some(*dt),
@@ -62,7 +62,7 @@ fn finer(dts: &[StepSize]) -> StepSize {
         .map_or(StepSize::Adaptive(control), |dt| StepSize::Fixed(PART_OF_THE_SMALLEST_STEP * dt))
 }
 
-/// Twice the step, or the tolerance that has about this effect with a second-order method.
+/// Twice the step size, or the tolerance that has about this effect for a second-order method.
 fn doubled_step(dt: StepSize) -> StepSize {
     match dt {
         StepSize::Fixed(dt) => StepSize::Fixed(2.0 * dt),
@@ -72,12 +72,12 @@ fn doubled_step(dt: StepSize) -> StepSize {
     }
 }
 
-/// Reference of a study, before anything runs.
+/// Reference of a study before the runs.
 pub enum Reference {
     /// An independent solution from a table file.
     Table(String, ParsedCsv),
-    /// A reference run: description, its case, and the case with twice the step, which estimates its error. The second case is missing if
-    /// all runs of the study have the same time settings, so that time errors cancel.
+    /// A reference run: its description, its case, and the case with twice the step, which gives an error estimate. The second case is missing if all
+    /// runs of the study have the same time settings, so that time errors cancel.
     ReferenceRun(String, Vec<Case>),
 }
 
@@ -90,7 +90,7 @@ pub fn read_sheet(call: &Call, key: &str, file: &str) -> Result<ParsedCsv, Scrip
     })
 }
 
-/// Rejects a reference run on one of the meshes being compared, whose own error would be zero.
+/// Rejects a reference run on one of the compared meshes, because the error of that mesh would be zero.
 pub fn expect_finer_than_all_meshes(
     call: &Call,
     reference: Option<&ReferenceOption>,
@@ -105,7 +105,7 @@ pub fn expect_finer_than_all_meshes(
     Err(at_key(call, "meshes", told, hint))
 }
 
-/// Rejects a reference with steps no finer than those of the compared runs; `is_of_a_mesh` is true if it is on a mesh of the study.
+/// Rejects a reference whose steps are not finer than those of the compared runs. `is_of_a_mesh` is true if the reference is on a mesh of the study.
 /// Adaptive steps are not comparable.
 fn expect_finer_steps(
     call: &Call,
@@ -141,7 +141,7 @@ fn expect_finer_steps(
     Err(at_key(call, "reference", told, hint))
 }
 
-/// Rejects a reference that takes the same steps with a doubled step size, so that its error cannot be estimated.
+/// Rejects a reference whose steps stay the same if the step size is doubled, because its error cannot be estimated.
 fn expect_other_steps_if_doubled(call: &Call, finest: &Case) -> Result<(), ScriptError> {
     match finest.settings.dt {
         StepSize::Fixed(dt) if finest.is_one_step_from_stop_to_stop(dt) => {
@@ -222,7 +222,7 @@ impl Reference {
         }
     }
 
-    /// Reference values of the observables; `own` are the results of the reference run.
+    /// Reference values of the observables. `own` are the results of the reference run.
     fn truth(
         &self,
         call: &Call,
@@ -271,7 +271,7 @@ impl Reference {
         }
     }
 
-    /// Runs all cases of a study and of its reference; `None` if only a part was computed.
+    /// Runs all cases of a study and of its reference; `None` if only a part of the cases was computed.
     pub fn trials(
         &self,
         call: &Call,

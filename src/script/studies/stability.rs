@@ -20,7 +20,7 @@ const RESULTS: [&str; 7] =
     ["finished", "outcome", "energy_growth", "iterations", "most_iterations", "retries", "steps"];
 const COLUMNS: usize = 2;
 
-/// Quantity that colours the cells.
+/// Quantity that determines the colours of the cells.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum MapColouring {
     /// Largest relative growth of the energy.
@@ -70,7 +70,7 @@ pub struct StabilityPlan {
 pub struct StabilityMap {
     plan: StabilityPlan,
     shown: MapColouring,
-    /// By map, then by row.
+    /// Verdicts by map, then by row.
     verdicts: Vec<StabilityVerdict>,
 }
 
@@ -129,7 +129,7 @@ impl StabilityPlan {
     /// Case of each cell, or the message thrown by the script function.
     ///
     /// # Errors
-    /// Fails if the function returns an invalid value, fails otherwise, or throws at every cell, which means that the function is wrong.
+    /// Fails if the function returns an invalid value or fails, or if it throws at every cell, which means that the function is wrong.
     pub fn cases(
         &self,
         call: &Call,
@@ -168,7 +168,7 @@ impl StabilityMap {
         self.plan.cells().zip(&self.verdicts)
     }
 
-    /// Number of cells, and of completed ones.
+    /// Number of cells, and number of completed cells.
     pub fn counts(&self) -> (usize, usize) {
         let finished = self.verdicts.iter().filter(|verdict| verdict.outcome.is_finished());
         (self.verdicts.len(), finished.count())
@@ -273,7 +273,7 @@ impl StabilityMap {
         maps.into_iter().fold(page, Page::panel)
     }
 
-    /// Maps as text, and the reasons of failures.
+    /// Maps as text, followed by the reasons of failures.
     pub fn text(&self) -> String {
         let style = TerminalStyle {
             glyphs: Glyphs::Braille,

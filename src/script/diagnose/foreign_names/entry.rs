@@ -10,7 +10,7 @@ pub struct ForeignName {
     pub see: &'static [&'static str],
 }
 
-/// Entry of a foreign name; case matters only if names differ in nothing else.
+/// Entry of a foreign name. Case matters only if names differ in nothing else.
 pub fn find(name: &str) -> Option<&'static ForeignName> {
     find_exactly(name).or_else(|| {
         let lower = name.to_lowercase();
@@ -32,7 +32,7 @@ impl ForeignName {
     }
 }
 
-/// Hint for a function called with the number of arguments of its namesake in other languages.
+/// Hint for a function called with as many arguments as the function of the same name in other languages.
 pub fn called_with(name: &str, count: usize) -> Option<&'static str> {
     Some(match (name, count) {
         ("print" | "debug", 2..) => "print takes one value: print(`a = ${a}, b = ${b}`)",

@@ -1,4 +1,4 @@
-//! Names of other languages and programs, with their replacements. They are looked up only if a name is unknown.
+//! Names of other languages and programs, with their replacements. They are searched only if a name is unknown.
 
 mod entry;
 mod languages;

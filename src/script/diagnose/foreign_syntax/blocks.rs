@@ -118,7 +118,7 @@ fn case(spot: &TokenWindow) -> Option<SyntaxFix> {
     )
 }
 
-/// A block that is not closed, `end` that should close it, and a bracket too many.
+/// A block that is not closed, an `end` in place of a closing brace, and a superfluous bracket.
 fn end(spot: &TokenWindow) -> Option<SyntaxFix> {
     if matches!(
         spot.word(0),

@@ -30,7 +30,7 @@ fn choice(spot: &TokenWindow) -> Option<SyntaxFix> {
     spot.explain(0, "a condition must be written before its branches", hint)
 }
 
-/// `7 // 2`, where the rest of the line is a comment.
+/// `7 // 2`, which makes the rest of the line a comment.
 fn whole_division(spot: &TokenWindow) -> Option<SyntaxFix> {
     let is_operand = spot.is_number(-1) || spot.is_name(-1) || matches!(spot.word(-1), ")" | "]");
     (spot.missing().0 == ";" && is_operand && spot.has_comment_before()).then_some(())?;

@@ -14,10 +14,10 @@ pub struct SyntaxFix {
     pub at: Position,
 }
 
-/// Pattern of foreign syntax: inspects the tokens around the error, and returns an explanation if it matches.
+/// Pattern of foreign syntax. It inspects the tokens around the error, and returns an explanation if it matches.
 pub(super) type ForeignSyntax = fn(&TokenWindow) -> Option<SyntaxFix>;
 
-/// All patterns; those that need more context come first.
+/// All patterns. Those that need more context come first.
 const PATTERNS: &[&[ForeignSyntax]] = &[
     signs::PATTERNS,
     blocks::PATTERNS,

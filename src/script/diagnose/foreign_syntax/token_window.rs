@@ -102,7 +102,7 @@ impl<'s> TokenWindow<'s> {
         self.word(from_here).starts_with(['"', '`', '\''])
     }
 
-    /// Offset and text of the first token of the statement, up to two tokens after the error, that is one of these.
+    /// Offset and text of the first token of the statement, up to two tokens after the error, that is in `sought`.
     pub fn find_word(&self, sought: &[&str]) -> Option<(isize, &str)> {
         let last = (self.here + 3).min(self.words.len());
         let mut words = self.words.get(self.first..last)?.iter().enumerate();
@@ -128,7 +128,7 @@ impl<'s> TokenWindow<'s> {
         self.first as isize - self.here as isize
     }
 
-    /// Missing token reported by the parser, and its explanation.
+    /// Missing token that the parser reported, and the explanation of the parser.
     pub fn missing(&self) -> (&str, &str) {
         match self.error {
             ParseErrorType::MissingToken(token, why) => (token, why),
@@ -140,7 +140,7 @@ impl<'s> TokenWindow<'s> {
         self.here >= self.words.len()
     }
 
-    /// Explanation at the token at this offset.
+    /// Explanation at the position of the token at this offset.
     pub fn explain(
         &self,
         from_here: isize,

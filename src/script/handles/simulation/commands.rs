@@ -1,4 +1,4 @@
-//! Controller outputs of a simulation. The cells of the scene may be shared with other simulations, so each simulation restores its own
+//! Outputs of the controllers of a simulation. The cells of the scene may be shared with other simulations, so each simulation restores its own
 //! values before it is used.
 
 use std::cell::RefCell;
@@ -23,7 +23,7 @@ impl Commands {
         spoken.checked_sub(1).map_or(0.0, |last| own[last].1)
     }
 
-    /// Records an output from a time on, and drops later outputs after a rewind.
+    /// Records an output from a time on. Later outputs are dropped, because they were computed before a rewind.
     pub(super) fn record(&self, controller: usize, time: f64, command: f64) {
         let mut all = self.0.borrow_mut();
         let Some(own) = all.get_mut(controller) else { return };

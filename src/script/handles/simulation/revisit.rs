@@ -1,4 +1,4 @@
-//! Temporary replacement of a simulation by a copy at an earlier state; all handles then refer to the copy.
+//! Temporary replacement of a simulation by a copy at an earlier state. All handles then refer to the copy.
 
 use std::cell::{Ref, RefCell};
 use std::rc::Rc;
@@ -9,10 +9,10 @@ use crate::script::messages::error::ScriptError;
 use crate::script::state::context::Context;
 use crate::simulation::Simulation;
 
-/// Replaces a simulation by a copy; restored on drop.
+/// Replacement of a simulation by a copy. The original is restored on drop.
 pub struct Revisit {
     handle: SimulationHandle,
-    /// The original, or the copy when it is not in place.
+    /// The original; while the original is in place, the copy.
     original: RefCell<Simulation>,
     events: Events<Rc<StoredFunction>>,
     is_ending_told: bool,
@@ -57,7 +57,7 @@ impl Revisit {
         (self.handle.simulation().counts().steps, self.handle.time())
     }
 
-    /// Moves the copy to a stored state; returns false if it is not stored.
+    /// Restores a stored state in the copy. Returns false if the state is not stored.
     ///
     /// # Errors
     /// Fails if the scene cannot be built again.
@@ -65,7 +65,7 @@ impl Revisit {
         Ok(self.handle.0.simulation.borrow_mut().revisit(&self.original(), steps)?)
     }
 
-    /// Advances the copy to a row of the original's history; returns true if everything is equal.
+    /// Advances the copy to a row of the original's history. Returns true if energies and momenta are equal.
     ///
     /// # Errors
     /// Fails if a step fails that did not fail before, or the run is stopped.

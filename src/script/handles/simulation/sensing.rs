@@ -23,7 +23,7 @@ pub(super) struct ColumnReader {
     /// Step count at the last evaluation of the columns.
     looked: Cell<Option<usize>>,
     controllers: Vec<Rc<Controller>>,
-    /// Outputs of sampled controllers by sample number. Outputs before the present survive a rewind.
+    /// Outputs of sampled controllers by sample number. Outputs up to the present are kept in a rewind.
     commands: RefCell<Vec<BTreeMap<u64, f64>>>,
     /// Outputs of all controllers over time.
     told: Commands,
@@ -58,14 +58,14 @@ impl ColumnReader {
         }
     }
 
-    /// Restores the controller outputs of this simulation before a time, because another simulation may share the cells.
+    /// Restores the outputs of the controllers of this simulation before a time, because another simulation may have changed the shared cells.
     fn recall(&self, time: f64) {
         for (number, controller) in self.controllers.iter().enumerate() {
             controller.value.set(self.told.before(number, time));
         }
     }
 
-    /// Rejects movement of the simulation by a function that may only read it.
+    /// Rejects an advance or rewind of the simulation by a function that may only read it.
     pub(super) fn expect_idle(&self) -> Result<(), ScriptError> {
         match self.is_looking.get() {
             false => Ok(()),
@@ -90,10 +90,10 @@ impl SimulationHandle {
         look(run)
     }
 
-    /// Evaluates the functions of the columns for the last row, unless this was done.
+    /// Evaluates the functions of the columns for the last row, unless they were evaluated.
     ///
     /// # Errors
-    /// Errors of the functions; also if one does not return a number.
+    /// Errors of the functions; also fails if a function does not return a number.
     pub fn evaluate_columns(&self) -> Result<(), ScriptError> {
         let ColumnReader { functions, looked, is_looking, .. } = &self.0.sensing;
         let steps = self.simulation().counts().steps;
@@ -120,7 +120,7 @@ impl SimulationHandle {
     /// Releases elements whose condition is met, before the next step.
     ///
     /// # Errors
-    /// Errors of the functions; also if one does not return a boolean.
+    /// Errors of the functions; also fails if a function does not return a boolean.
     fn release_due(&self) -> Result<(), ScriptError> {
         let ColumnReader { conditions, is_looking, .. } = &self.0.sensing;
         for Condition { function, release } in conditions {
@@ -150,7 +150,7 @@ impl SimulationHandle {
     /// Evaluates release conditions and controllers for the next step or half step.
     ///
     /// # Errors
-    /// Errors of the functions; also if one does not return a finite number.
+    /// Errors of the functions; also fails if a function does not return a finite number.
     pub(super) fn command(&self) -> Result<(), ScriptError> {
         if !self.simulation().is_paused_in_step() {
             self.release_due()?;
@@ -163,12 +163,12 @@ impl SimulationHandle {
             };
             sensing.told.record(number, time, value);
         }
-        // All outputs take effect together, so that every controller sees the previous outputs of the others.
+        // All outputs take effect together, so that every controller reads the previous outputs of the others.
         sensing.recall(time.next_up());
         Ok(())
     }
 
-    /// Output of a sampled controller: computed at the time of a sample, otherwise held; zero before the first output.
+    /// Output of a sampled controller. It is computed at the time of a sample, and constant in between; zero before the first output.
     fn sampled_command(
         &self,
         number: usize,
@@ -228,7 +228,7 @@ impl SimulationHandle {
         !controllers.is_empty() || conditions.iter().any(waits)
     }
 
-    /// Runs to a time, pausing for recorded steps if functions fill columns, and before every step if functions control the simulation.
+    /// Runs to a time. The run pauses at recorded steps if functions fill columns, and before every step if functions control the simulation.
     pub(super) fn run_with_callbacks(
         &self,
         call: &Call,
@@ -244,7 +244,7 @@ impl SimulationHandle {
         self.restore_after_error(stepped)
     }
 
-    /// Returns the simulation to the start of the step after an error or interruption.
+    /// Restores the start of the step after an error or interruption.
     fn restore_after_error(&self, ran: Result<(), ScriptError>) -> Result<(), ScriptError> {
         ran.inspect_err(|_| self.0.simulation.borrow_mut().restore_step_start())
     }
@@ -253,7 +253,7 @@ impl SimulationHandle {
         let steps = self.simulation().counts().steps;
         loop {
             self.command()?;
-            // The number of substeps is not known in advance; the step is always completed.
+            // The number of substeps is not known in advance, so the step is always completed.
             let mut watch = ProgressMonitor::new(call.context(), f64::NEG_INFINITY);
             watch.pauses = self.varies_steps() && self.is_controlled();
             let stepped = self.0.simulation.borrow_mut().step(&mut watch);

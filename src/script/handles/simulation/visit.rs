@@ -13,14 +13,15 @@ pub type Look<'l> = &'l mut dyn FnMut(usize, &Simulation) -> Result<(), ScriptEr
 pub enum Visited {
     /// All states were reproduced.
     All,
-    /// The repeated run differs, first at this time, because a script function changed the simulation during the run or its initial state
+    /// The repeated run differs from the original, first at this time. Either a script function changed the simulation during the run, or the initial
+    /// state differs from the scene.
     /// differs from the scene.
     Diverged(f64),
 }
 
 impl SimulationHandle {
-    /// Calls `look` with the states of history rows, by increasing times. If a state is not stored, the run is repeated in a copy, and
-    /// energies and momenta are compared bit by bit; this takes time and counts steps.
+    /// Calls `look` with the states of rows of the history, in the order of time. If a state is not stored, the run is repeated in a copy, which
+    /// takes time and counts steps. Its energies and momenta are compared with the original bit by bit.
     ///
     /// # Errors
     /// Fails if a step fails that did not fail before, the run is stopped, or `look` fails.
@@ -41,7 +42,7 @@ impl SimulationHandle {
         }
     }
 
-    /// From last to first, because the copy can only go back.
+    /// The states are restored from last to first, because the copy can only go back.
     fn for_each_stored(&self, steps: &[usize], look: Look) -> Result<Visited, ScriptError> {
         let revisit = Revisit::at_present(self)?;
         for (index, steps) in steps.iter().enumerate().rev() {

@@ -1,4 +1,4 @@
-//! Lookup of help subjects; a name may refer to several.
+//! Lookup of help subjects. A name may refer to several subjects.
 
 use std::collections::BTreeSet;
 
@@ -37,8 +37,8 @@ pub enum HelpSubject {
 
 /// All subjects of `name`, the most likely first.
 ///
-/// `simulation.run_to` is the method of that type. If the prefix is not a type, such as the variable in `sim.run_to`, the methods of all
-/// types are returned.
+/// For `simulation.run_to` the subject is the method of that type. If the prefix is not a type, as in `sim.run_to`, the methods of all types are
+/// returned.
 pub fn find(catalog: &Catalog, name: &str) -> Vec<HelpSubject> {
     let name = name.trim();
     let name = name.strip_suffix("()").filter(|name| !name.is_empty()).unwrap_or(name);
@@ -144,7 +144,7 @@ fn is_member(subject: HelpSubject) -> bool {
     matches!(subject, HelpSubject::Row(..) | HelpSubject::BuiltIn(_))
 }
 
-/// Returns true for methods and properties of the type; functions can follow any value.
+/// Returns true for methods and properties of the type, and for functions, which can follow any value.
 fn belongs_to(subject: HelpSubject, owner: &str) -> bool {
     match subject {
         HelpSubject::Row(_, row) => match row.form {

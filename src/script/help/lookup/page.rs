@@ -28,7 +28,7 @@ pub enum HelpSection {
         /// Text with styles.
         spans: Vec<StyledText>,
     },
-    /// A script; long lines are broken where this is harmless.
+    /// A script. Long lines are broken where this does not change the meaning.
     Code(String),
 }
 
@@ -87,7 +87,7 @@ impl HelpPage {
 
     /// Appends a paragraph.
     pub fn paragraph(&mut self, text: &str) {
-        // Backquotes mark code in Markdown; they are dropped for terminals.
+        // Backquotes mark code in Markdown. They are removed for terminals.
         let spans = vec![StyledText::plain(text.replace('`', ""))];
         self.parts.push(HelpSection::Words { indent: 0, hang: 0, spans });
     }
@@ -159,7 +159,7 @@ fn wrap(
     text.push('\n');
 }
 
-/// Splits spans into words; spans join without a blank unless they contain one.
+/// Splits spans into words. Consecutive spans are joined unless there is a blank between them.
 fn words(spans: &[StyledText]) -> Vec<Vec<StyledText>> {
     let mut words = vec![Vec::new()];
     for span in spans {
@@ -178,8 +178,7 @@ fn words(spans: &[StyledText]) -> Vec<Vec<StyledText>> {
     words
 }
 
-/// Breaks a line of a script at `width`, after a comma, semicolon, brace, && or || that is followed by a blank outside strings. A line with
-/// a comment is not broken.
+/// Breaks a line of a script at `width`, at a blank outside strings after a comma, semicolon, brace, && or ||. A line with a comment is not broken.
 pub(super) fn wrapped_code(line: &str, width: usize) -> Vec<String> {
     let mut pieces = Vec::new();
     let mut rest = line.to_owned();

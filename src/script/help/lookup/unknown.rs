@@ -14,7 +14,7 @@ const MOST_MENTIONS: usize = 8;
 pub struct UnknownTopic {
     /// The name.
     pub name: String,
-    /// Nearest name with help, if one is near.
+    /// Most similar name with help, if one is similar enough.
     pub meant: Option<&'static str>,
     /// Names with help that contain the word.
     pub related: Vec<&'static str>,
@@ -27,7 +27,7 @@ impl UnknownTopic {
     pub fn new(catalog: &Catalog, name: &str) -> Self {
         let known = names(catalog);
         let related = related(name, known.iter().copied());
-        // A known word is not misspelt.
+        // A word that occurs in other names is not misspelt.
         let meant = if related.is_empty() { nearest(name, known) } else { None };
         Self { name: name.to_owned(), meant, related, mentions: mentions(catalog, name) }
     }
@@ -61,7 +61,7 @@ impl fmt::Display for UnknownTopic {
 
 fn mentions(catalog: &Catalog, word: &str) -> Vec<&'static str> {
     let word = word.trim().to_lowercase();
-    // Shorter words would be found nearly everywhere.
+    // Shorter words would be found in nearly all texts.
     if word.chars().count() < 3 {
         return Vec::new();
     }

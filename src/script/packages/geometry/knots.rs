@@ -132,7 +132,7 @@ const KEYS: &[Parameter] = &[
         .optional(),
 ];
 
-/// Longer knot vectors are abbreviated.
+/// Number of knots above which a knot vector is abbreviated.
 const PRINTED: usize = 16;
 
 impl Scripted for Rc<KnotVector> {

@@ -41,7 +41,7 @@ pub const SYMBOLS: Parameter = boolean("symbols")
 
 const DIGITS: usize = 6;
 
-/// Error of an option, independent of whether it comes from a call or a command.
+/// Error of an option of a call or of a command at the prompt.
 pub struct OptionError {
     key: String,
     told: String,
@@ -138,7 +138,7 @@ pub fn labels(options: &Options, count: usize) -> Result<Option<Vec<String>>, Op
     labels.map(Some).ok_or_else(|| wrong(told(), "for example labels: [\"first\", \"second\"]"))
 }
 
-/// Curves from an argument: an array of numbers is one curve, an array of arrays several. Values that are not finite are gaps.
+/// Curves from an argument: an array of numbers is one curve, an array of arrays several. Values that are not finite become gaps.
 pub fn curves(call: &Call, name: &str, at: usize) -> Result<Vec<Vec<f64>>, ScriptError> {
     let given = call.array(name)?;
     let is_many = !given.is_empty() && given.iter().all(Dynamic::is_array);

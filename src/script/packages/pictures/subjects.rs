@@ -57,7 +57,7 @@ pub fn histories(call: &Call) -> Result<Vec<HistoryHandle>, ScriptError> {
     }
 }
 
-/// Histories of the argument with rows between the ends of runs.
+/// Histories of the argument, restricted to those with rows between the ends of runs.
 pub fn histories_over_time(call: &Call) -> Result<Vec<HistoryHandle>, ScriptError> {
     let histories = histories(call)?;
     histories.iter().try_for_each(|history| expect_rows_between(call, &history.of))?;

@@ -7,7 +7,7 @@ use crate::joints::{EndAction, Slider, StartVelocities, TrackBeam, TrackDirectio
 use crate::script::bindings::kind::Details;
 use crate::system::{BeamDefinition, Scene};
 
-/// Summary of a scene: its objects; empty kinds are left out.
+/// Summary of a scene: its objects by kind.
 pub fn of_scene(scene: &Scene) -> Details {
     let beam = |beam: &BeamDefinition| format!("{} ({})", beam.name, number(beam.axis.length()));
     let loads: Vec<String> = scene.loads().map(|load| load.name.clone()).collect();

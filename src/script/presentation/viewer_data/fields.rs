@@ -1,4 +1,4 @@
-//! Quantities that colour beams in the viewer: from recorded configurations, or from full states.
+//! Quantities that colour beams in the viewer, from recorded configurations or from full states.
 
 use super::FrameSelection;
 use crate::geometry::Vec2;
@@ -24,7 +24,8 @@ const fn kind(name: &'static str, source: FieldSource) -> FieldKind {
     FieldKind { name, source }
 }
 
-/// All fields, in the order of [`FIELDS`]. Stretch: relative elongation of the axis [-]. Curvature: change since undeformed [1/length].
+/// All fields, in the order of [`FIELDS`]. The stretch is the relative elongation of the axis [-]; the curvature is its change from the undeformed
+/// axis [1/length].
 const KINDS: [FieldKind; 7] = [
     kind("speed", FieldSource::AdjacentFrames),
     kind("M", FieldSource::State),
@@ -45,7 +46,7 @@ pub struct FieldReader {
 }
 
 impl FieldReader {
-    /// Creates storage for this many frames of the named fields; `None` if no field needs states.
+    /// Creates storage for the named fields in this number of frames; `None` if no field needs states.
     ///
     /// # Errors
     /// Fails if an axis has a point without a tangent.

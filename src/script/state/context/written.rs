@@ -9,10 +9,10 @@ use crate::script::state::files::WrittenFile;
 use crate::script::state::limits::Meter;
 use crate::script::state::settings::RunMode;
 
-/// Memory per byte of a file: the content and its parsed form.
+/// Memory per byte of a file, for the content and its parsed form.
 const TIMES_ITS_LENGTH: u64 = 4;
 
-/// A file whose written bytes are counted while the limit permits.
+/// A file whose written bytes are counted, up to the limit.
 struct CountedFile<'c> {
     file: &'c mut dyn Write,
     meter: &'c Meter,
@@ -32,8 +32,8 @@ impl Write for CountedFile<'_> {
 }
 
 impl Context {
-    /// Writes a file in the output folder. An existing file that was not written by this program is kept under another name, and the user
-    /// is told.
+    /// Writes a file in the output folder. An existing file that was not written by this program is kept under another name, and a message tells the
+    /// user.
     ///
     /// # Errors
     /// Fails if it cannot be written, or a limit of the run is exceeded.
@@ -72,7 +72,7 @@ impl Context {
     /// Reads a file of the output folder or of the script's folder, up to the memory limit.
     ///
     /// # Errors
-    /// Fails if there is none, or it is too long or no regular file.
+    /// Fails if the file does not exist, is too long, or is not a regular file.
     pub fn read_file(&self, name: &str) -> Result<Vec<u8>, ScriptError> {
         let room = self.meter().limits().memory.map(|bytes| bytes / TIMES_ITS_LENGTH);
         self.output().read(name, room)

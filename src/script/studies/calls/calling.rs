@@ -11,9 +11,9 @@ const LONGEST_REASON: usize = 300;
 
 pub enum CallOutcome {
     Returned(Dynamic),
-    /// The function threw, took too long, or a check failed; with the reason.
+    /// The function threw an error, took too long, or a check failed, for this reason.
     Failed(String),
-    /// The script seems to be wrong; with the reason.
+    /// The script seems to be wrong, for this reason.
     Wrong(String),
 }
 
@@ -85,7 +85,7 @@ pub fn thrown(error: &EvalAltResult) -> Option<String> {
     }
 }
 
-/// A reason in one line that fits into a table.
+/// A reason, shortened to one line of a table.
 pub fn shortened(reason: &str) -> String {
     let line = brief(reason.replace(['\n', '\r'], " "));
     match line.char_indices().nth(LONGEST_REASON) {

@@ -1,4 +1,4 @@
-//! Evaluation of a function of parameters at several points, by worker threads if there is a complete script, otherwise on this thread.
+//! Evaluation of a function of parameters at several points: by worker threads if there is a complete script, otherwise on this thread.
 
 use std::time::Duration;
 
@@ -17,9 +17,9 @@ const NO_FILES: &str = "a run of a study cannot write files: return the data as 
 
 pub enum FunctionResult {
     Numbers(Vec<f64>),
-    /// Failure, with the reason.
+    /// Failure for this reason.
     Failed(String),
-    /// The script seems to be wrong; with the reason.
+    /// The script seems to be wrong, for this reason.
     Wrong(String),
 }
 
@@ -37,7 +37,7 @@ pub struct FunctionQuery<'q> {
 #[derive(Clone)]
 enum QueryPoint {
     Value(Vec<f64>),
-    /// Derivatives at a point; each parameter with its step.
+    /// Derivatives at a point, given by the value and the perturbation of each parameter.
     Slopes(Vec<(f64, f64)>),
 }
 
@@ -132,7 +132,7 @@ impl FunctionQuery<'_> {
         self.function.call_here(calling, self.key, self.values(point))
     }
 
-    /// Error of a function that fails at a required point. The call is repeated in the script's engine to find the position.
+    /// Error of a function that fails at a required point. The function is called again in the script's engine, to find the position of the error.
     pub fn located_error(&self, calling: &Call, point: &[f64], reason: &str) -> ScriptError {
         let found =
             calling.context().without_output_or_files(NO_FILES, || self.here(calling, point));
@@ -174,8 +174,8 @@ impl<'w> Evaluator<'w> {
         Ok(found)
     }
 
-    /// Values and derivatives with respect to all parameters at a point, from one call with variant numbers. Each parameter comes with its
-    /// step. The inner error is the reason for missing derivatives.
+    /// Values and derivatives with respect to all parameters at a point, from one call with values that depend on parameters. `point` contains the
+    /// value and the perturbation of each parameter. The inner error is the reason for missing derivatives.
     ///
     /// # Errors
     /// Fails if the run is stopped.

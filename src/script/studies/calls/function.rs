@@ -1,4 +1,4 @@
-//! A function called by a study with named values: captured variables and used names.
+//! A function that a study calls with named values: captured variables and used names.
 
 use std::collections::BTreeSet;
 
@@ -15,7 +15,7 @@ pub struct RunFunction {
     pub name: String,
     /// Names and values of the captured variables.
     pub captured: Vec<(String, Portable)>,
-    /// Further arguments after the map of values.
+    /// Further arguments, which follow the map of values.
     pub besides: Vec<Portable>,
 }
 
@@ -37,7 +37,7 @@ impl RunFunction {
     /// Reads the function given for an option key.
     ///
     /// # Errors
-    /// Fails if it has captured a value that cannot be sent to other threads; the error points at its use.
+    /// Fails if it has captured a value that cannot be sent to other threads. The error has the position at which the value is used.
     pub fn read(call: &Call, key: &str, function: &FnPtr) -> Result<Self, ScriptError> {
         let Some(definition) = call.definition(function) else {
             let told = format!(
@@ -103,7 +103,7 @@ impl RunFunction {
         Ok(())
     }
 
-    /// Captured values and arguments on this thread; `function_of` finds functions.
+    /// Captured values and arguments on this thread. `function_of` finds functions.
     ///
     /// `None` if a function is not found.
     pub fn arguments(
@@ -164,7 +164,7 @@ impl RunFunction {
         Err(call.error(told).hint(hint).at(CallPart::Key(unread.to_owned())))
     }
 
-    /// First name that the function does not read from its map; a function that passes the map on may read any.
+    /// First name that the function does not read from its map. A function that passes on the map may read any name.
     fn unread<'n>(
         call: &Call,
         function: &FnPtr,
@@ -254,7 +254,7 @@ impl ParameterReading {
     }
 }
 
-/// Name read from a map by the following access: `.mass`, `["mass"]`, or the start of a chain.
+/// Name that the following access reads from a map: `.mass`, `["mass"]`, or the start of a chain.
 fn name_read(behind: &Expr) -> Option<String> {
     match behind {
         Expr::Property(property, _) => Some(property.2.to_string()),

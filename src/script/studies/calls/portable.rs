@@ -57,7 +57,7 @@ pub struct NotPortable {
 type Stored = (SectionVariation, Option<Solid>, Option<Relaxation>);
 
 impl Portable {
-    /// Converts a value; `parameters_of` returns the number of parameters of a script function, including captured ones.
+    /// Converts a value. `parameters_of` returns the number of parameters of a script function, including captured variables.
     ///
     /// # Errors
     /// Fails if it or a part of it cannot be converted.
@@ -109,7 +109,7 @@ impl Portable {
             .ok_or_else(|| NotPortable { kind: engine.map_type_name(value.type_name()).to_owned() })
     }
 
-    /// Restores the value on this thread; `function_of` finds functions by name and number of parameters. `None` if one is not found.
+    /// Restores the value on this thread. `function_of` finds functions by name and number of parameters. `None` if a function is not found.
     pub fn value(&self, function_of: &dyn Fn(&str, usize) -> Option<FnPtr>) -> Option<Dynamic> {
         let all = |values: &[Self]| -> Option<Vec<Dynamic>> {
             values.iter().map(|value| value.value(function_of)).collect()
@@ -167,7 +167,7 @@ impl Portable {
         }
     }
 
-    /// Number of the value; booleans count as 0 and 1.
+    /// Numeric value; booleans count as 0 and 1.
     pub fn number(&self) -> Option<f64> {
         match self {
             Self::Boolean(truth) => Some(f64::from(u8::from(*truth))),

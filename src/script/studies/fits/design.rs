@@ -32,9 +32,7 @@ pub enum Objective {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Limit {
     pub name: String,
-    /// Lower bound.
     pub low: Option<f64>,
-    /// Upper bound.
     pub high: Option<f64>,
 }
 
@@ -57,9 +55,9 @@ pub struct BestDesign {
     pub parameters: Vec<(String, f64)>,
     /// Results with these parameters.
     pub results: Vec<(String, f64)>,
-    /// True if the search converged within the number of runs.
+    /// True if the search converged within the allowed number of runs.
     pub is_settled: bool,
-    /// Name of an unbounded parameter that diverged, because the objective decreases without limit.
+    /// Index of an unbounded parameter that diverged, because the objective decreases without limit.
     pub runaway: Option<usize>,
     /// Number of calls of the function.
     pub runs: usize,
@@ -90,7 +88,7 @@ impl Limit {
             let wrong = |what: String| {
                 let told = format!("the constraint on '{name}' {what}");
                 let hint = if value.is_bool() { CONSTRAINT_HINT } else { shape };
-                // The name also occurs in the function; the error must point at the option.
+                // The name also occurs in the function, but the error must have the position of the option.
                 at_key(call, "constraints", told, hint)
             };
             let Some(array) = value.clone().try_cast::<Array>() else {
@@ -129,7 +127,7 @@ impl Limit {
         low.into_iter().chain(self.high.map(|high| (high - value) / self.size()))
     }
 
-    /// Derivatives of these distances from those of the result.
+    /// Derivatives of these distances, from the derivatives of the result.
     pub(super) fn slopes(&self, slopes: &[f64]) -> impl Iterator<Item = Vec<f64>> {
         let along = |sign: f64| slopes.iter().map(|slope| sign * slope / self.size()).collect();
         let low: Option<Vec<f64>> = self.low.map(|_| along(1.0));
@@ -208,7 +206,7 @@ impl DesignRequest<'_> {
             wall: self.wall,
         };
         let start: Vec<f64> = self.ranges.ranges.iter().map(|range| range.first()).collect();
-        // Evaluates the names of the results and reports errors of the first run.
+        // Finds the names of the results, and reports errors of the first run.
         let results = names(&call.context().silently(|| question.here(call, &start))?);
         let place = |name: &str| {
             results.iter().position(|known| known == name).ok_or_else(|| {
@@ -293,7 +291,7 @@ impl DesignRequest<'_> {
 }
 
 impl DesignRequest<'_> {
-    /// Result of a dry run: the start values, at which the function is called.
+    /// Result of a dry run: the start values, at which the function is called once.
     ///
     /// # Errors
     /// Errors of the function.

@@ -44,7 +44,7 @@ pub struct FitRequest<'o> {
     pub weights: Option<Vec<f64>>,
     /// Confidence level of the intervals.
     pub confidence: f64,
-    /// Step of finite differences, relative to the size of a parameter.
+    /// Perturbation for finite differences, relative to the size of a parameter.
     pub step: f64,
     pub derivatives: Derivatives,
     /// Wall-clock limit of a run.
@@ -53,7 +53,7 @@ pub struct FitRequest<'o> {
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Derivatives {
-    /// Derivatives from the runs, or finite differences if they are missing.
+    /// Derivatives from the runs; finite differences if a run provides none.
     Known,
     /// Finite differences of runs, or a derivative-free search.
     Unknown,
@@ -145,7 +145,7 @@ impl FitRequest<'_> {
         Ok(Fit { name, names, fitted, residuals, compared, confidence })
     }
 
-    /// Rejects a function whose number of residuals depends on the parameters.
+    /// Rejects a function for which the number of residuals depends on the parameters.
     fn expect_as_many(
         &self,
         call: &Call,
@@ -169,7 +169,7 @@ impl FitRequest<'_> {
         Err(at_key(call, self.key, told, hint))
     }
 
-    /// Result of a dry run: the start values, at which the function is called.
+    /// Result of a dry run: the start values, at which the function is called once.
     ///
     /// # Errors
     /// Errors of the function.
@@ -315,7 +315,7 @@ impl Fit {
         )
     }
 
-    /// Data and model, if there is one, with the residuals below.
+    /// Data and model curve, if there is a model, with the residuals below.
     pub fn page(&self) -> Page {
         let count = self.residuals.len();
         let places: Vec<f64> = match &self.compared {

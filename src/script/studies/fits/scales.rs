@@ -1,4 +1,4 @@
-//! Scaling of the results of a design for the optimiser: numbers of order one, an objective to be minimised, and non-negative constraints.
+//! Scaling of the results of a design for the optimiser: values of order one, an objective to be minimised, and non-negative constraints.
 
 use std::cell::Cell;
 
@@ -21,7 +21,7 @@ impl<'s> ResultScales<'s> {
 
     /// Divisor of the objective; negative for maximisation.
     fn divisor(&self, goal: f64) -> f64 {
-        // An objective that starts at zero has no magnitude of its own.
+        // If the objective is zero in the first run, it has no magnitude.
         let own = Some(goal.abs()).filter(|size| *size > 0.0).unwrap_or(1.0);
         let size = self.size.get().unwrap_or(own);
         self.size.set(Some(size));
@@ -48,7 +48,7 @@ impl<'s> ResultScales<'s> {
         let (numbers, slopes): (Vec<f64>, Vec<Vec<f64>>) = rows.into_iter().unzip();
         let wanted = || self.limits.iter().map(|(at, _)| *at).chain([self.at]);
         let parameters = slopes.first().map_or(0, Vec::len);
-        // Zero derivatives are accepted later, because they may indicate the optimum.
+        // Zero derivatives are accepted in later runs, because they may indicate the optimum.
         let begins = self.size.get().is_none();
         if begins && (0..parameters).any(|by| wanted().all(|at| slopes[at][by] == 0.0)) {
             return Err("all derivatives by a parameter are zero".into());

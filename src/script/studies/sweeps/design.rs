@@ -54,9 +54,9 @@ enum Spread {
 /// Design of a sweep, and the level values passed to the function.
 pub struct SweepPlan {
     pub design: SweepDesign,
-    /// Level values of each parameter; empty if each row has its own number.
+    /// Level values of each parameter; empty if each row has its own value.
     levels: Vec<Vec<Portable>>,
-    /// Parameters with log-scaled distributions.
+    /// Parameters whose logarithms have the given distributions.
     spread_by_ratios: Vec<String>,
 }
 
@@ -146,7 +146,7 @@ impl SweepPlan {
         rows.into_iter().chain(all).collect()
     }
 
-    /// Returns true if the distribution of a parameter is one of its logarithm.
+    /// Returns true if the distribution of a parameter is that of its logarithm.
     pub fn is_spread_by_ratios(&self, name: &str) -> bool {
         self.spread_by_ratios.iter().any(|of| of == name)
     }
@@ -216,7 +216,7 @@ impl ParameterInput {
 }
 
 impl Spread {
-    /// Values of a parameter: at sample points, or of a grid, in which the previous parameters repeat after `repeats` rows.
+    /// Values of a parameter: at sample points, or on a grid, on which the previous parameters repeat after `repeats` rows.
     fn values(self, points: Option<Vec<f64>>, repeats: &mut usize) -> (SweptValues, Vec<Portable>) {
         match self {
             Self::Distribution(distribution) => {
@@ -232,7 +232,7 @@ impl Spread {
                         *repeats /= count;
                         Choice::Grid(*repeats)
                     }
-                    // All levels are equally likely.
+                    // All levels have the same probability.
                     Some(points) => {
                         let level = |point: f64| ((point * count as f64) as usize).min(count - 1);
                         Choice::Drawn(points.into_iter().map(|point| level(point) as u32).collect())

@@ -10,18 +10,18 @@ use crate::output::{
 };
 use crate::sampling::Random;
 
-/// Maximum number of curves; more are drawn as mean, least and largest.
+/// Maximum number of curves. A larger number is replaced by mean, smallest and largest values.
 const MOST_CURVES: usize = 8;
-/// Maximum number of points in a scatter plot; more are thinned at random.
+/// Maximum number of points in a scatter plot. From a larger number, a random subset is drawn.
 const MOST_POINTS: usize = 2000;
 const MOST_POINTS_AMONG: usize = 500;
 /// Cells per axis for binning points.
 const CELLS: usize = 20;
 /// Maximum number of columns in a scatter matrix.
 pub const MOST_COLUMNS: usize = 6;
-/// Maximum number of distinct values with their own bins in a histogram; each must occur twice on average.
+/// Maximum number of distinct values with their own bins in a histogram. On average, each must occur twice.
 const MOST_VALUES: usize = 64;
-/// Minimum ratio of the ends of a logarithmic axis.
+/// Smallest ratio of the ends of a logarithmic axis.
 const DECADE: f64 = 10.0;
 
 /// Source of pictures of a sweep.
@@ -57,8 +57,8 @@ fn pairs(table: &SweepTable, x: SweepColumn, y: SweepColumn) -> Vec<(usize, f64,
     all.filter(|(_, x, y)| x.is_finite() && y.is_finite()).collect()
 }
 
-/// Random subset of at most `most` items, in order, with equal probability and the same in every run (C. T. Fan, M. E. Muller, I. Rezucha,
-/// 1962). A regular subset of a grid or a Sobol' sequence would be a sequence of its own and cover only a part of the range.
+/// Random subset of at most `most` items, in order, with equal probability and the same in every run (C. T. Fan, M. E. Muller, I. Rezucha, 1962). A
+/// regular subset of a grid or a Sobol' sequence could cover only a part of the range.
 fn thinned<T: Copy>(all: &[T], most: usize) -> Vec<T> {
     let mut random = Random::seeded(0);
     let mut wanted = most.min(all.len());
@@ -76,7 +76,7 @@ impl Picture<'_> {
         self.table.sweep().column(name)
     }
 
-    /// Scale of a column: logarithmic if its values have equal ratios, or a log distribution, over at least a decade.
+    /// Scale of a column. It is logarithmic if its values have equal ratios, or its logarithm has a distribution, over at least a decade.
     fn scale(&self, name: &str, column: SweepColumn) -> AxisScale {
         let by_ratios = match levels(column) {
             Some(middles) => {
@@ -91,13 +91,13 @@ impl Picture<'_> {
         }
     }
 
-    /// Returns true if all of these columns have numbers in some row.
+    /// Returns true if some row has numbers in all of these columns.
     pub fn has_rows(&self, names: &[&str]) -> bool {
         let columns: Vec<_> = names.iter().filter_map(|name| self.column(name)).collect();
         self.table.rows().any(|row| columns.iter().all(|column| column.number(row).is_finite()))
     }
 
-    /// One column over another: curves over grid values, otherwise points. `None` if a column is missing.
+    /// One column over another: curves for values on a grid, otherwise points. `None` if a column is missing.
     pub fn over(&self, x_name: &str, y_name: &str) -> Option<LineChart> {
         let (x, y) = (self.column(x_name)?, self.column(y_name)?);
         let found = pairs(self.table, x, y);
@@ -119,7 +119,7 @@ impl Picture<'_> {
         })
     }
 
-    /// One curve per combination of the other parameters, or a summary of all.
+    /// One curve per combination of the other parameters, or a summary of all curves.
     fn curves(&self, chart: LineChart, x_name: &str, found: &[(usize, f64, f64)]) -> LineChart {
         let others: Vec<_> =
             self.table.sweep().design.parameters.iter().filter(|of| of.name != x_name).collect();
@@ -149,7 +149,7 @@ impl Picture<'_> {
         names.into_iter().map(curve).fold(chart, LineChart::series)
     }
 
-    /// Mean, least and largest over all rows with the same value.
+    /// Mean, smallest and largest values over all rows with the same abscissa.
     fn band(chart: LineChart, found: &[(usize, f64, f64)], count: usize) -> LineChart {
         let mut of_value: BTreeMap<u64, (f64, Vec<f64>)> = BTreeMap::new();
         for (_, x, y) in found {
@@ -170,7 +170,7 @@ impl Picture<'_> {
             .caption(format!("over {count} combinations of the other parameters"))
     }
 
-    /// A column as colours over two others: over grid values, or over binned points with the mean per cell. `None` if a column is missing.
+    /// A column as colours over two others: for values on a grid, or for binned points with the mean of each cell. `None` if a column is missing.
     pub fn map(&self, x_name: &str, y_name: &str, z_name: &str) -> Option<LevelMap> {
         let [x, y, z] = [self.column(x_name)?, self.column(y_name)?, self.column(z_name)?];
         let rows: Vec<[f64; 3]> =
@@ -274,7 +274,7 @@ struct Class {
     count: usize,
 }
 
-/// Bins of a histogram: one per value if few values repeat often, bounded halfway between neighbours; otherwise equal ones.
+/// Bins of a histogram. If few values repeat often, each value has a bin, bounded halfway between neighbours; otherwise all bins have equal widths.
 fn classes(mut numbers: Vec<f64>) -> Vec<Class> {
     numbers.sort_by(f64::total_cmp);
     let (Some(low), Some(high)) = (numbers.first().copied(), numbers.last().copied()) else {

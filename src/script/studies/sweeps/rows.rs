@@ -11,9 +11,9 @@ use crate::script::studies::calls::calling::CallOutcome;
 pub enum RowOutcome {
     /// Names and numbers of the returned map.
     Computed(Arc<[String]>, Vec<f64>),
-    /// The function threw, or returned something that is not a number; with the reason.
+    /// The function threw an error, or returned a value that is not a number, for this reason.
     Failed(String),
-    /// The script seems to be wrong; with the reason.
+    /// The script seems to be wrong, for this reason.
     Wrong(String),
 }
 

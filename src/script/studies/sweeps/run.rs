@@ -21,7 +21,7 @@ use crate::script::studies::plan::at_key;
 
 const NO_FILES: &str = "a run of a sweep cannot write files: return the data in its map";
 
-/// Rows queued ahead per worker, enough to keep it busy while results are collected.
+/// Number of rows queued per worker, enough that workers do not wait while results are collected.
 const AHEAD: usize = 4096;
 
 pub struct SweepRequest<'o> {
@@ -36,8 +36,8 @@ impl SweepRequest<'_> {
     /// Runs all rows.
     ///
     /// # Errors
-    /// Fails if the function cannot be sent to workers, is wrong, or fails in all rows; or if the run is stopped, with finished rows in the
-    /// journal.
+    /// Fails if the function cannot be sent to workers, is wrong, or fails in all rows. Also fails if the run is stopped; finished rows are then in
+    /// the journal.
     pub fn run(self, call: &Call) -> Result<FinishedSweep, ScriptError> {
         let context = call.context();
         let function = RunFunction::read(call, "run", self.function)?;
@@ -111,7 +111,7 @@ impl SweepRequest<'_> {
         driven.map_err(SweepError::Other)?
     }
 
-    /// Runs the rows one by one in the engine of the script, if there is no complete script for workers.
+    /// Runs the rows one by one in the engine of the script, if workers cannot be used because there is no complete script.
     fn on_this_thread(
         &self,
         call: &Call,
@@ -151,7 +151,8 @@ impl SweepRequest<'_> {
         RunFunction::read(call, "run", self.function)?.call_here(call, "run", values)
     }
 
-    /// Error of a row for which the function seems wrong. The call is repeated in the script's engine to find the position.
+    /// Error of a row for which the function seems to be wrong. The function is called again in the script's engine, to find the position of the
+    /// error.
     fn located_error(
         &self,
         call: &Call,
@@ -189,8 +190,8 @@ impl SweepRequest<'_> {
     }
 }
 
-/// Sends the unknown rows to the workers, a few ahead, and receives results until all are known or the run is stopped. Until the first row
-/// has completed, which defines the names of the results, results are processed in row order, so that the outcome is deterministic.
+/// Sends the unknown rows to the workers, a limited number in advance, and receives results until all are known or the run is stopped. The first
+/// completed row defines the names of the results. Until then, results are processed in the order of the rows, so that the outcome is deterministic.
 fn drive(
     crew: &WorkerPool<usize, CallWork<RowOutcome>>,
     context: &Context,

@@ -8,9 +8,9 @@ use crate::script::state::parts::StudyPart;
 /// State of the rows.
 pub struct SweepProgress {
     pub results: SweepResults,
-    /// True for rows with a result, or outside of the part.
+    /// True for rows with a result, and for rows of other parts.
     is_known: Vec<bool>,
-    /// Number of rows with a result, or outside of the part.
+    /// Number of rows with a result or of other parts.
     pub done: usize,
     pub rows: usize,
     /// First completed row, which defines the names of the results.
@@ -19,13 +19,13 @@ pub struct SweepProgress {
 
 /// Reason for aborting a sweep.
 pub enum SweepError {
-    /// The function seems wrong: row and message.
+    /// The function seems to be wrong: row and message.
     Row(usize, String),
     Other(ScriptError),
 }
 
 impl SweepProgress {
-    /// A ledger without results.
+    /// State without results.
     pub fn new(rows: usize) -> Self {
         let results = SweepResults::default();
         Self { results, is_known: vec![false; rows], done: 0, rows, model: None }
@@ -50,7 +50,7 @@ impl SweepProgress {
         }
     }
 
-    /// Returns true if the row is done or belongs to another part.
+    /// Returns true if the row has a result or belongs to another part.
     pub fn knows(&self, row: usize) -> bool {
         self.is_known[row]
     }
@@ -64,7 +64,7 @@ impl SweepProgress {
         is_new
     }
 
-    /// Reads a journal entry; entries that do not match are ignored.
+    /// Reads a journal entry. Entries that do not match are ignored.
     pub fn recall(&mut self, entry: RowEntry) {
         match entry {
             RowEntry::Sweep { .. } => (),
@@ -92,7 +92,7 @@ impl SweepProgress {
         }
     }
 
-    /// Records the result of a row; returns the entries for the journal.
+    /// Records the result of a row. Returns the entries for the journal.
     pub fn record_result(
         &mut self,
         at: usize,

@@ -1,4 +1,4 @@
-//! Table of a sweep for scripts, programs and people.
+//! Table of a sweep, for scripts, other programs and users.
 
 use std::io;
 use std::rc::Rc;
@@ -17,7 +17,7 @@ pub const FAILURE: &str = "failure";
 const SHOWN: (usize, usize) = (12, 4);
 const DIGITS: usize = 6;
 
-/// A finished sweep with the values passed to its function.
+/// A finished sweep, with the values with which its function was called.
 pub struct FinishedSweep {
     pub sweep: Sweep,
     pub plan: SweepPlan,
@@ -48,7 +48,7 @@ impl SweepTable {
         self.chosen.is_some()
     }
 
-    /// Returns true if the distribution of a parameter is one of its logarithm.
+    /// Returns true if the distribution of a parameter is that of its logarithm.
     pub fn is_spread_by_ratios(&self, name: &str) -> bool {
         self.swept.plan.is_spread_by_ratios(name)
     }
@@ -136,7 +136,7 @@ impl SweepTable {
         NpzArchive { arrays: self.sweep().names().filter_map(column).collect() }
     }
 
-    /// Writes the table as CSV, row by row, with constant memory.
+    /// Writes the table as CSV, row by row. The memory does not depend on the number of rows.
     ///
     /// # Errors
     /// Fails if it cannot be written.
@@ -182,7 +182,7 @@ impl SweepTable {
 }
 
 impl FinishedSweep {
-    /// Short summary: number of completed runs, and the range of each result with its parameters.
+    /// Short summary: number of completed runs, and the range of each result with the parameters at its ends.
     pub fn summary(&self) -> String {
         let Sweep { name, design, results } = &self.sweep;
         let failed = results.failures().len();
@@ -193,7 +193,7 @@ impl FinishedSweep {
             let Some(column) = results.column(name) else { continue };
             let found = || column.iter().copied().enumerate().filter(|(_, x)| x.is_finite());
             let least = found().min_by(|a, b| a.1.total_cmp(&b.1));
-            // The first of equal values.
+            // Of equal values, the first is used.
             let largest = found().rev().max_by(|a, b| a.1.total_cmp(&b.1));
             let count = found().count().max(1);
             let mean = found().map(|(_, x)| x / count as f64).sum::<f64>();
