@@ -148,7 +148,7 @@ pub const TABLE: BindingTable = BindingTable {
         method(SCENE, "gravity", &[point("acceleration").unit("length/time²")], |call| {
             let gravity = call.point("acceleration")?;
             let handle = call.receiver::<SceneHandle>()?;
-            let earlier = std::mem::replace(&mut handle.scene().borrow_mut().gravity, gravity);
+            let earlier = std::mem::replace(&mut handle.change().gravity, gravity);
             if earlier != Vec2::zeros() && earlier != gravity {
                 let name = handle.scene().borrow().name.clone();
                 report_replaced(call, &format!("the gravity of '{name}'"), (earlier, gravity));
@@ -237,10 +237,10 @@ fn beam(call: &mut Call) -> Result<Dynamic, ScriptError> {
         section: variation,
         motion,
     };
-    let added = scene.scene().borrow_mut().add_beam(definition);
+    let added = scene.change().add_beam(definition);
     let index = added.map_err(|error| ScriptError::from(error).at(CallPart::Key("name".into())))?;
     if let Some(relaxation) = relaxation {
-        scene.scene().borrow_mut().add_damping(index, relaxation)?;
+        scene.change().add_damping(index, relaxation)?;
     }
     warn_about_taper(call, &scene, index)?;
     // Variant 0 is evaluated last, after the beams of the side variants exist.
@@ -281,7 +281,7 @@ fn particle(call: &mut Call) -> Result<Dynamic, ScriptError> {
         name: name.unwrap_or_else(|| scene.scene().borrow().free_name("particle")),
         position: call.point("position")?,
     };
-    let added = scene.scene().borrow_mut().add_particle(definition, call.number("mass")?);
+    let added = scene.change().add_particle(definition, call.number("mass")?);
     let station = added.map_err(|error| match error {
         SystemError::Value { .. } => ScriptError::from(error).at(CallPart::Argument(1)),
         _ => ScriptError::from(error).at(CallPart::Key("name".into())),
@@ -289,7 +289,7 @@ fn particle(call: &mut Call) -> Result<Dynamic, ScriptError> {
     if options.has("velocity") {
         let velocity = options.point("velocity")?;
         let moving = StationVelocity { station, velocity, spin: None };
-        scene.scene().borrow_mut().velocities.push(moving);
+        scene.change().velocities.push(moving);
     }
     Ok(Dynamic::from(StationHandle { scene, station }))
 }
