@@ -30,6 +30,8 @@ pub struct SceneHandle {
     controllers: Rc<RefCell<Vec<Rc<Controller>>>>,
     /// Release conditions, with the index of the release.
     conditions: Rc<RefCell<Vec<Condition>>>,
+    /// True after the note on what modes of the scene leave out.
+    is_told_of_modes: Rc<Cell<bool>>,
 }
 
 struct Variants {
@@ -79,7 +81,13 @@ impl SceneHandle {
             functions: Rc::default(),
             controllers: Rc::default(),
             conditions: Rc::default(),
+            is_told_of_modes: Rc::default(),
         }
+    }
+
+    /// Returns true the first time it is called, for a note on modes that is printed once.
+    pub fn begins_to_tell_of_modes(&self) -> bool {
+        !self.is_told_of_modes.replace(true)
     }
 
     pub fn scene(&self) -> &RefCell<Scene> {

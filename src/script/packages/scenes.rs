@@ -179,6 +179,9 @@ pub const JOINT: Type = Type::of::<JointHandle>();
 
 const SPANS: usize = 16;
 
+/// Relative difference of the lengths of a beam on its mesh and as drawn above which a warning is given.
+const MISSED_LENGTH: f64 = 0.01;
+
 /// Relative error of a varying section on its mesh above which a warning is given.
 const TAPER_TOLERANCE: f64 = 5e-3;
 
@@ -243,6 +246,7 @@ fn beam(call: &mut Call) -> Result<Dynamic, ScriptError> {
         scene.change().add_damping(index, relaxation)?;
     }
     warn_about_taper(call, &scene, index)?;
+    warn_about_length(call, &scene, index)?;
     // Variant 0 is evaluated last, after the beams of the side variants exist.
     scene.expect_constant_length(index).map_err(|error| error.at(CallPart::Key("axis".into())))?;
     Ok(Dynamic::from(BeamHandle { scene, index }))
@@ -269,6 +273,23 @@ fn warn_about_taper(call: &Call, scene: &SceneHandle, index: usize) -> Result<()
         quadrature points: {}. Place knots where the section jumps or bends, knots(3, […]), \
         use more spans, or join separate beams there",
         told.join(", ")
+    ));
+    Ok(())
+}
+
+/// Warns if a beam on its mesh is longer or shorter than its axis.
+fn warn_about_length(call: &Call, scene: &SceneHandle, index: usize) -> Result<(), ScriptError> {
+    let scene = scene.scene().borrow();
+    let beam = &scene.beams[index];
+    let share = beam.meshed_length()? / beam.axis.length();
+    if (share - 1.0).abs() <= MISSED_LENGTH {
+        return Ok(());
+    }
+    call.context().print_message(&format!(
+        "note: the mesh of beam '{}' is too coarse for its curved axis: its length and mass are \
+        {} of those of the axis; use more spans or a higher degree",
+        beam.name,
+        significant(share, 3)
     ));
     Ok(())
 }

@@ -1,6 +1,6 @@
 //! Interface of elements that apply forces to bodies.
 
-use super::WorkAndImpulse;
+use super::{MissedChange, WorkAndImpulse};
 use crate::beams::{Collocation, RotationIncrement};
 use crate::integrators::{Interval, Method, Stage};
 use crate::linalg::BandedMatrix;
@@ -66,6 +66,11 @@ pub trait ExternalForce {
     /// Returns true if the value may jump at this time.
     fn may_jump_at(&self, _time: f64) -> bool {
         false
+    }
+
+    /// Largest change of a schedule that the steps so far have missed.
+    fn missed_change(&self) -> Option<MissedChange> {
+        None
     }
 
     /// Subtracts the forces on bodies in an iterate. Returns the largest force and the largest moment on a control point.

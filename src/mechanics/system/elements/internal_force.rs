@@ -1,6 +1,6 @@
 //! Interface of elements that resist movements: springs, dampers, drag.
 
-use super::{Branch, ShortBounce, TrialState, WorkAndImpulse};
+use super::{Branch, OutsideLaw, ShortBounce, TrialState, WorkAndImpulse};
 use crate::beams::{ForceSummary, Movement, SectionPlace, SpanStiffness};
 use crate::geometry::Vec2;
 use crate::integrators::Interval;
@@ -80,6 +80,9 @@ pub trait InternalForce {
     fn branch(&self, _bodies: &[Body], _rates: &[f64]) -> Option<Branch> {
         None
     }
+
+    /// Passes each value outside of the range of a law to `take`.
+    fn each_outside_law(&self, _take: &mut dyn FnMut(OutsideLaw)) {}
 
     /// Hardest bounce that the steps did not resolve.
     fn short_bounce(&self) -> Option<ShortBounce> {

@@ -307,10 +307,10 @@ impl System {
 fn explain_drive(scene: &Scene, drive: &Drive) -> SystemFeature {
     let names: Vec<&str> = drive.motions().map(|(component, _)| component.name()).collect();
     let place = scene.describe(&drive.station);
-    let functions: usize = drive.schedules().map(|schedule| schedule.functions()).sum();
-    let calls = match functions {
+    let calls: usize = drive.motions().map(|(_, motion)| motion.calls_in_step()).sum();
+    let calls = match calls {
         0 => String::new(),
-        count => format!("; {} function calls per step or substep", 5 * count),
+        count => format!("; {count} function calls per step or substep"),
     };
     let beats = drive.schedules().filter_map(|schedule| schedule.sample_clock());
     let asked: String = beats.map(|beat| format!(", sampled {beat}")).collect();
