@@ -98,8 +98,8 @@ impl Precision {
         self.front().into_iter().find(|row| row.cost_and_error().1 <= error)
     }
 
-    /// Fastest combination with an error of at most `error` [-] for which all smaller steps on the same mesh, at least one, are as
-    /// accurate. Otherwise mesh and step errors may cancel by chance.
+    /// Fastest combination with an error of at most `error` [-], for which there are smaller steps on the same mesh and all of these are as accurate.
+    /// Without such steps, mesh and step errors may cancel by chance.
     pub fn cheapest_confirmed(&self, error: f64) -> Option<&PrecisionRow> {
         let is_right = |row: &&PrecisionRow| row.cost_and_error().1 <= error;
         let is_confirmed = |row: &&PrecisionRow| {

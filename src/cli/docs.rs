@@ -68,13 +68,13 @@ fn write_definitions(catalog: &Catalog, folder: &Path) -> Result<String, Diagnos
     Ok(told)
 }
 
-/// Returns true if a file may be replaced; all definition files contain the same line.
+/// Returns true if a file may be replaced, that is, if it contains the marker line of definition files.
 fn is_definition(path: &Path) -> bool {
     read_text(path, LARGEST_DEFINITION)
         .is_ok_and(|text| text.lines().any(|line| line == "module static;"))
 }
 
-/// A closed pipe is no error.
+/// Prints a text. A closed pipe is not an error.
 fn show(text: &str) -> Exit {
     let mut out = stdout();
     match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {

@@ -33,7 +33,7 @@ pub enum Advice {
 }
 
 impl Workbook {
-    /// Folder of exercises near `here`: that folder or a parent if it is one, otherwise a subfolder. Writes nothing.
+    /// Workbook near the folder `here`: `here` or its nearest parent that is a workbook, otherwise a subfolder of `here`. Writes nothing.
     pub fn near(here: &Path) -> Self {
         // If the path cannot be resolved, it is used as given; errors are reported when it is read.
         let real = here.canonicalize().unwrap_or_else(|_| here.into());

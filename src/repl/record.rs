@@ -47,12 +47,12 @@ impl SessionRecord {
         self.entries.push(RecordedInput::Expression(text.trim().into()));
     }
 
-    /// Records an input that returns early.
+    /// Records an input that ended with an early `return`.
     pub fn returned(&mut self, text: &str) {
         self.entries.push(RecordedInput::EarlyReturn(text.trim().into()));
     }
 
-    /// Records how a failed statement has moved simulations since `before`; returns true if any moved.
+    /// Records the advances and rewinds of simulations by a failed statement, compared with their positions `before`. Returns true if there were any.
     pub fn record_movement(&mut self, before: &[SimulationPositions]) -> bool {
         let known = self.entries.len();
         for was in before {

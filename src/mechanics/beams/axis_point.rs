@@ -6,7 +6,7 @@ use super::simd::{LANES, Lanes};
 use super::span_points::window;
 use crate::geometry::{Basis, Span, Vec2};
 
-/// Smallest speed of the axis along its parameter, relative to its mean.
+/// Smallest derivative of the axis with respect to its parameter, relative to the mean.
 const STANDSTILL: f64 = 1e-9;
 
 #[derive(Debug, Clone)]
@@ -24,7 +24,7 @@ impl<const N: usize> AxisPoint<N> {
     pub(super) const EMPTY: Self = Self { shape: [0.0; N], slope: [0.0; N], weight: 0.0 };
 }
 
-/// Neighbouring points of the axis in lanes, each with the first control point of its span.
+/// Consecutive points of the axis in vector lanes, each with the first control point of its span.
 #[derive(Debug, Clone)]
 pub(super) struct AxisPoints<const N: usize> {
     pub(super) shape: [Lanes; N],
@@ -65,7 +65,7 @@ impl<const N: usize> AxisPoints<N> {
     }
 }
 
-/// Movements of the control points that affect the points of each lane.
+/// Increments of the control points of the span of each lane.
 pub(super) struct Windows<'a, const N: usize>([&'a [Movement; N]; LANES]);
 
 impl<const N: usize> Windows<'_, N> {
@@ -83,7 +83,7 @@ impl<const N: usize> Windows<'_, N> {
 pub(super) struct BeamAxis<'a> {
     basis: &'a Basis,
     control_points: &'a [Vec2],
-    /// Speed along the parameter below which the direction is rounding.
+    /// Derivative with respect to the parameter below which the direction of the axis is due to rounding.
     least_speed: f64,
 }
 

@@ -4,7 +4,8 @@
 //! N = C τ ΔΓ/Δt      ΔΓ = Λ̄ᵀ (Δx' - Δω J x̄')      M = EI τ Δκ/Δt      D = Σ w (N·ΔΓ + M Δκ) ≥ 0
 //! ```
 //!
-//! They are separate from the points for `Γ` and `κ`, so undamped beams have no overhead. Their forces are independent unknowns, like section forces.
+//! The dashpots are separate from the points for `Γ` and `κ`, so undamped beams have no overhead. Their forces are independent unknowns, like section
+//! forces.
 
 use serde::{Deserialize, Serialize};
 
@@ -66,7 +67,7 @@ pub(super) struct Functions {
 }
 
 impl Functions {
-    /// Values `(Δx', Δω, Δω')` of movements of the control points of the span.
+    /// Values `(Δx', Δω, Δω')` for increments of the control points of the span.
     pub(super) fn interpolate(&self, moved: &[Movement]) -> (Vec2, f64, f64) {
         let (mut gradient, mut rotation, mut bend) = (Vec2::zeros(), 0.0, 0.0);
         for ((shape, slope), [x, y, omega]) in self.shape.iter().zip(&self.slope).zip(moved) {
@@ -85,9 +86,7 @@ struct SpanDashpots {
     moments: Vec<MomentDashpot>,
 }
 
-/// Dashpots of a beam at its quadrature points.
-///
-/// Movements, rates and forces are indexed by control point.
+/// Dashpots of a beam at its quadrature points. Increments, rates and forces are indexed by control point.
 #[derive(Debug, Clone)]
 pub struct Dashpots {
     order: usize,
@@ -98,7 +97,7 @@ pub struct Dashpots {
 }
 
 impl Dashpots {
-    /// Creates the dashpots of a beam at rest with the given control points.
+    /// Creates the dashpots of a beam with the given control points and zero rates.
     ///
     /// # Errors
     /// Fails if the mesh has no quadrature.
@@ -147,7 +146,7 @@ impl Dashpots {
         self.order
     }
 
-    /// Prepares a step with the given rates of the control points; forces start from those of the last one.
+    /// Prepares a step with the given rates of the control points. Forces start from their values in the last step.
     pub fn begin_step(&mut self, rates: &[Movement]) {
         for SpanDashpots { first, forces, moments } in &mut self.spans {
             let rates = &rates[*first..*first + self.order];
@@ -156,7 +155,7 @@ impl Dashpots {
         }
     }
 
-    /// Prepares a movement of zero duration without damping.
+    /// Prepares an increment of zero duration without damping.
     pub fn rest_without_damping(&mut self) {
         for span in &mut self.spans {
             span.forces.iter_mut().for_each(ForceDashpot::rest_without_damping);
@@ -169,7 +168,7 @@ impl Dashpots {
         self.resolution = RateResolution::default();
     }
 
-    /// Passes the current dashpot forces to control points. Returns the largest force and the mismatch.
+    /// Calls `give` with the current dashpot forces on control points. Returns the largest force and the mismatch.
     pub fn add_forces(
         &mut self,
         at: RateCollocation,
@@ -189,7 +188,8 @@ impl Dashpots {
         summary
     }
 
-    /// Passes the condensed forces to control points, and their derivatives to a sink by span: first control point and rows.
+    /// Calls `give` with the condensed forces on control points, and `tangent` with the first control point of each span and the derivatives of its
+    /// forces by rows.
     pub fn add_linearised_forces(
         &mut self,
         at: RateCollocation,
@@ -210,7 +210,7 @@ impl Dashpots {
         }
     }
 
-    /// Passes the forces that would remove the current mismatch, in the directions of the last linearisation.
+    /// Calls `give` with the forces that would remove the current mismatch, with the directions of the last linearisation.
     pub fn add_mismatch_forces(&self, give: &mut dyn FnMut(usize, Movement)) {
         for SpanDashpots { first, forces, moments } in &self.spans {
             forces.iter().for_each(|dashpot| dashpot.add_mismatch_forces(*first, give));
@@ -218,7 +218,7 @@ impl Dashpots {
         }
     }
 
-    /// Updates the forces after a correction of the movements.
+    /// Updates the forces after a correction of the increments.
     pub fn correct(&mut self, correction: &[Movement]) {
         for SpanDashpots { first, forces, moments } in &mut self.spans {
             let correction = &correction[*first..*first + self.order];
@@ -227,7 +227,7 @@ impl Dashpots {
         }
     }
 
-    /// Accepts the movements of a step of a duration [time], infinite without damping. Returns the dissipated energy [energy].
+    /// Accepts the increments of a step of a duration [time], which is infinite without damping. Returns the dissipated energy [energy].
     pub fn advance(
         &mut self,
         moved: &[Movement],
@@ -253,8 +253,8 @@ impl Dashpots {
         sum
     }
 
-    /// Passes the dashpot forces at given rates at the start of the step. Rates that the steps do not resolve are extrapolated from the means of the
-    /// last two steps.
+    /// Calls `give` with the dashpot forces for the given rates at the start of the step. Rates that the steps do not resolve are extrapolated from
+    /// the means of the last two steps.
     pub fn emit_dashpot_forces(&self, rates: &[Movement], give: &mut dyn FnMut(usize, Movement)) {
         for SpanDashpots { first, forces, moments } in &self.spans {
             let rates = self.resolution.selected(&rates[*first..*first + self.order]);
@@ -263,8 +263,8 @@ impl Dashpots {
         }
     }
 
-    /// Passes the rates of strain and curvature at given rates of the control points, at the start of the step, each with its damping coefficient
-    /// times the quadrature weight. The sum of coefficient times squared rate is a power [energy/time].
+    /// Calls `take` with the rates of strain and curvature for the given rates of the control points at the start of the step, each with its damping
+    /// coefficient times the quadrature weight. The sum of coefficient times squared rate is a power [energy/time].
     pub fn each_damped_rate(&self, rates: &[Movement], take: &mut dyn FnMut(f64, f64)) {
         for SpanDashpots { first, forces, moments } in &self.spans {
             let rates = &rates[*first..*first + self.order];
@@ -313,7 +313,7 @@ impl Dashpots {
     }
 }
 
-/// Force mismatch as a strain; zero without resistance.
+/// Force mismatch divided by the derivative of the force; zero if the derivative is zero.
 pub(super) fn strain_missing(force: f64, resistance: f64) -> f64 {
     if resistance > 0.0 { (force / resistance).abs() } else { 0.0 }
 }

@@ -121,7 +121,7 @@ impl<const N: usize, S: Sections> DiscreteBeam<N, S> {
     }
 }
 
-/// Moves a point by x and y [length] with compensated summation (Kahan 1965), keeping the rounding error in `remainder`.
+/// Displaces a point by x and y [length] with compensated summation (Kahan 1965). `remainder` keeps the rounding error.
 pub(super) fn move_compensated(point: &mut Vec2, remainder: &mut Vec2, [x, y, _]: &Movement) {
     let wanted = Vec2::new(*x, *y) + *remainder;
     let reached = *point + wanted;
@@ -169,7 +169,7 @@ impl<const N: usize, S: Sections> BodyDynamics for DiscreteBeam<N, S> {
         let mut summaries = [ForceSummary::default(); MOST_PARTS];
         let summaries = &mut summaries[..parts.count()];
         parts.sum(groups, forces, summaries, |summary, groups, first, forces| {
-            // A local copy avoids false sharing, as the summaries of parts are adjacent in memory.
+            // A local copy avoids false sharing, because the summaries of parts are adjacent in memory.
             let mut own = *summary;
             let forces = ForcesFrom { first, forces };
             ForceAssembly { iterate, forces, summary: &mut own }.over(groups);

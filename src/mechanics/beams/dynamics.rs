@@ -6,7 +6,7 @@ use super::span_stiffness::SpanStiffness;
 use super::{RotationIncrement, Section, SectionForces, SectionPlace};
 use crate::geometry::{Vec2, larger};
 
-/// Movement of a control point, its rate, or the force on it: the components x, y and rotation [length, length, rad].
+/// Increment of a control point, its rate, or the force on it: the components x, y and rotation [length, length, rad].
 pub type Movement = [f64; 3];
 
 /// Collocation of internal forces between start (0) and end (1) of a step.
@@ -23,7 +23,7 @@ pub struct Collocation {
 /// Largest mismatch, forces and rotation in an evaluation of internal forces.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct ForceSummary {
-    /// Largest difference between the strains of section force and configuration; curvatures are multiplied by a length [-].
+    /// Largest difference between the strains of the section forces and of the configuration; curvatures are multiplied by a length [-].
     pub strain_mismatch: f64,
     /// Largest section force [force].
     pub force: f64,
@@ -34,7 +34,7 @@ pub struct ForceSummary {
 }
 
 impl ForceSummary {
-    /// Takes the maximum of both summaries, entry by entry.
+    /// Takes the larger value of both summaries for each entry.
     pub fn join(&mut self, other: &Self) {
         self.strain_mismatch = larger(self.strain_mismatch, other.strain_mismatch);
         self.force = larger(self.force, other.force);
@@ -48,7 +48,7 @@ pub type BlockSink<'a> = &'a mut (dyn FnMut(usize, &[f64]) + Send);
 
 /// Dynamics of a beam or a body of points: reference quantities, state at the start of a step, and iterate of the step.
 ///
-/// Movements, rates and forces are indexed by control point.
+/// Increments, rates and forces are indexed by control point.
 pub trait BodyDynamics: Send + Sync {
     /// Number of nonzero basis functions per span, degree + 1.
     fn order(&self) -> usize;
@@ -56,8 +56,8 @@ pub trait BodyDynamics: Send + Sync {
     /// First control point of each span.
     fn span_starts(&self) -> Vec<usize>;
 
-    /// Divides the body into at most `most` concurrent parts, as far as worthwhile and with unchanged results. Returns the first control point of
-    /// each part except the first.
+    /// Divides the body into at most `most` concurrent parts, if they are large enough, with unchanged results. Returns the first control point of
+    /// each part except the first part.
     fn divide(&mut self, most: usize) -> Vec<usize>;
 
     /// Positions of the control points at the start of the step [length].
@@ -66,10 +66,10 @@ pub trait BodyDynamics: Send + Sync {
     /// Accumulated rounding remainders of the positions [length].
     fn remainders(&self) -> &[Vec2];
 
-    /// Prepares a step with the section forces of the last one.
+    /// Prepares a step. Section forces start from their values in the last step.
     fn begin_step(&mut self);
 
-    /// Adds `weight` times the internal forces at the current section forces to the forces on control points.
+    /// Adds `weight` times the internal forces for the current section forces to the forces on control points.
     fn add_forces(
         &mut self,
         at: Collocation,
@@ -78,10 +78,10 @@ pub trait BodyDynamics: Send + Sync {
         forces: &mut [Movement],
     ) -> ForceSummary;
 
-    /// Adds `weight` times the condensed internal forces, and passes `weight` times their derivatives by span to the sink of each part.
+    /// Adds `weight` times the condensed internal forces. Calls the sink of each part with `weight` times their derivatives, by span.
     ///
-    /// The sink of the part behind a cut receives spans astride the cut before its own, that of the part before it after its own. Each sink must take
-    /// the rows of the control points of its part.
+    /// A span across a cut is given to the sinks of both parts: to the part after the cut before its own spans, to the part before the cut after its
+    /// own spans. Each sink must use only the rows of the control points of its part.
     fn add_linearised_forces(
         &mut self,
         at: Collocation,
@@ -91,19 +91,20 @@ pub trait BodyDynamics: Send + Sync {
         tangents: &mut [BlockSink<'_>],
     );
 
-    /// Adds `weight` times the forces that would remove the current strain mismatch, in the directions of the last linearisation.
+    /// Adds `weight` times the forces that would remove the current strain mismatch. The strain derivatives are those of the last linearisation.
     fn add_mismatch_forces(&mut self, weight: f64, forces: &mut [Movement]);
 
-    /// Updates the section forces after a correction of the movements.
+    /// Updates the section forces after a correction of the increments.
     fn correct_section_forces(&mut self, correction: &[Movement]);
 
-    /// Accepts the movements of a step. Its end becomes the start of the next.
+    /// Accepts the increments of a step, so that its end becomes the start of the next step.
     fn advance(&mut self, moved: &[Movement], rotations: RotationIncrement);
 
     /// Adds `factor · M · rates` with the inertia `M` of the body to the forces on control points.
     fn add_inertia(&self, factor: f64, rates: &[Movement], forces: &mut [Movement]);
 
-    /// Passes rows of `factor · M` to `tangent` in pieces: control point of the row, first one of the columns, and three diagonal entries per column.
+    /// Calls `tangent` with pieces of the rows of `factor · M`: control point of the row, first control point of the columns, and three diagonal
+    /// entries per column.
     fn add_inertia_tangent(
         &self,
         factor: f64,
@@ -111,8 +112,8 @@ pub trait BodyDynamics: Send + Sync {
         tangent: &mut dyn FnMut(usize, usize, &[Movement]),
     );
 
-    /// Passes the same rows by diagonals: first control point of the rows, offset of the columns in control points (negative before the rows), and
-    /// three entries per control point.
+    /// Calls `tangent` with diagonals of the rows of `factor · M`: first control point of the rows, offset of the columns in control points (negative
+    /// before the diagonal), and three entries per control point.
     fn each_inertia_diagonal(
         &self,
         factor: f64,
@@ -120,7 +121,7 @@ pub trait BodyDynamics: Send + Sync {
         tangent: &mut dyn FnMut(usize, isize, &[f64]),
     );
 
-    /// Passes the stiffness of each span at the start of the step, as at rest, to `take`.
+    /// Calls `take` with the static tangent stiffness of each span in the configuration at the start of the step.
     fn for_each_static_span(&self, take: &mut dyn FnMut(&SpanStiffness));
 
     /// Section of a beam (the mean if tapered) and length of its axis as drawn [length]; `None` for bodies of points.

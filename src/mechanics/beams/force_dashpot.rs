@@ -24,7 +24,7 @@ pub(super) struct ForceDashpot {
     /// `Γ̇` of the previous step, and of the one before it.
     last_rate: Vec2,
     rate_before: Vec2,
-    /// `Γ̇` at the start of the step, from the movements.
+    /// `Γ̇` at the start of the step, from the rates of the control points.
     start_rate: Vec2,
     /// `N` of the iterate.
     force: Vec2,
@@ -91,7 +91,8 @@ impl ForceDashpot {
         self.last_rate + (self.last_rate - self.rate_before) * late
     }
 
-    /// Mismatch of the axial and shear rates in the last accepted step, which started at a fraction between the middles of two steps.
+    /// Mismatch of the axial and shear rates in the last accepted step. `share` is its start as a fraction of the time between the middles of the
+    /// last two steps.
     pub(super) fn last_rate_mismatch(&self, share: f64) -> [RateMismatch; 2] {
         let of = |axis: usize| {
             let means = [self.rate_before[axis], self.last_rate[axis]];
@@ -115,14 +116,14 @@ impl ForceDashpot {
         }
     }
 
-    /// `ΔΓ = Λ̄ᵀ (Δg - t J ḡ)` with the tangent-scaled increment `t`. A difference of strains would have the rounding of a number of size one.
+    /// `ΔΓ = Λ̄ᵀ (Δg - t J ḡ)` with the tangent-scaled increment `t`. A difference of strains would have the rounding error of numbers of size one.
     fn change(&self, by: Vec2, rotations: RotationIncrement, increment: f64) -> Vec2 {
         let mean = self.rotation.mixed(self.rotation.turned(rotations, increment), 0.5);
         let turned = perpendicular(self.gradient + by * 0.5) * rotations.tangent_scaled(increment);
         mean.to_section(by - turned)
     }
 
-    /// Target force at the rates of a configuration.
+    /// Target force for the rates of a configuration.
     fn target_force(&self, at: RateCollocation, now: &DashpotKinematics) -> Vec2 {
         let carried = self.last_rate * at.by_last;
         now.resistance.component_mul(&now.change) - self.damping.component_mul(&carried)
@@ -176,7 +177,7 @@ impl ForceDashpot {
         self.mismatch = wanted - self.force;
         self.distribute((now.rotation, now.gradient), wanted, first, give);
 
-        // δn = A δg + b δω  and  δ(gs × n) = e·δg + f δω, the geometric terms with the force of the iterate.
+        // δn = A δg + b δω  and  δ(gs × n) = e·δg + f δω. The geometric terms use the force of the iterate.
         let (end, share) = (now.end_rotation, at.fraction);
         let resist = |strain: Vec2| now.rotation.to_space(now.resistance.component_mul(&strain));
         let (a1, a2) = (resist(end.to_section(Vec2::x())), resist(end.to_section(Vec2::y())));
@@ -235,13 +236,13 @@ impl ForceDashpot {
         self.functions.weight * self.force.dot(&change)
     }
 
-    /// `Γ̇` at rates of the control points, at the start of the step.
+    /// `Γ̇` for rates of the control points, at the start of the step.
     fn rate(&self, rates: &[Movement]) -> Vec2 {
         let (gradient, spin, _) = self.functions.interpolate(rates);
         self.rotation.to_section(gradient - perpendicular(self.gradient) * spin)
     }
 
-    /// Strain rates at the start of the step, present or extrapolated.
+    /// Strain rates at the start of the step: present or extrapolated rates, as selected.
     fn selected_rates(&self, told: DashpotRates<'_>) -> Vec2 {
         let (present, carried) = (self.rate(told.present), self.carried(told.extrapolation));
         let [axial, shear, _] = told.is_extrapolated;
@@ -251,7 +252,7 @@ impl ForceDashpot {
         )
     }
 
-    /// Force in space at the start of the step [force], and its `w x' × n` [force·length].
+    /// Force in space at the start of the step [force], and its moment `w x' × n` [force·length].
     pub(super) fn transmitted(&self, rates: DashpotRates<'_>) -> (Vec2, f64) {
         let force = self.rotation.to_space(self.damping.component_mul(&self.selected_rates(rates)));
         (force, self.functions.weight * cross(self.gradient, force))

@@ -15,7 +15,6 @@ pub(super) struct ForceMaxima<T> {
 }
 
 impl ForceMaxima<Lanes> {
-    /// Takes the maximum of both, entry by entry.
     #[inline(always)]
     pub(super) fn join<V: Simd>(&mut self, part: LaneChunk<V>, met: ForceMaxima<Vector<V>>) {
         self.rotation.put(part, self.rotation.get(part).larger(met.rotation));
@@ -28,7 +27,7 @@ impl ForceMaxima<Lanes> {
         self.force.put(part, self.force.get(part).larger(force));
     }
 
-    /// The same for points without a section force.
+    /// Summary for points without a section force.
     #[inline(always)]
     pub(super) fn join_moment<V: Simd>(
         &mut self,

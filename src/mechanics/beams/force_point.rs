@@ -1,4 +1,4 @@
-//! Quadrature point for `Γ` between two steps: stored state, and stiffness against small movements.
+//! Quadrature point for the strain `Γ`: state between two steps, and static tangent stiffness.
 //!
 //! Its evaluation within a step is in [`force_points`](super::force_points).
 
@@ -7,7 +7,7 @@ use super::span_stiffness::{SpanStiffness, StrainKind};
 use super::{Rotation, Section};
 use crate::geometry::{Vec2, cross, larger, perpendicular};
 
-/// Strain difference due to rounding.
+/// Strain difference below which two strains are equal within rounding.
 const SAME_STRAIN: f64 = 64.0 * f64::EPSILON;
 
 #[derive(Debug, Clone)]
@@ -24,7 +24,7 @@ pub(super) struct ForcePoint<const N: usize> {
 }
 
 impl<const N: usize> ForcePoint<N> {
-    /// Placeholder without strain for any movements.
+    /// Placeholder whose strain is zero for all increments.
     pub(super) const EMPTY: Self = Self {
         axis: AxisPoint::EMPTY,
         gradient: Vec2::new(1.0, 0.0),
@@ -43,7 +43,7 @@ impl<const N: usize> ForcePoint<N> {
         }
     }
 
-    /// Adds the rows of axial and shear strain at rest, and those of a nonzero section force.
+    /// Adds the rows of the axial and shear strain of the static stiffness, and the geometric rows if the section force is nonzero.
     pub(super) fn write_static_rows(&self, section: &Section, span: &mut SpanStiffness) {
         let w = self.axis.weight;
         let row = |by_gradient: Vec2, by_rotation: f64| -> [[f64; 3]; N] {
@@ -67,10 +67,10 @@ impl<const N: usize> ForcePoint<N> {
         }
     }
 
-    /// Section force of the present strain, and true if it is that of the last solution.
+    /// Section force for the present strain, and true if it is the section force of the last solution.
     ///
-    /// A section force that was an unknown of the last solution has its own rounding; that of the strain has the stiffness times the rounding of a
-    /// number of size one.
+    /// The rounding error of a section force from the last solution is relative to its own size. The error of one computed from the strain is the
+    /// stiffness times the rounding of a number of size one.
     fn present_force(&self, section: &Section) -> (Vec2, bool) {
         let missing = self.strain - strain_from(section, self.last_force);
         let is_known = larger(missing.x.abs(), missing.y.abs()) <= SAME_STRAIN;
@@ -100,7 +100,7 @@ impl<const N: usize> ForcePoint<N> {
 
     pub(super) fn save(&self, state: &mut Vec<f64>) {
         state.extend([self.gradient.x, self.gradient.y, self.rotation.cos, self.rotation.sin]);
-        // The initial strain is zero, whereas that of the configuration has rounding.
+        // An exact initial strain is zero, whereas the strain of the configuration has rounding errors.
         state.extend([self.last_force.x, self.last_force.y, self.strain.x, self.strain.y]);
     }
 

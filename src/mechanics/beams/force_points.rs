@@ -8,7 +8,7 @@
 //! R_a = w N_a' n             S_a = -w N_a gτ × n
 //! ```
 //!
-//! The gradient `g = x'` and the rotation are stored at the point and advanced by increments, so that strains do not depend on the distance from the
+//! The gradient `g = x'` and the rotation are stored at the point and updated by increments, so that strains do not depend on the distance from the
 //! origin.
 
 use pulp::Simd;
@@ -36,7 +36,7 @@ pub(super) struct ForcePoints<const N: usize> {
     strain: Pair<Lanes>,
     /// Section force `N` of the iterate.
     force: Pair<Lanes>,
-    /// Section force of the last step, which starts the next one. In fast vibration it is closer to the solution than `C Γ0`, whose sign may
+    /// Section force of the last step, the start value in the next step. In fast vibration it is closer to the solution than `C Γ0`, whose sign may
     /// alternate from step to step.
     last_force: Pair<Lanes>,
     /// Mismatch `m = Γσ - C⁻¹ N` at the last evaluation.
@@ -46,7 +46,7 @@ pub(super) struct ForcePoints<const N: usize> {
     linearised_stress: f64,
 }
 
-/// Configuration after increments, as needed by corrections of the section force.
+/// Configuration after an increment, as needed for corrections of the section force.
 #[derive(Debug, Clone, Copy)]
 struct StrainKinematics<T> {
     end_rotation: Rotation<T>,
@@ -57,14 +57,14 @@ struct StrainKinematics<T> {
     inverse_q: T,
 }
 
-/// Section force `w n` and its moment `w gτ × n` about the axis, to be distributed to the control points.
+/// Section force `w n` and its moment `w gτ × n` about the axis, for distribution to the control points.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Resultant {
     force: Pair<Lanes>,
     torque: Lanes,
 }
 
-/// Derivatives of the forces, `rows[i] · (δg, δω)` times weight and functions.
+/// Derivatives of the forces: `rows[i] · (δg, δω)` times weight and basis functions.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct ForceTangent<const N: usize> {
     rows: [[Lanes; 3]; 3],
@@ -127,7 +127,7 @@ impl<const N: usize> ForcePoints<N> {
         self.force = self.last_force;
     }
 
-    /// Values `(Δg, Δω)` of movements.
+    /// Values `(Δg, Δω)` for increments of the control points.
     #[inline(always)]
     fn interpolate<V: Simd>(
         &self,
@@ -213,7 +213,7 @@ impl<const N: usize> ForcePoints<N> {
         maxima: &mut ForceMaxima<Lanes>,
     ) {
         let (now, collocated_strain, increment) = self.configuration(part, at, moved);
-        // With the strain of the start only, the section force is known.
+        // If only the strain at the start counts, the section force is known.
         let force = if at.stress == 0.0 {
             stiffness.by_component(self.strain.get(part))
         } else {
@@ -250,7 +250,7 @@ impl<const N: usize> ForcePoints<N> {
         let condensed = force_in_space(rotation, stiffness, collocated_strain);
         self.apply_weights(part, weight, (gradient, condensed), resultant);
 
-        // δn = A δg + b δω  and  δ(gτ × n) = e·δg + f δω, the geometric terms with the section force of the iterate.
+        // δn = A δg + b δω  and  δ(gτ × n) = e·δg + f δω. The geometric terms use the section force of the iterate.
         let (end, force) = (now.end_rotation, self.force.get(part));
         let (e1, e2) = (Pair::first_axis(tau), Pair::second_axis(tau));
         let a1 = force_in_space(rotation, stiffness, end.to_section(e1)) * sigma;
@@ -307,7 +307,7 @@ impl<const N: usize> ForcePoints<N> {
         }
     }
 
-    /// Forces `C m` of the strain mismatch `m`, in the directions of the last linearisation.
+    /// Forces `C m` of the strain mismatch `m`, with the directions of the last linearisation.
     #[inline(always)]
     pub(super) fn take_mismatch_forces<V: Simd>(
         &self,

@@ -1,4 +1,4 @@
-//! Inertia matrix of a beam by diagonals, each of which multiplies the rates of all control points as one long vector.
+//! Inertia matrix of a beam, stored by diagonals. Each diagonal multiplies the rates of all control points as one long vector.
 
 use std::ops::Range;
 
@@ -8,17 +8,17 @@ use super::Section;
 use super::dynamics::Movement;
 use super::sections::MassIntegral;
 
-/// Number of control points whose rows are processed together, to stay in the cache for all diagonals.
+/// Number of control points whose rows are processed together, so that they stay in the cache for all diagonals.
 const ROWS_PER_PASS: usize = 16;
 
 /// Inertia matrix of a beam with `N` nonzero basis functions per span: `∫ ρA N_a N_b dX` for x and y, `∫ ρI N_a N_b dX` for rotations.
 #[derive(Debug, Clone)]
 pub(super) struct InertiaMatrix<const N: usize, I> {
-    /// `∫ N_a N_{a+k} dX` for k = 0 … N-1 [length], including inertia if it varies.
+    /// `∫ N_a N_{a+k} dX` for k = 0 … N-1 [length], and integrals weighted with the inertia if it varies.
     gram: Vec<[I; N]>,
-    /// Integrals of each k for all control points and components.
+    /// Integrals of each k, for all control points and components.
     diagonals: [Vec<f64>; N],
-    /// Factors of the integrals by component, for all control points.
+    /// Factors of the integrals: inertia per length by component, for all control points.
     shares: Vec<f64>,
     section: Section,
 }
@@ -55,7 +55,8 @@ impl<const N: usize, I: MassIntegral> InertiaMatrix<N, I> {
         Arch::new().dispatch(InertiaProduct { matrix: self, points, factor, rates, forces });
     }
 
-    /// Passes rows of `factor · M` by diagonals: first control point of the rows, offset of the columns, and three entries per control point.
+    /// Calls the callback with diagonals of the rows of `factor · M`: first control point of the rows, offset of the columns, and three entries per
+    /// control point.
     pub(super) fn each_diagonal(
         &self,
         factor: f64,
@@ -65,7 +66,8 @@ impl<const N: usize, I: MassIntegral> InertiaMatrix<N, I> {
         Arch::new().dispatch(Diagonals { matrix: self, points, factor, take });
     }
 
-    /// Passes rows of `factor · M` in pieces: control point of the row, first one of the columns, and three diagonal entries per column.
+    /// Calls the callback with pieces of the rows of `factor · M`: control point of the row, first control point of the columns, and three diagonal
+    /// entries per column.
     pub(super) fn each_row(
         &self,
         factor: f64,
@@ -105,7 +107,7 @@ impl<const N: usize, I> WithSimd for Diagonals<'_, N, I> {
             let end = points.end.min(first + ROWS_PER_PASS);
             for offset in 1 - N as isize..N as isize {
                 let k = offset.unsigned_abs();
-                // Entries before the diagonal are those of the transposed place behind it.
+                // Entries before the diagonal equal the transposed entries after it.
                 let (first, columns) = if offset < 0 {
                     (first.max(k), first.max(k) - k..end.max(k) - k)
                 } else {
@@ -120,7 +122,7 @@ impl<const N: usize, I> WithSimd for Diagonals<'_, N, I> {
     }
 }
 
-/// Kernel of [`add_product`](InertiaMatrix::add_product), on the numbers of all components in sequence.
+/// Kernel of [`add_product`](InertiaMatrix::add_product), on the values of all components in sequence.
 struct InertiaProduct<'a, const N: usize, I> {
     matrix: &'a InertiaMatrix<N, I>,
     points: Range<usize>,
@@ -161,7 +163,7 @@ impl<const N: usize, I> WithSimd for InertiaProduct<'_, N, I> {
     }
 }
 
-/// Writes the products of a factor with two vectors, entry by entry.
+/// Writes the entrywise products of a factor with two vectors.
 #[inline(always)]
 fn multiply<S: Simd>(simd: S, factor: f64, [one, two]: [&[f64]; 2], out: &mut [f64]) {
     let (head, rest) = S::as_mut_simd_f64s(out);

@@ -1,7 +1,7 @@
-//! Kink of an axis under a point force, which smooth functions smear: the displacement that the mesh does not represent.
+//! Kink of an axis under a point force: the displacement that the smooth basis functions of a mesh do not represent.
 //!
-//! A force on a shear-flexible beam causes a jump of its tangent. The displacement that a smooth mesh misses equals that of a string with the same
-//! functions, points and weights; derived in docs/theory.md, section 10.1.
+//! A force on a shear-flexible beam causes a jump of its tangent. A smooth mesh misses a part of the displacement. This part equals that of a string
+//! with the same basis functions, points and weights; derived in docs/theory.md, section 10.1.
 
 mod running;
 
@@ -10,7 +10,7 @@ use crate::geometry::{
     PiecewisePolynomial, PositiveBand, PositiveFactors, Span, Vec2, lower_splines,
 };
 
-/// Lengths below this fraction of a span are rounding.
+/// Length, relative to a span, below which it is due to rounding.
 const ROUNDING: f64 = 1e-11;
 
 /// Kink of the axis under a point force that a mesh does not represent.
@@ -23,16 +23,16 @@ pub struct MissedKink {
     pub inertia: f64,
 }
 
-/// Computes the kink of an axis that the mesh does not represent. A force `λ` across the beam at `ξ` displaces the axis there by `g(ξ) λ/GA` more
+/// Computes the kink of an axis that the mesh does not represent. A force `λ` across the beam at `ξ` displaces the axis at `ξ` by `g(ξ) λ/GA` more
 /// than in the mesh.
 ///
 /// ```text
 /// g(ξ) = l(ξ)ᵀ M⁻¹ r(ξ)        M = Σ w t tᵀ/|x_ξ|        l = ∫ t dξ up to ξ, r = ∫ t dξ from ξ on
 /// ```
 ///
-/// over the splines `t` of one degree less, with the points and weights of the shear strain. It is the exact compliance of a string under a point
-/// load minus that of a string on these functions, for any end supports. `g` is a polynomial of twice the degree on each span, and zero where the
-/// basis is C⁰. Returns `None` if it is not positive between these places, as with fewer quadrature points than those of the patch rule.
+/// over the splines `t` of one degree less, with the points and weights of the shear strain. `g` is the exact compliance of a string under a point
+/// load minus that of a string on these functions, for any supports of its ends. It is a polynomial of twice the degree on each span, and zero where
+/// the basis is C⁰. Returns `None` if `g` is not positive elsewhere, as with fewer quadrature points than the patch rule has.
 ///
 /// # Errors
 /// Fails if the mesh has no quadrature, or the axis a point without a tangent.
@@ -92,7 +92,7 @@ fn fractions(mesh: &Mesh, span: &Span) -> Vec<Vec<f64>> {
     (0..degree).map(|lower| (0..=degree).map(|order| behind(lower, order)).collect()).collect()
 }
 
-/// String on splines: the products `M` of its strains, the solution of `M a = 1`, and the inverse of `M` near its diagonal.
+/// String on splines: the matrix `M` of products of its strains, the solution of `M a = 1`, and the inverse of `M` near its diagonal.
 struct SplineString {
     degree: usize,
     products: PositiveBand,
@@ -111,8 +111,8 @@ impl SplineString {
         Some(Self { degree, products, factors, stretched, inverse })
     }
 
-    /// Residual of a load on all splines before index `cut` when these have the strains of a constant force. It has a few entries around the cut
-    /// only; returns the index of the first one.
+    /// Residual of a unit load on all splines before index `cut`, if these splines have the strains of a constant force. It is nonzero only in a few
+    /// entries around the cut. Returns the index of the first of these entries, and the entries.
     fn load_residual(&self, cut: usize) -> (usize, Vec<f64>) {
         let (size, reach) = (self.stretched.len(), self.degree - 1);
         let first = cut.saturating_sub(reach);
@@ -133,20 +133,20 @@ impl SplineString {
         (*first..).zip(load).map(|(at, r)| self.inverse.get(row, at) * r).sum()
     }
 
-    /// Coefficients of `g = lᵀ M⁻¹ r` on a span, with the fractions of its splines before a place. Earlier splines lie completely before it, later
-    /// ones behind.
+    /// Coefficients of `g = lᵀ M⁻¹ r` on a span; `fractions` are those of its splines before a place. The splines of earlier spans lie completely
+    /// before the place, those of later spans behind it.
     ///
-    /// Contributions of earlier and later splines are `M⁻¹` times a load of ones up to an index: the strains of a constant force up to there, plus
-    /// those of the residual.
+    /// The contribution of earlier or later splines is `M⁻¹` times a load of ones up to an index: the strains of a constant force up to the index,
+    /// plus the response to the residual.
     fn polynomial(&self, span: &Span, fractions: &[Vec<f64>]) -> Vec<f64> {
         let own = span.first..span.first + self.degree;
         let (before, behind) = (self.load_residual(own.start), self.load_residual(own.end));
         let mut sum = vec![0.0; 2 * self.degree + 1];
-        // Earlier and later splines.
+        // Product of earlier and later splines.
         sum[0] -=
             (before.0..).zip(&before.1).map(|(at, r)| r * self.response(at, &behind)).sum::<f64>();
         for (i, part) in own.clone().zip(fractions) {
-            // Earlier splines and the rest of this one; this one and later splines.
+            // Products of earlier splines with the rest of this spline, and of this spline with later splines.
             let (earlier, later) = (self.response(i, &before), -self.response(i, &behind));
             sum[0] += earlier;
             sum.iter_mut().zip(part).for_each(|(sum, c)| *sum += (later - earlier) * c);

@@ -10,11 +10,11 @@ use crate::geometry::{
 /// Quadrature of the axial and shear strain of a beam.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 pub enum Quadrature {
-    /// Patch rule: on each smooth piece of the mesh one point per derivative of a function, at the Gauss points of these splines ([`patch_rule`]). It
+    /// Patch rule ([`patch_rule`]): each smooth piece of the mesh has as many points as linearly independent derivatives of its basis functions. It
     /// avoids locking and zero-energy modes, and passes the patch test.
     #[default]
     Patch,
-    /// Fixed number of Gauss points per span. Too many lock, too few leave zero-energy modes.
+    /// Fixed number of Gauss points per span. Too many points cause locking, too few leave zero-energy modes.
     Points(usize),
 }
 
@@ -37,7 +37,7 @@ pub struct PointCounts {
     pub inertia: usize,
 }
 
-/// Span with its points for the strain `Γ`, `∫ f dξ ≈ Σ weight · f(point)`, and the number of points for the curvature `κ`.
+/// Span with its quadrature points for the strain `Γ`, `∫ f dξ ≈ Σ weight · f(point)`, and the number of points for the curvature `κ`.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct QuadratureSpan {
     pub(super) span: Span,
@@ -171,8 +171,8 @@ impl Mesh {
         run[run.len() - 1].first - run[0].first + self.basis.degree()
     }
 
-    /// Number of points for `Γ` minus the number of derivatives of functions. A surplus causes locking; each missing point leaves two zero-energy
-    /// modes.
+    /// Number of points for `Γ` minus the number of linearly independent derivatives of basis functions. A surplus causes locking; each missing point
+    /// leaves two zero-energy modes.
     fn excess_points(&self) -> isize {
         let wanted: usize = self.runs().iter().map(|run| self.derivatives(run)).sum();
         self.point_counts().force as isize - wanted as isize
@@ -200,7 +200,7 @@ impl Mesh {
     }
 
     pub(super) fn is_smooth(&self, a: &Span, b: &Span) -> bool {
-        // C⁰ neighbours share a single function.
+        // Neighbouring spans with a C⁰ knot between them share a single function.
         b.first < a.first + self.basis.degree()
     }
 
@@ -225,7 +225,8 @@ impl Mesh {
         }
     }
 
-    /// Points for `κ` per span of a run: one fewer than for a single polynomial if the continuity is full, which leaves no curvature unsampled.
+    /// Number of points for `κ` per span of a run. With full continuity it is one fewer than for a single polynomial, which still samples all
+    /// curvatures.
     fn moment_points(&self, run: &[Span]) -> usize {
         let degree = self.basis.degree();
         let is_fully_smooth = run.windows(2).all(|pair| pair[1].first == pair[0].first + 1);

@@ -17,7 +17,7 @@ pub(super) struct MomentDashpot {
     /// `κ̇` of the previous step, and of the one before it.
     last_rate: f64,
     rate_before: f64,
-    /// `κ̇` at the start of the step, from the movements.
+    /// `κ̇` at the start of the step, from the rates of the control points.
     start_rate: f64,
     /// `M` of the iterate.
     moment: f64,
@@ -73,7 +73,7 @@ impl MomentDashpot {
         self.last_rate + (self.last_rate - self.rate_before) * late
     }
 
-    /// Mismatch of the rate in the last accepted step, which started at a fraction between the middles of two steps.
+    /// Mismatch of the rate in the last accepted step. `share` is its start as a fraction of the time between the middles of the last two steps.
     pub(super) fn last_rate_mismatch(&self, share: f64) -> RateMismatch {
         let damping = self.functions.weight * self.damping;
         RateMismatch::of(damping, self.start_rate, [self.rate_before, self.last_rate], share)
@@ -90,7 +90,7 @@ impl MomentDashpot {
         }
     }
 
-    /// Target moment at the rate of a configuration.
+    /// Target moment for the rate of a configuration.
     fn target_moment(&self, at: RateCollocation, now: &RotationKinematics) -> f64 {
         now.resistance * now.change() - self.damping * at.by_last * self.last_rate
     }
@@ -133,7 +133,7 @@ impl MomentDashpot {
         self.mismatch = wanted - self.moment;
         self.distribute(wanted * now.inverse_q, first, give);
 
-        // δ(M/q), with the moment of the iterate in the geometric term.
+        // δ(M/q). The geometric term uses the moment of the iterate.
         let resistance = now.resistance * now.inverse_q;
         let by_slope = resistance * now.inverse_q;
         let by_rotation =
@@ -176,7 +176,7 @@ impl MomentDashpot {
         self.functions.weight * self.moment * change
     }
 
-    /// Moment at given rates at the start of the step [force·length].
+    /// Moment for given rates at the start of the step [force·length].
     pub(super) fn transmitted(&self, rates: DashpotRates<'_>) -> f64 {
         let [_, _, is_carried] = rates.is_extrapolated;
         self.damping

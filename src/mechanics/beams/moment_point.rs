@@ -1,4 +1,4 @@
-//! Quadrature point for `κ` between two steps: stored state, and stiffness against small movements.
+//! Quadrature point for the curvature `κ`: state between two steps, and static tangent stiffness.
 //!
 //! Its evaluation within a step is in [`moment_points`](super::moment_points).
 
@@ -6,7 +6,7 @@ use super::Section;
 use super::axis_point::AxisPoint;
 use super::span_stiffness::{SpanStiffness, StrainKind};
 
-/// Curvature difference due to rounding, as rotation over the integration length [rad].
+/// Difference of two curvatures, times the integration length, below which they are equal within rounding [rad].
 const SAME_TURN: f64 = 64.0 * f64::EPSILON;
 
 #[derive(Debug, Clone)]
@@ -19,7 +19,7 @@ pub(super) struct MomentPoint<const N: usize> {
 }
 
 impl<const N: usize> MomentPoint<N> {
-    /// Placeholder without curvature for any movements.
+    /// Placeholder whose curvature is zero for all increments.
     pub(super) const EMPTY: Self =
         Self { axis: AxisPoint::EMPTY, curvature: 0.0, last_moment: 0.0 };
 
@@ -32,7 +32,7 @@ impl<const N: usize> MomentPoint<N> {
         span.add_strain(StrainKind::Bending, self.axis.weight * section.bending_stiffness, row);
     }
 
-    /// Moment `M` at the start of the step [force·length]: that of the last solution if it agrees with the curvature within rounding.
+    /// Moment `M` at the start of the step [force·length]. If the moment of the last solution agrees with the curvature within rounding, it is used.
     pub(super) fn transmitted(&self, section: &Section) -> f64 {
         let missing = self.curvature - self.last_moment / section.bending_stiffness;
         let is_known = self.axis.weight * missing.abs() <= SAME_TURN;

@@ -4,8 +4,8 @@
 //! κ1 = κ0 + Δω'/q     1/q = dΔθ/dΔω     M = EI ((1-σ) κ0 + σ κ1)     S_a = w N_a' M/q
 //! ```
 //!
-//! The moment is linear in the curvature, so Newton's method does not need the unknown. But a moment computed from the increments of a configuration
-//! has the rounding of `EI` times these, which in a stiff beam exceeds the forces to be balanced.
+//! The moment is linear in the curvature, so Newton's method converges without this unknown. But a moment computed from the increments has `EI` times
+//! their rounding error. In a stiff beam this exceeds the forces in the balance.
 
 use pulp::Simd;
 
@@ -24,7 +24,7 @@ pub(super) struct MomentPoints<const N: usize> {
     curvature: Lanes,
     /// Moment `M` of the iterate.
     moment: Lanes,
-    /// Moment of the last step, which starts the next one.
+    /// Moment of the last step, the start value in the next step.
     last_moment: Lanes,
     /// Mismatch `m = κσ - M/EI` at the last evaluation.
     mismatch: Lanes,
@@ -111,7 +111,7 @@ impl<const N: usize> MomentPoints<N> {
         self.moment = self.last_moment;
     }
 
-    /// Values `(Δω', Δω)` of movements.
+    /// Values `(Δω', Δω)` for increments of the control points.
     #[inline(always)]
     fn interpolate<V: Simd>(
         &self,
@@ -162,7 +162,7 @@ impl<const N: usize> MomentPoints<N> {
         maxima: &mut ForceMaxima<Lanes>,
     ) {
         let (now, collocated_curvature) = self.bend(part, at, moved);
-        // With the curvature of the start only, the moment is known.
+        // If only the curvature at the start counts, the moment is known.
         let known = stiffness * self.curvature.get(part);
         let moment = if at.stress == 0.0 { known } else { self.moment.get(part) };
         let length = self.axis.weight.get(part);
@@ -185,7 +185,7 @@ impl<const N: usize> MomentPoints<N> {
         let w = part.splat(weight) * self.axis.weight.get(part);
         weighted_moment.put(part, w * stiffness * collocated_curvature * now.inverse_q);
 
-        // δ(M/q), with the moment of the iterate in the geometric term.
+        // δ(M/q). The geometric term uses the moment of the iterate.
         let moment = self.moment.get(part);
         let (curvature_by_slope, curvature_by_rotation) = now.curvature_by();
         let resistance = stiffness * part.splat(at.stress) * now.inverse_q;
@@ -220,7 +220,7 @@ impl<const N: usize> MomentPoints<N> {
         }
     }
 
-    /// Moments `EI m` of the curvature mismatch `m`, in the directions of the last linearisation.
+    /// Moments `EI m` of the curvature mismatch `m`, with the directions of the last linearisation.
     #[inline(always)]
     pub(super) fn take_mismatch_forces<V: Simd>(
         &self,
@@ -234,7 +234,7 @@ impl<const N: usize> MomentPoints<N> {
         weighted_moment.put(part, w * moment);
     }
 
-    /// Corrects the moments after a correction of the movements: `M ← M + EI (m + σ δκ1)`.
+    /// Corrects the moments after a correction of the increments: `M ← M + EI (m + σ δκ1)`.
     #[inline(always)]
     pub(super) fn correct_moments<V: Simd>(
         &mut self,

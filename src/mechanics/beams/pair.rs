@@ -1,4 +1,4 @@
-//! Vectors of the plane, of one point or of several in lanes.
+//! Plane vectors, of one point or of several points in lanes.
 
 use std::ops::{Add, AddAssign, Mul, Sub};
 

@@ -1,8 +1,8 @@
-//! Strain rates at the end of a step, for steps that resolve the relaxation and steps that do not.
+//! Strain rates at the end of a step, whether or not the steps resolve the relaxation.
 //!
-//! In the energy–momentum method, a quantity that decays within a step ends it with `v1 ≈ -v0`. If a stiff dashpot takes part in a large motion,
-//! rates at the end of a step contain its second-order error times the damping. The mean of a step is accurate, its ends are not. Extrapolation of
-//! the means of the last two steps to the end has an error of second order.
+//! In the energy–momentum method, a rate that decays within a step has the end value `v1 ≈ -v0`. If a stiff dashpot takes part in a large motion, the
+//! rates at the end of a step contain its second-order error times the damping. The mean over a step is accurate, the rates at its ends are not. The
+//! means of the last two steps, extrapolated to the end, have an error of second order.
 
 use super::Movement;
 
@@ -12,12 +12,12 @@ pub(super) struct DashpotRates<'a> {
     pub(super) present: &'a [Movement],
     /// Extrapolation distance from the middle of the last step to its end, relative to the time between the middles of the last two steps [-].
     pub(super) extrapolation: f64,
-    /// True if the means of the last two steps are extrapolated, for axial, shear and bending rates.
+    /// For axial, shear and bending rates, true if the rate is extrapolated from the means of the last two steps.
     pub(super) is_extrapolated: [bool; 3],
 }
 
-/// Squared deviation of rates at the start of a step from the interpolated means of this step and the previous one, and squared difference of these
-/// means, as powers of axial, shear or bending dashpots [energy/time].
+/// Squared deviation of the rates at the start of a step from the interpolated means of this step and the previous one, and squared difference of
+/// these means. Both are powers of axial, shear or bending dashpots [energy/time].
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub(super) struct RateMismatch {
     pub(super) off: f64,
@@ -25,7 +25,8 @@ pub(super) struct RateMismatch {
 }
 
 impl RateMismatch {
-    /// Mismatch of a rate with its damping [force·time; energy/time], from its value at the start of a step and the means of the previous step and
+    /// Mismatch of a rate with its damping [force·time; energy/time], from the rate at the start of a step and the means of the previous step and
+    /// this one.
     /// this one.
     pub(super) fn of(damping: f64, start: f64, [before, now]: [f64; 2], share: f64) -> Self {
         let (change, off) = (now - before, start - before);
@@ -39,34 +40,35 @@ impl RateMismatch {
     }
 }
 
-/// Weight of older measurements per step.
+/// Factor by which the weight of older measurements decreases in each step.
 const KEPT: f64 = 0.8;
 
-/// Rates count as resolved if those at the ends of steps deviate by less than this fraction of their change in a step: vibrations with `ω h < 2`.
+/// Deviation of the rates at the ends of steps, relative to their change in a step, below which they count as resolved. Vibrations with `ω h < 2`
+/// satisfy this.
 const MOST_OFF: f64 = 0.5;
 
-/// Resolution of the dashpot rates by the recent steps.
+/// Resolution of the dashpot rates in the recent steps.
 #[derive(Debug, Clone, Default)]
 pub(super) struct RateResolution {
     /// Mismatches of axial, shear and bending rates, with decreasing weight of older steps.
     mismatches: [RateMismatch; 3],
-    /// Distance from the middle of the last step to its end, relative to the time between the middles of the last two steps; zero before there were
-    /// two [-].
+    /// Distance from the middle of the last step to its end, relative to the time between the middles of the last two steps; zero before the second
+    /// step [-].
     extrapolation: f64,
-    /// Duration of the last step; zero before there was one [time].
+    /// Duration of the last step; zero before the first step [time].
     before: f64,
 }
 
 impl RateResolution {
-    /// Start of a step of a duration [time] as a fraction of the time between its middle and that of the last step; `None` without such a step.
+    /// Start of a step of a duration [time], as a fraction of the time between the middles of the last step and this one; `None` without a last step.
     pub(super) fn share(&self, duration: f64) -> Option<f64> {
         let between = duration + self.before;
-        // A substep of the fourth-order method runs back in time, and may end where the previous one started.
+        // A substep of the fourth-order method runs backwards in time, and may end where the previous substep started.
         let is_there = duration.is_finite() && self.before * between > 0.0;
         is_there.then(|| self.before / between)
     }
 
-    /// Records a step of a duration [time], infinite for a movement of zero duration.
+    /// Records a step of a duration [time], which is infinite for an increment of zero duration.
     pub(super) fn add(&mut self, duration: f64, seen: [RateMismatch; 3]) {
         if !duration.is_finite() {
             *self = Self::default();
@@ -80,7 +82,7 @@ impl RateResolution {
         self.before = duration;
     }
 
-    /// Selects the rates for the dashpots of a span with the given present rates.
+    /// Selects present or extrapolated rates for the dashpots of a span.
     pub(super) fn selected<'a>(&self, present: &'a [Movement]) -> DashpotRates<'a> {
         let is_off = |seen: RateMismatch| seen.off > MOST_OFF * MOST_OFF * seen.apart;
         let carried = self.mismatches.map(|seen| self.extrapolation > 0.0 && is_off(seen));

@@ -103,7 +103,7 @@ impl Rotation {
 }
 
 impl<T: Number> Rotation<T> {
-    /// This rotation followed by that of an increment.
+    /// Product of this rotation and that of an increment.
     #[inline(always)]
     pub fn turned(self, kind: RotationIncrement, increment: T) -> Self {
         self.times(&kind.turn(increment))
@@ -117,7 +117,7 @@ impl<T: Number> Rotation<T> {
         }
     }
 
-    /// Normalises a rotation that rounding has moved off the unit circle.
+    /// Normalises a rotation, whose determinant rounding has changed.
     #[inline(always)]
     pub fn normalised(self) -> Self {
         let square = self.cos * self.cos + self.sin * self.sin;
@@ -125,7 +125,7 @@ impl<T: Number> Rotation<T> {
         Self { cos: self.cos * correction, sin: self.sin * correction }
     }
 
-    /// Mixture `(1 - t) Λ + t Λ'` of this rotation and another.
+    /// Mean `(1 - t) Λ + t Λ'` of this rotation and another.
     #[inline(always)]
     pub fn mixed(self, other: Self, t: T) -> Self {
         Self {

@@ -73,7 +73,7 @@ impl Section {
     /// Checks that every property is positive and finite, and returns the section.
     ///
     /// # Errors
-    /// Fails for the first property that is not.
+    /// Fails for the first property that is not positive and finite.
     pub fn validated(self) -> Result<Self, BeamError> {
         const ROTARY: &str = "; without rotary inertia the mass matrix is singular: give the actual value, or a small one";
         let properties = [
@@ -139,7 +139,7 @@ impl Section {
         }
     }
 
-    /// Combines the properties of two sections one by one.
+    /// Applies `of` to each property of two sections.
     pub(super) fn each(&self, other: &Self, of: impl Fn(f64, f64) -> f64) -> Self {
         Self {
             axial_stiffness: of(self.axial_stiffness, other.axial_stiffness),

@@ -6,31 +6,31 @@
 //! Σ w N_a' n = F_a          Σ w N_a' M - Σ w N_a (x' × n) = T_a          F_a, T_a: loads minus inertia, exact
 //! ```
 //!
-//! Forces `n`, `M` at the quadrature points satisfy this. At the ends of a beam they differ, at first order in the span length, from forces that
-//! satisfy it with exact integrals, because the rules have few points. This module reports the latter: of all derivatives `T` of the functions of a
-//! run of smoothly joined spans, those with
+//! The forces `n`, `M` at the quadrature points satisfy these equations. At the ends of a beam their error is of first order in the span length,
+//! because the rules have few points. This module computes forces that satisfy the equations with exact integrals. They lie in the space `T` of all
+//! derivatives of the basis functions of a run of smoothly joined spans:
 //!
 //! ```text
 //! ∫ t n̂ dξ = Σ w t n               for all t in T
 //! ∫ t M̂ dξ = Σ w t M + ∫ v (Π m) dξ - Σ w v m      for all t in T, v' = t;  m = x' × n,  ∫ t Π m dξ = Σ w t m
 //! ```
 //!
-//! They are projections of the exact section forces, up to the ends: `n` has an error of order `p` in the span length, `M` of order 2 at least (1 on
-//! linear elements, where it is constant). With the reproducing kernel of `T` they are weighted sums over the points, with weights that decay within
-//! a few spans. Runs are independent: where they meet, at a joint or a node of Lagrange elements, both have a value.
+//! These forces are projections of the exact section forces, up to the ends: `n` has an error of order `p` in the span length, `M` of order 2 at
+//! least (1 on linear elements, where it is constant). With the reproducing kernel of `T`, they are weighted sums over the points, with weights that
+//! decay within a few spans. Runs are independent. Where two runs meet, at a joint or at a node of Lagrange elements, each has its own value.
 
 use super::sections::{Interpolation, Sections};
 use super::span_points::{SpanGroup, group_of};
 use super::{BeamError, Mesh, Section};
 use crate::geometry::{LowerSplines, Reproduction, Span, Vec2, cross, larger};
 
-/// Weights below this fraction of the largest are rounding.
+/// Weight, relative to the largest, below which it is due to rounding.
 const NO_WEIGHT: f64 = 1e-14;
 
-/// Section forces at a cross section with their strains.
+/// Section forces and strains at a cross section.
 ///
-/// They are given in the section frame, whose first axis is the section normal, as forces of the following part of the beam on the preceding one.
-/// With material damping they exceed the elastic forces of the strains.
+/// They are components in the section frame, whose first axis is the section normal, of the forces of the following part of the beam on the preceding
+/// one. With material damping they include the viscous forces.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct SectionForces {
     /// Unit normal of the section; zero on a particle, which has no section [-].
@@ -50,7 +50,7 @@ pub struct SectionForces {
 }
 
 impl SectionForces {
-    /// Section forces of a force in space [force] and a moment [force·length], for a section normal of any length.
+    /// Section forces for a force in space [force], a moment [force·length] and a section normal of any length.
     pub(super) fn of(section: &Section, normal: Vec2, force: Vec2, moment: f64) -> Self {
         let normal = normal.normalize();
         let (axial, shear) = (normal.dot(&force), cross(normal, force));
@@ -82,7 +82,7 @@ impl SectionForces {
     }
 }
 
-/// Place of a beam with the weights of the quadrature points for its section forces.
+/// Place of a beam, with the weights of the quadrature points for its section forces.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct SectionPlace {
     pub(super) force_shares: Vec<ForceShare>,
@@ -140,7 +140,7 @@ pub(super) struct MomentShare {
 #[derive(Debug, Clone)]
 pub struct SectionPoints {
     runs: Vec<SmoothRun>,
-    /// Largest number of points of the interpolation polynomial of the normal, half on either side.
+    /// Largest number of points for the interpolation of the normal, half of them on either side.
     most: usize,
 }
 
@@ -187,7 +187,7 @@ impl SectionPoints {
         Ok(Self { runs, most: (mesh.basis().degree() + 1).next_multiple_of(2) })
     }
 
-    /// Place at a parameter of the mesh. Where two runs meet, it belongs to the second.
+    /// Place at a parameter of the mesh. Where two runs meet, the place belongs to the second run.
     ///
     /// # Errors
     /// Fails only if [`of`](Self::of) would.
@@ -196,8 +196,8 @@ impl SectionPoints {
         self.runs[run].place(xi, self.most)
     }
 
-    /// Places along the whole beam with their parameters: the knots, and `within` places in each span. Where two runs meet there are two places, the
-    /// first on the first run.
+    /// Places along the whole beam with their parameters: the knots, and `within` places in each span. Where two runs meet there are two places,
+    /// first that of the first run.
     ///
     /// # Errors
     /// Fails only if [`of`](Self::of) would.

@@ -8,7 +8,7 @@ use crate::geometry::{GaussRule, larger};
 /// Largest number of places of a taper.
 const MOST_PLACES: usize = 10_000;
 
-/// Number of points that integrate cubics along a piece of a taper, such as the mass or the bending stiffness of a varying height.
+/// Number of Gauss points in a piece of a taper. They integrate cubics, such as the bending stiffness of a linearly varying height.
 const POINTS: usize = 3;
 
 /// Sections along the axis of a beam.
@@ -74,7 +74,7 @@ impl SectionVariation {
             }
             Self::Dimensions(all) => {
                 let (share, [before, after]) = between(all, part);
-                // Interpolations of valid solids are valid.
+                // The interpolation of two valid solids is valid.
                 let solid = before.mixed(&after, share);
                 Section::from_solid(solid).unwrap_or_else(|_| Section::of_solid(solid))
             }
@@ -101,7 +101,7 @@ impl SectionVariation {
         self.sections().into_iter().reduce(|a, b| a.each(&b, larger)).unwrap_or_default()
     }
 
-    /// Speed of the fastest axial wave, `√(EA/ρA)` [length/time]. Waves between the places are no faster.
+    /// Speed of the fastest axial wave, `√(EA/ρA)` [length/time]. Between the places of a taper, waves are no faster.
     pub fn axial_wave_speed(&self) -> f64 {
         self.sections().iter().map(Section::axial_wave_speed).fold(0.0, larger)
     }
@@ -125,7 +125,7 @@ impl SectionVariation {
     }
 }
 
-/// Both values around a fraction of the length, and the weight of the second.
+/// Values before and after a fraction of the length, and the weight of the second value.
 fn between<T: Copy>(all: &[(f64, T)], part: f64) -> (f64, [T; 2]) {
     let beyond = all.partition_point(|(place, _)| *place <= part).clamp(1, all.len() - 1);
     let [(start, before), (end, after)] = [all[beyond - 1], all[beyond]];

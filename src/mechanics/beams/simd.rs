@@ -1,6 +1,7 @@
-//! Numbers of neighbouring quadrature points in lanes of vector instructions.
+//! Values of consecutive quadrature points in the lanes of vector instructions.
 //!
-//! Each lane performs the operations of its point in their order without fusing, so that vectors of any width give identical results.
+//! Each lane performs the operations of its point in the same order and without fused operations, so that vectors of any width give identical
+//! results.
 
 use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub};
 
@@ -8,10 +9,10 @@ use pulp::{Simd, bytemuck};
 
 use crate::elementary::sin_cos;
 
-/// Number of lanes, that of common vector instructions.
+/// Number of lanes, equal to that of common vector instructions.
 pub(super) const LANES: usize = 4;
 
-/// One number for each of several neighbouring points.
+/// One number for each of several consecutive points.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[repr(align(32))]
 pub(super) struct Lanes([f64; LANES]);

@@ -1,6 +1,6 @@
 //! Vectorised loops of a step over the spans of a beam.
 //!
-//! Points are evaluated in lanes. Their results are accumulated by span, in the order of the beam.
+//! Points are evaluated in lanes. Their results are accumulated span by span, in the order of the beam.
 
 use pulp::{Arch, Simd, WithSimd};
 
@@ -14,7 +14,7 @@ use super::simd::{LANES, LaneChunk, Lanes};
 use super::span_points::{SpanGroup, window_mut};
 use super::{RotationIncrement, Section};
 
-/// Loop over spans. Each loop is a type, so that the compiler can use the selected instructions throughout.
+/// Loop over spans. Each loop is a type, so that the compiler uses the selected instructions throughout.
 pub(super) trait SpanLoop<const N: usize, S> {
     /// Body of the loop for a group of spans.
     fn at<V: Simd>(&mut self, simd: V, group: &mut SpanGroup<N, S>);
@@ -44,7 +44,7 @@ impl<const N: usize, S, W: SpanLoop<N, S>> WithSimd for LoopRange<'_, N, S, W> {
     }
 }
 
-/// Inputs of internal forces besides the spans: section, collocation, movements, and the factor of the forces.
+/// Inputs of internal forces other than the spans: section, collocation, increments, and the factor of the forces.
 #[derive(Clone, Copy)]
 pub(super) struct SpanInputs<'a> {
     pub(super) section: &'a Section,
@@ -65,7 +65,7 @@ impl ForcesFrom<'_> {
     }
 }
 
-/// Adds the internal forces at the current section forces.
+/// Adds the internal forces for the current section forces.
 pub(super) struct ForceAssembly<'a> {
     pub(super) iterate: SpanInputs<'a>,
     pub(super) forces: ForcesFrom<'a>,
@@ -114,7 +114,7 @@ impl<const N: usize, S: Sections> SpanLoop<N, S> for ForceAssembly<'_> {
     }
 }
 
-/// Adds the condensed internal forces, and passes on the tangent of each span.
+/// Adds the condensed internal forces, and calls the sink with the tangent of each span.
 pub(super) struct Linearisation<'a> {
     pub(super) iterate: SpanInputs<'a>,
     pub(super) forces: ForcesFrom<'a>,
@@ -209,7 +209,7 @@ impl<const N: usize, S: Sections> SpanLoop<N, S> for MismatchForces<'_> {
     }
 }
 
-/// Updates section forces after a correction of the movements.
+/// Updates section forces after a correction of the increments.
 #[derive(Clone, Copy)]
 pub(super) struct ForceCorrection<'a> {
     pub(super) section: &'a Section,

@@ -1,8 +1,8 @@
 //! Partition of the spans of a beam for concurrent work, with results identical to those of one thread.
 //!
-//! Parts are cut at control points. Each part owns the control points up to the next cut, and the spans that involve no others. A few spans lie
-//! astride a cut. Because of rounding, each sum must be made in the order of the spans. Spans astride a cut are therefore added to the control points
-//! behind it before the parts are processed, and to those before it afterwards.
+//! The beam is cut at control points. Each part owns the control points up to the next cut, and the spans that involve no other control points. A few
+//! spans lie across a cut. Because of rounding, each sum must be made in the order of the spans. Spans across a cut are therefore added to the
+//! control points after the cut before the parts are processed, and to the control points before the cut afterwards.
 
 use std::ops::Range;
 
@@ -15,13 +15,13 @@ use crate::threads::run_concurrently;
 type PartOf<'a, const N: usize, S, C> =
     (&'a mut C, &'a mut [SpanGroup<N, S>], usize, &'a mut [Movement]);
 
-/// Largest number of concurrent parts. A few cores saturate the memory bandwidth.
+/// Largest number of concurrent parts. A few cores exhaust the memory bandwidth.
 pub(super) const MOST_PARTS: usize = 8;
 
-/// Fewest spans of a part. Smaller parts gain little, and lose if the other cores are busy (docs/studies.md).
+/// Smallest number of spans in a part. Smaller parts gain little, and cost time if the other cores are busy (docs/studies.md).
 const SMALLEST_PART: usize = 4000;
 
-/// Fewest spans of a part for light operations, which take less than a tenth of the time of tangents.
+/// Smallest number of spans in a part for light operations, which take less than a tenth of the time of tangents.
 const SMALLEST_LIGHT_PART: usize = 2000;
 
 fn count_spans<const N: usize, S>(groups: &[SpanGroup<N, S>]) -> usize {
@@ -41,7 +41,7 @@ pub(super) struct SpanPartition {
 }
 
 impl SpanPartition {
-    /// Returns a partition into at most `most` parts that are worth a thread each.
+    /// Returns a partition into at most `most` parts that are large enough for a thread each.
     pub(super) fn worthwhile<const N: usize, S: Sections>(
         groups: &[SpanGroup<N, S>],
         most: usize,
@@ -73,7 +73,7 @@ impl SpanPartition {
         !self.cuts.is_empty() && spans >= SMALLEST_LIGHT_PART * self.count()
     }
 
-    /// Applies an independent light operation to all spans, with concurrent parts.
+    /// Applies a light operation to each span independently, with concurrent parts.
     pub(super) fn each<const N: usize, S: Sections>(
         &self,
         groups: &mut [SpanGroup<N, S>],
@@ -107,8 +107,8 @@ impl SpanPartition {
 
     /// Accumulates contributions of spans to control points, with concurrent parts.
     ///
-    /// `work` is called with the context of a part, some spans, the first control point of its sums, and these. For spans astride a cut it is called
-    /// twice, and must do the same both times.
+    /// `work` is called with the context of a part, some spans, the first control point of its sums, and the sums. For spans across a cut it is
+    /// called twice, and must do the same both times.
     pub(super) fn sum<const N: usize, S: Sections, C: Send>(
         &self,
         groups: &mut [SpanGroup<N, S>],

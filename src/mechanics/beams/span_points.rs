@@ -1,4 +1,4 @@
-//! Quadrature points of a group of neighbouring spans.
+//! Quadrature points of a group of consecutive spans.
 
 use std::ops::Range;
 
@@ -16,7 +16,7 @@ use super::simd::{LANES, LaneChunk};
 use super::span_stiffness::SpanStiffness;
 use crate::geometry::Vec2;
 
-/// Number of spans that share lanes: large enough that few lanes are empty, and small enough that the points stay in the cache.
+/// Number of spans that share lanes: large enough that few lanes are unused, small enough that the points stay in the cache.
 pub(super) const SPANS_AT_ONCE: usize = 16;
 
 /// Span with the range of its points in the group.
@@ -43,7 +43,7 @@ pub(super) struct SpanGroup<const N: usize, S = Uniform> {
     pub(super) sections: S,
 }
 
-/// Movements of the `N` control points from `first` on.
+/// Increments of the `N` control points from `first` on.
 #[inline(always)]
 pub(super) fn window<const N: usize>(movements: &[Movement], first: usize) -> &[Movement; N] {
     movements[first..]
@@ -70,7 +70,7 @@ pub(super) fn group_of<const N: usize, S>(
 }
 
 impl<const N: usize, S: Sections> SpanGroup<N, S> {
-    /// Combines the points of neighbouring spans into lanes.
+    /// Combines the points of consecutive spans into lanes.
     pub(super) fn side_by_side(spans: &[SpanOfPoints<N>]) -> Self {
         let (mut places, mut of_force, mut of_moment) = (Vec::new(), 0, 0);
         for span in spans {

@@ -1,11 +1,11 @@
-//! Stiffness of a span at rest in factored form: strains with their stiffnesses, and the geometric stiffness of section forces.
+//! Static stiffness of a span in factored form: strains with their stiffnesses, and the geometric stiffness of section forces.
 //!
 //! ```text
 //! δΓ = Λᵀ δg - J (Γ + e1) δω        δκ = δω'        the rows B, with the stiffness w C and w EI
 //! K_g = p qᵀ + q pᵀ      p·δ = w (Λ J N·δg - ½ g·ΛN δω)      q·δ = δω
 //! ```
 //!
-//! `K = Bᵀ C B + K_g`. In the sum, rounding of the large first part would hide its soft modes.
+//! `K = Bᵀ C B + K_g`. The sum is not formed, because rounding of the large first term would hide its soft modes.
 
 /// Kind of a strain of a beam.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -18,12 +18,13 @@ pub enum StrainKind {
     Bending,
 }
 
-/// Stiffness of one span of a beam at rest: rows with an entry for each component (x, y, rotation) of each of its control points.
+/// Static stiffness of one span of a beam: rows with an entry for each component (x, y, rotation) of each of its control points.
 #[derive(Debug, Clone, Default)]
 pub struct SpanStiffness {
     /// First control point of the span.
     pub first: usize,
-    /// Rows of strains and curvatures by movements, in sequence [1/length; shear by rotation: -; curvature by rotation: 1/length].
+    /// Rows of derivatives of strains and curvatures with respect to displacements and rotations, in sequence [1/length; shear by rotation: -;
+    /// curvature by rotation: 1/length].
     pub strains: Vec<f64>,
     /// Stiffness of each strain or curvature, times the integration length [force·length, force·length³].
     pub stiffness: Vec<f64>,
@@ -31,12 +32,12 @@ pub struct SpanStiffness {
     pub kinds: Vec<StrainKind>,
     /// Pairs of rows `p` and `q` of the geometric stiffness of section forces, in sequence [force; force·length for rotations, -].
     pub twists: Vec<f64>,
-    /// Fraction of the section force of each pair that may be rounding [-].
+    /// For each pair, the fraction of its section force that may be due to rounding [-].
     pub rounding_fractions: Vec<f64>,
 }
 
 impl SpanStiffness {
-    /// Clears the rows for another span with the first control point `first`.
+    /// Removes all rows and starts another span, with the first control point `first`.
     pub fn begin(&mut self, first: usize) {
         self.first = first;
         self.strains.clear();

@@ -54,7 +54,7 @@ impl Station {
         Self { body: BodyIndex::Rigid(body, point), arc_length: 0.0 }
     }
 
-    /// Returns true if both stations coincide within rounding, on a body of a length.
+    /// Returns true if both stations coincide within rounding; `length` is that of the body.
     pub fn is_at(&self, other: &Self, length: f64) -> bool {
         let apart = (self.arc_length - other.arc_length).abs();
         self.body == other.body && apart <= ROUNDING_OF_PLACES * length
@@ -89,7 +89,7 @@ impl BodyPoint {
         Self::of_point(body, 0, 0.0)
     }
 
-    /// Place of a control point of a rigid body, 0 being the centre of mass; the body as drawn has an angle [rad].
+    /// Place of a control point of a rigid body (0 is the centre of mass) with an initial angle [rad].
     pub fn of_point(body: usize, point: usize, angle: f64) -> Self {
         let mut shape = [0.0; MAX_DEGREE + 1];
         shape[0] = 1.0;
@@ -102,7 +102,7 @@ impl BodyPoint {
     /// Fails if the parameter lies outside the mesh, or the axis has no tangent there.
     pub fn at(body: usize, axis: &Curve, mesh: &Mesh, xi: f64) -> Result<Self, GeometryError> {
         let values = mesh.basis().evaluate(xi)?;
-        // At a break some functions of the span are zero. Their control points are excluded.
+        // At a break, some functions of the span are zero. Their control points are excluded.
         let is_here = |value: &f64| *value != 0.0;
         let skipped = values.values().iter().position(is_here).unwrap_or(0);
         let last = values.values().iter().rposition(is_here).unwrap_or(0);

@@ -3,7 +3,7 @@
 use super::{BeamError, Mesh, Section, SectionVariation};
 use crate::geometry::{GaussRule, larger};
 
-/// Points between places of a taper or knots, for reference integrals.
+/// Number of Gauss points between consecutive places or knots, for reference integrals.
 const POINTS: usize = 8;
 
 /// Relative errors of integrals along a beam by the quadrature of its mesh [-].
@@ -18,7 +18,7 @@ pub struct TaperQuadrature {
 }
 
 impl TaperQuadrature {
-    /// Evaluates the errors for a section variation. Places are taken as fractions of the parameter, which is exact for spans of equal length.
+    /// Evaluates the errors for a section variation. Places are used as fractions of the parameter, which is exact for spans of equal length.
     ///
     /// # Errors
     /// Fails if the mesh has no quadrature.

@@ -1,7 +1,7 @@
-//! Trigonometric, hyperbolic and exponential functions and their inverses, from the crate `libm`, a Rust port of those of musl and FreeBSD.
+//! Trigonometric, hyperbolic and exponential functions and their inverses, from the crate `libm`, a Rust port of the functions of musl and FreeBSD.
 //!
-//! Most errors are below one unit in the last place, those of hyperbolic functions below two. Angles are in radians; undefined values are NaN, as in
-//! IEEE 754.
+//! Errors are mostly below one unit in the last place; for hyperbolic functions below two units. Angles are in radians; undefined values are NaN, as
+//! in IEEE 754.
 
 /// Sine of an angle [rad], identical on every machine.
 #[inline]
@@ -15,7 +15,7 @@ pub fn cos(angle: f64) -> f64 {
     libm::cos(angle)
 }
 
-/// Sine and cosine of an angle [rad], as by [`sin`] and [`cos`] but cheaper.
+/// Sine and cosine of an angle [rad], equal to [`sin`] and [`cos`] but cheaper to compute together.
 #[inline]
 pub fn sin_cos(angle: f64) -> (f64, f64) {
     libm::sincos(angle)

@@ -1,8 +1,8 @@
 //! Elementary functions with identical results on every machine.
 //!
-//! Those of the standard library call the C library of the machine, or are evaluated at compile time by another one. Their last bit depends on the
-//! library, its version and the processor. The functions here use additions, multiplications, divisions and square roots only, which IEEE 754 defines
-//! exactly. All other code uses these; `clippy.toml` rejects the others.
+//! The functions of the standard library call the C library of the machine, or another library at compile time. Their last bit depends on the
+//! library, its version and the processor. The functions of this module use additions, multiplications, divisions and square roots only, which IEEE
+//! 754 defines exactly. All other code uses this module; `clippy.toml` rejects the functions of the standard library.
 
 mod functions;
 mod powers;

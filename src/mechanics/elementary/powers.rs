@@ -6,9 +6,9 @@ pub fn square(x: f64) -> f64 {
     x * x
 }
 
-/// Integer power, by repeated squaring from the lowest bit of the exponent on; `1/xⁿ` for negative exponents.
+/// Integer power by repeated squaring, from the lowest bit of the exponent on; `1/xⁿ` for negative exponents.
 ///
-/// The order of multiplications, and so every rounding, is fixed here; that of `f64::powi` is up to the compiler.
+/// This fixes the order of multiplications and every rounding error. For `f64::powi` the compiler chooses the order.
 #[inline]
 pub fn whole_power(x: f64, exponent: i32) -> f64 {
     let (mut power, mut squares, mut left) = (1.0, x, exponent.unsigned_abs());

@@ -8,7 +8,7 @@ use super::{GeometryError, Vec2, perpendicular, unit};
 use crate::elementary::power;
 use std::f64::consts::TAU;
 
-/// Relative rounding by which a full turn may be exceeded.
+/// Relative rounding error by which an arc may exceed a full turn.
 const ROUNDING: f64 = 1e-12;
 
 /// An arc of a circle of radius `r` about `c`, `x(ξ) = c + r (cos φ, sin φ)` with
@@ -54,7 +54,7 @@ impl CircularArc {
         Ok(arc)
     }
 
-    /// Angle from start to end [rad], positive counter-clockwise.
+    /// Angle from start to end, positive counter-clockwise [rad].
     pub(super) fn sweep(&self) -> f64 {
         self.to_angle - self.from_angle
     }

@@ -1,17 +1,18 @@
-//! Arc length and its inverse, by quadrature of the speed.
+//! Arc length by quadrature of the speed `|dx/dξ|`, and its inverse.
 
 use super::GaussRule;
 use std::sync::LazyLock;
 
-/// Largest number of bisections, reached at cusps only.
+/// Largest number of bisections. It is reached only at cusps.
 const DEPTH: usize = 48;
 
-/// Largest number of iterations. About five are needed; bisection alone needs 60.
+/// Largest number of iterations. About five are needed, or 60 for bisection alone.
 const STEPS: usize = 100;
 
 static RULE: LazyLock<GaussRule> = LazyLock::new(|| GaussRule::legendre(16));
 
-/// Integral `∫ speed dξ` from `start` to `end`. Intervals are halved until the 16-point Gauss rule and its two halves agree within `tolerance`.
+/// Integral `∫ speed dξ` from `start` to `end`. Intervals are halved until the 16-point Gauss rule on an interval and on its two halves agree within
+/// `tolerance`.
 pub(super) fn integrate(speed: &impl Fn(f64) -> f64, start: f64, end: f64, tolerance: f64) -> f64 {
     refine(speed, (start, end), gauss(speed, start, end), tolerance, DEPTH)
 }

@@ -6,10 +6,10 @@ use super::knots::check_inside;
 use super::values::LowDerivatives;
 use super::{BasisValues, GeometryError, KnotVector, LagrangeBasis, MAX_DEGREE, Span, bspline};
 
-/// Distance, relative to the domain, below which a break coincides with an existing knot.
+/// Distance of a break from a knot, relative to the domain, below which they coincide.
 const SAME_BREAK: f64 = 1e-10;
 
-/// Functions `N_i(ξ)` that sum to one, each nonzero on a few spans only.
+/// Basis functions `N_i(ξ)` that sum to one. Each is nonzero on a few spans only.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub enum Basis {
     /// B-splines of a knot vector.
@@ -59,7 +59,7 @@ impl Basis {
         }
     }
 
-    /// Span that contains the parameter `xi` [-]; at a break the right one.
+    /// Span that contains the parameter `xi` [-]; at a break the span on its right.
     ///
     /// # Errors
     /// Fails if `xi` is outside the domain or NaN.
@@ -96,7 +96,7 @@ impl Basis {
         }
     }
 
-    /// Functions of degree `WIDTH - 1` as in [`evaluate_in`](Self::evaluate_in), up to second derivatives; the largest width serves any degree.
+    /// Functions of degree `WIDTH - 1` as in [`evaluate_in`](Self::evaluate_in), up to second derivatives. The largest width serves any degree.
     #[inline]
     pub(super) fn evaluate_low<const WIDTH: usize>(
         &self,
@@ -126,7 +126,8 @@ impl Basis {
         }
     }
 
-    /// Interpolation parameter of each function: Greville abscissae of splines, nodes of Lagrange elements. Strictly increasing, ends included.
+    /// Interpolation parameter of each function: Greville abscissae of splines, nodes of Lagrange elements. They are strictly increasing and include
+    /// the ends.
     pub fn abscissae(&self) -> Vec<f64> {
         match self {
             Self::BSpline(knots) => knots.greville(),
@@ -134,9 +135,10 @@ impl Basis {
         }
     }
 
-    /// Returns the basis with continuity C⁰ at `xi`: the knot has multiplicity `degree`, or the Lagrange element is split.
+    /// Returns the basis with continuity C⁰ at `xi`: the multiplicity of the knot is `degree`, or the Lagrange element is split.
     ///
-    /// A knot closer to `xi` than 1e-10 of the domain is used instead of `xi`. Nothing changes at places that are C⁰ already, and at the ends.
+    /// If a knot is closer to `xi` than 1e-10 of the domain, it is used instead of `xi`. At the ends, and where the basis is C⁰ already, nothing
+    /// changes.
     ///
     /// # Errors
     /// Fails if `xi` is outside the domain or NaN, or there are too many spans.

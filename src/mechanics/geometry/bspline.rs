@@ -5,8 +5,9 @@ use super::{KnotVector, Span};
 
 /// Nonzero B-splines on `span` of `knots` with all derivatives at `xi`, extended as polynomials.
 ///
-/// Both follow from the splines of one degree less. Of degree `q - 1`, `N_m` has the support `[ξ_m, ξ_{m+q}]` of length `h_m`, and contributes to two
-/// splines of degree `q` (The NURBS Book, equations 2.5 and 2.7; the results are those of algorithm A2.3):
+/// The functions and their derivatives follow from the splines of one degree less. The spline `N_m` of degree `q - 1` has the support `[ξ_m,
+/// ξ_{m+q}]` of length `h_m`, and contributes to two splines of degree `q` (The NURBS Book, equations 2.5 and 2.7; the results are those of algorithm
+/// A2.3):
 ///
 /// ```text
 /// N_{m-1}   gets   (ξ_{m+q} - ξ) / h_m · N_m       its derivatives   -q / h_m · (those of N_m, one order less)
@@ -18,9 +19,9 @@ pub(super) fn evaluate(knots: &KnotVector, span: &Span, xi: f64) -> BasisValues 
     basis
 }
 
-/// Fills zeroed rows with the functions and their derivatives, one order per row.
+/// Fills rows of zeros with the functions and their derivatives, one order per row.
 ///
-/// The degree is a separate argument, because the compiler may know it.
+/// The degree is a separate argument, so that it can be a compile-time constant.
 #[inline(always)]
 pub(super) fn fill<const WIDTH: usize>(
     (knots, degree): (&KnotVector, usize),
@@ -44,7 +45,7 @@ pub(super) fn fill<const WIDTH: usize>(
     }
 }
 
-/// Values of degree one higher at `xi`, from the supports of the `lower` functions.
+/// Values at `xi` of the functions of one degree more, from the supports of the `lower` functions.
 #[inline(always)]
 fn raise<const WIDTH: usize>(
     lower: &[f64; WIDTH],
@@ -53,7 +54,7 @@ fn raise<const WIDTH: usize>(
 ) -> [f64; WIDTH] {
     let mut higher = [0.0; WIDTH];
     for (j, (value, (start, end))) in lower.iter().zip(supports).enumerate() {
-        // Quotients first: at the ends of the span they are exactly 0 and 1.
+        // The quotients are computed first, because they are exactly 0 and 1 at the ends of the span.
         higher[j] += (end - xi) / (end - start) * value;
         higher[j + 1] += (xi - start) / (end - start) * value;
     }

@@ -9,8 +9,8 @@ pub(super) struct CollocationRow<R> {
     pub(super) right_side: R,
 }
 
-/// Solves a banded system by Gauss elimination without pivoting. It is stable for the totally positive matrices of B-spline collocation (de Boor &
-/// Pinkus 1977, Numer. Math. 27) and has no fill-in, because neither the first nor the last nonzero column decreases from row to row.
+/// Solves a banded system by Gaussian elimination without pivoting. It is stable for the totally positive matrices of B-spline collocation (de Boor &
+/// Pinkus 1977, Numer. Math. 27). It has no fill-in, because the indices of the first and the last nonzero column do not decrease from row to row.
 pub(super) fn solve<R>(mut rows: Vec<CollocationRow<R>>) -> Vec<R>
 where
     R: Copy + Default + AddAssign + SubAssign + Mul<f64, Output = R> + Div<f64, Output = R>,

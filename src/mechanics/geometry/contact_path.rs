@@ -6,24 +6,24 @@ use super::piecewise::FunctionOnPath;
 use super::values::FunctionRow;
 use super::{Basis, GaussRule, MAX_DEGREE, PiecewisePolynomial, Span};
 
-/// Basis functions `B_i` along a path from the parameter ξ₀ to ξ₁, for a point that slides along `Σ B_i(ξ) x_i` during a time step. In particular the
-/// quotients `(B_i(ξ₁) - B_i(ξ₀)) / (ξ₁ - ξ₀)`, which are accurate for paths of any length, including zero, and across breaks of any smoothness.
+/// Basis functions `B_i` along a path from the parameter ξ₀ to ξ₁, for a point that slides along `Σ B_i(ξ) x_i` during a time step. The divided
+/// differences `(B_i(ξ₁) - B_i(ξ₀)) / (ξ₁ - ξ₀)` are accurate for paths of any length, including zero, and across breaks of any continuity.
 ///
-/// The window of the functions `first, first + 1, …` contains those that are nonzero anywhere on the spans of the path. Every accessor returns one
-/// number for each of them. Parameters and results are dimensionless.
+/// The window contains the functions `first, first + 1, …` that are nonzero anywhere on the spans of the path. Every accessor returns one value for
+/// each of them. Parameters and results are dimensionless.
 ///
-/// A path that starts at a break starts in the span ahead, and one that ends at a break ends in the span it came through. A path of length zero at a
-/// break lies in the right span. Outside the domain the polynomials of the end spans are extended.
+/// A path that starts at a break starts in the span in its direction, and a path that ends at a break ends in the span that it has passed. A path of
+/// zero length at a break lies in the span on the right. Outside the domain, the polynomials of the end spans are extended.
 #[derive(Debug, Clone)]
 pub struct ContactPath {
-    /// Shared by all copies for the same beam.
+    /// Data shared by all copies for the same beam.
     line: Arc<PathSupport>,
     interval: PathInterval,
-    /// Functions at the start of the path, in the span of departure, cached for consecutive paths with the same start.
+    /// Functions at the start of the path, in its first span, cached for consecutive paths with the same start.
     departing: Option<(f64, usize, FunctionRow)>,
     first: usize,
     length: usize,
-    /// Rows of the window, one for each [`PathQuantity`], with capacity for the longest path in all copies.
+    /// Rows of the window, one for each [`PathQuantity`], with capacity for the longest path.
     numbers: Vec<f64>,
 }
 
@@ -45,7 +45,7 @@ const QUANTITIES: usize = PathQuantity::Change as usize + 1;
 struct PathSupport {
     basis: Basis,
     spans: Vec<Span>,
-    /// For each span, the number of breaks with jumps of slopes up to its start.
+    /// For each span, the number of breaks up to its start at which slopes jump.
     kinks: Vec<usize>,
     /// Points and weights on `[0, 1]`, exact for polynomials of one degree less than the basis.
     rule: Vec<(f64, f64)>,
@@ -69,8 +69,8 @@ struct PathPiece {
 }
 
 impl ContactPath {
-    /// Creates a path of length zero at the start of the domain of `basis`. Memory for all paths is allocated here; [`set_interval`](Self::set_interval) allocates
-    /// nothing.
+    /// Creates a path of zero length at the start of the domain of `basis`. Memory for all paths is allocated here;
+    /// [`set_interval`](Self::set_interval) allocates none.
     pub fn new(basis: Basis) -> Self {
         let room = QUANTITIES * basis.functions();
         let (start, _) = basis.domain();
@@ -89,9 +89,9 @@ impl ContactPath {
         passage
     }
 
-    /// Replaces the path by the one from ξ₀ = `from`, in the domain, to ξ₁ = `to`, which may lie outside.
+    /// Replaces the path by the path from ξ₀ = `from`, in the domain, to ξ₁ = `to`, which may lie outside.
     ///
-    /// If either is not finite, all numbers are NaN, and the window is that of the span of `from`.
+    /// If one of them is not finite, all values are NaN, and the window is that of the span of `from`.
     pub fn set_interval(&mut self, from: f64, to: f64) {
         let is_there = self.length > 0 && (self.interval.from, self.interval.to) == (from, to);
         if is_there {
@@ -137,7 +137,7 @@ impl ContactPath {
         self.row(PathQuantity::End)
     }
 
-    /// Means `½ (B_i(ξ₀) + B_i(ξ₁))` of start and end. They sum to one.
+    /// Means `½ (B_i(ξ₀) + B_i(ξ₁))` of the values at start and end. They sum to one.
     pub fn mean(&self) -> &[f64] {
         self.row(PathQuantity::Mean)
     }
@@ -147,23 +147,23 @@ impl ContactPath {
         self.row(PathQuantity::Slope)
     }
 
-    /// Divided differences `D_i = (B_i(ξ₁) - B_i(ξ₀)) / (ξ₁ - ξ₀)`, the means of `B_i'` over the path, accurate to rounding; `B_i'(ξ₀)` for a path of
-    /// length zero. They sum to zero.
+    /// Divided differences `D_i = (B_i(ξ₁) - B_i(ξ₀)) / (ξ₁ - ξ₀)`: the means of `B_i'` over the path, accurate to rounding, or `B_i'(ξ₀)` for a path
+    /// of zero length. They sum to zero.
     pub fn difference(&self) -> &[f64] {
         self.row(PathQuantity::Difference)
     }
 
-    /// Derivatives of the divided differences with respect to the end of the path, `∂D_i/∂ξ₁ = (B_i'(ξ₁) - D_i) / (ξ₁ - ξ₀)` for fixed ξ₀;
-    /// `½ B_i''(ξ₀)` for a path of length zero. They sum to zero.
+    /// Derivatives of the divided differences with respect to the end of the path, `∂D_i/∂ξ₁ = (B_i'(ξ₁) - D_i) / (ξ₁ - ξ₀)` for fixed ξ₀, or `½
+    /// B_i''(ξ₀)` for a path of zero length. They sum to zero.
     ///
-    /// They are accurate to rounding, unless the path crosses a jump of `B_i'`. Then the rounding of `D_i` is divided by the length of the path.
+    /// They are accurate to rounding, unless `B_i'` jumps on the path. In this case the rounding error of `D_i` is divided by the length of the path.
     pub fn change(&self) -> &[f64] {
         self.row(PathQuantity::Change)
     }
 
     /// Evaluates a piecewise polynomial along the path; NaN if an end of the path is not finite.
     ///
-    /// Its slope may jump only where those of the basis do.
+    /// The slope of the polynomial may jump only where the slopes of the basis jump.
     pub fn along(&self, function: &PiecewisePolynomial) -> FunctionOnPath {
         let way = self.interval;
         let [start, ..] = function.in_span(way.departure, way.from);
@@ -190,7 +190,7 @@ impl ContactPath {
         function.in_span(self.interval.arrival, self.interval.to)
     }
 
-    /// Number of spans between two parameters, including fractions: for a short path its length over the width of its span.
+    /// Number of spans between two parameters, including fractions. For a short path it is the length of the path over the length of its span.
     pub fn spans_between(&self, from: f64, to: f64) -> f64 {
         let (from, to) = if from <= to { (from, to) } else { (to, from) };
         let PathInterval { departure, arrival, .. } = self.interval(from, to);
@@ -287,7 +287,7 @@ impl PathInterval {
 
     fn piece(self, index: usize, span: &Span) -> PathPiece {
         if self.departure == self.arrival {
-            // Separate, because the other case divides by the length of the path, which may be zero.
+            // This case is separate, because the other case divides by the length of the path, which may be zero here.
             return PathPiece { enter: self.from, leave: self.to, before: 0.0, share: 1.0 };
         }
         let (behind, ahead) = if self.departure < self.arrival {
@@ -307,7 +307,7 @@ impl PathInterval {
     }
 }
 
-/// For each span, the number of breaks with jumps of slopes up to its start: breaks across which at most one function is nonzero on both sides.
+/// For each span, the number of breaks up to its start at which slopes jump: across such a break, at most one function is nonzero on both sides.
 fn kinks(spans: &[Span], degree: usize) -> Vec<usize> {
     let jumps = spans.windows(2).map(|pair| usize::from(pair[1].first - pair[0].first >= degree));
     std::iter::once(0)

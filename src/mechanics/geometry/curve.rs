@@ -6,13 +6,13 @@ use super::knots::check_inside;
 use super::{CircularArc, GeometryError, KnotVector, Line, SplineCurve, Vec2, cross, local_cubic};
 use crate::elementary::{atan2, hypot};
 
-/// Relative distance below which two places coincide.
+/// Distance of two places, relative to the size of the curve, below which they coincide.
 pub const ROUNDING_OF_PLACES: f64 = 1e-12;
 
-/// Speed relative to the mean below which a curve has no tangent.
+/// Speed `|dx/dξ|`, relative to the mean, below which a curve has no tangent.
 const STANDSTILL: f64 = 1e-12;
 
-/// Returns true if an arc length lies on a curve of a length, within rounding.
+/// Returns true if an arc length lies on a curve with a length, within rounding.
 pub fn is_on_length(arc_length: f64, length: f64) -> bool {
     let tolerance = ROUNDING_OF_PLACES * length;
     (-tolerance..=length + tolerance).contains(&arc_length)
@@ -38,8 +38,8 @@ impl Curve {
         Line::new(from, to).map(Self::Line)
     }
 
-    /// Returns the circular arc about `center` [length] with `radius` [length] between two angles [rad] from the first axis, ξ from 0 to 1:
-    /// counter-clockwise if `to_angle` is larger.
+    /// Returns the circular arc about `center` [length] with `radius` [length] between two angles from the first axis [rad], with ξ from 0 to 1. It
+    /// is counter-clockwise if `to_angle` is larger.
     ///
     /// # Errors
     /// Fails if numbers are not finite, the radius is not positive, the angles are equal, or the arc exceeds a full turn.
@@ -64,7 +64,7 @@ impl Curve {
     /// points, double interior knots at the points, ξ from 0 to 1.
     ///
     /// # Errors
-    /// Fails if there are fewer than two points, coordinates are not finite, or consecutive points coincide or are closer than 1e-12 of the whole.
+    /// Fails if there are fewer than two points, coordinates are not finite, or consecutive points are closer than 1e-12 of the whole.
     pub fn through(points: &[Vec2]) -> Result<Self, GeometryError> {
         local_cubic::through(points).map(Self::Spline)
     }
@@ -85,7 +85,7 @@ impl Curve {
         self.derivative(xi, 0)
     }
 
-    /// Derivative `dᵏx/dξᵏ` [length] of `order` k, at knots from the right.
+    /// Derivative `dᵏx/dξᵏ` of `order` k [length]. At knots it is the limit from the right.
     ///
     /// # Errors
     /// Fails if `xi` is outside the domain or NaN.
@@ -100,16 +100,16 @@ impl Curve {
     /// Angle of the tangent `dx/dξ` from the first axis [rad], in `[-π, π]`.
     ///
     /// # Errors
-    /// Fails if `xi` is outside the domain or NaN, or the derivative vanishes there.
+    /// Fails if `xi` is outside the domain or NaN, or the derivative is zero there.
     pub fn tangent_angle(&self, xi: f64) -> Result<f64, GeometryError> {
         let velocity = self.velocity(xi)?;
         Ok(atan2(velocity.y, velocity.x))
     }
 
-    /// Curvature `(x' × x'') / |x'|³` [1/length], positive if the curve turns counter-clockwise; at knots from the right.
+    /// Curvature `(x' × x'') / |x'|³` [1/length], positive if the curve turns counter-clockwise. At knots it is the limit from the right.
     ///
     /// # Errors
-    /// Fails if `xi` is outside the domain or NaN, or the derivative vanishes there.
+    /// Fails if `xi` is outside the domain or NaN, or the derivative is zero there.
     pub fn curvature(&self, xi: f64) -> Result<f64, GeometryError> {
         let velocity = self.velocity(xi)?;
         match self {
@@ -122,7 +122,7 @@ impl Curve {
         }
     }
 
-    /// Length of the curve [length]; for splines with an error of about 1e-13 of the control polygon.
+    /// Length of the curve [length]. For splines its error is about 1e-13 of the length of the control polygon.
     pub fn length(&self) -> f64 {
         match self {
             Self::Line(line) => line.length(),
@@ -145,7 +145,7 @@ impl Curve {
         }
     }
 
-    /// Parameter [-] at an arc length from the start [length]. Values beyond an end by rounding give that end.
+    /// Parameter [-] at an arc length from the start [length]. If rounding puts the arc length beyond an end, the result is that end.
     ///
     /// # Errors
     /// Fails if `arc_length` is outside `[0, length]` or NaN.
@@ -161,7 +161,7 @@ impl Curve {
         }
     }
 
-    /// Derivative `dx/dξ`, if it is not zero.
+    /// Derivative `dx/dξ`, or an error if it is zero.
     fn velocity(&self, xi: f64) -> Result<Vec2, GeometryError> {
         let velocity = self.derivative(xi, 1)?;
         let (start, end) = self.domain();

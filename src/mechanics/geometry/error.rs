@@ -2,7 +2,7 @@
 
 use super::Vec2;
 
-/// Invalid request to the geometry layer. Every message names the object, the value, the allowed range and, if not obvious, the remedy.
+/// Error of a curve, basis or quadrature rule. Every message names the object, the value, the allowed range and, if not obvious, the remedy.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum GeometryError {
     /// Number that is NaN or infinite.
@@ -100,7 +100,7 @@ pub enum GeometryError {
         degree: usize,
     },
 
-    /// Span as short as rounding, between almost equal knots or breaks.
+    /// Span whose length is due to rounding, between almost equal knots or breaks.
     #[error(
         "{object}: the span from {start} to {end} is shorter than 1e-12 of the domain; make the two values equal or move them apart"
     )]
@@ -184,7 +184,7 @@ pub enum GeometryError {
     CoincidentPoints {
         /// Index of the second point, from 0.
         index: usize,
-        /// Place of both [length].
+        /// Position of both points [length].
         point: Vec2,
     },
 
@@ -227,7 +227,7 @@ pub enum GeometryError {
         sweep: f64,
     },
 
-    /// Point of a curve where the derivative vanishes, without tangent and curvature.
+    /// Point of a curve without tangent and curvature, because the derivative is zero.
     #[error(
         "curve: no tangent at parameter {xi}, where its derivative is zero; move coincident control points apart, or evaluate at another parameter"
     )]

@@ -3,12 +3,12 @@
 use super::collocation::{CollocationRow, solve};
 use super::{Basis, Curve, GeometryError, Vec2};
 
-/// Returns the control points (splines) or nodes (Lagrange) [length] of `curve` in `basis`, one per function. The domain of the basis is mapped
-/// affinely to that of the curve.
+/// Returns the control points (splines) or nodes (Lagrange) of `curve` in `basis` [length], one per function. An affine map takes the domain of the
+/// basis to that of the curve.
 ///
-/// The result is exact for lines, and for splines of the same knots. Otherwise the curve is interpolated at the [abscissae](Basis::abscissae) of the
-/// basis, including its ends; smooth curves with an error of order `degree + 1` in the span length. Kinks of the curve are kept only at C⁰ breaks of
-/// the basis.
+/// The result is exact for lines, and for splines of the same knots. Other curves are interpolated at the [abscissae](Basis::abscissae) of the basis,
+/// including its ends. For smooth curves the error is of order `degree + 1` in the span length. Kinks of the curve are reproduced only at C⁰ breaks
+/// of the basis.
 ///
 /// # Errors
 /// Errors of evaluating the curve only.
@@ -22,7 +22,7 @@ pub fn interpolate(curve: &Curve, basis: &Basis) -> Result<Vec<Vec2>, GeometryEr
     let points =
         abscissae.iter().map(|&xi| curve.point(corresponding(xi, basis.domain(), curve.domain())));
     match (curve, basis) {
-        // With control points on a line at these places, splines and Lagrange elements reproduce the line.
+        // With control points on the line at these abscissae, splines and Lagrange elements reproduce the line exactly.
         (Curve::Line(_), _) | (_, Basis::Lagrange(_)) => points.collect(),
         _ => {
             let rows = abscissae.iter().zip(points).map(|(&xi, point)| {

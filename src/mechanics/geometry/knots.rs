@@ -11,7 +11,7 @@ pub const MAX_DEGREE: usize = 10;
 /// Largest number of spans (elements) of a basis.
 pub const MAX_SPANS: usize = 400_000;
 
-/// Length, relative to the domain, below which a span is rejected as rounding.
+/// Length of a span, relative to the domain, below which it is rejected as due to rounding.
 const SHORTEST_SPAN: f64 = 1e-12;
 
 /// An open knot vector of some degree `p`: knots `ξ_0 ≤ … ≤ ξ_m` on an interval `[a, b]`, the end
@@ -27,7 +27,7 @@ pub struct KnotVector {
 /// Nonempty knot interval or Lagrange element, on which each function is one polynomial.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Span {
-    /// First basis function that is nonzero on the span; the others are the next `degree`.
+    /// First basis function that is nonzero on the span. The next `degree` functions are the other nonzero ones.
     pub first: usize,
     /// Start of the span [-].
     pub start: f64,
@@ -126,8 +126,8 @@ impl KnotVector {
             - self.knots.partition_point(|&knot| knot < xi)
     }
 
-    /// Index `i` with `ξ_i ≤ xi < ξ_{i+1}`, at the right end that of the last nonempty span (The NURBS Book, algorithm A2.1). The functions `i - p`
-    /// to `i` are nonzero there.
+    /// Index `i` with `ξ_i ≤ xi < ξ_{i+1}`; at the right end, the index of the last nonempty span (The NURBS Book, algorithm A2.1). The functions `i
+    /// - p` to `i` are nonzero there.
     ///
     /// # Errors
     /// Fails if `xi` is outside the domain or NaN.
@@ -141,7 +141,7 @@ impl KnotVector {
     /// Returns the knot vector with `xi` inserted `times` times.
     ///
     /// # Errors
-    /// Fails if `xi` is not strictly inside the domain, is closer than 1e-12 of it to another knot, or exceeds the multiplicity `degree`.
+    /// Fails if `xi` is not strictly inside the domain, is closer to another knot than 1e-12 of the domain, or exceeds the multiplicity `degree`.
     pub fn insert(&self, xi: f64, times: usize) -> Result<Self, GeometryError> {
         let (start, end) = self.domain();
         if !(start < xi && xi < end) {
@@ -161,14 +161,14 @@ impl KnotVector {
         Self::new(self.degree, knots)
     }
 
-    /// Greville abscissae `(ξ_{i+1} + … + ξ_{i+p}) / p`, one per basis function and strictly increasing. Control points on a line at these parameters
+    /// Greville abscissae `(ξ_{i+1} + … + ξ_{i+p}) / p`, one per basis function, strictly increasing. Control points on a line at these parameters
     /// give a parameterisation of uniform speed.
     pub fn greville(&self) -> Vec<f64> {
         self.knots[1..self.knots.len() - 1]
             .windows(self.degree)
             .map(|knots| {
                 let (low, high) = (knots[0], knots[knots.len() - 1]);
-                // The mean of equal numbers may be rounded, but ends must be exact.
+                // The mean of equal numbers may be rounded, but the ends must be exact.
                 if low == high {
                     low
                 } else {
@@ -255,7 +255,7 @@ pub(super) fn check_spans(spans: usize) -> Result<(), GeometryError> {
     }
 }
 
-/// Rejects domains of infinite length and spans as short as rounding; `breaks` increase.
+/// Rejects domains of infinite length, and spans whose length is due to rounding. `breaks` must increase.
 pub(super) fn check_span_lengths(
     object: &'static str,
     breaks: &[f64],

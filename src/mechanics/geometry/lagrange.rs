@@ -31,7 +31,7 @@ impl LagrangeBasis {
     /// Creates elements of `degree` 1 to 3 between consecutive `breaks` (dimensionless, increasing).
     ///
     /// # Errors
-    /// Fails for an unavailable degree; breaks that are fewer than two, not finite, not increasing, or closer than 1e-12 of the whole; more than
+    /// Fails for an unavailable degree; breaks that are fewer than two, not finite, not increasing, or closer than 1e-12 of the domain; more than
     /// [`MAX_SPANS`](super::MAX_SPANS) elements.
     pub fn new(degree: usize, breaks: Vec<f64>) -> Result<Self, GeometryError> {
         check_degree(degree, LARGEST_DEGREE)?;
@@ -86,7 +86,7 @@ impl LagrangeBasis {
         (0..self.breaks.len() - 1).map(|element| self.span(element)).collect()
     }
 
-    /// Element that contains the parameter `xi` [-]; at a break the right one.
+    /// Element that contains the parameter `xi` [-]; at a break the element on its right.
     ///
     /// # Errors
     /// Fails if `xi` is outside the domain or NaN.
@@ -97,7 +97,7 @@ impl LagrangeBasis {
         Ok(self.span(behind.min(self.breaks.len() - 1) - 1))
     }
 
-    /// Parameters of the nodes [-]. Each function is 1 at its node and 0 at all others.
+    /// Parameters of the nodes [-]. Each function is 1 at its node and 0 at all other nodes.
     pub fn nodes(&self) -> Vec<f64> {
         let mut nodes = vec![self.breaks[0]];
         for span in self.spans() {
@@ -106,7 +106,7 @@ impl LagrangeBasis {
         nodes
     }
 
-    /// Returns the basis with the element around `xi` split there.
+    /// Returns the basis with the element that contains `xi` split at `xi`.
     ///
     /// # Errors
     /// Fails if `xi` is outside the domain or too close to a break.
@@ -126,7 +126,7 @@ impl LagrangeBasis {
         basis
     }
 
-    /// Fills zeroed rows with the functions and their derivatives, one order per row.
+    /// Fills rows of zeros with the functions and their derivatives, one order per row.
     pub(super) fn fill<const WIDTH: usize>(&self, span: &Span, xi: f64, rows: &mut [[f64; WIDTH]]) {
         for j in 0..=self.degree {
             let derivatives = self.polynomial(span, j, xi);

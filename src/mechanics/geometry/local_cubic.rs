@@ -3,15 +3,15 @@
 use super::error::finite_point;
 use super::{GeometryError, KnotVector, SplineCurve, Vec2, cross};
 
-/// Angle [rad] below which chords are parallel, and relative size below which they cancel.
+/// Angle below which two chords are parallel [rad], and length of a sum of chords, relative to the chords, below which they cancel.
 const PARALLEL: f64 = 1e-12;
 
-/// Local cubic interpolation (The NURBS Book, section 9.3.4) through `n + 1` points: one cubic piece between consecutive points, with the tangents of
-/// [`tangents`] and equal speed at the ends and the middle of all pieces. The curve is C¹, with `2n + 2` control points and double interior knots, on
-/// `[0, 1]`.
+/// Local cubic interpolation (The NURBS Book, section 9.3.4) through `n + 1` points. Each pair of consecutive points is joined by one cubic piece
+/// with the tangents of [`tangents`] and equal speed at the ends and the middle of all pieces. The curve is C¹ on `[0, 1]`, with `2n + 2` control
+/// points and double interior knots.
 ///
 /// # Errors
-/// Fails if there are fewer than two points, coordinates are not finite, or consecutive points coincide or are closer than 1e-12 of the whole.
+/// Fails if there are fewer than two points, coordinates are not finite, or consecutive points are closer than 1e-12 of the whole.
 pub(super) fn through(points: &[Vec2]) -> Result<SplineCurve, GeometryError> {
     if points.len() < 2 {
         return Err(GeometryError::TooFewPoints { count: points.len(), needed: 2 });
@@ -49,12 +49,12 @@ fn common_speed(chord: Vec2, tangent_sum: Vec2) -> f64 {
     let half_b = 6.0 * chord.dot(&tangent_sum);
     let c = -36.0 * chord.norm_squared();
     let root = (half_b * half_b - a * c).sqrt();
-    // Form of the root without cancellation.
+    // This form of the root has no cancellation.
     if half_b > 0.0 { -c / (half_b + root) } else { (root - half_b) / a }
 }
 
-/// Unit tangents at the points between `chords`, and at both ends, by Akima's rule from two chords on either side (equations 9.29 and 9.31). Chords
-/// beyond the ends follow from equation 9.33.
+/// Unit tangents at the points between `chords` and at both ends, by Akima's rule from two chords on either side (equations 9.29 and 9.31).
+/// Additional chords beyond the ends follow from equation 9.33.
 fn tangents(chords: &[Vec2]) -> Vec<Vec2> {
     let count = chords.len();
     let before = continued(chords[0], chords[1.min(count - 1)]);
@@ -63,16 +63,16 @@ fn tangents(chords: &[Vec2]) -> Vec<Vec2> {
     all.windows(4).map(|chords| akima_tangent(chords[0], chords[1], chords[2], chords[3])).collect()
 }
 
-/// Two chords beyond an end that continue the turn of the last two. This is the book's `2 near - far` with `far` scaled to the length of `near`:
-/// identical for equidistant points, and otherwise the curve cannot start backwards.
+/// Two chords beyond an end that continue the rotation of the last two chords. They are `2 near - far` as in the book, but with `far` scaled to the
+/// length of `near`. For equidistant points this is the same; for other points the curve cannot start backwards.
 fn continued(near: Vec2, far: Vec2) -> [Vec2; 2] {
     let next = |near: Vec2, far: Vec2| 2.0 * near - near.norm() / far.norm() * far;
     let first = next(near, far);
     [first, next(first, near)]
 }
 
-/// Unit tangent at the point between chords `b` and `c` of four consecutive ones. At a corner between two straight parts both have equal weight, so
-/// the corner is rounded. If the points reverse, the tangent is that of the following chord.
+/// Unit tangent at the point between chords `b` and `c` of four consecutive chords. At a corner between two straight parts both have equal weight, so
+/// the corner is rounded. If the direction reverses, the tangent is that of the following chord.
 fn akima_tangent(a: Vec2, b: Vec2, c: Vec2, d: Vec2) -> Vec2 {
     let (bend_before, bend_after) = (cross(a, b).abs(), cross(c, d).abs());
     let straight = bend_before <= PARALLEL * a.norm() * b.norm()

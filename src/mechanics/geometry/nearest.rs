@@ -5,15 +5,15 @@ use super::{Curve, GeometryError, Vec2};
 /// Number of initial samples of a curve.
 const SAMPLES: usize = 512;
 
-/// Number of bisections, which exhausts the precision of a parameter.
+/// Number of bisections, enough to exhaust the precision of a parameter.
 const HALVINGS: usize = 60;
 
-/// Parameter of the point of a curve nearest to a given point; the first of several equally near ones.
+/// Parameter of the point of a curve nearest to a given point. If several points are equally near, the first is returned.
 ///
-/// Details of the curve smaller than a five-hundredth of it may be missed.
+/// Details of the curve that are smaller than a five-hundredth of its length may be missed.
 ///
 /// # Errors
-/// Errors of evaluating the curve only.
+/// Errors of the evaluation of the curve.
 pub fn nearest(curve: &Curve, point: Vec2) -> Result<f64, GeometryError> {
     let (start, end) = curve.domain();
     let sample = |index: usize| start + (end - start) * (index as f64 / SAMPLES as f64);
@@ -24,7 +24,7 @@ pub fn nearest(curve: &Curve, point: Vec2) -> Result<f64, GeometryError> {
             best = (distance, index);
         }
     }
-    // Half the slope of the squared distance changes its sign between the neighbours, or an end is nearest.
+    // The slope of the squared distance changes its sign between the neighbours of the sample, or an end is nearest.
     let slope = |xi: f64| Ok((curve.point(xi)? - point).dot(&curve.derivative(xi, 1)?));
     let mut low = sample(best.1.saturating_sub(1));
     let mut high = sample((best.1 + 1).min(SAMPLES));

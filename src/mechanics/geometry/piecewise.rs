@@ -10,7 +10,7 @@ pub struct PiecewisePolynomial {
     /// Coefficients of all spans in sequence: `Σ c_k t^k` with `t` from -1 to 1 on the span.
     coefficients: Vec<f64>,
     count: usize,
-    /// Points and weights on `[0, 1]`, exact for polynomials of one degree less.
+    /// Points and weights on `[0, 1]`, exact for polynomials of one degree less than the function.
     rule: Vec<(f64, f64)>,
 }
 
@@ -30,7 +30,7 @@ pub struct FunctionOnPath {
 }
 
 impl PiecewisePolynomial {
-    /// Creates a function from a row of coefficients per span: `Σ c_k t^k` with `t` from -1 to 1 on the span.
+    /// Creates a function from a row of coefficients for each span: `Σ c_k t^k` with `t` from -1 to 1 on the span.
     pub fn new(spans: &[Span], rows: &[Vec<f64>]) -> Self {
         let count = rows.first().map_or(1, Vec::len);
         let place = |span: &Span| (0.5 * (span.start + span.end), 0.5 * (span.end - span.start));
@@ -42,7 +42,7 @@ impl PiecewisePolynomial {
         }
     }
 
-    /// Integral of a function over consecutive spans from the start of the first one. On each span the function is interpolated at `points` Gauss
+    /// Integral of a function over consecutive spans, from the start of the first span. On each span the function is interpolated at `points` Gauss
     /// points.
     pub fn integral(spans: &[Span], points: usize, function: impl Fn(&Span, f64) -> f64) -> Self {
         let rule = GaussRule::legendre(points);
@@ -67,12 +67,12 @@ impl PiecewisePolynomial {
         Self::new(spans, &rows)
     }
 
-    /// Points and weights on `[0, 1]` that integrate the derivative on a part of a span exactly.
+    /// Points and weights on `[0, 1]` that integrate the derivative exactly on a part of a span.
     pub(super) fn rule(&self) -> &[(f64, f64)] {
         &self.rule
     }
 
-    /// Largest value in the middle of a span.
+    /// Largest of the values in the middle of the spans.
     pub fn largest_in_middle(&self) -> f64 {
         let middles = self.spans.iter().enumerate();
         middles.map(|(span, (middle, _))| self.in_span(span, *middle)[0]).fold(0.0, larger)

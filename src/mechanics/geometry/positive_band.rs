@@ -3,9 +3,7 @@
 /// Pivot, relative to the diagonal entry, below which the matrix counts as singular.
 const ROUNDING: f64 = 1e-11;
 
-/// Symmetric positive definite band matrix, such as the Gram matrix of splines.
-///
-/// Entries beyond the half-bandwidth are zero.
+/// Symmetric positive definite band matrix, such as the Gram matrix of splines. Entries outside the band are zero.
 #[derive(Debug, Clone)]
 pub struct PositiveBand {
     /// Row `i` holds the entries `(i, i), (i, i + 1), …`.
@@ -43,14 +41,14 @@ impl PositiveBand {
         self.rows[low].get(high - low).copied().unwrap_or(0.0)
     }
 
-    /// Factorises as `L D Lᵀ`; `None` if a pivot is not positive, or is rounding.
+    /// Factorises as `L D Lᵀ`; `None` if a pivot is not positive or is due to rounding.
     pub fn factorise(&self) -> Option<PositiveFactors> {
         let mut columns = self.rows.clone();
         for at in 0..columns.len() {
             let (done, rest) = columns.split_at_mut(at + 1);
             let column = &mut done[at];
             let pivot = column[0];
-            // Remainders of dependent rows are rounding.
+            // For linearly dependent rows, the pivot is due to rounding.
             if !(pivot > ROUNDING * self.rows[at][0] && pivot.is_finite()) {
                 return None;
             }

@@ -29,8 +29,8 @@ impl GaussRule {
         }
     }
 
-    /// Rule of `n` points by Newton's method on the Legendre polynomial from Tricomi's estimate, with weights `2 / ((1 - x²) P'_n(x)²)` (Abramowitz &
-    /// Stegun 25.4.29).
+    /// Rule of `n` points by Newton's method on the Legendre polynomial, starting from Tricomi's estimate, with weights `2 / ((1 - x²) P'_n(x)²)`
+    /// (Abramowitz & Stegun 25.4.29).
     pub(super) fn legendre(n: usize) -> Self {
         let (mut points, mut weights) = (vec![0.0; n], vec![0.0; n]);
         for i in 0..n.div_ceil(2) {

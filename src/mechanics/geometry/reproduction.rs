@@ -3,9 +3,10 @@
 use super::spline_rule::{lower_count, lower_splines};
 use super::{Basis, BasisValues, GaussRule, GeometryError, Span};
 
-/// Derivatives `T` of the functions of a run of spans, with their scalar products.
+/// Space `T` of the derivatives of the functions of a run of spans, with their scalar products.
 ///
-/// The integrals of a function with all of `T` determine its projection `Π f`, of order `p` for smooth functions, up to the ends of the run.
+/// The integrals of a function with all elements of `T` determine its projection `Π f`. Its error for smooth functions is of order `p`, up to the
+/// ends of the run.
 #[derive(Debug, Clone)]
 pub struct LowerSplines {
     basis: Basis,
@@ -15,7 +16,7 @@ pub struct LowerSplines {
     factors: Vec<Vec<f64>>,
 }
 
-/// Reproducing kernel of a place of a run: `ρ` in `T` with `∫ ρ t dξ = t(ξ)` for all t in `T`, and a spline `v` with `v' = ρ`.
+/// Reproducing kernel at a place of a run: `ρ` in `T` with `∫ ρ t dξ = t(ξ)` for all t in `T`, and a spline `v` with `v' = ρ`.
 #[derive(Debug, Clone)]
 pub struct Reproduction<'a> {
     splines: &'a LowerSplines,
@@ -47,8 +48,8 @@ impl LowerSplines {
         Ok(splines)
     }
 
-    /// Calls `add` for every point of a rule that is exact for products of a function and a derivative: index of the first derivative, weight,
-    /// derivatives and functions.
+    /// Calls `add` for every point of a rule that integrates products of a function and a derivative exactly, with the index of the first derivative,
+    /// the weight, the derivatives and the functions.
     fn integrate(
         &self,
         mut add: impl FnMut(usize, f64, &[f64], &BasisValues),
@@ -132,7 +133,7 @@ impl Reproduction<'_> {
     }
 }
 
-/// Factors `L D Lᵀ` of a symmetric positive matrix given by rows from the diagonal on.
+/// Factors `L D Lᵀ` of a symmetric positive definite matrix, given by rows from the diagonal on.
 fn factorised(mut rows: Vec<Vec<f64>>) -> Vec<Vec<f64>> {
     for t in 0..rows.len() {
         let (done, rest) = rows.split_at_mut(t + 1);

@@ -1,4 +1,4 @@
-//! Gauss quadrature for splines with the fewest points that determine derivatives.
+//! Gauss quadrature for splines with the smallest number of points that determines the derivatives.
 
 use super::collocation::{CollocationRow, solve};
 use super::{Basis, BasisValues, GaussRule, Span};
@@ -6,22 +6,23 @@ use super::{Basis, BasisValues, GaussRule, Span};
 /// Quadrature points of each span of a run with their weights: `∫ f dξ ≈ Σ weight · f(point)`.
 pub type RunRule = Vec<Vec<(f64, f64)>>;
 
-/// Relative tolerance for equal span lengths.
+/// Difference of span lengths, relative to them, below which they are equal.
 const EQUAL: f64 = 1e-9;
 
-/// Patch rule: one point per derivative of a function of a run of spans, with weights that integrate all these derivatives exactly.
+/// Patch rule: as many points as linearly independent derivatives of the functions of a run of spans, with weights that integrate all these
+/// derivatives exactly.
 ///
 /// The spans are consecutive and joined at least C¹. The derivatives of their `F` functions of degree `p` span the `P = F - 1` splines `T` of degree
-/// `p - 1`. The points are Gauss points of these splines: the zeros of the one spline of degree `p` that is orthogonal to all of `T`, in analogy to
-/// Gauss points of polynomials, which they are for a single span. On equal spans of full continuity, far from the ends, that spline alternates. Its
-/// zeros are the middles of spans for odd degrees and the knots for even ones, where the derivative of the alternating spline is largest.
+/// `p - 1`. The points are the zeros of the spline of degree `p` that is orthogonal to all of `T`. For a single span they are the Gauss points of
+/// polynomials. On equal spans of full continuity, far from the ends, the orthogonal spline alternates. Its zeros are the middles of spans for odd
+/// degrees, and the knots for even degrees.
 ///
-/// For cubics of full continuity on three or more equal spans, the common mesh, the points are two Gauss points in the first and last spans and the
-/// middles of the others. Only there these are better, by a factor of two in the error (docs/theory.md, section 4).
+/// For cubics of full continuity on three or more equal spans, the common mesh, other points are better by a factor of two in the error: two Gauss
+/// points in the first and last spans, and the middles of the other spans (docs/theory.md, section 4).
 ///
-/// The orthogonal spline has `P` zeros because of total positivity (de Boor, A Practical Guide to Splines, rev. ed. 2001, chapter XI). That the
-/// weights are positive, and that `Σ w T² ≥ 0.79 ∫ T² dξ`, is not proven but tested for every degree and continuity. Returns `None` if rounding
-/// leaves fewer zeros or a weight that is not positive; no such spans are known.
+/// The orthogonal spline has `P` zeros because of total positivity (de Boor, A Practical Guide to Splines, rev. ed. 2001, chapter XI). Positive
+/// weights, and `Σ w T² ≥ 0.79 ∫ T² dξ`, are not proven but tested for every degree and continuity. Returns `None` if rounding leaves fewer zeros or
+/// a weight that is not positive; no such spans are known.
 pub fn patch_rule(basis: &Basis, run: &[Span]) -> Option<RunRule> {
     if let [span] = run {
         return gauss_points(basis.degree(), span).map(|rule| vec![rule]);
@@ -60,8 +61,8 @@ fn middles(run: &[Span]) -> Option<Vec<Vec<f64>>> {
     run.iter().enumerate().map(of).collect()
 }
 
-/// Splines of one degree less as sums of derivatives: `T_t = -Σ_(a ≤ t) N'_a` is a positive multiple of a B-spline, with integral one. Those that are
-/// nonzero on a span have the indices of its functions except the last.
+/// Splines of one degree less as sums of derivatives: `T_t = -Σ_(a ≤ t) N'_a` is a positive multiple of a B-spline, with integral one. The splines
+/// that are nonzero on a span have the indices of the functions of the span, except the last.
 pub fn lower_splines(values: &BasisValues) -> impl Iterator<Item = f64> + '_ {
     let partial = values.slopes().iter().scan(0.0, |sum, slope| {
         *sum -= slope;
@@ -114,7 +115,7 @@ fn orthogonal_spline(basis: &Basis, run: &[Span]) -> Option<Vec<f64>> {
     coefficients.iter().all(|coefficient| coefficient.is_finite()).then_some(coefficients)
 }
 
-/// Places of a span, from -1 to 1 and denser towards its ends like Gauss points. Between two of them lies at most one zero.
+/// Search places of a span, from -1 to 1 and denser towards its ends like Gauss points. At most one zero lies between two neighbouring places.
 fn places(degree: usize) -> Vec<f64> {
     let count = 8 * (degree + 1);
     let place = |at: usize| {
@@ -124,7 +125,7 @@ fn places(degree: usize) -> Vec<f64> {
     (0..count).map(place).collect()
 }
 
-/// Zeros of a spline on each span; `None` if their number is not that of the basis functions of the next lower degree.
+/// Zeros of a spline on each span; `None` unless their number is that of the basis functions of one degree less.
 fn zeros(basis: &Basis, run: &[Span], coefficients: &[f64]) -> Option<Vec<Vec<f64>>> {
     let (degree, offset) = (basis.degree(), run.first()?.first);
     let places = places(degree);
@@ -134,7 +135,7 @@ fn zeros(basis: &Basis, run: &[Span], coefficients: &[f64]) -> Option<Vec<Vec<f6
         .collect();
     let mut found = Vec::with_capacity(run.len());
     for (at, (span, piece)) in run.iter().zip(&pieces).enumerate() {
-        // The end value of a span is the start value of the next, so that zeros at knots are counted exactly once.
+        // The value at the end of a span is taken from the start of the next span, so that zeros at knots are counted exactly once.
         let end = pieces.get(at + 1).map_or_else(|| piece.value(1.0), |next| next.value(-1.0));
         let starts = places.iter().map(|t| (*t, piece.value(*t)));
         let values: Vec<(f64, f64)> = starts.chain([(1.0, end)]).collect();
@@ -171,7 +172,7 @@ impl Polynomial {
         self.0.iter().rev().fold(0.0, |sum, coefficient| sum * t + coefficient)
     }
 
-    /// Zero between two places of opposite sign, by bisection; `low` is the value at the left one.
+    /// Zero between two places with values of opposite sign, by bisection. `low` is the value at the left place.
     fn zero_between(&self, mut left: f64, mut right: f64, low: f64) -> f64 {
         if low == 0.0 {
             return left;
@@ -190,13 +191,14 @@ impl Polynomial {
     }
 }
 
-/// Weights with which points integrate the derivative of every function of a run of spans exactly.
+/// Weights for which the quadrature points integrate the derivatives of all basis functions of a run of spans exactly.
 ///
 /// `points` lists the quadrature points of each span; their total is one less than the number of basis functions. Returns `None` if no such weights
 /// exist or a weight is not finite.
 ///
-/// The collocation matrix of the lower splines is totally positive. (Weights as in Auricchio, Calabrò, Hughes, Reali & Sangalli, A simple algorithm
-/// for obtaining nearly optimal quadrature rules for NURBS-based isogeometric analysis, Comput. Methods Appl. Mech. Eng. 249-252 (2012) 15-27.)
+/// The weights solve a collocation system with the splines of one degree less, whose matrix is totally positive (F. Auricchio, F. Calabrò, T. J. R.
+/// Hughes, A. Reali & G. Sangalli, A simple algorithm for obtaining nearly optimal quadrature rules for NURBS-based isogeometric analysis, Comput.
+/// Methods Appl. Mech. Eng. 249-252 (2012) 15-27).
 fn derivative_weights(basis: &Basis, run: &[Span], points: &[Vec<f64>]) -> Option<Vec<f64>> {
     let (first, last) = (run.first()?, run.last()?);
     let unknowns = lower_count(basis, run)?;

@@ -5,13 +5,13 @@ use super::{MAX_DEGREE, Vec2};
 /// Capacity for the functions of one span, and for their derivatives of order 0 to the degree.
 const WIDTH: usize = MAX_DEGREE + 1;
 
-/// One number for each nonzero function of a span; only the first `degree + 1` are used.
+/// One value for each nonzero function of a span; only the first `degree + 1` are used.
 pub(super) type FunctionRow = [f64; WIDTH];
 
 const ZERO: FunctionRow = [0.0; WIDTH];
 
-/// The `degree + 1` basis functions `N_first … N_{first+degree}` of one span and their derivatives with respect to ξ, of every order, at one
-/// parameter. All other functions are zero there. Values are dimensionless, and stored without heap allocation.
+/// The `degree + 1` basis functions `N_first … N_{first+degree}` of one span and all their derivatives with respect to ξ, at one parameter. All other
+/// functions are zero there. Values are dimensionless, and stored without heap allocation.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct BasisValues {
     /// Index in the basis of the first nonzero function.
@@ -41,7 +41,7 @@ impl BasisValues {
         self.derivatives(1)
     }
 
-    /// Derivatives of the given `order` with respect to ξ, `degree + 1` of them; zeros above the degree.
+    /// Derivatives of the given `order` with respect to ξ, `degree + 1` of them. Above the degree they are zero.
     pub fn derivatives(&self, order: usize) -> &[f64] {
         let row = if order <= self.degree { &self.rows[order] } else { &ZERO };
         &row[..=self.degree]
@@ -53,7 +53,7 @@ impl BasisValues {
     /// Panics if there are fewer points than basis functions.
     pub fn combine(&self, order: usize, points: &[Vec2]) -> Vec2 {
         let points = &points[self.first..=self.first + self.degree];
-        // Derivatives sum to zero, so a nearby origin only reduces rounding.
+        // The derivatives sum to zero, so another origin changes nothing but rounding, which is smallest for a near origin.
         let origin = if order == 0 { Vec2::zeros() } else { points[0] };
         self.derivatives(order).iter().zip(points).map(|(n, point)| *n * (point - origin)).sum()
     }

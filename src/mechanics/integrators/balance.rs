@@ -6,14 +6,14 @@ use crate::elementary::square;
 use crate::linalg::BorderedMatrix;
 use crate::newton::{Equations, Newton, NewtonError, NewtonReport, ResidualNorms, Tolerance};
 
-/// Largest increment `Δω`, mean rate times step. Beyond it the direction of rotation is ambiguous.
+/// Largest rotation increment `Δω` (mean rate times step). Beyond it the direction of rotation is ambiguous.
 const LARGEST_INCREMENT: f64 = std::f64::consts::PI;
 
-/// Shortest chord. If the mean configuration folds the path of a slider by a rotation of about π, the contact equations have no direction and
-/// spurious solutions.
+/// Smallest chord of a slider path in the mean configuration, relative to the path. If a rotation of about π folds the path, the contact equations
+/// have no defined direction and spurious solutions exist.
 const SHORTEST_CHORD: f64 = 1e-3;
 
-/// Coefficients of a method in the balance of a step: inertia, and the stage of forces.
+/// Coefficients of a method in the balance of a step.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct BalanceCoefficients {
     /// Factor `ι` of the inertia: the acceleration is `ι d/Δt²` plus the carried part [-].
@@ -33,8 +33,9 @@ impl BalanceCoefficients {
 
 /// `R(d, z) = ι/Δt² M d + weight · F(stage, u) + carried + G(u, z)`, `u = Δt v0 + d`.
 ///
-/// `z` are the constraint multipliers and `G` their forces, for the whole step. The unknown is the deviation `d` from coasting, not the increment
-/// `u`. Then `v1 = v0 + 2/Δt d` has the rounding of the velocity change, so that momenta do not drift over many steps.
+/// Here `z` are the constraint multipliers and `G` their forces, averaged over the step. The unknown is not the increment `u`, but its deviation `d`
+/// from a motion with constant velocity. Then the rounding error of `v1 = v0 + 2/Δt d` is relative to the velocity change, so that momenta do not
+/// drift over many steps.
 pub(super) struct StepBalance<'a> {
     mechanism: &'a mut dyn Mechanism,
     rule: BalanceCoefficients,
@@ -123,7 +124,7 @@ pub(super) struct StepSolver {
     rates: Vec<f64>,
     residual: Vec<f64>,
     balanced: Vec<(Stage, f64)>,
-    /// True if the balance is that of the momentum change.
+    /// True if the method balances the change of momentum.
     balances_rates: bool,
 }
 
@@ -200,7 +201,7 @@ impl StepSolver {
         self.unknowns.copy_from_slice(solution);
     }
 
-    /// Solves the balance of the step by a callback, which gets the Newton solver, the equations, their unknowns and their residual.
+    /// Solves the balance of the step by a callback, which receives the Newton solver, the equations, their unknowns and their residual.
     pub(super) fn solve_by(
         &mut self,
         mechanism: &mut dyn Mechanism,
@@ -256,7 +257,7 @@ impl StepSolver {
         }
     }
 
-    /// Copies the prescribed increments, and adds the inertia of prescribed movements to the balance of the step.
+    /// Copies the prescribed increments, and adds the inertia of prescribed degrees of freedom to the balance of the step.
     fn take_prescribed(&mut self, mechanism: &mut dyn Mechanism, at: BalancedAt) {
         let movements = self.free_increments.len();
         let prescribed = mechanism.prescribed();
@@ -278,7 +279,8 @@ impl StepSolver {
         self.accept(mechanism, |_, v0, d| v0 + twice_inverse * d);
     }
 
-    /// Accepts the increments of the step, with final rates computed from the index of an unknown, its initial rate and its deviation from coasting.
+    /// Accepts the increments of the step. `rate` computes the final rate of an unknown from its index, its initial rate and its deviation from
+    /// constant velocity.
     pub(super) fn accept(
         &mut self,
         mechanism: &mut dyn Mechanism,

@@ -4,8 +4,8 @@ use super::balance::{BalanceCoefficients, StepSolver};
 use super::{Integrator, Interval, Mechanism, Stage, StepError};
 use crate::newton::{NewtonReport, Tolerance};
 
-/// Energy–momentum method with section forces at a later strain. It damps high frequencies, and conserves linear and angular momentum to rounding for
-/// any step size.
+/// Energy–momentum method with section forces for a strain later than the midpoint. It damps high frequencies, and conserves linear and angular
+/// momentum to rounding for any step size.
 ///
 /// `M (v1 - v0)/Δt + F(damped midpoint) = 0`, `(v0 + v1)/2 = Δq/Δt`, with
 /// `N̄ = C (½(Γ0 + Γ1) + χ/2 ΔΓ)`, `M̄ = EI (½(κ0 + κ1) + χ/2 Δκ)`, `χ ≥ 0`.
@@ -13,7 +13,7 @@ use crate::newton::{NewtonReport, Tolerance};
 /// A step dissipates exactly the energy `χ/2 ∫ ΔΓ·C ΔΓ + EI Δκ² dX`. The order is one, or two for `χ = 0`, the energy–momentum method.
 ///
 /// After F. Armero & I. Romero, Comput. Methods Appl. Mech. Eng. 190 (2001) 2603–2649, who add dissipation to the averaged stresses of a conserving
-/// method; here with the term that is linear in the strain.
+/// method. Here the added stress is linear in the strain.
 #[derive(Debug, Clone)]
 pub struct EnergyDecaying {
     solver: StepSolver,

@@ -60,7 +60,7 @@ fn at(culprit: Option<&FailureSource>) -> String {
     }
 }
 
-/// Rejected step. The mechanism is still at its start.
+/// Rejected step. The mechanism is in its state at the start of the step.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum StepError {
     /// Equations that were not solved.
@@ -70,12 +70,12 @@ pub enum StepError {
         interval: Interval,
         /// Reason, with the residual history.
         source: Box<NewtonError>,
-        /// Newton iterations of earlier parts of the step.
+        /// Newton iterations of earlier substeps.
         before: usize,
         /// Location of the failure, if known.
         failure_source: Option<Box<FailureSource>>,
     },
-    /// Mean rotation of a section in the step of π or more, which is not resolved.
+    /// Mean rotation of a section in the step of at least π, which the step does not resolve.
     #[error(
         "a section would rotate by {rotation:.2} rad in the step of {:.3e} from t = {}, but the rotation per step must be below π; use a smaller step",
         interval.duration(), interval.start
@@ -88,7 +88,7 @@ pub enum StepError {
         /// Newton iterations of the step.
         iterations: usize,
     },
-    /// Collapsed path of a slider in the mean configuration, because the beam rotates by about π.
+    /// Path of a slider that collapses in the mean configuration, because the beam rotates by about π.
     #[error(
         "in the step of {:.3e} from t = {} the beam under a slider rotates by about π (chord {chord:.1e} of the path); use a smaller step",
         interval.duration(), interval.start
@@ -101,7 +101,7 @@ pub enum StepError {
         /// Newton iterations of the step.
         iterations: usize,
     },
-    /// Constraint limit passed within the step, which has to be cut there.
+    /// Constraint limit that is passed within the step, so that the step must end at the limit.
     #[error(
         "limit {} of a constraint is exceeded within the step of {:.3e} from t = {}",
         overshoot.limit, interval.duration(), interval.start

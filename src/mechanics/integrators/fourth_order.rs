@@ -3,23 +3,24 @@
 use super::{EnergyMomentum, Integrator, Interval, Mechanism, Stage, StepError};
 use crate::newton::{NewtonReport, Tolerance};
 
-/// Lengths of the first three substeps as fractions of the step. The last three mirror them.
+/// Lengths of the first three substeps as fractions of the step. The last three have the same lengths in reverse order.
 ///
-/// Roots of five equations: order four, and no response to slow loads of vibrations with a phase of 2π or 4π per step (theory.md 8.3).
+/// They satisfy five equations: order four, and no response of vibrations with a phase of 2π or 4π per step to slow loads (theory.md 8.3).
 const SHARES: [f64; 3] =
     [0.161_052_153_814_088_86, 0.193_890_122_365_726_64, 0.426_192_546_250_769_94];
 
-/// Ends of the substeps as fractions of the step. The fourth one runs back in time.
+/// Ends of the substeps as fractions of the step. The fourth substep runs backwards in time.
 const ENDS: [f64; 7] = {
     let [a, b, c] = SHARES;
     [a, a + b, a + b + c, 1.0 - (a + b + c), 1.0 - (a + b), 1.0 - a, 1.0]
 };
 
-/// Seven energy–momentum steps of relative lengths `a, b, c, 1 - 2(a + b + c), c, b, a`, the fourth one backwards in time. Each conserves energy,
-/// linear and angular momentum to rounding, and so does the whole.
+/// Seven energy–momentum steps of relative lengths `a, b, c, 1 - 2(a + b + c), c, b, a`, the fourth one backwards in time. Each substep conserves
+/// energy, linear and angular momentum to rounding, and so does the whole step.
 ///
-/// The leading error `Δt³` per step of a symmetric second-order method cancels because the cubes of the lengths sum to zero, which gives order four.
-/// The lengths are small, which keeps the error small, and chosen such that slow loads do not excite unresolved vibrations.
+/// The leading error of a symmetric second-order method is proportional to `Δt³` per step. It cancels because the cubes of the lengths sum to zero,
+/// which gives order four. The lengths are small, which keeps the remaining error small. They are chosen such that slow loads do not excite
+/// unresolved vibrations.
 ///
 /// Compositions of this kind: R. I. McLachlan, On the numerical integration of ordinary differential equations by symmetric composition methods, SIAM
 /// J. Sci. Comput. 16 (1995) 151–168. The coefficients are original.
@@ -32,12 +33,12 @@ impl FourthOrder {
     /// Stages at which forces are evaluated, one per substep.
     pub const STAGES: &[Stage] = &[Stage::Midpoint; ENDS.len()];
 
-    /// Longest forward substep and the backward substep, as fractions of a step.
+    /// Lengths of the longest forward substep and of the backward substep, as fractions of a step.
     pub const LONGEST: [f64; 2] = [SHARES[2], ENDS[3] - ENDS[2]];
 
     /// Creates the method with work space for a mechanism.
     pub fn new(mechanism: &mut dyn Mechanism, tolerance: Tolerance) -> Self {
-        // Allocates the checkpoint outside of the steps.
+        // Allocates the checkpoint before the first step.
         mechanism.checkpoint().save_state();
         Self { substep: EnergyMomentum::new(mechanism, tolerance) }
     }

@@ -6,8 +6,8 @@ use super::{Integrator, Interval, Mechanism, Stage, StepError};
 use crate::elementary::square;
 use crate::newton::{NewtonReport, Tolerance};
 
-/// Newmark's formulas with inertia and forces balanced at different times. High frequencies are damped by up to the factor `ρ∞` per step, low ones
-/// hardly. Neither energy nor momenta are conserved.
+/// Newmark's formulas with inertia and forces balanced at different times. High frequencies are damped by up to the factor `ρ∞` per step, low
+/// frequencies very little. Neither energy nor momenta are conserved.
 ///
 /// ```text
 /// M ((1-αm) a1 + αm a0) + (1-αf) F(end) + αf F(start) = 0
@@ -15,8 +15,9 @@ use crate::newton::{NewtonReport, Tolerance};
 /// αm = (2ρ∞ - 1)/(ρ∞ + 1)     αf = ρ∞/(ρ∞ + 1)     γ = ½ - αm + αf     β = ¼ (1 - αm + αf)²
 /// ```
 ///
-/// Rotation increments are those of the angle. Accelerations `a` are part of the state. If they are unknown (at the start, after an impact, at a jump
-/// of a load), a step of the trapezoidal rule determines them as `(v1 - v0)/Δt`. With `ρ∞ = 1` all steps are of this kind. Second order.
+/// Rotation increments are those of the angle. Accelerations `a` are part of the state. They are unknown at the start, after an impact, and at a jump
+/// of a load. In this case a step of the trapezoidal rule determines them as `(v1 - v0)/Δt`. With `ρ∞ = 1` all steps are steps of the trapezoidal
+/// rule. Second order.
 ///
 /// J. Chung & G. M. Hulbert, J. Appl. Mech. 60 (1993) 371–375.
 #[derive(Debug, Clone)]
@@ -29,9 +30,9 @@ pub struct GeneralizedAlpha {
 
 #[derive(Debug, Clone, Copy)]
 struct Weights {
-    /// `αm`.
+    /// Coefficient `αm`.
     inertia_before: f64,
-    /// `αf`.
+    /// Coefficient `αf`.
     forces_before: f64,
     gamma: f64,
     beta: f64,
@@ -56,7 +57,7 @@ impl GeneralizedAlpha {
     /// Stages at which forces are evaluated.
     pub const STAGES: &[Stage] = &[Stage::Start, Stage::End];
 
-    /// Creates the method with `ρ∞` [-] and work space for a mechanism, which keeps accelerations from here on.
+    /// Creates the method with `ρ∞` [-] and work space for a mechanism, whose state then includes accelerations.
     pub fn new(rho_infinity: f64, mechanism: &mut dyn Mechanism, tolerance: Tolerance) -> Self {
         mechanism.accelerated().enable_accelerations();
         Self {
@@ -102,7 +103,7 @@ impl GeneralizedAlpha {
             inertia: (1.0 - inertia_before) / beta,
             stage: Stage::End,
             weight: 1.0 - forces_before,
-            // At the time of the forces, as for unknown movements.
+            // Prescribed accelerations are taken at the time of the forces.
             prescribed: BalancedAt::Fraction(1.0 - forces_before),
         };
         let report = solver.solve(mechanism, interval, rule)?;

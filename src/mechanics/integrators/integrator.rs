@@ -5,10 +5,10 @@ use crate::newton::NewtonReport;
 
 /// Time integrator: takes steps of a mechanism.
 pub trait Integrator {
-    /// Advances the mechanism over the interval. On an error it is unchanged.
+    /// Advances the mechanism over the interval. On an error, the mechanism is unchanged.
     ///
     /// # Errors
-    /// Fails without a solution, with too large a rotation increment, at a constraint limit within the interval, or with a load that cannot be
+    /// Fails if the equations are not solved, a rotation increment is too large, a constraint limit lies within the interval, or a load cannot be
     /// evaluated.
     fn step(
         &mut self,

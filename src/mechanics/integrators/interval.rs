@@ -7,7 +7,7 @@ pub struct Interval {
     pub start: f64,
     /// End [time].
     pub end: f64,
-    /// More accurate than the difference of two large times.
+    /// Stored because it is more accurate than the difference of two large times.
     duration: f64,
     ending: IntervalEnd,
 }
@@ -15,7 +15,7 @@ pub struct Interval {
 /// Meaning of the end of an interval.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum IntervalEnd {
-    /// End of a part of a step. Actions at the end of a step are postponed.
+    /// End of a substep. Actions at the end of a step are postponed.
     Substep,
     /// End of a step.
     Step,

@@ -4,7 +4,7 @@ use super::{FailureSource, Interval, PrescribedKinematics, StepError};
 use crate::linalg::{BandedMatrix, BlockLayout, Border, BorderShape};
 use crate::newton::ResidualPart;
 
-/// Place in a step at which forces are taken. Increments are relative to the start of the step.
+/// Time within a step at which forces are taken. Increments are relative to the start of the step.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Stage {
     /// Start of the step, with loads at the start of a line that has their mean and their change over the step.
@@ -13,8 +13,8 @@ pub enum Stage {
     ///
     /// The internal forces then do exactly the work by which the strain energy changes (Stander & Stein 1996; Simo, Tarnow & Doblaré 1995).
     Midpoint,
-    /// As the [midpoint](Self::Midpoint), including loads, but with section forces of a later strain: half of its change times this number `χ` is
-    /// added to its mean.
+    /// As the [midpoint](Self::Midpoint), including loads, but the section forces are those of the mean strain plus `χ/2` times the change of strain;
+    /// the value is `χ`.
     ///
     /// The internal forces then do additional work of `χ/2` times the integral of `ΔΓ·C ΔΓ + EI Δκ²`.
     DampedMidpoint(f64),
@@ -23,13 +23,13 @@ pub enum Stage {
 }
 
 impl Stage {
-    /// Stages with separate load values, in the order of time.
+    /// Stages at which loads have separate values, in the order of time.
     pub const ALL: [Self; 3] = [Self::Start, Self::Midpoint, Self::End];
 }
 
 /// Constant inertia matrix `M` of a mechanical system.
 pub trait Inertia {
-    /// Adds `factor · M · rates` to `out`, one entry per unknown movement.
+    /// Adds `factor · M · rates` to `out`, one entry per unknown degree of freedom.
     fn add_inertia(&mut self, factor: f64, rates: &[f64], out: &mut [f64]);
 
     /// Adds `factor · M` to the tangent.
@@ -40,7 +40,7 @@ pub trait Inertia {
 ///
 /// Section forces may be internal unknowns, which are condensed and corrected with the increments.
 pub trait Forces {
-    /// Adds `weight` times the forces of a stage (internal minus loads) at the current section forces to `out`.
+    /// Adds `weight` times the forces of a stage (internal minus loads), for the current section forces, to `out`.
     ///
     /// Returns the largest mismatch between the strains of section forces and configuration.
     fn add_forces(&mut self, stage: Stage, increments: &[f64], weight: f64, out: &mut [f64])
@@ -56,13 +56,13 @@ pub trait Forces {
         tangent: &mut BandedMatrix,
     );
 
-    /// Adds `weight` times the forces that would remove the current strain mismatch, in the directions of the last linearisation.
+    /// Adds `weight` times the forces that would remove the current strain mismatch, with the strain derivatives of the last linearisation.
     fn add_mismatch_forces(&mut self, weight: f64, out: &mut [f64]);
 
-    /// Updates the section forces after a correction of the increments of the last linearisation.
+    /// Updates the section forces after a correction of the increments, by the last linearisation.
     fn correct_section_forces(&mut self, correction: &[f64]);
 
-    /// Largest residual of a movement, relative to the forces of this step [-].
+    /// Largest force residual, relative to the forces of this step [-].
     fn relative_imbalance(&self, residual: &[f64]) -> f64;
 
     /// Location of the largest residual of a part, for messages.
@@ -79,7 +79,7 @@ pub trait Constraints {
     /// Number of constraint unknowns, and the largest number of entries of their equations.
     fn constraint_shape(&self) -> BorderShape;
 
-    /// Blocks of five constraint unknowns, if these should be eliminated block by block.
+    /// Blocks of five constraint unknowns, if these are to be eliminated block by block.
     fn constraint_blocks(&self) -> Option<&BlockLayout> {
         None
     }
@@ -105,7 +105,7 @@ pub trait Constraints {
     /// Checks that the constraint unknowns allow the step to be accepted.
     ///
     /// # Errors
-    /// Fails if a constraint ends within the step, or not where it should.
+    /// Fails if a slider passes a limit within the step, or misses the limit at which the step has to end.
     fn check_constraints(&mut self, unknowns: &[f64]) -> Result<(), Overshoot>;
 
     /// Shortest chord of a path along a constraint in the mean configuration of the last evaluation, relative to the path as built [-].
@@ -114,14 +114,14 @@ pub trait Constraints {
 
 /// Mechanical system that integrators advance: its unknowns, its state, and the present step.
 ///
-/// Increments and rates belong to the unknown movements. Constraints add their own unknowns (contact forces, contact positions), without inertia and
-/// with as many equations, after the movements. Force vectors have further entries for supported degrees of freedom, which are fixed or prescribed.
-/// The residual there is the support reaction. If movements are prescribed, increments and rates include entries up to them.
+/// Increments and rates belong to the unknown degrees of freedom. The unknowns of constraints (contact forces, contact positions) follow. They have
+/// no inertia and as many equations. Force vectors have further entries for supported degrees of freedom, which are fixed or prescribed; their
+/// residual is the support reaction. If motions are prescribed, the vectors of increments and rates extend to the last prescribed degree of freedom.
 pub trait Mechanism: Inertia + Forces + Constraints {
-    /// Number of unknown movements.
+    /// Number of unknown degrees of freedom.
     fn unknowns(&self) -> usize;
 
-    /// Length of force vectors: movements, constraints and supported degrees of freedom.
+    /// Length of force vectors: unknowns, constraints and supported degrees of freedom.
     fn degrees_of_freedom(&self) -> usize;
 
     /// Half-bandwidth of the tangent.
@@ -132,13 +132,13 @@ pub trait Mechanism: Inertia + Forces + Constraints {
         1
     }
 
-    /// Rates of the unknown movements at the start of the step [length/time, 1/time].
+    /// Rates of the unknowns at the start of the step [length/time, 1/time].
     fn rates(&self) -> &[f64];
 
     /// Rates that predict the next step [length/time, 1/time].
     fn expected_rates(&self) -> &[f64];
 
-    /// Prescribed movements in the present step.
+    /// Prescribed motions in the present step.
     fn prescribed(&self) -> &PrescribedKinematics;
 
     /// Prepares a step with forces at the given stages: evaluates time-dependent values.
@@ -168,7 +168,7 @@ pub trait Checkpoint {
 
 /// Mechanical system with accelerations in its state.
 pub trait Accelerated {
-    /// Enables accelerations in the state. They are unknown until set.
+    /// Adds accelerations to the state. They are unknown until set.
     fn enable_accelerations(&mut self);
 
     /// Accelerations just after the start of the present step, if known [length/time², 1/time²].
@@ -181,7 +181,7 @@ pub trait Accelerated {
 /// Result of an integrator for a step.
 #[derive(Debug, Clone, Copy)]
 pub struct Solution<'a> {
-    /// Increments of the movements [length, rad].
+    /// Increments of the unknowns [length, rad].
     pub increments: &'a [f64],
     /// Constraint unknowns.
     pub constraints: &'a [f64],
@@ -189,16 +189,16 @@ pub struct Solution<'a> {
     pub rates: &'a [f64],
     /// Residual of the equations [force, force·length]; reactions at supported degrees of freedom.
     pub residual: &'a [f64],
-    /// Stages of the forces with their shares [-], which together with constraints and supports changed the momenta. Empty if the method balances
-    /// accelerations instead.
+    /// Stages of the forces with their shares [-]; their forces, constraints and supports give the change of the momenta. Empty if the method
+    /// balances accelerations instead.
     pub balanced: &'a [(Stage, f64)],
 }
 
 /// Constraint limit that is passed within a step.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Overshoot {
-    /// Index of the limit among those of its constraint.
+    /// Index among the limits of all constraints.
     pub limit: usize,
-    /// Distance beyond the limit [length]; negative if it was not reached.
+    /// Distance beyond the limit [length]; negative if the limit was not reached.
     pub distance: f64,
 }

@@ -1,6 +1,6 @@
-//! Prescribed movements, which are not solved for.
+//! Prescribed motions of degrees of freedom, which are not unknowns.
 
-/// Prescribed movements of a mechanism in the present step, numbered after the unknown movements and constraint multipliers. All vectors are empty if
+/// Prescribed motions of a mechanism in the present step, numbered after the unknowns and the constraint multipliers. All vectors are empty if
 /// nothing is prescribed.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct PrescribedKinematics {
@@ -14,7 +14,7 @@ pub struct PrescribedKinematics {
     pub accelerations: [Vec<f64>; 2],
 }
 
-/// Acceleration of prescribed movements in the balance of a method.
+/// Acceleration of prescribed degrees of freedom in the balance of a method.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum BalancedAt {
     Mean,
@@ -22,7 +22,7 @@ pub(super) enum BalancedAt {
 }
 
 impl PrescribedKinematics {
-    /// Creates zeros for `count` movements after `constraints` multipliers.
+    /// Creates zeros for `count` degrees of freedom after `constraints` multipliers.
     pub fn new(constraints: usize, count: usize) -> Self {
         let zeros = vec![0.0; if count > 0 { constraints + count } else { 0 }];
         Self {
@@ -33,7 +33,7 @@ impl PrescribedKinematics {
         }
     }
 
-    /// Number of entries after the unknown movements.
+    /// Number of entries after the unknowns.
     pub fn width(&self) -> usize {
         self.increments.len()
     }

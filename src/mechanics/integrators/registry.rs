@@ -18,7 +18,7 @@ pub enum Method {
     Trapezoidal,
     /// [`EnergyDecaying`]: momenta are conserved, vibrations are damped.
     EnergyDecaying {
-        /// Dissipation `χ`: shift of the section forces in units of the change of strain [-].
+        /// Dissipation `χ`: shift of the strain of the section forces beyond the mean, in units of half the change of strain [-].
         chi: f64,
     },
     /// [`FourthOrder`]: a composition of seven energy–momentum steps.
@@ -220,7 +220,7 @@ impl Method {
         }
     }
 
-    /// Step size whose longest substep of the same time direction has this duration [time].
+    /// Step size for which the longest substep in the same time direction has this duration [time].
     pub fn step_with_part(&self, duration: f64) -> f64 {
         let [onwards, back] = match self {
             Self::FourthOrder => FourthOrder::LONGEST,
@@ -263,7 +263,7 @@ impl Method {
         }
     }
 
-    /// Creates the integrator with work space for a mechanism, which keeps the state needed by the method from here on.
+    /// Creates the integrator with work space for a mechanism, whose state then includes the data that the method needs.
     pub fn build(
         &self,
         mechanism: &mut dyn Mechanism,

@@ -6,11 +6,11 @@ use super::{EnergyMomentum, Interval, Mechanism, Method, Stage, StepError};
 use crate::linalg::BorderedLu;
 use crate::newton::{NewtonReport, Tolerance};
 
-/// Method that also advances companions: mechanisms of the same structure whose parameters and states differ little from those of the leader.
+/// Method that also advances companions: mechanisms of the same structure as the leader with slightly different parameters and states.
 ///
-/// The balance of a companion, `R(u; p + δ) = 0`, is solved from the solution of the leader with the factors of its last Newton iteration. Each
-/// correction reduces the error by a factor of the order of `δ` and of that iteration's step, so a few corrections reach rounding without
-/// factorisation.
+/// The balance of a companion, `R(u; p + δ) = 0`, is solved from the solution of the leader with the factors of the last Newton iteration of the
+/// leader. Each correction reduces the error by a factor of the order of `δ` plus the size of that iteration, so a few corrections without
+/// factorisation reach rounding.
 #[derive(Debug, Clone)]
 pub struct SharedFactorStepper {
     leader: StepSolver,
@@ -29,7 +29,7 @@ enum SubstepCount {
 pub struct SharedFactorWork {
     /// Work of the leader, the same as without companions.
     pub leader: NewtonReport,
-    /// Total work of all companions, or the reason why one failed. Iterations count those for which the factors of the leader were insufficient.
+    /// Total work of all companions, or the error of one that failed. Iterations are counted where the factors of the leader were insufficient.
     pub companions: Result<NewtonReport, StepError>,
 }
 
@@ -46,11 +46,11 @@ impl SharedFactorStepper {
         Some(Self { leader, follower, parts })
     }
 
-    /// Advances the leader over the interval, bit for bit as without companions, and the companions with it. If a companion fails, the states of all
+    /// Advances the leader over the interval, bit for bit as without companions, and the companions. If a companion fails, the states of all
     /// companions are undefined and the leader continues.
     ///
     /// # Errors
-    /// Errors of the step of the leader, which is then unchanged; the states of companions are undefined.
+    /// Errors of the step of the leader. The leader is then unchanged, and the states of the companions are undefined.
     pub fn step(
         &mut self,
         leader: &mut dyn Mechanism,

@@ -4,8 +4,8 @@ use super::balance::{BalanceCoefficients, StepSolver};
 use super::{Integrator, Interval, Mechanism, Stage, StepError};
 use crate::newton::{NewtonReport, Tolerance};
 
-/// Newmark's method with β = 1/4, γ = 1/2 in increments of a step. It conserves linear momentum; energy and angular momentum only for linear
-/// problems.
+/// Newmark's method with β = 1/4, γ = 1/2, in increments of a step. It conserves linear momentum; for linear problems also energy and angular
+/// momentum.
 ///
 /// `M (v1 - v0)/Δt + ½ F(start) + ½ F(end) = 0`, `(v0 + v1)/2 = Δq/Δt`: Newmark's accelerations are those of the balance at both ends, with loads on
 /// a line that has their mean and their change over the step. Second order.

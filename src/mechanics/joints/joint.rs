@@ -1,4 +1,4 @@
-//! Joints that tie components of movement, which then share an unknown.
+//! Joints that tie displacement components, which then share an unknown.
 //!
 //! Both partners have the same increments in every step of any method. The joint has no gap, does no work, and transmits force and moment unchanged.
 
@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 use crate::beams::Station;
 use crate::geometry::Vec2;
 
-/// Component of the movement of a section.
+/// Component of the displacement and rotation of a section.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Component {
     /// Displacement along the first axis [length].
@@ -19,7 +19,7 @@ pub enum Component {
 }
 
 impl Component {
-    /// All components, in the order of a movement.
+    /// All components, in the order of an increment.
     pub const ALL: [Self; 3] = [Self::X, Self::Y, Self::Rotation];
 
     /// Name in messages, such as `x`.
@@ -32,7 +32,7 @@ impl Component {
     }
 }
 
-/// Nonempty set of components of the movement of a section.
+/// Nonempty set of components of the displacement and rotation of a section.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Components {
     /// First axis.
@@ -66,7 +66,7 @@ impl Components {
         }
     }
 
-    /// Components of the set, in the order of a movement.
+    /// Components of the set, in the order of an increment.
     pub fn list(self) -> &'static [Component] {
         match self {
             Self::X => &Component::ALL[..1],
@@ -80,7 +80,7 @@ impl Components {
     }
 }
 
-/// Components of movement that a joint ties.
+/// Components that a joint ties.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub enum JointKind {
     /// Hinge: ties positions, leaves rotations free.
@@ -89,7 +89,7 @@ pub enum JointKind {
     Rigid,
     /// Support: fixes some components of a station, leaves the others free.
     Support(Components),
-    /// Inclined roller: a station moves along a unit vector that is not an axis, is fixed across it, and rotates freely.
+    /// Inclined roller: a station is free along a unit vector that is not an axis, fixed across the vector, and free to rotate.
     InclinedRoller(Vec2),
     /// Inclined guide: an inclined roller with fixed rotation.
     InclinedGuide(Vec2),
@@ -131,7 +131,7 @@ impl MotionLine {
             (true, true) => None,
             (false, true) => Some(Self::Horizontal),
             (true, false) => Some(Self::Vertical),
-            // Scaled first, because the squares of very large or small numbers overflow or vanish.
+            // The vector is scaled first, because squares of very large or small numbers overflow or become zero.
             (false, false) => Some(Self::Inclined((direction / direction.amax()).normalize())),
         }
     }

@@ -14,7 +14,7 @@ pub struct Slider {
     pub slave: Station,
     /// Index of the master beam; on a track, of the beam at the start.
     pub master: usize,
-    /// Index of the track, for a slider on one.
+    /// Index of the track; `None` for a slider on a single beam.
     pub track: Option<usize>,
     /// Initial arc length on the master as drawn [length].
     pub arc_length: f64,
@@ -53,8 +53,8 @@ pub enum EndAction {
     Stop,
     /// The slider bounces with its coefficient of restitution. Momenta are conserved.
     Bounce,
-    /// The slider stays in contact with a stop at the end until the contact force would be tensile. Waves in the elastic bodies, which
-    /// steps must resolve, determine the rebound.
+    /// The slider stays at a stop at the end until the contact force becomes tensile. Waves in the elastic bodies, which the steps must resolve,
+    /// determine the rebound.
     Contact,
     /// The slider is released from its master.
     Release,

@@ -3,12 +3,13 @@
 use super::block::{Block, MOST_DELAYED, UNTOUCHED};
 use super::{BlockLayout, reverse_cuthill_mckee};
 
-/// Work ratio, relative to the band without blocks, up to which the order of the band is kept.
+/// Largest work of the elimination, relative to that of the band without blocks, for which the order of the band is kept.
 const LARGEST_WORK: usize = 4;
 
-/// Order of the unknowns of a band that are not eliminated in blocks, with delayed ones inserted, and the profile of the matrix.
+/// Order of the unknowns of a band that are not eliminated in blocks, including delayed unknowns, and the profile of the matrix.
 ///
-/// It depends only on the unknowns that the blocks touch. Delayed unknowns follow the last one that their block touches, where they have a pivot.
+/// The order depends only on the unknowns that the blocks touch. The delayed unknowns of a block follow the last unknown that the block touches,
+/// because they have a pivot there.
 #[derive(Debug, Clone)]
 pub(super) struct Arrangement {
     layout: BlockLayout,
@@ -16,13 +17,13 @@ pub(super) struct Arrangement {
     pub(super) position: Vec<usize>,
     /// End of the run of consecutive places that contains each unknown of the band.
     pub(super) run_ends: Vec<usize>,
-    /// First place of the delayed unknowns of each block; `NOWHERE` if it delays none.
+    /// First place of the delayed unknowns of each block; `NOWHERE` if the block delays none.
     pub(super) delayed: Vec<usize>,
     pub(super) ends: Vec<usize>,
     own_ends: Vec<usize>,
     /// Number of delayed unknowns behind each unknown of the order.
     delayed_after: Vec<usize>,
-    /// Touched unknowns of the blocks for which the order was made.
+    /// Touched unknowns of the blocks when the order was made.
     ordered_for: Vec<usize>,
     touched: Vec<usize>,
 }
@@ -101,7 +102,7 @@ impl Arrangement {
         }
     }
 
-    /// Inserts delayed unknowns behind the unknowns touched by their blocks, and computes the profile.
+    /// Inserts delayed unknowns after the unknowns that their blocks touch, and computes the profile.
     fn number(&mut self, blocks: &[Block]) {
         let delaying = |block: &&Block| block.can_delay_unknowns() && !block.touched.is_empty();
         self.delayed_after.fill(0);
@@ -158,7 +159,7 @@ impl Arrangement {
     }
 }
 
-/// Extends the profile of some places to the last of them.
+/// Extends the profile of coupled places to the last of them.
 fn couple(ends: &mut [usize], places: impl Iterator<Item = usize> + Clone) {
     let last = places.clone().max().unwrap_or(0);
     places.for_each(|place| ends[place] = ends[place].max(last));

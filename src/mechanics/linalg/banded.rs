@@ -10,7 +10,7 @@ use super::storage::{Factors, Storage};
 use super::substitution::{StripSubstitution, Substitution};
 use super::{BandRows, LinearError};
 
-/// Square matrix whose entries `(i, j)` vanish for `|i - j|` above the half-bandwidth.
+/// Square matrix whose entries `(i, j)` are zero for `|i - j|` above the half-bandwidth.
 #[derive(Debug, Clone)]
 pub struct BandedMatrix {
     size: usize,

@@ -1,40 +1,41 @@
-//! Block of a local border: a few unknowns beside a band with the few unknowns of the band that they touch, eliminated separately.
+//! Block of a local border: a few unknowns outside a band, eliminated separately together with the few unknowns of the band that they touch.
 //!
 //! The block is a small dense matrix, like the front of a multifrontal method (Duff & Reid 1983, The multifrontal solution of indefinite sparse
 //! symmetric linear equations, ACM Trans. Math. Softw. 9, 302–325). Its own unknowns are eliminated with complete pivoting, and the Schur complement
-//! on the touched unknowns is added to the band. Own unknowns coupled to the band through a constraint only (the contact force of a supported slave)
-//! have no pivot yet. They are *delayed*, and placed in the band beside the touched unknowns.
+//! on the touched unknowns is added to the band. Some own unknowns have no pivot yet, because they are coupled to the band only through a constraint
+//! (the contact force of a supported slave). These are *delayed*: they are inserted into the band next to the touched unknowns.
 
 use super::{BandedMatrix, LinearError};
 
-/// Number of unknowns that a block adds to those of the band: those of a sliding contact.
+/// Number of unknowns of a block outside the band: those of a sliding contact.
 pub(super) const BLOCK: usize = 5;
 
 /// Largest number of delayed unknowns of a block.
 pub(super) const MOST_DELAYED: usize = 2;
 
-/// Largest contribution of a pivot relative to the largest diagonal entry of the band there.
+/// Largest contribution of a pivot to a diagonal entry of the band, relative to the largest diagonal entry of the touched unknowns.
 const LARGEST_FILL: f64 = 100.0;
 
-/// Marks an unknown of the band that a block does not touch.
+/// Index for an unknown of the band that a block does not touch.
 pub(super) const UNTOUCHED: usize = usize::MAX;
 
 #[derive(Debug, Clone)]
 pub(super) struct Block {
-    /// Unknowns of the band that only this block couples with others. They are eliminated with it.
+    /// Unknowns of the band that only this block couples with others. They are eliminated with the block.
     pub(super) own: Vec<usize>,
-    /// `B`: row of the band, column of the block; `C`: row of the block, column of the band; `D`.
+    /// Entries of `B` (row of the band, column of the block), of `C` (row of the block, column of the band), and of `D`.
     columns: Vec<(usize, usize, f64)>,
     rows: Vec<(usize, usize, f64)>,
     corner: [[f64; BLOCK]; BLOCK],
-    /// Unknowns of the band that the block touches, except its own.
+    /// Unknowns of the band that the block touches, except its own unknowns.
     pub(super) touched: Vec<usize>,
-    /// Rows of the dense matrix: own unknowns, those of the block, touched ones. After elimination it holds the factors and the Schur complement.
+    /// Rows of the dense matrix: own unknowns, unknowns of the block, touched unknowns. After elimination it holds the factors and the Schur
+    /// complement.
     front: Vec<f64>,
     row_at: Vec<usize>,
     column_at: Vec<usize>,
     pub(super) pivots: usize,
-    /// Scale of the equations of delayed unknowns, to match those of the band.
+    /// Scale of the equations of delayed unknowns, so that their size matches the equations of the band.
     pub(super) scale: f64,
 }
 
@@ -93,7 +94,7 @@ impl Block {
         self.own.len() + BLOCK
     }
 
-    /// Returns true if unknowns of the block may be delayed, because it has no own unknowns of the band.
+    /// Returns true if unknowns of the block may be delayed, because the block has no own unknowns in the band.
     pub(super) fn can_delay_unknowns(&self) -> bool {
         self.own.is_empty()
     }
@@ -106,10 +107,10 @@ impl Block {
         self.candidates() + self.touched.len()
     }
 
-    /// Eliminates the own unknowns of the block. `places` is a buffer of `NOWHERE` entries, and restored on return.
+    /// Eliminates the own unknowns of the block. `places` is a buffer of `NOWHERE` entries, which are restored on return.
     ///
     /// # Errors
-    /// Fails without a pivot, with the index in the block.
+    /// Fails if there is no pivot; the error contains the index in the block.
     pub(super) fn eliminate(
         &mut self,
         band: &BandedMatrix,
@@ -177,7 +178,7 @@ impl Block {
         self.own.iter().chain(&self.touched).for_each(|&at| places[at] = UNTOUCHED);
     }
 
-    /// Largest entry among candidates from a place on; NaN if one is NaN.
+    /// Largest entry among the candidates from index `first` on; NaN if an entry is NaN.
     fn largest_from(&self, first: usize) -> (usize, usize, f64) {
         let (size, candidates) = (self.size(), self.candidates());
         let mut found = (first, first, 0.0);
@@ -235,14 +236,14 @@ impl Block {
         }
     }
 
-    /// Schur complement by the places of row and column, delayed unknowns first, then touched ones.
+    /// Rows of the Schur complement by place. Delayed unknowns come first, then touched unknowns.
     pub(super) fn schur_complement(&self) -> impl Iterator<Item = (usize, &[f64])> {
         let (size, first) = (self.size(), self.pivots);
         let rows = self.front.chunks_exact(size).skip(first);
         rows.map(move |row| &row[first..]).enumerate()
     }
 
-    /// Eliminates a right-hand side: `own` holds its entries of own unknowns and of the block in pivot order; `subtract` receives the contributions
+    /// Eliminates a right-hand side. `own` holds its entries of own unknowns and of the block in pivot order; `subtract` receives the contributions
     /// to touched unknowns.
     pub(super) fn substitute(&self, own: &mut [f64], mut subtract: impl FnMut(usize, f64)) {
         let rows = self.front.chunks_exact(self.size());
@@ -256,7 +257,7 @@ impl Block {
         }
     }
 
-    /// Solves for the eliminated unknowns, which come first, given the delayed and touched ones behind them.
+    /// Solves for the eliminated unknowns, which come first in `all`, from the delayed and touched unknowns after them.
     pub(super) fn back_substitute(&self, all: &mut [f64]) {
         let size = self.size();
         for at in (0..self.pivots).rev() {
@@ -279,7 +280,7 @@ impl Block {
         })
     }
 
-    /// Unknown at each place of the columns: `Ok` of the band, or `Err` of the block.
+    /// Unknown at each place of the columns: `Ok` for the band, `Err` for the block.
     pub(super) fn unknowns(&self) -> impl Iterator<Item = Result<usize, usize>> + '_ {
         self.column_at
             .iter()

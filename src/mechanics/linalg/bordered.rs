@@ -1,7 +1,7 @@
 //! Banded matrix with a border of additional columns and rows with arbitrary couplings.
 //!
-//! A border of few unknowns is stored as dense columns, which do not affect the band. A border of many blocks that each touch few unknowns of the
-//! band is eliminated locally, with work proportional to their number.
+//! A border of few unknowns is stored as dense columns, which leave the band unchanged. A border of many blocks, each of which touches few unknowns
+//! of the band, is eliminated locally, with work proportional to the number of blocks.
 
 use super::full_border::FullLu;
 use super::joint_elimination::{JointElimination, TogetherLu};
@@ -89,7 +89,7 @@ impl Border {
         }
     }
 
-    /// Adds `value` to the corner `D`, at a row and a column of the border; in a border of blocks both of the same block.
+    /// Adds `value` to the corner `D`, at a row and a column of the border. In a border of blocks, both must belong to the same block.
     pub fn add_to_corner(&mut self, border_row: usize, border_column: usize, value: f64) {
         match self {
             Self::Full(border) => border.add_to_corner(border_row, border_column, value),
@@ -136,8 +136,8 @@ impl BorderedMatrix {
         }
     }
 
-    /// Returns the matrix with its dense border eliminated jointly with the band, which alone may be singular. The last `full` rows and columns,
-    /// which couple with all others, remain a border.
+    /// Returns the matrix with joint elimination of its dense border and the band, for bands that alone may be singular. The last `full` rows and
+    /// columns couple with all others and remain a border.
     pub fn with_joint_elimination(self, full: usize) -> Self {
         Self { together: Some(JointElimination::new(self.size(), full)), ends: None, ..self }
     }
@@ -212,7 +212,7 @@ impl BorderedMatrix {
 }
 
 impl BorderedLu<'_> {
-    /// Replaces the right-hand side `x`, with the border last, by the solution of `A x = b`.
+    /// Replaces the right-hand side `x` by the solution of `A x = b`. The entries of the border are last.
     pub fn solve(&mut self, x: &mut [f64]) {
         match &mut self.0 {
             BorderFactors::Band(factors) => factors.solve(x),

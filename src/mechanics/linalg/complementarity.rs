@@ -5,24 +5,24 @@ use super::{BandedMatrix, LinearError};
 /// Condition on an unknown and its response.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Pairing {
-    /// Equality: the response vanishes for any value of the unknown.
+    /// Equality: the response is zero for any value of the unknown.
     Equality,
-    /// Complementarity: unknown and response are nonnegative, and one of them vanishes.
+    /// Complementarity: unknown and response are nonnegative, and one of them is zero.
     Complementary,
 }
 
 /// Number of block exchanges without progress before single exchanges are used.
 const MOST_BLOCK_EXCHANGES: usize = 3;
 
-/// Relative size below which negative unknowns and responses count as zero.
+/// Negative unknown or response, relative to the largest, below which it counts as zero.
 const NOTHING: f64 = 1e-13;
 
-/// Solves a linear complementarity problem for the unknowns `z` with the responses `w = A z + q`: `w = 0` for tied pairs, `0 ≤ z ⟂ w ≥ 0` for pushing
-/// ones.
+/// Solves a linear complementarity problem for the unknowns `z` with the responses `w = A z + q`: `w = 0` for equality pairs, `0 ≤ z ⟂ w ≥ 0` for
+/// complementary pairs.
 ///
-/// For a positive definite `A`, given by rows and not necessarily symmetric, the solution is unique; likewise if `A` is positive definite after the
-/// elimination of the tied unknowns. The method is block principal pivoting: all violating pairs are exchanged at once (Júdice & Pires 1994), so that
-/// the result does not depend on their order. If this cycles, pairs are exchanged one by one (Murty 1974).
+/// `A` is given by rows and need not be symmetric. The solution is unique if `A` is positive definite, or becomes so by elimination of the equality
+/// pairs. The method is block principal pivoting: all violating pairs are exchanged at once (Júdice & Pires 1994), so that the result does not depend
+/// on their order. If this cycles, pairs are exchanged one by one (Murty 1974).
 ///
 /// # Errors
 /// Fails if the matrix of the nonzero unknowns is singular.
@@ -88,7 +88,7 @@ mod tests {
     fn what_is_taken_along_by_another_is_not_pushed() {
         let matrix = [vec![2.0, 1.9], vec![1.9, 2.0]];
         let pairings = [Pairing::Complementary; 2];
-        // The response of the second to the first alone is sufficient.
+        // The response of the second unknown to the first alone is sufficient.
         assert_eq!(complementary(&matrix, &[-2.0, -0.1], &pairings).unwrap(), [1.0, 0.0]);
         let tied = [Pairing::Complementary, Pairing::Equality];
         let both = complementary(&matrix, &[-2.0, -0.1], &tied).unwrap();

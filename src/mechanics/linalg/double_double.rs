@@ -51,7 +51,7 @@ impl DoubleDouble {
     #[inline(always)]
     pub(super) fn inverse(self) -> Self {
         let guess = 1.0 / self.high;
-        // 1 - guess · self is small and exactly known.
+        // `1 - guess · self` is small and exactly known.
         let rest = (-guess).mul_add(self.low, (-guess).mul_add(self.high, 1.0));
         Self::renormalised(guess, guess * rest)
     }
@@ -77,7 +77,7 @@ pub(super) struct DoubleDoublesMut<'a> {
     pub(super) low: &'a mut [f64],
 }
 
-/// Subtracts `factor` times a row from another, both of 32 digits.
+/// Subtracts `factor` times a row from another row. Both have 32 digits.
 #[inline(always)]
 pub(super) fn subtract_multiple<S: Simd>(
     simd: S,
@@ -115,7 +115,7 @@ pub(super) fn subtract_multiple<S: Simd>(
     }
 }
 
-/// Adds `factor` times a row of 16 digits to one of 32 digits.
+/// Adds `factor` times a row of 16 digits to a row of 32 digits.
 #[inline(always)]
 pub(super) fn add_multiple<S: Simd>(
     simd: S,

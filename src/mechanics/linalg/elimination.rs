@@ -1,10 +1,11 @@
 //! Blocked Gaussian elimination of a banded matrix.
 //!
-//! A panel of columns is eliminated without row exchanges if no multiplier is large, which a pass over the panel alone decides (threshold pivoting:
-//! Duff, Erisman & Reid, Direct Methods for Sparse Matrices, 2nd ed., section 5.2). The rows below are then updated once for the whole panel, without
-//! fill-in. Otherwise the columns of the panel are eliminated one by one with partial pivoting.
+//! A panel of columns is eliminated without row exchanges if no multiplier is large. The entries of the panel alone determine the multipliers
+//! (threshold pivoting: Duff, Erisman & Reid, Direct Methods for Sparse Matrices, 2nd ed., section 5.2). The rows below are then updated once for the
+//! whole panel, without fill-in. Otherwise the columns of the panel are eliminated one by one with partial pivoting.
 //!
-//! For a matrix with a profile, rows and columns beyond it are skipped. Row exchanges and fill-in stay inside a profile that never decreases.
+//! For a matrix with a profile, rows and columns outside the profile are skipped. Row exchanges and fill-in stay inside a profile that never
+//! decreases.
 
 use pulp::{Simd, WithSimd};
 
@@ -14,17 +15,17 @@ use super::{LinearError, fixed_band};
 /// Vector length.
 const LANES: usize = 4;
 
-/// Number of columns eliminated together, one vector. The vectors written by one panel are then aligned with those read by the next. Reads across two
-/// recently written vectors would stall the processor.
+/// Number of columns eliminated together, equal to the vector length. Panels then write and read aligned vectors. Reads across two recently written
+/// vectors would stall the processor.
 pub(super) const PANEL: usize = LANES;
 
 /// Smallest half-bandwidth for which a row has space for a panel followed by whole vectors.
 pub(super) const SMALLEST_HALF_BANDWIDTH: usize = PANEL + LANES - 2;
 
-/// Largest multiplier without row exchange.
+/// Largest multiplier that needs no row exchange.
 pub(super) const LARGEST_MULTIPLIER: f64 = 8.0;
 
-/// Gaussian elimination with row exchanges, which replaces a banded matrix by its factors, panel by panel.
+/// Gaussian elimination with row exchanges. It replaces a banded matrix by its factors, panel by panel.
 pub(super) struct Elimination<'a>(pub(super) ActiveRows<'a>);
 
 impl WithSimd for Elimination<'_> {
@@ -47,8 +48,8 @@ impl WithSimd for Elimination<'_> {
     }
 }
 
-/// The same for a matrix with a profile: for each index the last row with an entry in the column, and the last column with an entry in the row. The
-/// profile never decreases, and is extended by a panel behind the last row.
+/// Elimination of a matrix with a profile: for each index the last row with an entry in the column, and the last column with an entry in the row. The
+/// profile never decreases, and continues for one panel after the last row.
 pub(super) struct ProfileElimination<'a>(pub(super) ActiveRows<'a>, pub(super) &'a [usize]);
 
 impl WithSimd for ProfileElimination<'_> {
@@ -70,7 +71,7 @@ fn eliminate_fixed<S: Simd, const REACH: usize, const WIDTH: usize, const STRIDE
     fixed_band::eliminate_panel::<S, REACH, WIDTH, STRIDE>(simd, &mut rows[first..])
 }
 
-/// `reach` is that of the storage; `eliminate_plain` eliminates a panel without previous fill-in, as [`eliminate_panel`] does.
+/// `reach` is the half-bandwidth of the storage. `eliminate_plain` eliminates a panel without previous fill-in, as [`eliminate_panel`] does.
 #[inline(always)]
 fn eliminate<S: Simd>(
     simd: S,
@@ -116,8 +117,8 @@ fn eliminate_in_profile<S: Simd>(
         let next = first + PANEL;
         let below = ends[next - 1] + 1 - next;
         let width = filled.max(ends[next - 1]) + 1 - next;
-        // Entries are zero behind the last column and below the last row. The sizes of cubic beams, and of a point that slides from one span to the
-        // next, are compile-time constants.
+        // Entries are zero after the last column and below the last row. The compile-time constants are the sizes of cubic beams, also with a point
+        // that slides from one span to the next.
         let is_eliminated = match below.max(width) {
             ..=9 if reach > 10 => eliminate_panel(simd, storage, first, [reach, 9], 12),
             ..=11 if reach > 10 => eliminate_panel(simd, storage, first, [reach, 11], 12),
@@ -143,10 +144,10 @@ fn eliminate_in_profile<S: Simd>(
 
 /// Factors of the diagonal block of a panel.
 pub(super) struct PanelFactors {
-    /// Multipliers left of the diagonal, the upper factor from there on.
+    /// Multipliers left of the diagonal; entries of the upper factor on the diagonal and right of it.
     pub(super) factors: [[f64; PANEL]; PANEL],
     pub(super) inverses: [f64; PANEL],
-    /// True if no multiplier is large and all numbers are finite.
+    /// True if no multiplier is large and all entries are finite.
     pub(super) is_stable: bool,
 }
 
@@ -173,8 +174,8 @@ impl PanelFactors {
     }
 }
 
-/// Eliminates the columns of a panel from the given rows below it and columns behind it. Returns false, with nothing changed, if rows should be
-/// exchanged. The first entry of `reach` is that of the storage.
+/// Eliminates the columns of a panel from the rows below and the columns after it. Returns false without changes if rows should be exchanged. The
+/// first entry of `reach` is the half-bandwidth of the storage.
 #[inline(always)]
 fn eliminate_panel<S: Simd>(
     simd: S,
@@ -241,7 +242,7 @@ pub(super) fn subtract<S: Simd, const COUNT: usize>(
     rows: [&[f64]; COUNT],
     from: &mut [f64],
 ) {
-    // Loops, because a closure that is not inlined would lose the vector instructions.
+    // A loop is used, because a closure that is not inlined would lose the vector instructions.
     let mut splat = [simd.splat_f64s(0.0); COUNT];
     let (mut heads, mut tails): ([&[S::f64s]; COUNT], [&[f64]; COUNT]) =
         ([&[]; COUNT], [&[]; COUNT]);
@@ -251,7 +252,7 @@ pub(super) fn subtract<S: Simd, const COUNT: usize>(
     }
     let (vectors, rest) = S::as_mut_simd_f64s(from);
     for (at, vector) in vectors.iter_mut().enumerate() {
-        // A copy, because the compiler cannot exclude that the target aliases one of the rows.
+        // A copy is used, because the compiler cannot exclude that the target is one of the rows.
         let mut left = *vector;
         for (multiplier, row) in splat.iter().zip(&heads) {
             left = simd.sub_f64s(left, simd.mul_f64s(*multiplier, row[at]));
@@ -277,7 +278,7 @@ fn eliminate_column(
     let last_row = end(column).min(size - 1);
     let diagonal = column * stride + reach + PANEL - 1;
     let (mut pivot_row, mut magnitude) = (column, rows[diagonal].abs());
-    // One row down, the entry of the same column is `stride - 1` further on.
+    // In the next row, the entry of the same column is `stride - 1` further on.
     for row in column + 1..=last_row {
         let candidate = rows[diagonal + (row - column) * (stride - 1)].abs();
         if candidate > magnitude {

@@ -35,7 +35,7 @@ impl LinearError {
         }
     }
 
-    /// Converts the error of a block that follows `rows` other rows.
+    /// Converts the error of a matrix block that starts after `rows` other rows.
     pub(super) fn offset_by_rows(self, rows: usize) -> Self {
         match self {
             Self::Singular { unknown, size } => {

@@ -1,14 +1,15 @@
-//! Elimination and substitution without row exchanges for compile-time half-bandwidths, those of beams.
+//! Elimination and substitution without row exchanges, for the half-bandwidths of beams as compile-time constants.
 //!
-//! Every entry results from the same operations in the same order as for run-time half-bandwidths, but all loop lengths are constants.
+//! Every entry results from the same operations in the same order as for half-bandwidths given at run time, but all loop lengths are constants.
 
 use pulp::Simd;
 
 use super::elimination::{LARGEST_MULTIPLIER, PANEL, PanelFactors, subtract};
 
-/// Eliminates the columns of a panel without previous fill-in from the rows below. Returns false, with nothing changed, if rows should be exchanged.
+/// Eliminates the columns of a panel without previous fill-in from the rows below. Returns false without changes if rows should be exchanged.
 ///
-/// `rows` are those of the panel and `REACH` below it, with `STRIDE` stored entries each; `WIDTH` is the half-bandwidth in whole vectors.
+/// `rows` contains the panel and the `REACH` rows below it, with `STRIDE` stored entries each. `WIDTH` is the half-bandwidth, rounded up to whole
+/// vectors.
 #[inline(always)]
 pub(super) fn eliminate_panel<
     S: Simd,
@@ -42,7 +43,7 @@ pub(super) fn eliminate_panel<
         let l1 = (head[1] - l0 * u01) * inverses[1];
         let l2 = (head[2] - l0 * u02 - l1 * u12) * inverses[2];
         let l3 = (head[3] - l0 * u03 - l1 * u13 - l2 * u23) * inverses[3];
-        // Numbers are written individually, as they are read. Reading a vector written in parts would stall the processor.
+        // The values are written one by one, because they are read one by one. Reading a vector that was written in parts would stall the processor.
         (head[0], head[1], head[2], head[3]) = (l0, l1, l2, l3);
         is_small &= [l0, l1, l2, l3].iter().all(|l| l.abs() <= LARGEST_MULTIPLIER);
     }

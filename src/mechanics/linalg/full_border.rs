@@ -5,15 +5,15 @@
 //! [ C  D ] [z] = [g]        (D - C Z) z = g - C y      x = y - Z z
 //! ```
 //!
-//! The band keeps its width for any couplings of the border (Govaerts & Pryce, Block elimination with one iterative refinement solves bordered linear
-//! systems accurately, BIT 30 (1990) 490–507; refinement is up to the caller).
+//! Any couplings of the border leave the width of the band unchanged (Govaerts & Pryce, Block elimination with one iterative refinement solves
+//! bordered linear systems accurately, BIT 30 (1990) 490–507; the caller decides on refinement).
 
 use super::{BandedLu, BandedMatrix, BorderShape, LinearError};
 
 /// Number of border columns stored and solved together: the number of unknowns of a sliding contact, a compile-time constant.
 const STRIP: usize = 5;
 
-/// Columns of `B`; after factorising of `Z`.
+/// Columns of `B`; after the factorisation columns of `Z`.
 #[derive(Debug, Clone)]
 struct BorderStrip {
     rows: Vec<[f64; STRIP]>,
@@ -25,7 +25,7 @@ struct BorderStrip {
 pub struct FullBorder {
     width: usize,
     strips: Vec<BorderStrip>,
-    /// `C`: (row of the border, column, value). Entries of the same place add up.
+    /// Entries of `C`: (row of the border, column, value). Entries at the same place add up.
     rows: Vec<(usize, usize, f64)>,
     corner: BandedMatrix,
 }
@@ -103,7 +103,7 @@ impl FullBorder {
         self.corner.get(border_row, border_column)
     }
 
-    /// All nonzero entries of a matrix with this border and a band: row, column, value. Entries of the same place add up.
+    /// All nonzero entries of the matrix of this border and a band: row, column, value. Entries at the same place add up.
     pub(super) fn entries_with(&self, band: &BandedMatrix) -> Vec<(usize, usize, f64)> {
         let (Self { width, strips, rows, corner }, n) = (self, band.size());
         let reach = band.half_bandwidth();
@@ -153,7 +153,7 @@ impl FullBorder {
 }
 
 impl FullLu<'_> {
-    /// Replaces the right-hand side `x`, with the border last, by the solution.
+    /// Replaces the right-hand side `x` by the solution. The entries of the border are last.
     pub(super) fn solve(&self, x: &mut [f64]) {
         let (x, z) = x.split_at_mut(x.len() - self.width);
         self.band.solve(x);

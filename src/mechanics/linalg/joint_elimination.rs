@@ -1,4 +1,4 @@
-//! Joint elimination of a band and its border, for bands that may be singular, as in mechanisms that only contacts restrain.
+//! Joint elimination of a band and its border. The band alone may be singular, as in mechanisms that only contacts restrain.
 //!
 //! Border rows with few couplings are inserted into the band by reverse Cuthill–McKee ordering, and rows are exchanged as in any banded matrix. Rows
 //! and columns are scaled first because forces and lengths are mixed (Ruiz, A scaling algorithm to equilibrate both rows and columns norms in
@@ -20,9 +20,9 @@ pub(super) struct JointElimination {
     /// Place of each sparse row in the band.
     position: Vec<usize>,
     scales: Equilibration,
-    /// Dense columns; after factorisation solved with the band.
+    /// Dense columns; after the factorisation multiplied by the inverse of the band.
     columns: Vec<Vec<f64>>,
-    /// Entries of the dense rows, numbered from the first of these.
+    /// Entries of the dense rows. Row numbers count from the first dense row.
     rows: Vec<MatrixEntry>,
     complement: BandedMatrix,
 }
@@ -62,7 +62,7 @@ impl JointElimination {
         }
     }
 
-    /// Factorises the matrix with these entries. Entries of the same place add up.
+    /// Factorises the matrix with these entries. Entries at the same place add up.
     ///
     /// # Errors
     /// Fails if a column has no nonzero finite pivot.

@@ -2,7 +2,7 @@
 //!
 //! ```text
 //! [ A    B1   B2  … ]
-//! [ C1   D1         ]        each block by itself:  A + Σ (what is left of block k, on what it touches)
+//! [ C1   D1         ]        each block separately:  A + Σ (Schur complement of block k on the unknowns that it touches)
 //! [ C2        D2    ]
 //! [ …             … ]
 //! ```
@@ -16,17 +16,17 @@ use super::block::{BLOCK, Block, UNTOUCHED};
 use super::profile::{ProfileLu, ProfileMatrix};
 use super::{BandedMatrix, LinearError};
 
-/// Additional half-bandwidth before memory is reallocated.
+/// Additional half-bandwidth that is allocated in advance.
 const EXTRA_HALF_BANDWIDTH: usize = 16;
 
 /// Structure of the blocks of a border, and of the band beside them.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct BlockLayout {
-    /// For each block, the unknowns of the band that only this block couples with others. They are eliminated with it.
+    /// For each block, the unknowns of the band that only this block couples with others. They are eliminated with the block.
     pub own: Vec<Vec<usize>>,
     /// Groups of coupled unknowns of the band.
     pub groups: Arc<[Vec<usize>]>,
-    /// Number of entries of a block before memory is reallocated.
+    /// Number of entries of a block that are allocated in advance.
     pub block_entries: usize,
 }
 
@@ -37,7 +37,7 @@ pub struct LocalBorder {
     arrangement: Arrangement,
     /// Band with the Schur complements of the blocks, in the order of the arrangement.
     matrix: ProfileMatrix,
-    /// Buffer: place of each unknown of the band in a block, `NOWHERE` between uses.
+    /// Buffer: place of each unknown of the band in a block; `NOWHERE` while unused.
     places: Vec<usize>,
     right: Vec<f64>,
     own: Vec<f64>,
@@ -90,7 +90,7 @@ impl LocalBorder {
         border_column % BLOCK
     }
 
-    /// Entry at a row and a column, `Ok` of the band, `Err` of the border.
+    /// Entry at a row and a column; `Ok` for the band, `Err` for the border.
     pub(super) fn get(&self, row: Result<usize, usize>, column: Result<usize, usize>) -> f64 {
         let block = |at: usize| (&self.blocks[at / BLOCK], at % BLOCK);
         match (row, column) {
@@ -172,7 +172,7 @@ fn add_schur_complement(
 }
 
 impl LocalLu<'_> {
-    /// Replaces the right-hand side `x`, with the border last, by the solution.
+    /// Replaces the right-hand side `x` by the solution. The entries of the border are last.
     pub(super) fn solve(&mut self, x: &mut [f64]) {
         let Arrangement { position, delayed, .. } = self.arrangement;
         let (x, z) = x.split_at_mut(position.len());

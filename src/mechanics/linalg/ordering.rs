@@ -42,7 +42,7 @@ fn order_by_levels(count: usize, groups: &[Vec<usize>]) -> Vec<usize> {
     }
     let neighbours =
         |node: usize| groups_of[node].iter().flat_map(|&group| groups[group].iter().copied());
-    // Nodes with fewer couplings are closer to a free end, where levels should start.
+    // Nodes with few couplings are close to a free end of the structure, where the levels should start.
     let degree =
         |node: usize| groups_of[node].iter().map(|&group| groups[group].len()).sum::<usize>();
 
@@ -77,7 +77,7 @@ fn order_by_levels(count: usize, groups: &[Vec<usize>]) -> Vec<usize> {
     position
 }
 
-/// Node at the end of the component of `seed`, by two sweeps over the levels.
+/// Node at the end of the component that contains `seed`, by two sweeps over the levels.
 fn farthest<I: Iterator<Item = usize>>(
     seed: usize,
     count: usize,

@@ -1,7 +1,7 @@
 //! Symmetric band matrix with about 32 digits, and its elimination.
 //!
-//! The stiffness of a slender beam is a sum `Bᵀ C B` of squares of very different magnitudes. The stiffness of soft movements is what remains after
-//! cancellation, and is lost with 16 digits. With 32 digits it is accurate, and so are the signs of the pivots of `L D Lᵀ`.
+//! The stiffness of a slender beam is a sum `Bᵀ C B` of terms of very different magnitudes. In soft modes the large terms cancel, and with 16 digits
+//! the remaining stiffness would be lost. With 32 digits it is accurate, and so are the signs of the pivots of `L D Lᵀ`.
 
 use pulp::{Arch, Simd, WithSimd};
 
@@ -9,7 +9,7 @@ use super::double_double::{DoubleDouble, DoubleDoublesMut, add_multiple};
 use super::symmetric_factors::{Pivots, SymmetricFactors, eliminate};
 use super::{LinearError, SymmetricSparse};
 
-/// Symmetric band matrix of double-double numbers; entries `(i, j)` vanish for `|i - j|` above the half-bandwidth.
+/// Symmetric band matrix of double-double numbers. Entries `(i, j)` are zero for `|i - j|` above the half-bandwidth.
 #[derive(Debug, Clone)]
 pub struct PreciseBand {
     pub(super) size: usize,
@@ -48,7 +48,7 @@ impl PreciseBand {
         self.high[row * self.stride()]
     }
 
-    /// Adds `factor r rᵀ`; entry `k` of `r` belongs to the unknown `unknowns[k]`, and is ignored if that is not below the size.
+    /// Adds `factor r rᵀ`. Entry `k` of `r` belongs to the unknown `unknowns[k]`, and is ignored if `unknowns[k]` is at least the size.
     pub fn add_square(&mut self, unknowns: &[usize], factor: f64, r: &[f64]) {
         let is_consecutive = unknowns.windows(2).all(|pair| pair[1] == pair[0] + 1);
         if is_consecutive && unknowns.last().is_some_and(|last| *last < self.size) {
@@ -72,7 +72,7 @@ impl PreciseBand {
         }
     }
 
-    /// Adds `p qᵀ + q pᵀ`; entries `k` of `p` and `q` belong to the unknown `unknowns[k]`, and are ignored if that is not below the size.
+    /// Adds `p qᵀ + q pᵀ`. Entries `k` of `p` and `q` belong to the unknown `unknowns[k]`, and are ignored if `unknowns[k]` is at least the size.
     pub fn add_product(&mut self, unknowns: &[usize], p: &[f64], q: &[f64]) {
         for ((&row, &p_a), &q_a) in unknowns.iter().zip(p).zip(q) {
             for ((&column, &p_b), &q_b) in unknowns.iter().zip(p).zip(q) {
@@ -91,7 +91,7 @@ impl PreciseBand {
         (self.high[at], self.low[at]) = (sum.high, sum.low);
     }
 
-    /// Factorises `A + σ M`, this matrix plus `shift` times another.
+    /// Factorises `A + σ M`, where `A` is this matrix, `σ` is `shift` and `M` is `other`.
     ///
     /// # Errors
     /// Fails if a pivot is zero or not finite.
@@ -103,10 +103,10 @@ impl PreciseBand {
         SymmetricFactors::of(self, shift, other)
     }
 
-    /// Signs of the pivots of `A + σ M`, this matrix plus `shift` times another. Zero rows count for neither sign.
+    /// Signs of the pivots of `A + σ M`, where `A` is this matrix, `σ` is `shift` and `M` is `other`. Zero rows count for neither sign.
     ///
     /// # Errors
-    /// Fails if another pivot is zero, or one is not finite.
+    /// Fails if the pivot of a nonzero row is zero, or a pivot is not finite.
     pub fn pivots(&self, shift: f64, other: &SymmetricSparse) -> Result<Pivots, LinearError> {
         eliminate(self, shift, other, None)
     }

@@ -1,6 +1,6 @@
 //! Profile matrix with pivoted LU factorisation.
 //!
-//! The profile is rebuilt with the entries in the same memory, so that couplings may change. Storage and elimination of rows are those of
+//! The profile is rebuilt in the same memory, so that couplings may change. Storage and elimination of rows are those of
 //! [`BandedMatrix`](super::BandedMatrix).
 
 use pulp::Arch;
@@ -10,11 +10,11 @@ use super::elimination::{PANEL, ProfileElimination};
 use super::storage::{Factors, Storage};
 use super::substitution::ProfileSubstitution;
 
-/// Square matrix with a profile: for each index the last row with an entry in the column, and the last column with one in the row.
+/// Square matrix with a profile: for each index the last row with an entry in the column, and the last column with an entry in the row.
 #[derive(Debug, Clone)]
 pub(super) struct ProfileMatrix {
     storage: Storage,
-    /// Profile by index. It never decreases, and is extended by a panel behind the last row.
+    /// Profile by index. It never decreases, and continues for one panel after the last row.
     ends: Vec<usize>,
 }
 
@@ -31,8 +31,8 @@ impl ProfileMatrix {
         Self { storage: Storage::zeros(size, half_bandwidth), ends }
     }
 
-    /// Resets the matrix to zero with the smallest nondecreasing profile that covers the given ends. Entries within the half-bandwidth can be added
-    /// as long as they are zero.
+    /// Sets the matrix to zero with the smallest nondecreasing profile that covers the given ends. Entries within the half-bandwidth but outside the
+    /// profile must be zero.
     pub(super) fn remake(&mut self, ends: &[usize], half_bandwidth: usize) {
         self.ends.clear();
         let (mut furthest, mut reach) = (0, half_bandwidth);
@@ -53,7 +53,7 @@ impl ProfileMatrix {
         self.storage.rows[at] += value;
     }
 
-    /// Copies entries of a row to the columns from `first` on. Entries beyond the profile must be zero.
+    /// Copies entries of a row to the columns from `first` on. Entries outside the profile must be zero.
     #[inline]
     pub(super) fn copy_to_row(&mut self, row: usize, first: usize, values: &[f64]) {
         let at = row * self.storage.stride() + first + self.storage.centre() - row;

@@ -9,14 +9,14 @@ use super::strips::VectorStrip;
 pub struct SymmetricSparse {
     /// Start of each row among the entries, and the end of the last.
     starts: Vec<usize>,
-    /// Sorted by column in each row.
+    /// Columns of the entries, sorted in each row.
     columns: Vec<u32>,
     values: Vec<f64>,
 }
 
 impl SymmetricSparse {
-    /// Creates the matrix from entries (row, column, value) of both triangles, in any order. Entries of the same place add up. `give` is called
-    /// twice, to count and to store the entries.
+    /// Creates the matrix from entries (row, column, value) of both triangles, in any order. Entries at the same place add up. `give` is called
+    /// twice, first to count and then to store the entries.
     ///
     /// # Panics
     /// Panics if there are more than 2³² rows.
@@ -81,7 +81,7 @@ impl SymmetricSparse {
         self.row(row).find(|(column, _)| *column == row).map_or(0.0, |(_, value)| value)
     }
 
-    /// Writes the product `M x` with four vectors to `product`, followed by zeros.
+    /// Writes the product `M x` with four vectors to `product`, and zeros to its remaining entries.
     pub fn times(&self, x: &VectorStrip, product: &mut VectorStrip) {
         Arch::new().dispatch(SparseProduct { matrix: self, x, product });
     }

@@ -6,13 +6,14 @@ use super::elimination::{PANEL, SMALLEST_HALF_BANDWIDTH};
 
 /// Rows of a banded matrix, with data of the elimination.
 ///
-/// The rows are followed by identity rows that complete the last panel, and by zero rows that elimination may access.
+/// After the rows follow identity rows that complete the last panel, and zero rows that the elimination may access.
 #[derive(Debug, Clone)]
 pub(super) struct Storage {
     pub(super) size: usize,
     /// Half-bandwidth `b`, at least `SMALLEST_HALF_BANDWIDTH`.
     pub(super) reach: usize,
-    /// Row `i` holds the columns `i - b - (PANEL - 1) ..= i + 2 b`. Factors hold multipliers left of the diagonal and the inverse pivot on it.
+    /// Row `i` holds the columns `i - b - (PANEL - 1) ..= i + 2 b`. Factors hold the multipliers left of the diagonal, and the inverse pivot on the
+    /// diagonal.
     pub(super) rows: Vec<f64>,
     pub(super) pivots: Vec<usize>,
     /// Last column with an entry in each row of the upper factor.
@@ -24,9 +25,9 @@ pub(super) struct Storage {
 /// Rows of a banded matrix during elimination, stored as in [`Storage`].
 #[derive(Debug)]
 pub(super) struct ActiveRows<'a> {
-    /// Number of rows without those of the identity.
+    /// Number of rows, without the identity rows.
     pub(super) size: usize,
-    /// Number of columns to eliminate: all, or a multiple of the panel followed by as many rows as a column reaches.
+    /// Number of columns to eliminate: all columns, or a multiple of the panel width after which as many rows follow as a column reaches.
     pub(super) columns: usize,
     pub(super) reach: usize,
     pub(super) rows: &'a mut [f64],

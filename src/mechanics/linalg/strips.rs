@@ -5,7 +5,7 @@ use pulp::{Arch, Simd, WithSimd};
 /// Number of vectors in a strip.
 pub const STRIP_WIDTH: usize = 4;
 
-/// Four interleaved vectors: the entries `i` of all of them, then the entries `i + 1`.
+/// Four interleaved vectors: entry `i` of all four vectors is followed by entry `i + 1`.
 pub type VectorStrip = [[f64; STRIP_WIDTH]];
 
 /// Four by four matrix, row by row, for products of two strips.

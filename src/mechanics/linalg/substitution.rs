@@ -1,6 +1,6 @@
 //! Substitution with the factors of a banded matrix.
 //!
-//! The most recent result enters a sum last, so that the sums of several rows overlap.
+//! Each sum adds the most recent result last, so that the processor evaluates the sums of several rows concurrently.
 
 use pulp::{Simd, WithSimd};
 
@@ -25,7 +25,7 @@ impl WithSimd for Substitution<'_> {
     }
 }
 
-/// Forward substitution with the eliminated columns, which also reduces the right-hand side of the other rows.
+/// Forward substitution with the eliminated columns, which also reduces the right-hand side of the remaining rows.
 pub(super) struct Forward<'a> {
     pub(super) factors: Factors<'a>,
     pub(super) x: &'a mut [f64],
@@ -47,7 +47,7 @@ impl WithSimd for Forward<'_> {
     }
 }
 
-/// Backward substitution in the eliminated rows, after the unknowns behind them are known.
+/// Backward substitution in the eliminated rows, for known values of the unknowns after them.
 pub(super) struct Backward<'a> {
     pub(super) factors: Factors<'a>,
     pub(super) x: &'a mut [f64],
@@ -101,7 +101,7 @@ impl<const W: usize> WithSimd for StripSubstitution<'_, W> {
     }
 }
 
-/// `reach` is that of the factors; the multipliers of a column end at the row given by `end`.
+/// `reach` is the half-bandwidth of the factors. The multipliers of a column end at the row given by `end`.
 #[inline(always)]
 fn substitute_forward(
     factors: &Factors<'_>,
@@ -220,7 +220,7 @@ fn substitute_row(factors: &Factors<'_>, reach: usize, x: &mut [f64], row: usize
     };
 }
 
-/// First unknown of a row, from those behind it.
+/// First unknown of a row, for known values of the unknowns after it.
 #[inline(always)]
 fn back_substitute(row: &[f64], x: &[f64]) -> f64 {
     let known = row[1..].iter().zip(&x[1..]).rev();
@@ -231,7 +231,7 @@ fn back_substitute(row: &[f64], x: &[f64]) -> f64 {
 fn substitute_strip<const W: usize>(factors: &Factors<'_>, x: &mut [[f64; W]], first: usize) {
     let (size, reach, rows) = (factors.size, factors.reach, factors.rows);
     let (stride, centre) = (3 * reach + PANEL, reach + PANEL - 1);
-    // Row exchanges reach back by at most the half-bandwidth.
+    // A row exchange changes entries up to the half-bandwidth before the row.
     for column in first.saturating_sub(reach)..size {
         x.swap(column, factors.pivots[column]);
         let value = x[column];

@@ -1,7 +1,8 @@
-//! `L D Lᵀ` factorisation of a symmetric band matrix: eliminated with 32 digits, stored and solved with 16.
+//! `L D Lᵀ` factorisation of a symmetric band matrix. Elimination uses 32 digits, storage and substitution 16.
 //!
-//! For a definite sum of squares of very different magnitudes, the pivots are graded but the columns of `L` are not. Rounding `L` and `D` at the end
-//! changes each square by a relative amount, which is as harmless as rounding the entries of `B` (theory, section 15).
+//! For a positive definite sum of terms of very different magnitudes, the pivots have very different magnitudes but the columns of `L` do not.
+//! Rounding `L` and `D` at the end changes each term by a relative amount, which has the same effect as rounding the entries of `B` (theory, section
+//! 15).
 
 use pulp::{Arch, Simd, WithSimd};
 
@@ -13,11 +14,11 @@ use super::{LinearError, SymmetricSparse};
 /// Properties of a symmetric matrix from the pivots of `L D Lᵀ` without row exchanges.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Pivots {
-    /// Number of negative pivots, which equals that of negative eigenvalues (Sylvester's law of inertia; Golub & Van Loan, Matrix Computations, 4th
-    /// ed., section 4.4).
+    /// Number of negative pivots, which equals the number of negative eigenvalues (Sylvester's law of inertia; Golub & Van Loan, Matrix Computations,
+    /// 4th ed., section 4.4).
     pub negative: usize,
-    /// Largest reduction of a diagonal entry in the elimination, relative to the entry [-]; at most 1 for a definite matrix. It multiplies the
-    /// rounding error of the matrix.
+    /// Largest reduction of a diagonal entry in the elimination, relative to the entry [-]; at most 1 for a positive definite matrix. The rounding
+    /// error of the matrix is multiplied by it.
     pub growth: f64,
 }
 
@@ -49,12 +50,12 @@ impl SymmetricFactors {
         self.pivots
     }
 
-    /// Multipliers below the diagonal in a column of `L`, and its inverse pivot.
+    /// Multipliers below the diagonal in a column of `L`, and the inverse pivot of the column.
     pub fn column(&self, column: usize) -> (&[f64], f64) {
         (&self.multipliers[column * self.reach..][..self.reach], self.inverse_pivots[column])
     }
 
-    /// Replaces four right-hand sides by their solutions. They must be followed by as many zeros as the half-bandwidth.
+    /// Replaces four right-hand sides by their solutions. As many zeros as the half-bandwidth must follow them in memory.
     pub fn solve(&self, x: &mut VectorStrip) {
         assert!(x.len() >= self.size + self.reach, "a strip has a margin");
         Arch::new().dispatch(SymmetricSubstitution { factors: self, x });
@@ -106,7 +107,7 @@ impl SymmetricElimination<'_> {
         // Circular buffer of active rows: row `i` is at `i` modulo their number.
         let rows = reach + 1;
         let (mut high, mut low) = (vec![0.0; rows * stride], vec![0.0; rows * stride]);
-        // Original diagonal entries and their total reduction.
+        // Original diagonal entries, and the total reduction of each.
         let (mut start, mut taken) = (vec![0.0_f64; rows], vec![0.0_f64; rows]);
         let mut pivots = Pivots { negative: 0, growth: 0.0 };
         let mut loaded = 0;
@@ -135,7 +136,7 @@ impl SymmetricElimination<'_> {
             if pivot.high == 0.0 {
                 let is_alone = pivot_high.iter().all(|entry| *entry == 0.0);
                 if kept.is_none() && is_alone {
-                    // Zero rows have no sign.
+                    // A zero row has no sign.
                     continue;
                 }
                 return Err(LinearError::Singular { unknown: at, size });
@@ -213,7 +214,7 @@ fn substitute(factors: &SymmetricFactors, reach: usize, x: &mut VectorStrip) {
     for column in (0..factors.size).rev() {
         let multipliers = &factors.multipliers[column * reach..][..reach];
         let (value, known) = x[column..].split_at_mut(1);
-        // Two sums overlap.
+        // Two sums are evaluated concurrently.
         let mut sums = [[0.0; 4]; 2];
         for (at, (multiplier, known)) in multipliers.iter().zip(&known[..reach]).enumerate() {
             for (sum, known) in sums[at % 2].iter_mut().zip(known) {
@@ -225,7 +226,7 @@ fn substitute(factors: &SymmetricFactors, reach: usize, x: &mut VectorStrip) {
             *value = *value * inverse - (even + odd);
         }
     }
-    // Clears the entries that forward elimination has left behind the end.
+    // Sets entries to zero that forward elimination has written after the last row.
     x[factors.size..].fill([0.0; 4]);
 }
 

@@ -1,8 +1,8 @@
-//! Elimination of a long band from both ends, concurrently with two threads.
+//! Elimination of a long band from both ends, concurrently in two threads.
 //!
-//! The rows behind the middle are reversed in place (last row and last column first) and eliminated like the others. The remainder in the middle is a
-//! small dense matrix (twisted or "burn at both ends" factorisation: Golub & Van Loan, Matrix Computations, 4th ed., section 4.3; van der Vorst,
-//! Parallel Computing 5 (1987) 45–54). The order of operations, and so every bit, is the same with one thread.
+//! The rows after the middle are reversed in place (last row and last column first) and eliminated like the first rows. The remainder in the middle
+//! is a small dense matrix (twisted or "burn at both ends" factorisation: Golub & Van Loan, Matrix Computations, 4th ed., section 4.3; van der Vorst,
+//! Parallel Computing 5 (1987) 45–54). With one thread, the operations have the same order and give the same bits.
 
 use pulp::Arch;
 
@@ -12,7 +12,7 @@ use super::substitution::{Backward, Forward};
 use super::{BandedLu, BandedMatrix, LinearError};
 use crate::threads::both;
 
-/// Number of rows from which elimination from both ends is used. Shorter bands gain little from a second thread.
+/// Smallest number of rows for elimination from both ends. Shorter bands gain little from a second thread.
 const FEWEST_ROWS: usize = 6000;
 
 /// Work space of the elimination from both ends.
@@ -23,7 +23,7 @@ pub(super) struct TwoEnded {
     multipliers: Vec<[f64; PANEL]>,
     middle: BandedMatrix,
     right: Vec<f64>,
-    /// Unknowns in and behind the middle in reverse order.
+    /// Unknowns in and after the middle, in reverse order.
     reversed: Vec<f64>,
 }
 
@@ -31,9 +31,9 @@ pub(super) struct TwoEnded {
 struct BandCut {
     size: usize,
     reach: usize,
-    /// Number of columns eliminated from the first one on, in whole panels.
+    /// Number of columns eliminated from the first column onwards, in whole panels.
     upper: usize,
-    /// Number of columns eliminated from the last one back, in whole panels.
+    /// Number of columns eliminated from the last column backwards, in whole panels.
     lower: usize,
 }
 
@@ -115,7 +115,7 @@ impl TwoEnded {
         let storage = band.storage_mut();
         let (stride, centre) = (storage.stride(), storage.centre());
         let (before, behind) = (cut.upper_rows(), size - cut.lower_rows());
-        // The diagonal of a reversed row is at another index. Zeros at the end of the row between serve as padding that is never filled.
+        // The diagonal of a reversed row is at another index. Zeros at the end of the row between both parts serve as padding that is never filled.
         let shift = 2 * reach - centre;
         let (rows, lower) = storage.rows[..size * stride].split_at_mut(behind * stride - shift);
         let (pivots, lower_pivots) = storage.pivots.split_at_mut(behind);

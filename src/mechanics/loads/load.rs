@@ -12,7 +12,7 @@ pub enum LoadFrame {
     /// Fixed direction in space.
     #[default]
     Dead,
-    /// Rotates with the section. Components are along the axis as drawn and across it.
+    /// Follower direction, which rotates with the section. Components are along and across the axis as drawn.
     Follower,
 }
 

@@ -22,7 +22,7 @@ pub struct MotionInStep {
     pub increment: f64,
     /// Right limit of the rate at the start of the step [length/time, rad/time].
     pub first_rate: f64,
-    /// Rounding error of that rate [length/time, rad/time].
+    /// Rounding error of the first rate [length/time, rad/time].
     pub rounding: f64,
     /// Left limit of the rate at the end of the step [length/time, rad/time].
     pub rate: f64,
@@ -41,28 +41,28 @@ pub struct MotionAtStart {
     pub acceleration: f64,
 }
 
-/// `cos(π/4)`: with the ends and the middle of a step these are the extremes of the Chebyshev polynomial of degree four.
+/// `cos(π/4)`. Together with the ends and the middle of a step, `±INNER` are the extremes of the Chebyshev polynomial of degree four.
 const INNER: f64 = std::f64::consts::FRAC_1_SQRT_2;
 
-/// Sampling places of a displacement in a step, on [-1, 1].
+/// Sampling times of a displacement in a step, on [-1, 1].
 const NODES: [f64; 5] = [-1.0, -INNER, 0.0, INNER, 1.0];
 
-/// Weights of the derivative at the end of [-1, 1] of the interpolation polynomial (Trefethen, Spectral Methods in MATLAB, 2000, chapter 6).
+/// Weights for the first derivative of the interpolation polynomial at the end of [-1, 1] (Trefethen, Spectral Methods in MATLAB, 2000, chapter 6).
 const RATE_AT_END: [f64; 5] = [0.5, 2.0 / (-1.0 - INNER), 2.0, 2.0 / (INNER - 1.0), 5.5];
 
-/// Weights of its second derivative there.
+/// Weights for the second derivative at the same place.
 const BENT_AT_END: [f64; 5] = [5.0, 12.0 * INNER - 20.0, 18.0, -12.0 * INNER - 20.0, 17.0];
 
-/// Relative jump of rates at a declared break below which the motion is smooth there.
+/// Jump of the rate at a declared break, relative to the rate, below which the motion is smooth.
 const SMOOTH: f64 = 1e-6;
 
-/// Bound of the rounding error of a rate, in rounding units of its values per step.
+/// Bound of the rounding error of a rate, in rounding units of the values over the step length.
 const ROUNDINGS: f64 = 1e3;
 
-/// Ratio of consecutive time spans in the search for initial derivatives, starting with one unit of time.
+/// Ratio of consecutive time spans in the search for initial derivatives. The first span is one unit of time.
 const SHRINKS: f64 = 0.125;
 
-/// Number of these time spans.
+/// Number of time spans in this search.
 const SPANS: usize = 14;
 
 impl PrescribedMotion {
@@ -125,7 +125,7 @@ impl PrescribedMotion {
                     &[start, 0.5 * (start + end), end],
                     &[first, middle, last],
                 )?;
-                // A jump of the rate within the step is a kink of the motion. The rate after it then replaces that at the start.
+                // A jump of the rate within the step is a kink of the motion. The rate at the end then replaces the rate at the start.
                 let first_rate = jump.map_or(first, |_| last);
                 let rounding = ROUNDINGS * f64::EPSILON * size_of(&[first, middle, last]);
                 Ok(MotionInStep {
@@ -140,7 +140,7 @@ impl PrescribedMotion {
         }
     }
 
-    /// Jump of the rate at the start of a step, relative to the rate `before` at the end of the last one [length/time, rad/time]. It is evaluated at
+    /// Jump of the rate at the start of a step, relative to the rate `before` at the end of the last step [length/time, rad/time]. It is evaluated at
     /// declared breaks and for controllers; `None` if the rate is continuous.
     ///
     /// # Errors
@@ -166,10 +166,10 @@ impl PrescribedMotion {
         Ok(Some(after - before).filter(|jump| jump.abs() > negligible))
     }
 
-    /// Rejects a motion whose displacement, or prescribed rate, jumps just after the start.
+    /// Rejects a motion whose displacement or prescribed rate jumps just after the start.
     ///
     /// # Errors
-    /// The jump; also fails if the function fails or a value is not finite.
+    /// Fails if there is a jump, the function fails, or a value is not finite.
     pub fn check_start(&self) -> Result<(), LoadError> {
         match jump_at_start(self.schedule())? {
             Some(jump) if matches!(self, Self::Position(_)) || jump.is_jump => Err(jump.refused()),
@@ -177,10 +177,10 @@ impl PrescribedMotion {
         }
     }
 
-    /// Initial rate and acceleration of the motion from a time on.
+    /// Initial rate and acceleration of a motion that starts at a time.
     ///
-    /// The derivatives of a displacement are computed over decreasing time spans, and taken where two consecutive spans agree best, because the time
-    /// scale of the function is unknown.
+    /// The time scale of the function is unknown. The derivatives of a displacement are therefore computed over decreasing time spans, and taken
+    /// where the results for two consecutive spans agree best.
     ///
     /// # Errors
     /// Fails if the function fails or a value is not finite just after the start.
@@ -208,7 +208,7 @@ impl PrescribedMotion {
                     let both = [&mut found.rate, &mut found.acceleration];
                     for (at, number) in both.into_iter().enumerate() {
                         let miss: f64 = now[at] - before[at];
-                        // Among equally good spans the shortest counts.
+                        // Among spans with equal agreement, the shortest is used.
                         if miss.abs() <= least[at] {
                             (least[at], *number) = (miss.abs(), now[at]);
                         }
@@ -268,7 +268,7 @@ fn reversed(mut values: [f64; 5]) -> [f64; 5] {
     values
 }
 
-/// Weighted sum of differences from the last value, which has less cancellation than that of the values.
+/// Weighted sum of the differences from the last value, which has less cancellation than the sum of the values.
 fn sum(weights: &[f64; 5], values: &[f64; 5]) -> f64 {
     weights.iter().zip(values).map(|(weight, value)| weight * (value - values[4])).sum()
 }

@@ -2,14 +2,14 @@
 
 use super::{LoadError, multiple};
 
-/// Clock of a digital controller. It samples at `n T`, `n = 0, 1, …`, and its command acts from `n T + delay` until the next one does.
+/// Clock of a digital controller. It samples at `n T`, `n = 0, 1, …`. Each command acts from `n T + delay` until the next command acts.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SampleClock {
     period: f64,
     delay: f64,
 }
 
-/// Relative tolerance for equal times, in periods.
+/// Difference of two times, in periods, below which they are equal.
 const SAME: f64 = 1e-9;
 
 impl SampleClock {
@@ -45,12 +45,12 @@ impl SampleClock {
         multiple(self.period, number)
     }
 
-    /// Index of the last sample at or before a time; times closer than `slack` are equal [time]. `None` before the first.
+    /// Index of the last sample at or before a time; times closer than `slack` are equal [time]. `None` before the first sample.
     fn last_by(&self, time: f64, slack: f64) -> Option<u64> {
         if time < -slack {
             return None;
         }
-        // Rounding may give a neighbour, but not more.
+        // Rounding may give the next or previous sample, but no other.
         let number = ((time + slack).max(0.0) / self.period) as u64;
         if number > 0 && self.sample(number) > time + slack {
             return Some(number - 1);
@@ -59,12 +59,12 @@ impl SampleClock {
         Some(if self.sample(next) <= time + slack { next } else { number })
     }
 
-    /// Index of the sample at a time, if there is one; times closer than `slack` are equal [time].
+    /// Index of the sample at a time; times closer than `slack` are equal [time]. `None` if there is no sample at this time.
     pub fn sample_at(&self, time: f64, slack: f64) -> Option<u64> {
         self.last_by(time, slack).filter(|number| time - self.sample(*number) <= slack)
     }
 
-    /// Index of the sample whose command acts just after a time; `None` before the first acts [time].
+    /// Index of the sample whose command acts just after a time [time]; `None` before the first command acts.
     pub fn sample_active_after(&self, time: f64, slack: f64) -> Option<u64> {
         self.last_by(time - self.delay, slack)
     }
@@ -74,7 +74,7 @@ impl SampleClock {
         self.sample_at(time - self.delay, SAME * self.period).is_some()
     }
 
-    /// Next time of a sample or of a starting command after `now` [time].
+    /// Next time after `now` of a sample or of the start of a command [time].
     pub fn next(&self, now: f64, slack: f64) -> f64 {
         let after = |time: f64| {
             self.sample(self.last_by(time, slack).map_or(0, |last| last.saturating_add(1)))

@@ -33,7 +33,7 @@ pub enum LimitSide {
 pub enum Schedule {
     /// Constant factor [-].
     Constant(f64),
-    /// Linear interpolation of (time, factor) points, constant before the first and after the last. A repeated time is a jump.
+    /// Linear interpolation of (time, factor) points, constant before the first point and after the last. A repeated time is a jump.
     Table(Vec<(f64, f64)>),
     /// Factor `amplitude · sin(rate · t + phase)`.
     Sine {
@@ -44,7 +44,7 @@ pub enum Schedule {
         /// Phase at time zero [rad].
         phase: f64,
     },
-    /// Pulse `16/5 sin⁶(π t/duration)` for 0 < t < duration, else 0: unit mean, five continuous derivatives.
+    /// Pulse `16/5 sin⁶(π t/duration)` for 0 < t < duration, otherwise 0. Its mean is one, and it has five continuous derivatives.
     SmoothPulse {
         /// Duration of the pulse [time].
         duration: f64,
@@ -56,9 +56,9 @@ pub enum Schedule {
         /// Times of jumps and kinks [time].
         breaks: Vec<f64>,
     },
-    /// Command of a controller that is sampled at every step: a value that the caller sets at the start of the step, constant within it.
+    /// Command of a controller that is sampled at every step. The caller sets the value at the start of the step; it is constant within the step.
     Sampled(Rc<Cell<f64>>),
-    /// Command of a digital controller: a value that the caller sets when the command starts to act, constant until the next one.
+    /// Command of a digital controller. The caller sets the value when the command starts to act; it is constant until the next command.
     DigitalController {
         /// Cell of the value.
         value: Rc<Cell<f64>>,

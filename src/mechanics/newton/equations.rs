@@ -5,9 +5,9 @@ use crate::linalg::BorderedMatrix;
 /// Relative residual norms of a set of equations.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct ResidualNorms {
-    /// Largest residual force, relative to the forces to be balanced [-].
+    /// Largest residual force, relative to the scale of the forces [-].
     pub force: f64,
-    /// Largest mismatch between the strains of section forces and configuration [-].
+    /// Largest difference between the strains of the section forces and of the configuration [-].
     pub strain: f64,
     /// Largest constraint violation, relative to its scale [-].
     pub constraint: f64,
@@ -19,7 +19,7 @@ impl ResidualNorms {
         [self.force, self.strain, self.constraint].iter().all(|part| part.is_finite())
     }
 
-    /// Part with the largest norm, or with NaN.
+    /// Part with the largest norm, or with a NaN.
     pub fn worst(&self) -> ResidualPart {
         let others =
             [(ResidualPart::Strain, self.strain), (ResidualPart::Constraint, self.constraint)];
@@ -53,16 +53,16 @@ pub enum ResidualPart {
 /// The internal unknowns (section forces) are condensed. They enter the linear system through [`linearise`](Equations::linearise) and are updated by
 /// [`correct`](Equations::correct) (Magisano, Leonetti & Garcea 2017, "mixed integration point" Newton).
 pub trait Equations {
-    /// Fills the condensed residual and tangent at `u`, which are zeroed on entry.
+    /// Fills the condensed residual and tangent at `u`. Both are zero on entry.
     fn linearise(&mut self, u: &[f64], residual: &mut [f64], tangent: &mut BorderedMatrix);
 
-    /// Condenses a residual that [`imbalance`](Equations::imbalance) has just filled, with the last linearisation, for a further correction with its
+    /// Condenses the residual that the last call of [`imbalance`](Equations::imbalance) filled, by the last linearisation, for a correction with its
     /// factors.
     fn condense(&mut self, residual: &mut [f64]);
 
-    /// Updates the internal unknowns for a correction of `u` from the last linearisation.
+    /// Updates the internal unknowns for a correction of `u`, by the last linearisation.
     fn correct(&mut self, correction: &[f64]);
 
-    /// Fills the residual at `u` with the current internal unknowns, and returns its norms.
+    /// Fills the residual at `u` for the current internal unknowns, and returns its norms.
     fn imbalance(&mut self, u: &[f64], residual: &mut [f64]) -> ResidualNorms;
 }

@@ -46,7 +46,7 @@ impl NewtonError {
 
 type NamedResidualPart = (&'static str, fn(&ResidualNorms) -> f64);
 
-/// Convergence history of the residual component that is largest in the last iteration.
+/// Convergence history of the part of the residual that is largest in the last iteration.
 fn describe(history: &[ResidualNorms]) -> String {
     let last = history.last().copied().unwrap_or_default();
     let parts: [NamedResidualPart; 3] = [

@@ -1,4 +1,4 @@
-//! Newton solver, independent of time integration and beams: equations provide a residual and a tangent.
+//! Newton solver for any equations that provide a residual and a tangent.
 
 mod equations;
 mod error;

@@ -1,4 +1,4 @@
-//! Newton's method with a new tangent at every iteration, and corrections with existing factors where these suffice.
+//! Newton's method with a new tangent in every iteration, and corrections with existing factors where these are sufficient.
 
 use serde::{Deserialize, Serialize};
 
@@ -6,19 +6,19 @@ use super::{Equations, NewtonError, ResidualNorms};
 use crate::elementary::whole_power;
 use crate::linalg::{BorderShape, BorderedLu, BorderedMatrix};
 
-/// Residual norm below which existing factors are used, as long as they reduce it.
+/// Residual norm below which existing factors are used, while they reduce it.
 const NEAR: f64 = 1e-4;
 
-/// Number of corrections that costs as much as an iteration with new factors, which squares the residual.
+/// Number of corrections that cost as much as one iteration with new factors, which squares the residual.
 const MOST_CORRECTIONS: i32 = 5;
 
-/// Largest number of corrections with the factors of similar equations. Each should gain some digits.
+/// Largest number of corrections with the factors of similar equations. Each correction should gain some digits.
 const MOST_SHARED_CORRECTIONS: usize = 12;
 
-/// Residual norm [-] at which a solution from similar equations is accepted: a billionth of the change of interest.
+/// Residual norm at which a solution with the factors of similar equations is accepted: a billionth of the residual change due to a perturbation [-].
 const FOLLOWED: f64 = 1e-14;
 
-/// Reduction factor above which a correction has reached rounding.
+/// Ratio of two successive residuals above which a correction has reached rounding.
 const STANDSTILL: f64 = 0.1;
 
 /// Convergence tolerances and iteration limit of Newton's method.
@@ -43,7 +43,7 @@ impl Default for Tolerance {
 }
 
 impl Tolerance {
-    /// Returns true if a further correction with existing factors is worthwhile, given the reduction by the last one and the number of corrections
+    /// Returns true if a further correction with existing factors is useful, from the reduction by the last correction and the number of corrections
     /// left.
     fn is_worth_correcting(
         &self,
@@ -77,7 +77,7 @@ pub struct NewtonReport {
 }
 
 impl NewtonReport {
-    /// Report of two consecutive solves: the total work, and the residual norms of the second.
+    /// Report of two consecutive solutions: the total work, and the residual norms of the second solution.
     pub fn then(self, next: Self) -> Self {
         Self {
             iterations: self.iterations + next.iterations,
@@ -87,7 +87,7 @@ impl NewtonReport {
     }
 }
 
-/// Newton's method with its work space. Solving allocates nothing unless it fails.
+/// Newton's method with its work space. Solving allocates no memory unless it fails.
 #[derive(Debug, Clone)]
 pub struct Newton {
     tolerance: Tolerance,
@@ -98,7 +98,7 @@ pub struct Newton {
 }
 
 impl Newton {
-    /// Creates a solver for `unknowns` unknowns with a tangent of the given half-bandwidth and a border behind it.
+    /// Creates a solver for `unknowns` unknowns, with a tangent of the given half-bandwidth followed by a border.
     pub fn new(
         unknowns: usize,
         half_bandwidth: usize,
@@ -120,7 +120,7 @@ impl Newton {
 
     /// Iterates `u` until the equations converge; `residual` holds the last residual.
     ///
-    /// `residual` may be longer than the unknowns. Additional entries (reactions) are not solved for.
+    /// `residual` may be longer than the unknowns. Additional entries (reactions) are not set to zero.
     ///
     /// # Errors
     /// Fails if the iteration limit is reached, the tangent is singular, or a number is not finite.
@@ -133,10 +133,10 @@ impl Newton {
         self.solve_and(equations, u, residual, |_, _| ())
     }
 
-    /// Solves as [`solve`](Self::solve) does, and passes the solution and the last factors to a callback.
+    /// Solves as [`solve`](Self::solve) does, and calls `then` with the solution and the last factors.
     ///
     /// # Errors
-    /// Errors of [`solve`](Self::solve); then the callback is not called.
+    /// Errors of [`solve`](Self::solve). In this case `then` is not called.
     pub fn solve_and(
         &mut self,
         equations: &mut impl Equations,
@@ -168,7 +168,7 @@ impl Newton {
                 factor = imbalance.largest() / before;
                 corrections += 1;
             }
-            // Residuals that are not finite are not corrected, so that no correction hides them.
+            // A residual that is not finite is not corrected, so that no correction conceals it.
             self.history.push(imbalance);
             if !imbalance.is_finite() {
                 return Err(NewtonError::NotFinite { history: self.history.clone() });
@@ -182,7 +182,7 @@ impl Newton {
         Err(NewtonError::NotConverged { history: self.history.clone() })
     }
 
-    /// Solves with the factors of similar equations, starting from their solution, almost to rounding. If this does not converge, continues as
+    /// Solves almost to rounding with the factors of similar equations, starting from their solution. If this does not converge, it continues as
     /// [`solve`](Self::solve).
     ///
     /// # Errors
@@ -196,7 +196,7 @@ impl Newton {
     ) -> Result<NewtonReport, NewtonError> {
         self.tangent.clear();
         residual.fill(0.0);
-        // Only the condensation of internal unknowns is needed, not the tangent.
+        // Only the condensation of internal unknowns is needed; the tangent is not used.
         equations.linearise(u, residual, &mut self.tangent);
         let mut before = f64::INFINITY;
         for corrections in 1..=MOST_SHARED_CORRECTIONS {

@@ -9,10 +9,10 @@ use crate::elementary::power;
 use crate::integrators::{Interval, Method};
 use crate::system::{Scene, System};
 
-/// Default smallest step, relative to the first one.
+/// Default smallest step, relative to the first step.
 const SMALLEST: f64 = 1e-6;
 
-/// Default largest step, relative to the first one. A scene at rest sets no other bound.
+/// Default largest step, relative to the first step. It bounds the steps of a scene without motion.
 const LARGEST: f64 = 1e6;
 
 /// Smallest step in units of the rounding of the time.
@@ -28,12 +28,12 @@ pub(super) struct Adaptive {
 
 pub(super) struct StepPlan {
     pub(super) interval: Interval,
-    /// True if the step was shortened to end at an event such as a jump of a load.
+    /// True if the step was shortened to end at an event, such as a jump of a load.
     pub(super) is_cut: bool,
     pub(super) is_least: bool,
 }
 
-/// Order of a method in a scene. Numerically damped methods are of second order where nothing strains.
+/// Order of a method in a scene. Numerically damped methods are of second order in scenes without deformable elements.
 fn order_of(method: Method, scene: &Scene) -> u32 {
     let strains = !scene.beams.is_empty() || scene.springs().next().is_some();
     match method {
@@ -71,13 +71,13 @@ impl Adaptive {
         let (end, is_cut) = if stop <= now + wish {
             (stop, stop < now + wish)
         } else if left < 2.0 * wish {
-            // Two equal steps instead of a long and a short one.
+            // Two equal steps are better than a long step followed by a short one.
             (now + 0.5 * left, true)
         } else {
             (now + wish, false)
         };
         let interval = Interval::between(now, end);
-        // The duration is rounded to the spacing of times; the wished size is not.
+        // The duration is rounded to the spacing of times; the requested size is not.
         let is_least = wish <= least || interval.duration() <= least;
         StepPlan { interval, is_cut, is_least }
     }

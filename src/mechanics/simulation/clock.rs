@@ -8,7 +8,7 @@ use super::step_retry::StepRetry;
 #[derive(Debug, Clone)]
 pub(super) struct StepClock {
     pub(super) grid: TimeGrid,
-    /// Size of the next step, for variable steps.
+    /// Size of the next step; only for variable steps.
     pub(super) step_size: Option<StepSizeState>,
     pub(super) retry: Option<StepRetry>,
     /// End time of the present run; infinite for single steps [time].

@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::elementary::power;
 
-/// Safety factor relative to the longest step that would be accepted.
+/// Ratio of the next step to the longest step that would be accepted.
 const SAFETY: f64 = 0.9;
 
 /// Largest step-growth factor.
@@ -19,13 +19,13 @@ const LEAST_GROWTH: f64 = 0.2;
 /// Largest factor after a second rejection.
 const SECOND_REJECTION_FACTOR: f64 = 0.5;
 
-/// Exponent of the last error.
+/// Exponent of the error of the last step.
 const NOW: f64 = 0.7;
 
-/// Exponent of the previous error.
+/// Exponent of the error of the previous step.
 const BEFORE: f64 = 0.4;
 
-/// Errors below this fraction of the allowed one are raised to it.
+/// Smallest error, relative to the allowed error. Smaller errors are replaced by it.
 const LEAST_ERROR: f64 = 1e-4;
 
 /// Constant parameters of the step controller, with its bounds [time].
@@ -43,9 +43,9 @@ pub(super) struct StepController {
 pub(super) struct StepSizeState {
     /// Size of the next step if no event shortens it [time].
     pub(super) unconstrained_size: f64,
-    /// Error of the last uncut step, relative to the allowed one [-]; `None` if unknown.
+    /// Error of the last step that no event shortened, relative to the allowed error [-]; `None` if unknown.
     pub(super) error: Option<f64>,
-    /// Number of rejected or failed tries of the next step.
+    /// Number of rejected or failed attempts at the next step.
     pub(super) tries: usize,
 }
 
@@ -53,7 +53,7 @@ pub(super) struct StepSizeState {
 pub(super) struct TriedStep {
     /// Duration [time].
     pub(super) duration: f64,
-    /// Error relative to the allowed one [-].
+    /// Error relative to the allowed error [-].
     pub(super) error: f64,
 }
 
@@ -62,7 +62,7 @@ impl StepController {
         StepSizeState { unconstrained_size: self.first, error: None, tries: 0 }
     }
 
-    /// Returns true if the next step may be as short as the state requests.
+    /// Returns true if the step size that the state requests is not below the smallest.
     pub(super) fn allows(&self, pace: &StepSizeState) -> bool {
         let is_error = pace.error.is_none_or(|error| error >= LEAST_ERROR && error.is_finite());
         (self.smallest..=self.largest).contains(&pace.unconstrained_size)
@@ -84,14 +84,14 @@ impl StepController {
             None => self.room(error),
             Some(last) => power(self.room(error), NOW) / power(self.room(last), BEFORE),
         };
-        // A size that has just failed is not repeated immediately.
+        // After a failed attempt the step size does not grow.
         let most = if pace.tries > 0 { 1.0 } else { MOST_GROWTH };
         let wish = trial.duration * growth.clamp(LEAST_GROWTH, most);
         *pace =
             StepSizeState { unconstrained_size: self.bounded(wish), error: Some(error), tries: 0 };
     }
 
-    /// Updates the state after an accepted, shortened step. It may increase the step size but not decrease it.
+    /// Updates the state after an accepted step that an event shortened. The step size may increase, but not decrease.
     pub(super) fn accept_cut(&self, pace: &mut StepSizeState, trial: TriedStep) {
         let mut alone = StepSizeState { error: None, ..*pace };
         self.accept(&mut alone, trial);
@@ -122,7 +122,7 @@ impl StepController {
 
     fn shorten(&self, pace: &mut StepSizeState, duration: f64, part: f64) {
         pace.tries += 1;
-        // The end of a step, and so its duration, may overflow.
+        // The end of a step may overflow, and so may its duration.
         pace.unconstrained_size = self.bounded(duration.min(pace.unconstrained_size) * part);
     }
 

@@ -19,7 +19,7 @@ pub enum SimulationError {
     /// Derivatives with respect to parameters are unavailable.
     #[error(transparent)]
     Derivative(#[from] DerivativeError),
-    /// Mean value over a step, with a method that balances accelerations instead of momenta.
+    /// Mean value over a step, for a method that balances accelerations instead of momenta.
     #[error(
         "'{sensor}' is a mean force over a step, which the method {method} does not provide; record the instantaneous force, or use energy_momentum"
     )]
@@ -74,12 +74,12 @@ pub enum SimulationError {
         dt: f64,
         /// Largest number of parts into which the step was divided.
         divisions: u64,
-        /// Reason of the last failure.
+        /// Error of the last attempt.
         source: Box<StepError>,
         /// Extreme conditions before the step, appended to the message; may be empty.
         conditions: String,
     },
-    /// Tolerance that requires too small steps.
+    /// Tolerance that requires steps below the smallest size.
     #[error(
         "the tolerance {tolerance} requires steps below the smallest allowed one ({smallest:e}) at t = {}: the error of a step of dt = {dt:e} is {error:.3} times the allowed one", rounded(*time)
     )]
@@ -88,9 +88,9 @@ pub enum SimulationError {
         time: f64,
         /// Tolerance [-].
         tolerance: f64,
-        /// Last tried step [time].
+        /// Size of the last attempted step [time].
         dt: f64,
-        /// Error of that step relative to the allowed one [-].
+        /// Error of that step, relative to the allowed error [-].
         error: f64,
         /// Smallest allowed step [time].
         smallest: f64,
@@ -102,11 +102,11 @@ pub enum SimulationError {
     Smallest {
         /// End of the last successful step [time].
         time: f64,
-        /// Last tried step [time].
+        /// Size of the last attempted step [time].
         dt: f64,
         /// Smallest allowed step [time].
         smallest: f64,
-        /// Reason of the last failure.
+        /// Error of the last attempt.
         source: Box<StepError>,
         /// Extreme conditions before the step, appended to the message; may be empty.
         conditions: String,
@@ -129,7 +129,7 @@ pub enum SimulationError {
         /// Extreme conditions before the step, appended to the message; may be empty.
         conditions: String,
     },
-    /// Load without a finite value, or slider too fast for its rule. Smaller steps do not help.
+    /// Load without a finite value, or slider that is too fast for its rule. Smaller steps do not help.
     #[error("{source}")]
     Load {
         /// Load or slider, step and reason.

@@ -11,7 +11,7 @@ use crate::system::{Placement, System, SystemState};
 /// Takes two half steps, and compares them with a discarded whole step.
 ///
 /// For a method of order `p`, the error of the half steps is `1/(2^p - 1)` times the difference (Richardson). The half steps are kept without
-/// extrapolation, which would be more accurate but would lose the conservation properties of the method.
+/// extrapolation. An extrapolation would be more accurate, but would lose the conservation properties of the method.
 #[derive(Default)]
 pub(super) struct StepDoubling {
     start: SystemState,
@@ -28,25 +28,25 @@ pub(super) struct DoubledStep {
     /// Total work of the half steps and the whole step.
     pub(super) report: NewtonReport,
     pub(super) tried_step: TriedStep,
-    /// Error of positions alone, relative to the allowed one [-].
+    /// Error of positions alone, relative to the allowed error [-].
     position_error: f64,
 }
 
 impl DoubledStep {
-    /// Returns the step with the error of positions only. It is used for the smallest step, where an unresolved impact is no reason for rejection.
+    /// Returns the step with the error of positions only, for the smallest step. There, an unresolved impact must not cause a rejection.
     pub(super) fn judged_by_places(self) -> Self {
         let trial = TriedStep { error: self.position_error, ..self.tried_step };
         Self { tried_step: trial, ..self }
     }
 
-    /// Returns the step after a repeated second half, with the total work and an additional error relative to the allowed one.
+    /// Returns the step after its second half was repeated, with the total work and an additional error relative to the allowed error.
     pub(super) fn resampled(self, report: NewtonReport, error: f64) -> Self {
         let trial = TriedStep { error: larger(self.tried_step.error, error), ..self.tried_step };
         Self { report, tried_step: trial, position_error: larger(self.position_error, error) }
     }
 }
 
-/// Step with a failed part. The mechanism is back at the start of that part.
+/// Step of which a part failed. The mechanism is in the state at the start of that part.
 pub(super) struct FailedStep {
     pub(super) source: StepError,
     pub(super) before: usize,
@@ -91,7 +91,7 @@ impl StepDoubling {
         Ok(DoubledStep { report, tried_step: trial, position_error: of_places })
     }
 
-    /// Takes a step after successful ones. On failure, the model is restored to the start of the first one.
+    /// Takes a step that follows successful steps. On failure, the model is restored to the start of the first of them.
     pub(super) fn take_or_restore(
         &self,
         integrator: &mut dyn Integrator,

@@ -5,14 +5,14 @@ use crate::geometry::larger;
 use crate::integrators::Mechanism;
 use crate::system::{Scene, System};
 
-/// Fraction of the time in which a scene without beams moves by its own size.
+/// First step of a scene without beams, as a fraction of the time in which it moves by its own size.
 const PART: f64 = 1e-3;
 
-/// Distance below which the start motion does not determine a length scale [length].
+/// Distance in which gravity generates the start speed, below which it is no length scale [length].
 const SHORTEST_WAY: f64 = 1e-3;
 
-/// Length scale of a scene: its longest beam; without beams its [extent](Scene::extent), or for isolated particles the distance in which gravity
-/// generates the start speed, or 1 [length].
+/// Length scale of a scene: its longest beam. Without beams it is the [extent](Scene::extent). For isolated particles it is the distance in which
+/// gravity generates the start speed, or 1 [length].
 pub(super) fn length_of(scene: &Scene) -> f64 {
     let is_length = |length: &f64| *length > 0.0 && length.is_finite();
     let extent = || Some(scene.extent()).filter(is_length);
@@ -32,8 +32,8 @@ fn start_speed(scene: &Scene) -> f64 {
 
 /// Initial size of variable steps [time].
 ///
-/// It is the shortest time in which an axial wave passes a span. Without beams it is a fraction of the time in which start velocities or weight move
-/// a particle by the length scale.
+/// It is the shortest time in which an axial wave passes a span. Without beams it is a fraction of the time in which start velocities or weight
+/// displace a particle by the length scale.
 pub(super) fn first_step(scene: &Scene, model: &System) -> f64 {
     let waves = scene.beams.iter().map(|beam| {
         beam.axis.length() / (beam.mesh.spans() as f64 * beam.section.axial_wave_speed())

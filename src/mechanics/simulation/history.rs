@@ -13,9 +13,9 @@ pub struct Sample {
     pub measures: Measures,
     /// Length of the step; zero in the first row [time].
     pub dt: f64,
-    /// Newton iterations of the step; for variable steps the total of its three solves.
+    /// Newton iterations of the step; for variable steps the total of the whole step and its two halves.
     pub newton_iterations: usize,
-    /// Number of failed tries before the step.
+    /// Number of failed attempts before the step.
     pub retries: usize,
 }
 
@@ -41,7 +41,7 @@ impl Invariant {
         ("gap", Self::Gap),
     ];
 
-    /// Value of the invariant in a row: a vector for the momentum, otherwise in the first component.
+    /// Value of the invariant in a row. Scalars are in the first component.
     pub fn value(self, row: &Measures) -> Vec2 {
         match self {
             Self::Energy => Vec2::new(row.energy.total() - row.work + row.dissipated, 0.0),
@@ -67,7 +67,7 @@ impl Invariant {
 pub struct DriftScales {
     /// Mass of the whole scene [mass].
     pub mass: f64,
-    /// Length scale of the scene [length]; zero without one, as for a single particle at the origin.
+    /// Length scale of the scene [length]; zero if there is none, as for a single particle at the origin.
     pub length: f64,
     /// Rounding error of the strain energy [energy], the smallest scale of a drift.
     pub rounding_energy: f64,
@@ -177,8 +177,8 @@ impl History {
         Some(rows.map(|row| row[index]).collect())
     }
 
-    /// Values of a column, each averaged with that of the previous row. The first two values are kept, because quantities of a step, such as contact
-    /// forces, have no value at the start.
+    /// Values of a column, each averaged with the value of the previous row. The first two values are kept, because quantities of a step, such as
+    /// contact forces, have no value at the start.
     ///
     /// The average removes oscillations from step to step. It belongs to the middle of the step.
     pub fn averaged(&self, name: &str) -> Option<Vec<f64>> {
@@ -189,10 +189,10 @@ impl History {
         Some(column)
     }
 
-    /// Deviation of an invariant from its value in the first row, relative to the largest energy, momentum or angular momentum of all rows; absolute
-    /// for the gap.
+    /// Deviation of an invariant from its value in the first row, relative to the largest energy, momentum or angular momentum of all rows; the gap
+    /// is absolute.
     ///
-    /// The scale of momenta includes `sqrt(2 m K)`, which covers bodies of zero momentum, and all exchanged impulses, including those that cancel.
+    /// The scale of momenta includes `sqrt(2 m K)`, for bodies of zero momentum, and the sum of the magnitudes of all exchanged impulses.
     pub fn drifts(&self, invariant: Invariant) -> Vec<f64> {
         let Some(first) = self.samples.first().map(|row| row.measures) else { return Vec::new() };
         let scale = self.scale(invariant, &first);
@@ -233,8 +233,8 @@ impl History {
         }
     }
 
-    /// Largest increase of `E - W + D` over an earlier value, relative to the scale of [`drifts`](Self::drifts); NaN for NaN energies or without
-    /// rows.
+    /// Largest increase of `E - W + D` above an earlier value, relative to the scale of [`drifts`](Self::drifts); NaN if an energy is NaN or there
+    /// are no rows.
     pub fn energy_growth(&self) -> f64 {
         let Some(first) = self.samples.first().map(|row| row.measures) else { return f64::NAN };
         let mut least = f64::INFINITY;

@@ -2,7 +2,7 @@
 
 /// Observer of a run that may stop it.
 pub trait Monitor {
-    /// Called after every step and every failed try with the present time. Returns `false` to stop the run.
+    /// Called with the present time after every step and every failed attempt. Returns `false` to stop the run.
     fn continues(&mut self, time: f64) -> bool;
 }
 

@@ -5,7 +5,7 @@ use crate::elementary::atan2;
 use crate::geometry::{Vec2, cross, perpendicular};
 use crate::system::{BeamDefinition, RigidBodyDefinition, Scene, SystemError};
 
-/// Points per span for degrees above one.
+/// Number of points per span for degrees above one.
 const POINTS_A_SPAN: usize = 8;
 
 fn pieces(degree: usize) -> usize {
@@ -17,7 +17,8 @@ fn pieces(degree: usize) -> usize {
 pub struct Outline {
     line: Vec<BodyPoint>,
     marks: Vec<BodyPoint>,
-    /// Polygon corners of a rigid body, in coordinates along and left of the line from the centre to one of its points, in units of its length.
+    /// Corners of the polygon of a rigid body, in coordinates along and left of the line from the centre to one of its points, in units of the line's
+    /// length.
     corners: Vec<Vec2>,
 }
 
@@ -62,7 +63,8 @@ impl Outline {
         scene.beams.iter().zip(meshes).enumerate().map(of_beam).chain(bodies).collect()
     }
 
-    /// One point gives a line from the centre, two points a line through it, more points a polygon around it.
+    /// With one point, the line starts at the centre; with two points it passes through the centre; with more points it is a polygon around the
+    /// centre.
     fn of_rigid_body(index: usize, body: &RigidBodyDefinition) -> Self {
         if !body.outline.is_empty() {
             return Self::polygon(index, body);
@@ -95,8 +97,8 @@ impl Outline {
         Self { line: line.into(), marks: Vec::new(), corners }
     }
 
-    /// Polygon corners of a rigid body, closed, in coordinates along and left of the line between both places of its [line](Self::line), in units of
-    /// its length.
+    /// Corners of the closed polygon of a rigid body, in coordinates along and left of the line between both places of its [line](Self::line), in
+    /// units of that line's length.
     pub fn corners(&self) -> &[Vec2] {
         &self.corners
     }
@@ -125,7 +127,7 @@ impl Outline {
         breaks.windows(2).flat_map(within).chain(breaks.last().copied()).collect()
     }
 
-    /// Number of line places between stations of the axis: there are two stations per span, or one for straight spans.
+    /// Number of line places between stations of the axis. There are two stations per span, or one for straight spans.
     pub fn places_a_station(degree: usize) -> usize {
         pieces(degree).div_ceil(2)
     }

@@ -12,23 +12,23 @@ use crate::newton::NewtonReport;
 /// Work counters of a run.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct WorkCounts {
-    /// Successful steps; a compared pair of half steps counts as one.
+    /// Successful steps. Two half steps that were compared with a whole step count as one.
     pub steps: usize,
-    /// Newton iterations of successful steps, each with a new factorisation; for variable steps of all three solves.
+    /// Newton iterations of successful steps, each with a new factorisation. For variable steps they include the whole step and its two halves.
     pub newton_iterations: usize,
     /// Corrections of successful steps with existing factors.
     pub corrections: usize,
-    /// Largest number of Newton iterations of a step; for variable steps the total of its three solves.
+    /// Largest number of Newton iterations of a step. For variable steps it is the total of the whole step and its two halves.
     pub newton_max: usize,
-    /// Factorisations, including those of failed tries.
+    /// Factorisations, including those of failed attempts.
     pub factorisations: usize,
-    /// Failed tries.
+    /// Failed attempts at steps.
     pub retries: usize,
     /// Steps rejected by the tolerance.
     pub rejected: usize,
-    /// Tried steps in the search for arrivals of sliders.
+    /// Attempted steps in the search for arrivals of sliders.
     pub arrival_tries: usize,
-    /// Wall time in steps. It is not stored in files, which would differ from run to run.
+    /// Wall time spent in steps. It is not stored in files, because files of equal runs must be equal.
     #[serde(skip)]
     pub wall: Duration,
 }

@@ -14,7 +14,7 @@ pub(super) struct RunRecord {
     pub(super) history: History,
     pub(super) trajectory: Trajectory,
     pub(super) recording: Recording,
-    /// Number of permanent rows. A further row belongs to the present.
+    /// Number of permanent rows. A further row describes the present state.
     pub(super) permanent_rows: usize,
     reader: SensorReader,
 }
@@ -42,7 +42,7 @@ impl RunRecord {
         Ok(record)
     }
 
-    /// Locates the sensors again after a release or its undoing.
+    /// Locates the sensors again after a release or after a rewind before it.
     ///
     /// # Errors
     /// Fails if a sensor can no longer be located.
@@ -66,7 +66,7 @@ impl RunRecord {
         self.permanent_rows = self.history.samples().len();
     }
 
-    /// Adds a temporary row for the present state, unless it has one.
+    /// Adds a temporary row for the present state, unless the state has a row.
     pub(super) fn append_present(&mut self, model: &mut System, last_step: StepTaken) {
         let last = self.history.samples().last().map(|row| row.measures.time);
         if last != Some(model.time()) {

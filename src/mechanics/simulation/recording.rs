@@ -4,9 +4,9 @@ use std::num::NonZeroUsize;
 
 use serde::{Deserialize, Serialize};
 
-/// Recorded states in addition to the start, the ends of runs and the arrivals of sliders, which are always recorded.
+/// Selection of recorded states. The start, the ends of runs and the arrivals of sliders are always recorded.
 ///
-/// Other states are not measured. The present has a temporary row.
+/// States that are not recorded are not measured. The present state has a temporary row.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Recording {
     /// Every n-th step.

@@ -1,4 +1,4 @@
-//! Error of variable steps due to controllers that are sampled at the start of a step only.
+//! Error of variable steps due to controllers that are sampled only at the start of a step.
 
 use super::adaptive::StepPlan;
 use super::error_estimate::{DoubledStep, FailedStep, StepDoubling};
@@ -7,15 +7,16 @@ use crate::geometry::larger;
 use crate::integrators::{Integrator, Interval};
 use crate::system::{Drive, Placement, Scene, System, SystemState};
 
-/// Allowed distance of the repeated second halves, in units of the length scale times a power of the tolerance. With this value, the measured
-/// accumulated error in the time scale of a motion is about half the tolerance (theory.md, section 13.1).
+/// Allowed distance between both results of the second half, in units of the length scale times a power of the tolerance. With this value, the
+/// measured error accumulated in the time scale of a motion is about half the tolerance (theory.md, section 13.1).
 const SHARE: f64 = 4.0;
 
-/// Steps with a controller sample in each half.
+/// Error estimate for steps with a controller sample in each half.
 ///
-/// The whole step and its halves are compared with the values of the start, which gives the error of the method. Then the run pauses in the middle,
-/// the controllers are sampled there, and the second half is repeated. A held force is late by half a step on average, which changes positions by the
-/// third power of the step size locally and by the first power globally; for a held rate it is the second power. The difference between both second
+/// The whole step and its halves first use the controller values at the start, which gives the error of the method. Then the run pauses in the middle
+/// of the step, the controllers are sampled, and the second half is repeated. A sampled force is late by half a step on average, which changes
+/// positions by the third power of the step size in one step and by the first power in a run. For a sampled rate the power in one step is two. The
+/// difference between both second halves may therefore be that power of the tolerance.
 /// halves may therefore be that power of the tolerance.
 pub(super) struct Resampling {
     /// Power of the step size in the position difference [-].
@@ -73,7 +74,7 @@ impl Resampling {
         self.half_step = Some(HalfStep { plan, doubled });
     }
 
-    /// Repeats the second half of a paused step with new controller values. The larger of both errors counts.
+    /// Repeats the second half of a paused step with new controller values. The error of the step is the larger of both errors.
     pub(super) fn resume(
         &mut self,
         doubling: &mut StepDoubling,
@@ -94,7 +95,7 @@ impl Resampling {
         Some((plan, taken))
     }
 
-    /// Discards a paused step. Returns true if there was one.
+    /// Discards a paused step. Returns true if a step was paused.
     pub(super) fn abandon(&mut self) -> bool {
         self.half_step.take().is_some()
     }

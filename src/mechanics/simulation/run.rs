@@ -84,8 +84,8 @@ impl Simulation {
         Self::of(scene, model, settings)
     }
 
-    /// Starts a simulation at rest from an equilibrium, at t = 0. If the equilibrium applied prescribed positions, the simulation starts at the time
-    /// of the equilibrium instead.
+    /// Starts a simulation from an equilibrium with zero velocities, at t = 0. If the equilibrium includes prescribed positions, the simulation
+    /// starts at the time of the equilibrium.
     ///
     /// # Errors
     /// Fails if the step size or a method parameter is out of range, or a drive of the equilibrium is not at the value of its function.
@@ -210,12 +210,12 @@ impl Simulation {
         self.clock.grid.has_reached(self.time(), time)
     }
 
-    /// Tolerance within which a time counts as reached [time].
+    /// Distance of two times below which they count as equal [time].
     pub fn slack(&self) -> f64 {
         self.clock.grid.slack(self.time())
     }
 
-    /// Makes a step end at a future time.
+    /// Requires a step to end at a future time.
     pub fn cut_at(&mut self, time: f64) {
         self.clock.grid.cut_at(time);
     }
@@ -263,9 +263,9 @@ impl Simulation {
         }
     }
 
-    /// Advances the time without solving (dry run). The history gets rows of a resting scene.
+    /// Advances the time without solving (dry run). The history gets rows of a static scene.
     ///
-    /// It serves to check scripts. If there are very many steps, only the first and the last are recorded.
+    /// Dry runs check scripts. If there are very many steps, only the first and the last are recorded.
     ///
     /// # Errors
     /// Fails if the time has passed or is not finite, or the monitor stops the run.

@@ -38,14 +38,14 @@ pub enum PerturbedSide {
 /// Work counters of the derivatives of a run.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct DerivativeCounts {
-    /// Solves with the factors of the run.
+    /// Solutions with the factors of the main run.
     pub solves: usize,
-    /// Factorisations where these were not sufficient.
+    /// Additional factorisations where the factors of the main run were insufficient.
     pub factorisations: usize,
 }
 
-/// Derivatives of a run. The state `s` of a step solves `R(s₁; s₀, p) = 0`, so its derivative solves `∂R/∂s₁ s₁' = -∂R/∂s₀ s₀' - ∂R/∂p` with the
-/// factorised matrix of the step. The right-hand side is the difference of two balances, at `p ± δ` from the states `s₀ ± δ s₀'`.
+/// Derivatives of a run. The state `s₁` after a step solves `R(s₁; s₀, p) = 0`, so its derivative solves `∂R/∂s₁ s₁' = -∂R/∂s₀ s₀' - ∂R/∂p` with the
+/// factorised matrix of the step. The right-hand side is the difference of two residuals, at `p ± δ` and from the states `s₀ ± δ s₀'`.
 pub(super) struct Sensitivities {
     stepper: SharedFactorStepper,
     parameters: Vec<PerturbedRuns>,
@@ -224,10 +224,10 @@ impl Sensitivities {
         }
     }
 
-    /// Perturbed run of a parameter with its history up to the end of the derivatives.
+    /// Perturbed run of a parameter, with its history up to the end of the derivatives.
     ///
     /// # Errors
-    /// Fails if the run itself was changed since.
+    /// Fails if the main run was changed after the derivatives were computed.
     pub(super) fn perturbed_with_history(
         &self,
         parameter: usize,

@@ -28,7 +28,7 @@ pub(super) struct Snapshot {
 }
 
 impl Snapshot {
-    /// Number of steps so far; identifies the snapshot.
+    /// Number of steps so far, which identifies the snapshot.
     pub(super) fn steps(&self) -> usize {
         self.counts.steps
     }
@@ -41,16 +41,16 @@ impl Snapshot {
 /// Snapshots of a simulation: the first one, and the most recent ones within a memory limit.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Snapshots {
-    /// [bytes]
+    /// Memory limit [bytes].
     limit: usize,
     first: Option<Snapshot>,
-    /// In the order of time, one per step.
+    /// Recent snapshots, in the order of time, one per step.
     recent: VecDeque<Snapshot>,
     most: usize,
 }
 
 impl Snapshots {
-    /// Changes the memory limit [bytes]; `present` becomes the first snapshot if there was none.
+    /// Changes the memory limit [bytes]. `present` gives the first snapshot if there is none.
     pub(super) fn set_limit(&mut self, limit: usize, present: impl FnOnce() -> Snapshot) {
         let kept = std::mem::take(self);
         let first = if limit == 0 { None } else { Some(kept.first.unwrap_or_else(present)) };
@@ -91,14 +91,14 @@ impl Snapshots {
         self.all().count()
     }
 
-    /// First step from which all snapshots up to step `now` are kept.
+    /// First step from which on all snapshots up to step `now` are kept.
     pub(super) fn unbroken_from(&self, now: usize) -> Option<usize> {
         let first = self.first.as_ref()?.steps();
         let oldest = self.recent.front().map_or(now, Snapshot::steps);
         Some(if oldest == first + 1 { first } else { oldest })
     }
 
-    /// Snapshot after a number of steps, if kept.
+    /// Snapshot after a number of steps; `None` if it is not kept.
     pub(super) fn find(&self, steps: usize) -> Option<&Snapshot> {
         if let Some(first) = self.first.as_ref().filter(|first| first.steps() == steps) {
             return Some(first);
@@ -107,7 +107,7 @@ impl Snapshots {
         self.recent.get(at)
     }
 
-    /// Last snapshot at or before a time, if no missing step may lie in between; the run has taken `now` steps.
+    /// Last snapshot at or before a time, in a run of `now` steps; `None` if a later step before the time may be missing.
     pub(super) fn last_until(&self, time: f64, now: usize) -> Option<&Snapshot> {
         let unbroken = self.unbroken_from(now)?;
         let last = self.all().take_while(|snapshot| snapshot.time <= time).last()?;
@@ -119,7 +119,8 @@ impl Snapshots {
         self.recent.truncate(self.recent.partition_point(|snapshot| snapshot.steps() <= steps));
     }
 
-    /// Returns a state to overwrite with the next snapshot, recycled from the oldest one if the store is full; `None` if disabled.
+    /// Returns a state to be overwritten with the next snapshot. If the store is full, it is taken from the oldest snapshot. `None` if snapshots are
+    /// disabled.
     pub(super) fn blank(&mut self) -> Option<SystemState> {
         let first = self.first.as_ref().filter(|_| self.most > 0)?;
         let is_full = self.recent.len() >= self.most;
@@ -131,7 +132,7 @@ impl Snapshots {
     pub(super) fn push(&mut self, snapshot: Snapshot) {
         let count = self.recent.len();
         if count == self.recent.capacity() {
-            // Grows geometrically, but never beyond the limit.
+            // The capacity grows geometrically, but never beyond the limit.
             self.recent.reserve_exact(count.max(4).min(self.most.saturating_sub(count)));
         }
         self.recent.push_back(snapshot);

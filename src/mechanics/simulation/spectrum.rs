@@ -9,28 +9,27 @@ use std::f64::consts::TAU;
 use super::TimeSeries;
 use crate::elementary::{cos, exp, ln, sin_cos};
 
-/// Relative tolerance of equal row spacing.
+/// Difference of the spacing of two rows, relative to the spacing, below which the rows are evenly spaced.
 const EVEN: f64 = 1e-6;
 
 /// Smallest number of rows for the window.
 const FEWEST: usize = 16;
 
-/// Smallest zero-padding factor.
+/// Smallest ratio of padded to original length.
 const PADDING: usize = 4;
 
-/// Relative height below which maxima may be side lobes of the window.
+/// Height of a maximum, relative to the largest, below which it may be a side lobe of the window.
 const SIDE_LOBES: f64 = 5e-5;
 
 /// Coefficients of the Blackman–Harris window.
 const WINDOW: [f64; 4] = [0.35875, -0.48829, 0.14128, -0.01168];
 
-/// Half width of the main lobe, in units of one period over all rows. Frequencies below it belong to the mean.
+/// Half width of the main lobe, in units of one period over all rows. Lower frequencies belong to the mean.
 const LOBE: f64 = 4.0;
 
 /// Vibration in a column.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SpectrumPeak {
-    /// Frequency [1/time].
     pub frequency: f64,
     /// Half the peak-to-peak value, in the dimension of the column.
     pub amplitude: f64,
@@ -71,9 +70,9 @@ fn six_digits(number: f64) -> f64 {
 }
 
 impl TimeSeries {
-    /// Strongest vibrations of the column, at most `most`, in decreasing order.
+    /// Strongest vibrations of the column, at most `most`, in decreasing order of amplitude.
     ///
-    /// Vibrations closer than about four periods over all rows are not separated, and slower ones are not detected.
+    /// Vibrations whose frequencies differ by less than about four periods over all rows are not separated. Slower vibrations are not detected.
     ///
     /// # Errors
     /// Fails if there are too few or unevenly spaced rows, or a value is NaN.
@@ -88,7 +87,7 @@ impl TimeSeries {
         let dt = self.spacing()?;
         let magnitudes = self.windowed_magnitudes();
         let highest = magnitudes.iter().copied().fold(0.0, f64::max);
-        // In units of the padded transform.
+        // Frequencies are in units of the padded transform.
         let size = 2 * (magnitudes.len() - 1);
         let lobe = (LOBE * size as f64 / count as f64) as usize;
         let is_peak = |at: &usize| {
@@ -133,7 +132,7 @@ impl TimeSeries {
             })
             .collect();
         let whole: f64 = weights.iter().sum();
-        // The window-weighted mean vanishes at frequency zero.
+        // After subtraction of the window-weighted mean, the transform at frequency zero is zero.
         let sum: f64 = weights.iter().zip(&self.values).map(|(weight, value)| weight * value).sum();
         let mean = sum / whole;
         let size = (PADDING * count).next_power_of_two();

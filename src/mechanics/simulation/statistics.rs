@@ -1,6 +1,6 @@
 //! Statistics of a column over time: extremes, means, derivatives and crossings.
 //!
-//! Columns are piecewise linear between rows. Integrals are exact for this interpolation.
+//! Columns are interpolated linearly between rows. Integrals are exact for this interpolation.
 
 /// Quantity over time, with nondecreasing times.
 #[derive(Debug, Clone, PartialEq)]
@@ -31,7 +31,7 @@ pub struct Summary {
 }
 
 impl TimeSeries {
-    /// Extremes, means and integral of the column; `None` if it is empty. A NaN value makes all of them NaN.
+    /// Extremes, means and integral of the column; `None` if it is empty. If a value is NaN, all results are NaN.
     pub fn summary(&self) -> Option<Summary> {
         let first = (*self.values.first()?, *self.times.first()?);
         let rows = || self.values.iter().copied().zip(self.times.iter().copied());
@@ -61,7 +61,7 @@ impl TimeSeries {
     }
 
     /// Time derivative at every row, from the parabola through the row and its neighbours (second order for uneven spacing), one-sided at the ends.
-    /// Rows of equal time, at a jump, use the quotient of their own side.
+    /// At a jump, each of the two rows of equal time uses the difference quotient of its own side.
     pub fn derivative(&self) -> Vec<f64> {
         let count = self.values.len();
         let slope = |a: usize, b: usize| {
@@ -93,10 +93,10 @@ impl TimeSeries {
         (0..count).map(at).collect()
     }
 
-    /// Times of crossings of a level in either direction. Touching the level is no crossing.
+    /// Times at which the column crosses a level in either direction. Touching the level is not a crossing.
     pub fn crossings(&self, level: f64) -> Vec<f64> {
         let mut found = Vec::new();
-        // Side of the last value, and the time since which the value is on the level.
+        // Side of the last value, and the time since which the values equal the level.
         let (mut side, mut on_level) = (0.0, None);
         let mut before: Option<(f64, f64)> = None;
         for (&time, &value) in self.times.iter().zip(&self.values) {

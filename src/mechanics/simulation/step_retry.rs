@@ -1,14 +1,14 @@
-//! Step of the time grid with halving on failure.
+//! Step of the time grid that is halved on failure.
 
 use crate::integrators::Interval;
 
-/// Largest number of halvings.
+/// Largest number of halvings of a step.
 const MOST_HALVINGS: u32 = 12;
 
-/// Number of finest parts of a step.
+/// Number of smallest parts of a step.
 const PARTS: u64 = 1 << MOST_HALVINGS;
 
-/// Partially covered step that is halved on failure and grows again after success.
+/// Partially completed step. Its parts are halved on failure and become longer again after success.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct StepRetry {
     pub(super) whole: Interval,
@@ -31,7 +31,7 @@ impl StepRetry {
         ((self.whole.start, self.whole.end), self.covered, self.halvings, self.retries)
     }
 
-    /// Restores a partially covered step at time `now`; `None` if the components are inconsistent.
+    /// Restores a partially completed step at time `now`; `None` if the components are inconsistent.
     pub(super) fn from_parts(
         now: f64,
         ((start, end), covered, halvings, retries): ((f64, f64), u64, u32, usize),
@@ -64,7 +64,7 @@ impl StepRetry {
         self.covered == PARTS
     }
 
-    /// Returns the step unless it is fully covered.
+    /// Returns the step unless it is completed.
     pub(super) fn remaining(self) -> Option<Self> {
         (!self.is_done()).then_some(self)
     }
@@ -82,7 +82,7 @@ impl StepRetry {
         }
     }
 
-    /// Halves the next part. Returns false if it is the smallest.
+    /// Halves the next part. Returns false if it has the smallest size.
     pub(super) fn fail(&mut self) -> bool {
         self.retries += 1;
         let can_be_halved = self.halvings < MOST_HALVINGS;

@@ -16,16 +16,16 @@ pub enum StepSize {
 /// Tolerance and bounds of variable steps.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct StepControl {
-    /// Allowed accumulated error while the scene moves by about its length, relative to that length, and in rad [-].
+    /// Allowed accumulated error in the time in which the scene moves by about its length, relative to this length, and in rad [-].
     ///
-    /// A step of a method of order `p` may err by the power `(p + 1)/p` of the tolerance. Then the step size scales with its power `1/p`, and the
-    /// accumulated error with the tolerance itself.
+    /// In a step of a method of order `p`, the error may be the tolerance to the power `(p + 1)/p`. The step size is then proportional to the
+    /// tolerance to the power `1/p`, and the accumulated error to the tolerance.
     pub tolerance: f64,
-    /// Size of the first step, and of the first one after a jump of a load [time]; by default derived from the scene.
+    /// Size of the first step, and of the first step after a jump of a load [time]; by default derived from the scene.
     pub first: Option<f64>,
-    /// Smallest step size [time]; by default a millionth of the first.
+    /// Smallest step size [time]; by default a millionth of the first step.
     pub smallest: Option<f64>,
-    /// Largest step size [time]; by default a million times the first.
+    /// Largest step size [time]; by default a million times the first step.
     pub largest: Option<f64>,
 }
 
@@ -125,7 +125,7 @@ impl StepControl {
     /// Smallest tolerance of variable steps [-], limited by the rounding of positions.
     pub const LEAST_TOLERANCE: f64 = 1e-9;
 
-    /// Largest tolerance of variable steps [-]. Larger errors are not small.
+    /// Largest tolerance of variable steps [-]. Above it, the error estimate for small errors does not apply.
     pub const MOST_TOLERANCE: f64 = 0.1;
 
     /// Returns the control for a tolerance [-] with default bounds.

@@ -2,24 +2,24 @@
 
 use crate::loads::{SampleClock, multiple};
 
-/// Times closer than this fraction of a step are equal,
+/// Difference of two times, relative to the step, below which they are equal.
 const SAME: f64 = 1e-9;
 
-/// as are times within this number of roundings.
+/// Difference of two times, in units of their rounding, below which they are equal.
 const ROUNDINGS: f64 = 4.0;
 
 /// Largest index of a grid point.
 const MOST_POINTS: u64 = 1 << 60;
 
-/// End times of steps: `t_n = t_0 + n dt`, with cuts at jumps and kinks of schedules and at samples and actions of digital controllers. Times are
-/// never accumulated. For variable steps there are only cuts.
+/// End times of steps: `t_n = t_0 + n dt`, and cuts at jumps and kinks of schedules and at samples and actions of digital controllers. Times are not
+/// accumulated. With variable steps there are only cuts.
 #[derive(Debug, Clone, Default)]
 pub struct TimeGrid {
     start: f64,
     dt: f64,
-    /// Tolerance of equal times, unless rounding is larger.
+    /// Distance of two times below which they are equal, unless rounding is larger.
     slack: f64,
-    /// In increasing order.
+    /// Cuts in increasing order.
     cuts: Vec<f64>,
     clocks: Vec<SampleClock>,
     passed: u64,
@@ -54,7 +54,7 @@ impl TimeGrid {
         &self.cuts
     }
 
-    /// Spacing of the grid; infinite without grid points [time].
+    /// Spacing of the grid; infinite if there are only cuts [time].
     pub fn dt(&self) -> f64 {
         self.dt
     }
@@ -77,7 +77,7 @@ impl TimeGrid {
         self.start + multiple(self.dt, n)
     }
 
-    /// Adds a cut unless there is one already.
+    /// Adds a cut, unless there is one at this time.
     pub fn cut_at(&mut self, time: f64) {
         let same = self.slack(time);
         if self.cuts.iter().all(|cut| (cut - time).abs() > same) {
@@ -91,7 +91,7 @@ impl TimeGrid {
         let cut = self.cuts[self.cuts.partition_point(|cut| self.has_reached(now, *cut))..].first();
         let slack = self.slack(now);
         let beat = self.clocks.iter().map(|beat| beat.next(now, slack)).min_by(f64::total_cmp);
-        // Cuts come last, because a schedule must be evaluated at its own time.
+        // Cuts come last, because a schedule must be evaluated at its own time of the jump.
         [Some(limit), beat, cut.copied()].into_iter().flatten().fold(grid, |end, candidate| {
             if candidate > now && self.has_reached(end, candidate) { candidate } else { end }
         })
@@ -107,7 +107,7 @@ impl TimeGrid {
         self.passed = passed;
     }
 
-    /// Replaces the cuts, as of a time.
+    /// Replaces the cuts; those up to `now` count as passed.
     pub fn lay(&mut self, cuts: &[f64], now: f64) {
         *self = std::mem::take(self).with_cuts(cuts.to_vec());
         self.passed = 0;
@@ -120,7 +120,7 @@ impl TimeGrid {
     }
 
     fn points_up_to(&self, now: f64) -> u64 {
-        // Start of the search: close to the result, and never beyond it.
+        // The search starts close to the result and never beyond it.
         let near = (((now - self.start) / self.dt) as u64).saturating_sub(2).min(MOST_POINTS);
         let mut passed = self.passed.max(near);
         while passed < MOST_POINTS && self.has_reached(now, self.point(passed + 1)) {

@@ -1,6 +1,6 @@
 //! Control points over time.
 
-/// Largest number of stored values. Beyond it every second configuration is discarded.
+/// Largest number of stored values. When it is exceeded, every second configuration is discarded.
 const MOST_NUMBERS: usize = 32 << 20;
 
 /// Trajectory of a run: control points of all bodies [length] at some of its times.
@@ -14,7 +14,7 @@ pub struct Trajectory {
 }
 
 impl Trajectory {
-    /// Creates an empty trajectory of configurations with `stride` numbers.
+    /// Creates an empty trajectory for configurations of `stride` values.
     pub fn new(stride: usize) -> Self {
         Self { stride, times: Vec::new(), numbers: Vec::new(), every: 1, offered: 0 }
     }
@@ -26,7 +26,7 @@ impl Trajectory {
         self.numbers.reserve(room * self.stride);
     }
 
-    /// Offers a configuration, which is stored unless thinned out.
+    /// Receives a configuration, and stores it unless it is thinned out.
     pub fn push(&mut self, time: f64, numbers: impl Iterator<Item = f64>) {
         if self.offered.is_multiple_of(self.every) {
             self.times.push(time);
@@ -50,8 +50,8 @@ impl Trajectory {
         self.every *= 2;
     }
 
-    /// Restores the state after `offered` configurations. Discarded configurations remain discarded. The final content is the same as without going
-    /// back.
+    /// Restores the trajectory as it was after `offered` configurations had been passed to it. Configurations discarded since then remain discarded.
+    /// After the run is repeated, the content is the same as without going back.
     pub fn truncate(&mut self, offered: usize) {
         self.offered = offered;
         let kept = offered.div_ceil(self.every);
@@ -71,7 +71,7 @@ impl Trajectory {
         &self.numbers
     }
 
-    /// Returns a trajectory with other configurations; `None` if they are inconsistent.
+    /// Returns a trajectory with the given configurations; `None` if they are inconsistent.
     pub(super) fn with_configurations(
         &self,
         offered: usize,
@@ -97,7 +97,7 @@ impl Trajectory {
         &self.numbers[index * self.stride..(index + 1) * self.stride]
     }
 
-    /// Index of the stored configuration nearest to a time; `None` without any.
+    /// Index of the stored configuration nearest to a time; `None` if nothing is stored.
     pub fn nearest(&self, time: f64) -> Option<usize> {
         let after = self.times.partition_point(|t| *t < time);
         let candidates = [after.checked_sub(1), (after < self.times.len()).then_some(after)];

@@ -1,4 +1,4 @@
-//! Warnings about steps that converged but are not meaningful.
+//! Warnings about steps that converged but do not resolve the motion.
 
 use std::f64::consts::TAU;
 use std::fmt;
@@ -6,16 +6,16 @@ use std::fmt;
 use super::StepControl;
 use crate::system::{MissedChange, MotionCurvature, OutsideLaw, RESOLVED_IMPACT, ShortBounce};
 
-/// Largest rotation of a section in a step without a warning: ten steps per turn [rad].
+/// Largest rotation of a section in a step without a warning: ten steps per revolution [rad].
 pub(super) const LARGEST_ROTATION: f64 = 0.1 * TAU;
 
 /// Largest number of spans of its master that a slider may pass in a step without a warning [-].
 pub(super) const MOST_SPANS: f64 = 1.0;
 
-/// Growth of the measure of a warning after which it is repeated.
+/// Growth of the severity of a warning after which the warning is repeated.
 const REPEAT_FACTOR: f64 = 2.0;
 
-/// Factor by which a step has to be shorter if a bounce took at most three.
+/// Factor by which steps must be shorter if a bounce took at most three steps.
 const BOUNCE: f64 = 5.0;
 
 /// Number of steps per period that needs no warning.
@@ -52,13 +52,13 @@ pub enum Warning {
         dt: f64,
         /// Unresolved fraction of the kinetic energy [-].
         unresolved_fraction: f64,
-        /// Mean period of the accelerated motion [time].
+        /// Mean period of the motion, weighted by accelerations [time].
         period: f64,
-        /// Lowest period of the scene as drawn, if known [time].
+        /// Lowest period of the initial configuration, if known [time].
         lowest: Option<f64>,
         /// Possible causes other than vibration.
         causes: Vec<RateChangeCause>,
-        /// Name of a method that would damp the vibration; `None` if it is in use, or would have no effect.
+        /// Name of a method that would damp the vibration; `None` if the method is in use or would have no effect.
         damping: Option<&'static str>,
     },
     /// Unresolved vibration of a damped beam with little kinetic energy compared to other bodies.
@@ -69,14 +69,14 @@ pub enum Warning {
         dt: f64,
         /// Unresolved fraction of its kinetic energy [-].
         unresolved_fraction: f64,
-        /// Mean period of its accelerated motion [time].
+        /// Mean period of the motion of the beam, weighted by accelerations [time].
         period: f64,
     },
     /// Alternating long and short steps with rigid links or strong damping.
     Uneven {
-        /// Shortest of the last steps [time].
+        /// Length of the shortest recent step [time].
         shortest: f64,
-        /// Longest of the last steps [time].
+        /// Length of the longest recent step [time].
         longest: f64,
     },
     /// Large rotation of sections in a step.
@@ -95,7 +95,7 @@ pub enum Warning {
         /// Largest number of spans passed in a step [-].
         spans: f64,
     },
-    /// Slider on a kinked axis that moves almost as fast as the waves of its master.
+    /// Slider on a kinked axis that moves almost as fast as the shear waves of its master.
     WaveSpeed {
         /// Name of the slider.
         slider: String,
@@ -104,7 +104,7 @@ pub enum Warning {
         /// Speed up to which the kink follows the contact force [length/time].
         limit: f64,
     },
-    /// Energy drift that contradicts the claims of the method.
+    /// Energy drift although the method claims to conserve the energy.
     Drift {
         /// Largest change of the energy, with loads accounted for, relative to the largest energy [-].
         drift: f64,
@@ -164,7 +164,7 @@ pub enum Warning {
 }
 
 impl Warning {
-    /// Severity; comparable between warnings of the same kind only.
+    /// Severity of the warning. It is comparable between warnings of the same kind only.
     fn measure(&self) -> f64 {
         match self {
             Self::Motion { unresolved_fraction: share, .. }
@@ -183,7 +183,7 @@ impl Warning {
         }
     }
 
-    /// Name of the object, for kinds with several.
+    /// Name of the object, for kinds of warnings that may occur for several objects.
     fn object_name(&self) -> Option<&str> {
         match self {
             Self::Motion { .. }
@@ -202,7 +202,7 @@ impl Warning {
         }
     }
 
-    /// Returns true if the warning is new, or more severe than those reported before.
+    /// Returns true if the warning is new, or more severe than the warnings in `told`.
     pub fn is_new_or_worse(&self, told: &[Self]) -> bool {
         !told.iter().any(|other| {
             std::mem::discriminant(other) == std::mem::discriminant(self)

@@ -1,4 +1,4 @@
-//! Equations of equilibrium: for a given load factor, and at a given distance along the equilibrium path.
+//! Equations of equilibrium: for a given load factor, or at a given distance along the equilibrium path.
 
 use crate::geometry::larger;
 use crate::integrators::{Forces, Inertia, Mechanism};
@@ -6,7 +6,7 @@ use crate::linalg::BorderedMatrix;
 use crate::newton::{Equations, ResidualNorms};
 use crate::system::{StaticForces, System, UnknownKind};
 
-/// Forces of a model at rest, with the scale of the residual.
+/// Static forces of a model, with the scale of the residual.
 pub(super) struct Balance<'a> {
     pub(super) model: &'a mut System,
     /// Length scale that converts moments to forces, for loads that are pure moments.
@@ -24,15 +24,15 @@ impl Balance<'_> {
             UnknownKind::Rotation => larger(most, r.abs() / self.length),
             UnknownKind::Force => most,
         });
-        // Without forces there is no scale.
+        // If all forces are zero, there is no scale.
         let force = if largest == 0.0 { 0.0 } else { largest / scale };
         let constraint = self.model.violation_at_rest(forces, scale);
         ResidualNorms { force, strain: strain_mismatch, constraint }
     }
 }
 
-/// Equations `F(u) - λ P(u) + σ M u = 0` for a given load factor `λ`: equilibrium for `σ = 0`, otherwise a pseudo-transient step with viscous
-/// resistance of the masses.
+/// Equations `F(u) - λ P(u) + σ M u = 0` for a given load factor `λ`: equilibrium for `σ = 0`, otherwise a pseudo-transient step with viscous damping
+/// proportional to the mass.
 pub(super) struct UnderLoad<'a> {
     pub(super) balance: Balance<'a>,
     pub(super) factor: f64,
@@ -75,10 +75,10 @@ impl Equations for UnderLoad<'_> {
     }
 }
 
-/// Equations `F(u) - λ P(u) = 0` with `t·u = Δs`: the load factor `λ`, the last unknown, is determined by the distance to a plane.
+/// Equations `F(u) - λ P(u) = 0` and `t·u = Δs`. The load factor `λ` is the last unknown; the distance to a plane determines it.
 pub(super) struct AlongPath<'a> {
     pub(super) balance: Balance<'a>,
-    /// Normal `t` of the plane in the metric of the path. Contact unknowns, behind the movements, do not enter.
+    /// Normal `t` of the plane in the metric of the path. Contact unknowns, which follow the degrees of freedom, do not enter.
     pub(super) normal: &'a [f64],
     /// Distance `Δs` of the plane from the last equilibrium in the metric of the path.
     pub(super) distance: f64,

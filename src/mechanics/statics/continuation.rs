@@ -12,32 +12,32 @@ use crate::linalg::{BorderShape, BorderedMatrix};
 use crate::newton::Newton;
 use crate::system::{MasterEnd, Scene, System, UnknownKind};
 
-/// Largest number of halvings of a step without an equilibrium.
+/// Largest number of halvings of a step that does not reach an equilibrium.
 const MOST_HALVINGS: u32 = 8;
 
-/// Multiple of the planned step along the path beyond which an equilibrium belongs to another part of it.
+/// Distance of an equilibrium from the last one, relative to the planned step along the path, above which it belongs to another part of the path.
 const FAR: f64 = 2.0;
 
-/// Multiple of the last movement per load beyond which the structure has snapped through.
+/// Displacement per load increment, relative to that of the last step, above which the structure has snapped through.
 const SNAP_THROUGH_RATIO: f64 = 4.0;
 
-/// Movements below this fraction of the scene are never too far.
+/// Displacement, relative to the size of the scene, below which it is never rejected as too large.
 const NEARBY: f64 = 1e-3;
 
-/// Number of iterations per step that the step control aims at.
+/// Number of iterations per step at which the step control aims.
 const WANTED_ITERATIONS: f64 = 4.0;
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum InitialSupport {
     Itself,
-    /// The given number of movements is restrained by the loads only.
+    /// Only the loads restrain the given number of degrees of freedom.
     Loads(usize),
 }
 
 pub(super) struct Continuation<'s> {
     pub(super) scene: &'s Scene,
     length: f64,
-    /// Weights of squared movements: relative to a length, as angles, averaged over the control points.
+    /// Weights of squared displacements (relative to a length) and rotations, averaged over the control points.
     metric: Vec<f64>,
     loading: Loading,
     pub(super) model: System,
@@ -54,8 +54,8 @@ struct PathDirection {
 }
 
 impl PathDirection {
-    /// Returns true if the next step continues in this direction. Otherwise it may have changed to another branch, as near the buckling load of a
-    /// straight column, and smaller steps decide.
+    /// Returns true if the next step continues in this direction. Otherwise the step may have changed to another branch, as near the buckling load of
+    /// a straight column, and smaller steps are needed.
     fn is_aligned_with(&self, next: &Self, metric: &[f64]) -> bool {
         let ways = metric.iter().zip(&self.movements).zip(&next.movements);
         let along: f64 = ways.map(|((weight, before), now)| weight * before * now).sum();
@@ -92,7 +92,7 @@ impl<'s> Continuation<'s> {
         let Loading { factor, steps, .. } = self.loading;
         self.begin(factor * (1.0 / steps as f64), hold, goes_on)?;
         for step in 2..=steps {
-            // The last factor is exact.
+            // The last load factor is exact.
             self.solve_for_factor(factor * (step as f64 / steps as f64), MOST_HALVINGS, goes_on)?;
         }
         Ok(())
@@ -123,13 +123,13 @@ impl<'s> Continuation<'s> {
         let Loading { factor: goal, steps, .. } = self.loading;
         self.begin(goal / steps as f64, hold, goes_on)?;
         if hold != InitialSupport::Itself && steps > 1 {
-            // If only loads restrain the scene, the path starts from there.
+            // If only loads restrain the scene, the path starts from this equilibrium.
             self.solve_for_factor(goal * (2.0 / steps as f64), MOST_HALVINGS, goes_on)?;
         }
         let mut trial = PathStep::new(&self.model, &self.loading);
         let mut distance = norm(&self.metric, &self.unknowns).min(arc.longest);
         if distance == 0.0 {
-            // If loads act on supports only, nothing moves and there is no path.
+            // If loads act on supports only, the displacement is zero and there is no path.
             return self.solve_for_factor(goal, MOST_HALVINGS, goes_on);
         }
         while self.path.load_factor() != goal && self.path.points().len() < arc.points {
@@ -139,7 +139,7 @@ impl<'s> Continuation<'s> {
         Ok(())
     }
 
-    /// Takes a step of a distance along the path, or a part of it. Returns the distance of the next step.
+    /// Takes a step of a distance along the path, or a fraction of it. Returns the distance of the next step.
     fn advance(
         &mut self,
         trial: &mut PathStep,
@@ -179,8 +179,8 @@ impl<'s> Continuation<'s> {
         Err(self.path_lost_error(miss))
     }
 
-    /// Distance from the last point to the turning point of the load factor, if the path crosses the goal before it and again after it. The first
-    /// crossing counts.
+    /// Distance from the last point to the turning point of the load factor, if the path crosses the goal before the turning point and again after
+    /// it. The first crossing is the solution.
     fn distance_to_turning_point(&self, goal: f64, factor: f64, distance: f64) -> Option<f64> {
         let [.., before, last] = self.path.points() else { return None };
         let factors = [before.load_factor, last.load_factor, factor];
@@ -189,7 +189,7 @@ impl<'s> Continuation<'s> {
         is_beyond.then_some(vertex.distance - last.distance)
     }
 
-    /// Solves for a load factor, with halved steps if nothing is found or the result does not continue the path.
+    /// Solves for a load factor. The step is halved if no equilibrium is found or the equilibrium does not continue the path.
     fn solve_for_factor(
         &mut self,
         factor: f64,
@@ -213,7 +213,7 @@ impl<'s> Continuation<'s> {
         self.solve_for_factor(factor, halvings - 1, goes_on)
     }
 
-    /// Returns true if the last point continues the path, or no halving is left. With arc-length control the path may turn and become unstable.
+    /// Returns true if the last point continues the path, or if no halving is left. Under arc-length control the path may turn and become unstable.
     fn is_continuation(&mut self, halvings: u32) -> bool {
         if self.loading.control != Control::Load {
             return true;
@@ -228,12 +228,12 @@ impl<'s> Continuation<'s> {
         goes_on
     }
 
-    /// Number of directions with negative stiffness, excluding the effect of follower loads.
+    /// Number of negative eigenvalues of the stiffness, without the effect of follower loads.
     pub(super) fn unstable_directions(&self) -> usize {
         self.unstable_directions_with_inertia(0.0)
     }
 
-    /// The same with a multiple of the inertia added to the stiffness [1/time²].
+    /// Number of negative eigenvalues of the stiffness plus `rate` times the inertia [1/time²].
     pub(super) fn unstable_directions_with_inertia(&self, rate: f64) -> usize {
         if self.model.follower().is_some() {
             0
@@ -258,10 +258,10 @@ impl<'s> Continuation<'s> {
         norm(&self.metric, &self.unknowns)
     }
 
-    /// Solves from the present configuration for a part of the loads, with viscous resistance if `rate` is positive [1/time²]. Returns the number of
+    /// Solves from the present configuration for a fraction of the loads, with viscous damping if `rate` is positive [1/time²]. Returns the number of
     /// iterations.
     ///
-    /// The solution restarts whenever sliders are held at a stop or leave it.
+    /// The solution restarts whenever a slider becomes held at a stop or leaves it.
     pub(super) fn balance_from(&mut self, factor: f64, rate: f64) -> Result<usize, StepFailure> {
         let mut iterations = 0;
         for _ in 0..=self.scene.most_settlings() {
@@ -286,7 +286,7 @@ impl<'s> Continuation<'s> {
         }
     }
 
-    /// Largest distance of the next equilibrium, from the last movement per load or the longest step along the path.
+    /// Largest allowed distance of the next equilibrium, from the last displacement per load increment or the longest step along the path.
     fn farthest(&self, factor: f64) -> f64 {
         let [.., before, last] = self.path.points() else { return f64::INFINITY };
         match self.loading.control {
@@ -335,7 +335,7 @@ impl<'s> Continuation<'s> {
     }
 }
 
-/// Holds sliders that pass stops, and frees those with tensile stop forces. Returns true if any changed.
+/// Holds sliders that pass stops, and frees sliders with tensile stop forces. Returns true if the state of a slider changed.
 pub(super) fn update_stop_contacts(
     model: &mut System,
     scene: &Scene,
@@ -349,7 +349,7 @@ pub(super) fn update_stop_contacts(
     model.update_stop_contacts(unknowns, factor).map_err(leaves)
 }
 
-/// Tangent matrix of a model with `full` additional dense rows. With sliders, contacts may be the only restraint.
+/// Tangent matrix of a model with `full` additional dense rows. In models with sliders, the contacts may be the only restraint.
 pub(super) fn tangent(model: &System, full: usize) -> BorderedMatrix {
     let (unknowns, contacts) = (model.unknowns(), model.constraint_shape());
     let border = BorderShape {

@@ -4,39 +4,39 @@ use super::StaticsError;
 use super::continuation::Continuation;
 use super::error::StepFailure;
 
-/// Largest root mean square movement in a pass, relative to the longest beam.
+/// Largest root mean square displacement in a pass, relative to the longest beam.
 const FAR: f64 = 0.15;
 
-/// Movement in a pass below which Newton's method is tried directly,
+/// Displacement in a pass, relative to the longest beam, below which Newton's method is tried without viscous damping.
 const NEAR: f64 = 1e-2;
 
-/// and below which the configuration counts as stationary, even if unstable.
+/// Displacement in a pass, relative to the longest beam, below which the configuration counts as stationary, even if it is unstable.
 const STATIONARY: f64 = 1e-13;
 
-/// Factor of the rate after passes with small movement.
+/// Factor of the rate after passes with small displacements.
 const EASIER: f64 = 0.2;
 
-/// Factor by which the rate changes after a failed pass or a too large movement.
+/// Factor by which the rate changes after a failed pass or one with too large displacements.
 const HARDER: f64 = 4.0;
 
-/// Largest number of tries of the first pass.
+/// Largest number of attempts at the first pass.
 const MOST_FIRST_PASSES: usize = 60;
 
 /// Largest number of passes.
 const MOST_PASSES: usize = 400;
 
-/// Total movement, relative to the size of the scene, from which the motion counts as endless.
+/// Sum of the displacements of all passes, relative to the size of the scene, above which the motion counts as endless.
 const ENDLESS_MOVEMENT: f64 = 30.0;
 
-/// Number of departures after which a slider counts as leaving its master.
+/// Number of departures from its master after which a slider counts as leaving it.
 const MOST_LEAVES: usize = 12;
 
 impl Continuation<'_> {
-    /// Finds the equilibrium that the unloaded scene approaches under a part of its loads with viscous resistance: repeated steps
-    /// `σ M u + F(u) - λ P = 0` with decreasing `σ` (pseudo-transient continuation; Kelley & Keyes, SIAM J. Numer. Anal. 35 (1998) 508–523).
-    /// `movements` is the number of unrestrained movements as drawn.
+    /// Finds the equilibrium that the unloaded scene approaches under a fraction of its loads with viscous damping. It repeats steps `σ M u + F(u) -
+    /// λ P = 0` with decreasing `σ` (pseudo-transient continuation; Kelley & Keyes, SIAM J. Numer. Anal. 35 (1998) 508–523). `movements` is the
+    /// number of unrestrained degrees of freedom as drawn.
     ///
-    /// Every pass reduces the energy: `K + σ M` is positive definite at its start.
+    /// `K + σ M` is positive definite at the start of every pass, so every pass reduces the energy.
     pub(super) fn find_equilibrium(
         &mut self,
         factor: f64,
@@ -91,7 +91,7 @@ impl Continuation<'_> {
         Err(StaticsError::Unrestrained { scene, movements, reason })
     }
 
-    /// Rate [1/time²] with which the first pass reduces the energy and moves the scene by a small distance.
+    /// Rate [1/time²] for which the first pass reduces the energy and displaces the scene by a small distance.
     fn first_rate(
         &mut self,
         factor: f64,

@@ -11,7 +11,7 @@ use crate::loads::PrescribedMotion;
 use crate::system::{Drive, Element, Scene, SectionSample, System, SystemError};
 use crate::vibration::{Modes, VibrationError, loose_movements};
 
-/// Sums of forces below this fraction of their magnitudes count as zero.
+/// Sum of forces, relative to the sum of their magnitudes, below which it counts as zero.
 const ROUNDING: f64 = 1e-12;
 
 /// Stability of an equilibrium.
@@ -94,7 +94,7 @@ impl Equilibrium {
     /// Evaluates a function of the model at every point of the path, in order.
     ///
     /// # Errors
-    /// Fails only as the scene did when the equilibrium was found.
+    /// Fails only for the reasons for which [`find`](Self::find) fails.
     pub fn along_path<T>(&self, look: impl Fn(&System) -> T) -> Result<Vec<T>, StaticsError> {
         let mut model = at_rest(&self.scene)?;
         let at = |point: &PathPoint| {
@@ -132,7 +132,7 @@ impl Equilibrium {
         self.model.section_forces_along(&self.scene, beam)
     }
 
-    /// Stability by the signs of the pivots of the stiffness, or in doubt by the lowest mode.
+    /// Stability from the signs of the pivots of the stiffness. If these are uncertain, the lowest mode decides.
     pub fn stability(&self, goes_on: &mut dyn FnMut() -> bool) -> Stability {
         if self.model.follower().is_some() {
             return Stability::Follower;
@@ -150,7 +150,7 @@ impl Equilibrium {
     /// Lowest natural modes about the equilibrium.
     ///
     /// # Errors
-    /// Fails if there are too few modes or a load follows the beam.
+    /// Fails if there are too few modes, or a load is a follower load.
     pub fn modes(
         &self,
         count: usize,
@@ -160,8 +160,8 @@ impl Equilibrium {
     }
 }
 
-/// Same scene with equal axial, shear and bending stiffnesses of the beams and similar masses. Unrestrained movements have zero stiffness there,
-/// which no ratio of stiffnesses hides.
+/// The scene with equal axial, shear and bending stiffnesses of the beams and similar masses. Its unrestrained degrees of freedom have zero
+/// stiffness, which rounding of other stiffnesses cannot hide.
 fn of_equal_stiffness(scene: &Scene) -> Scene {
     let mut equal = scene.clone();
     for beam in &mut equal.beams {
@@ -186,7 +186,7 @@ fn of_equal_stiffness(scene: &Scene) -> Scene {
     equal
 }
 
-/// Model of a scene without start velocities, which may be incompatible with sliders.
+/// Model of a scene with zero start velocities, because start velocities may be incompatible with sliders.
 fn at_rest(scene: &Scene) -> Result<System, SystemError> {
     let mut still = scene.clone();
     still.sliders.iter_mut().for_each(|slider| slider.velocities = StartVelocities::Project);
@@ -206,7 +206,7 @@ fn check_needs_no_time(scene: &Scene) -> Result<(), StaticsError> {
     }
 }
 
-/// Model at its start with the loads at the time of the loading.
+/// Model at its start, with the loads at the time of the loading.
 fn prepare(scene: &Scene, loading: &Loading) -> Result<System, StaticsError> {
     loading.check()?;
     check_needs_no_time(scene)?;

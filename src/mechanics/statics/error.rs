@@ -44,13 +44,13 @@ pub enum StaticsError {
         /// Time of the loading [time].
         time: f64,
     },
-    /// Path of given length for a scene with initial strains only, which no load factor scales.
+    /// Path of given length for a scene that has only initial strains, which the load factor does not scale.
     #[error("no load acts at t = {time}: only prestress acts, and arc-length control needs a load")]
     NoScaledLoad {
         /// Time of the loading [time].
         time: f64,
     },
-    /// Drive or load that needs time.
+    /// Drive or load that depends on the course of time.
     #[error(
         "'{name}' is given by {by}, which is undefined in an equilibrium, where no time passes"
     )]
@@ -78,14 +78,14 @@ pub enum StaticsError {
         /// Allowed values.
         allowed: &'static str,
     },
-    /// Unrestrained scene whose loads lead to no equilibrium.
+    /// Unrestrained scene for which no equilibrium under its loads was found.
     #[error(
         "scene '{scene}' is not restrained: {movements} of its degrees of freedom have no stiffness as drawn, and no equilibrium was found: {reason}"
     )]
     Unrestrained {
         /// Name of the scene.
         scene: String,
-        /// Number of unrestrained movements.
+        /// Number of unrestrained degrees of freedom.
         movements: usize,
         /// Reason.
         reason: Box<StepFailure>,
@@ -131,7 +131,7 @@ pub enum StepFailure {
     /// The solution is far from the last equilibrium.
     #[error("the next equilibrium is far from the last one (limit point, snap-through)")]
     FarSolution,
-    /// Endless movement of an unrestrained scene.
+    /// Endless motion of an unrestrained scene.
     #[error("the motion under the loads does not end (a mechanism or a missing support)")]
     Mechanism,
     /// Slider that would leave its master.

@@ -3,7 +3,7 @@
 use super::StaticsError;
 use crate::newton::Tolerance;
 
-/// Smallest number of points of a path: the unloaded one, and two for its direction.
+/// Smallest number of points of a path: the unloaded configuration, and two equilibria for the direction.
 pub(super) const LEAST_PATH: usize = 3;
 
 /// Application of loads from zero to a load factor.

@@ -33,7 +33,7 @@ impl EquilibriumPath {
         self.points.pop();
     }
 
-    /// Appends an unmoved point, for a dry run.
+    /// Appends a point with unchanged configuration, for a dry run.
     pub(super) fn append_dry_point(&mut self, load_factor: f64) {
         let last = self.points.last().cloned();
         self.points.extend(last.map(|point| PathPoint { load_factor, ..point }));

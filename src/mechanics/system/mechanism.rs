@@ -78,12 +78,12 @@ impl System {
         }
     }
 
-    /// Starts the motion. Exchanges during the adjustment of velocities are discarded, and the first step is predicted from the present rates.
+    /// Starts the motion. Impulses applied while velocities were adjusted are discarded, and the first step is predicted from the present rates.
     pub(super) fn begin(&mut self) {
         self.exchanged.total = WorkAndImpulse::default();
         let inertia = self.diagonal_of_inertia();
         self.motion.begin(inertia);
-        // A single body has the resolution of the model.
+        // With a single body, the resolution of the model is that of the body.
         let bodies = &self.bodies;
         let damped = self.elements.resistances().filter_map(InternalForce::damped_beam);
         let apart = damped.filter(|_| bodies.len() > 1);
@@ -138,12 +138,12 @@ impl System {
         self.motion.resolution()
     }
 
-    /// Resolution of the motion of each beam with material damping, by index; empty if there are no other bodies.
+    /// Resolution of the motion of each beam with material damping, by index; empty if the scene has only one body.
     pub fn resolution_by_beam(&self) -> impl Iterator<Item = (usize, &Resolution)> {
         self.motion.watched().iter().map(|one| (one.body, one.resolution()))
     }
 
-    /// Returns true if points of rigid bodies have link forces as unknowns.
+    /// Returns true if forces of rigid links are among the unknowns.
     pub fn has_rigid_links(&self) -> bool {
         self.links.count() > 0
     }
@@ -158,12 +158,12 @@ impl System {
         self.bodies.divide(threads)
     }
 
-    /// Sets the time without moving anything.
+    /// Sets the time without changing the state of motion.
     pub fn set_time(&mut self, time: f64) {
         self.motion.time = time;
     }
 
-    /// Evaluates loads just after a time, and prescribed positions at rest.
+    /// Evaluates loads just after a time, and static prescribed positions.
     ///
     /// # Errors
     /// Name of the element without a finite value, and the reason.
@@ -183,7 +183,7 @@ impl System {
         self.motion.accelerations.mark_unknown();
     }
 
-    /// Holds a slider at the stop at a limit, until the stop force would become tensile.
+    /// Holds a slider at the stop at a limit until the stop force becomes tensile.
     pub fn hold_at_stop(&mut self, limit: MasterLimit) {
         let slider = &mut self.sliders[limit.slider];
         slider.hold_at(limit.end);
@@ -191,7 +191,7 @@ impl System {
         self.motion.accelerations.mark_unknown();
     }
 
-    /// Returns true if the present velocities move a slider at a limit beyond it.
+    /// Returns true if the present velocity of a slider at a limit is directed beyond the limit.
     pub fn leads_beyond(&self, limit: MasterLimit) -> bool {
         let rate = self.sliders[limit.slider].rate(&self.bodies, &self.motion.rates);
         rate * limit.end.outward() > 0.0

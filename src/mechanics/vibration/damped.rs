@@ -1,7 +1,7 @@
 //! Damped vibrations `(λ² M + λ D + K) x = 0` of a small model, in all of its modes.
 //!
-//! In all shapes `φ` of the undamped model, `φᵀ M φ = 1`, the problem is `λ² + λ B Bᵀ + Ω² = 0`, with a column of `B = Φᵀ √d g` for each rate `g·ẋ`
-//! with damping `d`. Nothing is truncated, and the squares `Ω²` are as accurate as the modes.
+//! With the mode shapes `Φ` of the undamped model, normalised to `φᵀ M φ = 1`, the problem is `λ² + λ B Bᵀ + Ω² = 0`. `B = Φᵀ √d g` has a column for
+//! each rate `g·ẋ` with damping `d`. No mode is truncated, and the squares `Ω²` are as accurate as the modes.
 
 use nalgebra::{Complex, DMatrix};
 
@@ -14,7 +14,8 @@ use crate::geometry::larger;
 use crate::integrators::Mechanism;
 use crate::system::{System, UnknownKind};
 
-/// Frequency, relative to the largest, below which a number is zero. Slow overdamped relaxation is far above it.
+/// `|Re λ|` or `|Im λ|`, relative to the largest undamped frequency, below which it counts as zero. Slow overdamped relaxation is far above this
+/// limit.
 const NOTHING: f64 = 1e-40;
 
 /// Damped natural vibration `exp(-δ t)`, with a frequency unless it is overdamped.
@@ -71,7 +72,7 @@ impl DampedMode {
         Ok(told.into_iter().map(|at| Self::of_number(at, least)).collect())
     }
 
-    /// Vibration `exp(λ t)`; numbers up to `least` are zero [1/time].
+    /// Vibration `exp(λ t)`; real and imaginary parts of `λ` up to `least` count as zero [1/time].
     fn of_number(at: Complex<f64>, least: f64) -> Self {
         let told = |number: f64| if number.abs() > least { number } else { 0.0 };
         Self { decay_rate: told(-at.re), angular_frequency: told(at.im.abs()) }

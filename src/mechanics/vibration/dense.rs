@@ -1,8 +1,8 @@
 //! All modes of a small scene at once.
 //!
-//! With `K + σ M = L D Lᵀ` and `M = H Hᵀ`, the squared singular values of `G = D^-½ L⁻¹ H` are `μ = 1/(ω² + σ)`. The rows of `G` are graded like the
-//! pivots, and rotations of columns preserve the relative accuracy of each row. One-sided Jacobi rotations therefore find all values, large and
-//! small, to almost full accuracy (J. Demmel & K. Veselić, SIAM J. Matrix Anal. Appl. 13 (1992) 1204–1245).
+//! With `K + σ M = L D Lᵀ` and `M = H Hᵀ`, the squared singular values of `G = D^-½ L⁻¹ H` are `μ = 1/(ω² + σ)`. The rows of `G` have sizes that
+//! decrease like the pivots, and rotations of columns preserve the relative accuracy of each row. One-sided Jacobi rotations therefore compute all
+//! singular values, large and small, to almost full accuracy (J. Demmel & K. Veselić, SIAM J. Matrix Anal. Appl. 13 (1992) 1204–1245).
 
 use nalgebra::DMatrix;
 
@@ -13,16 +13,16 @@ use super::pencil::Pencil;
 use crate::elementary::hypot;
 use crate::linalg::{STRIP_WIDTH, SymmetricFactors};
 
-/// Relative product below which two columns are orthogonal.
+/// Scalar product of two columns, relative to their lengths, below which they count as orthogonal.
 const ORTHOGONAL: f64 = 1e-15;
 
 /// Largest number of sweeps over all pairs of columns; a dozen is usual.
 const MOST_SWEEPS: usize = 60;
 
-/// Relative remainder of an inertia that is due to rounding.
+/// Remainder of a diagonal entry of the inertia, relative to the entry, below which it is due to rounding.
 const WITHOUT_INERTIA: f64 = 1e-13;
 
-/// All pairs `(μ, φ)` of a small scene with inertia, in decreasing order of `μ`. Movements without inertia have `μ = 0`.
+/// All pairs `(μ, φ)` of a small scene with inertia, in decreasing order of `μ`. Degrees of freedom without inertia have `μ = 0`.
 ///
 /// # Errors
 /// Fails if the search is stopped.
@@ -46,7 +46,7 @@ pub(super) fn all_pairs(
     let values = rotate(&mut columns, goes_on)?;
     let mut order: Vec<usize> = (0..values.len()).filter(|at| values[*at] > 0.0).collect();
     order.sort_by(|a, b| values[*b].total_cmp(&values[*a]));
-    // `φ = L⁻ᵀ D^-½ u` with the unit vector `u` has `φᵀ M φ = μ`.
+    // For a unit vector `u`, `φ = L⁻ᵀ D^-½ u` satisfies `φᵀ M φ = μ`.
     for (&at, value) in order.iter().zip(order.iter().map(|at| values[*at])) {
         let mut column = columns.column_mut(at);
         for row in (0..size).rev() {
@@ -71,8 +71,8 @@ pub(super) fn all_pairs(
     Ok(Pairs { values: order.iter().map(|at| values[*at]).collect(), strips })
 }
 
-/// Orthogonalises higher shapes against lower ones, and normalises to `φᵀ M φ = 1`. Rounding errors of a shape that have little energy may have much
-/// inertia.
+/// Orthogonalises shapes of higher modes with respect to those of lower modes, and normalises to `φᵀ M φ = 1`. Rounding errors of a shape may have
+/// little strain energy but much inertia.
 fn orthogonalise(pencil: &Pencil, shapes: &mut DMatrix<f64>) {
     let size = pencil.size();
     let mut momenta = vec![0.0; size];
@@ -95,7 +95,7 @@ fn orthogonalise(pencil: &Pencil, shapes: &mut DMatrix<f64>) {
     }
 }
 
-/// Root `H` of the inertia, with a zero column for each movement without inertia.
+/// Root `H` of the inertia, with a zero column for each degree of freedom without inertia.
 fn inertia_root(pencil: &Pencil) -> DMatrix<f64> {
     let size = pencil.size();
     let mut root = DMatrix::zeros(size, size);
@@ -133,7 +133,7 @@ pub(super) fn rotate(
     let square = |column: &[f64]| column.iter().map(|entry| entry * entry).sum::<f64>();
     let mut sizes = Vec::new();
     for _ in 0..MOST_SWEEPS {
-        // Recomputed in each sweep, because updates accumulate rounding.
+        // Recomputed in each sweep, because updates accumulate rounding errors.
         sizes = columns.as_slice().chunks_exact(rows).map(square).collect();
         let mut is_turned = false;
         for first in 0..count {

@@ -1,7 +1,7 @@
-//! Stiffness of a configuration in factored form: strains by movements, section forces by strains.
+//! Stiffness of a configuration in factored form: derivatives of strains with respect to displacements, and stiffnesses of strains.
 //!
-//! Section forces `n = k s` are unknowns in addition to the movements `x`. Of a strain `s = B x` only the mismatch `m = B x - n/k` is multiplied by
-//! the stiffness `k`. Residuals then have the rounding of section forces, not of stiffnesses.
+//! Section forces `n = k s` are unknowns in addition to the displacements `x`. The stiffness `k` multiplies only the mismatch `m = B x - n/k` of a
+//! strain `s = B x`. The rounding errors of residuals are then relative to section forces, not to stiffnesses.
 
 use pulp::{Arch, Simd, WithSimd};
 
@@ -12,11 +12,11 @@ use crate::linalg::{STRIP_WIDTH, VectorStrip};
 /// One number for each of four vectors of a strip.
 pub(super) type FourVectors = [f64; STRIP_WIDTH];
 
-/// Stiffness of all spans of a scene: strains by movements, and their stiffnesses.
+/// Stiffness of all spans of a scene: strain rows and their stiffnesses.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Elastic {
     spans: Vec<StrainRows>,
-    /// Unknown of each component of each span; supported ones have the first number behind the unknowns.
+    /// Unknown of each component of each span. The value for supported components is the number of unknowns.
     unknowns: Vec<u32>,
     /// Rows of each span: strains, then pairs `p` and `q`.
     rows: Vec<f64>,
@@ -34,7 +34,7 @@ struct StrainRows {
 #[derive(Debug, Clone)]
 pub(super) struct Shapes {
     pub(super) movements: Vec<FourVectors>,
-    /// Section forces `n`, a row each.
+    /// Section forces `n`, one row per strain.
     forces: Vec<FourVectors>,
     /// Mismatches `m`.
     mismatches: Vec<FourVectors>,
@@ -94,7 +94,7 @@ impl Elastic {
 
     /// Sets four mode shapes from their displacements, with the section forces of their strains. Returns their energies.
     pub(super) fn begin(&self, movements: &VectorStrip, shapes: &mut Shapes) -> Energies {
-        // Corrects zero shapes by the whole movements.
+        // Zero shapes are corrected by the full displacements.
         shapes.movements.fill([0.0; STRIP_WIDTH]);
         shapes.forces.fill([0.0; STRIP_WIDTH]);
         shapes.mismatches.fill([0.0; STRIP_WIDTH]);
@@ -106,7 +106,7 @@ impl Elastic {
         Arch::new().dispatch(ShapeCorrection { elastic: self, shapes, by })
     }
 
-    /// Rounding error of twice the energy of each movement, `Σ k (ε Σ |B| |x|)²`, and of section forces in `xᵀ K_g x`.
+    /// Rounding error of twice the energy for given displacements, `Σ k (ε Σ |B| |x|)²`, and of section forces in `xᵀ K_g x`.
     pub(super) fn rounding_of(&self, movements: &VectorStrip) -> FourVectors {
         Arch::new().dispatch(Rounding { elastic: self, movements })
     }
@@ -140,7 +140,7 @@ struct ElasticSpan<'a> {
     twist: usize,
 }
 
-/// Largest number of components of a span, that of degree 10.
+/// Largest number of components of a span, for degree 10.
 const WIDEST: usize = 33;
 
 #[inline(always)]

@@ -52,7 +52,7 @@ pub enum VibrationError {
         "the damped modes were not found: damping and stiffness differ too much in magnitude; use a coarser mesh or less damping, replace very strong dampers by joints or supports, or use damping_ratios of undamped modes (first order in the damping)"
     )]
     Damping,
-    /// Modes that are lost in rounding.
+    /// Modes whose stiffness is below rounding.
     #[error(
         "mode {modes} (from 0) is inaccurate because of rounding: its residual is {residual:.1e}, but at most 1e-6 is allowed; request at most {modes} modes, use a coarser mesh, or reduce the largest stiffness or increase the smallest inertia"
     )]
@@ -62,7 +62,7 @@ pub enum VibrationError {
         /// Residual of the first lost mode [-].
         residual: f64,
     },
-    /// Count of modes that is falsified by rounding.
+    /// Count of modes that rounding makes unreliable.
     #[error(
         "modes may be missing below those that were found, because of rounding; use a coarser mesh, or reduce the largest stiffness or increase the smallest inertia"
     )]

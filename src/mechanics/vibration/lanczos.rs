@@ -13,25 +13,25 @@ use crate::linalg::{
     STRIP_WIDTH, Square4, SymmetricFactors, combine, products, subtract_combination,
 };
 
-/// Relative residual of the inverted stiffness at which a pair has converged; its value then has the square of that error.
+/// Residual of a pair, relative to the inverted stiffness, below which it has converged. The error of its eigenvalue is of the order of the square.
 const SETTLED: f64 = 1e-8;
 
-/// Reduction by orthogonalisation below which a vector consists of rounding.
+/// Length of a vector after orthogonalisation, relative to its length before, below which the vector consists of rounding errors.
 const ROUNDING_REDUCTION: f64 = 1e-11;
 
-/// Reduction below which a vector is orthogonalised a second time,
+/// Length of a vector after orthogonalisation, relative to its length before, below which it is orthogonalised a second time.
 const SHRUNK: f64 = 1e-4;
 
-/// and remaining component in the basis above which it is orthogonalised again.
+/// Remaining component in the basis, relative to the length, above which a vector is orthogonalised again.
 const TRACE: f64 = 1e-8;
 
-/// Tolerance of orthonormality.
+/// Tolerance of scalar products of basis vectors.
 const ORTHONORMAL: f64 = 1e-14;
 
 /// Largest number of restarts.
 const MOST_RESTARTS: usize = 60;
 
-/// Pairs `(μ, φ)` of `M φ = μ (K + σ M) φ` in decreasing order of `μ`, `φᵀ M φ = 1`.
+/// Pairs `(μ, φ)` with `M φ = μ (K + σ M) φ` and `φᵀ M φ = 1`, in decreasing order of `μ`.
 pub(super) struct Pairs {
     pub(super) values: Vec<f64>,
     /// Vectors `φ` of the pairs, four per strip.
@@ -86,7 +86,7 @@ impl<'a> Lanczos<'a> {
     ) -> Result<Pairs, VibrationError> {
         let most = Self::width(count);
         for _ in 0..MOST_RESTARTS {
-            // The cost of computing the values is cubic in their number.
+            // The cost of computing the eigenvalues is cubic in their number.
             let mut look = count + 1;
             loop {
                 if !goes_on() {
@@ -111,7 +111,7 @@ impl<'a> Lanczos<'a> {
         Err(VibrationError::NotConverged { restarts: MOST_RESTARTS })
     }
 
-    /// Continues with the found pairs and new random vectors, because there may be more equal modes than vectors in a block.
+    /// Continues with the found pairs and new random vectors, because the multiplicity of an eigenvalue may exceed the block size.
     pub(super) fn continue_with_random(&mut self, found: Pairs) {
         self.projected = DMatrix::from_diagonal(&DVector::from_vec(found.values));
         self.basis = found.strips;
@@ -120,7 +120,7 @@ impl<'a> Lanczos<'a> {
         self.restart_randomly();
     }
 
-    /// Applies the inverted stiffness to the next block, and projects the result onto the basis.
+    /// Multiplies the next block by the inverted stiffness, and projects the result onto the basis.
     fn step(&mut self) {
         let old = self.projected.nrows();
         self.basis.push(std::mem::take(&mut self.next));
@@ -133,7 +133,7 @@ impl<'a> Lanczos<'a> {
         self.coupling = orthonormalise(&mut image, &mut momenta);
         let left = (0..STRIP_WIDTH).map(|at| self.coupling[at][at]).fold(f64::INFINITY, f64::min);
         if left < SHRUNK * size {
-            // The remainder is small relative to the removed part, and contaminated by it.
+            // The remainder is small relative to the removed part and contains a part of it due to rounding.
             let again = self.project(&mut image, None);
             self.pencil.inertia.times(&image, &mut momenta);
             let turn = orthonormalise(&mut image, &mut momenta);
@@ -197,7 +197,7 @@ impl<'a> Lanczos<'a> {
         }
     }
 
-    /// Makes a random block, orthogonal to the basis, the next one.
+    /// Sets the next block to random vectors that are orthogonal to the basis.
     fn restart_randomly(&mut self) {
         let mut block = self.pencil.zeros();
         self.replace(&mut block, &[0, 1, 2, 3]);
@@ -223,7 +223,7 @@ impl<'a> Lanczos<'a> {
         block
     }
 
-    /// Values and vectors of the projection in decreasing order.
+    /// Eigenvalues and eigenvectors of the projection, in decreasing order.
     fn ritz(&self) -> (Vec<f64>, DMatrix<f64>) {
         let symmetric = (&self.projected + self.projected.transpose()) * 0.5;
         let SymmetricEigen { eigenvalues, eigenvectors } = symmetric.symmetric_eigen();
@@ -272,13 +272,13 @@ impl<'a> Lanczos<'a> {
     }
 }
 
-/// Orthonormalises vectors with respect to the inertia, given their momenta. Returns the upper triangle that expresses the old ones in the new.
-/// Vectors that consist of rounding become zero, with a zero diagonal entry.
+/// Orthonormalises vectors with respect to the inertia; `momenta` are their products with it. Returns the upper triangle that expresses the old
+/// vectors in the new ones. Vectors that consist of rounding errors become zero, with a zero diagonal entry.
 fn orthonormalise(block: &mut [FourVectors], momenta: &mut [FourVectors]) -> Square4 {
     let mut triangle = Square4::default();
     (0..STRIP_WIDTH).for_each(|at| triangle[at][at] = 1.0);
     let mut sizes = None;
-    // The second pass removes the error due to the condition of the first; a third serves almost parallel vectors.
+    // The second pass removes the errors that the condition of the first pass causes. A third is needed for almost parallel vectors.
     for pass in 0..3 {
         let gram = products(block, momenta);
         let sizes = sizes.get_or_insert_with(|| std::array::from_fn(|at| gram[at][at]));
@@ -305,7 +305,7 @@ fn product(a: &Square4, b: &Square4) -> Square4 {
     })
 }
 
-/// Cholesky factor `R` with `Rᵀ R = G`, and its inverse. Rows and columns that consist of rounding, compared with the initial sizes, are zero.
+/// Cholesky factor `R` with `Rᵀ R = G`, and its inverse. Rows and columns that are due to rounding, compared with the initial sizes, are zero.
 fn cholesky(gram: &Square4, sizes: &FourVectors) -> (Square4, Square4) {
     let (mut upper, mut inverse) = (Square4::default(), Square4::default());
     for j in 0..STRIP_WIDTH {

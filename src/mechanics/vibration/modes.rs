@@ -10,27 +10,27 @@ use crate::geometry::Vec2;
 use crate::integrators::Mechanism;
 use crate::system::System;
 
-/// Square, relative to that of the slowest bending, below which a movement is unrestrained.
+/// Squared frequency, relative to that of the lowest bending mode, below which a mode counts as unrestrained.
 const UNRESTRAINED: f64 = 1e-10;
 
 /// Natural mode of small vibration.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Mode {
-    /// Square `ω²` of the angular frequency: zero for an unrestrained movement, or if lost in rounding; negative if the configuration is unstable
-    /// [1/time²].
+    /// Square `ω²` of the angular frequency [1/time²]. It is zero for an unrestrained motion or if it is below rounding, and negative if the
+    /// configuration is unstable.
     pub square: f64,
     /// Rounding error of the square `ω²` [1/time²].
     pub rounding: f64,
-    /// Relative residual of shape and section forces in the energy of `ω² + σ`, where `σ` is about the square of the slowest bending: the change by
-    /// the next correction. The relative error of `ω² + σ` is at most this residual, and at most its square over the relative distance of the next
-    /// mode [-].
+    /// Residual: energy of the next correction of shape and section forces, relative to the energy of `ω² + σ`, where `σ` is about the square of the
+    /// lowest bending frequency [-]. The relative error of `ω² + σ` is at most this residual, and at most its square over the relative distance of
+    /// the next mode.
     pub residual: f64,
-    /// Movements of the unknowns, with `φᵀ M φ = 1` [length, rad over the square root of a mass].
+    /// Mode shape: values of the unknowns with `φᵀ M φ = 1` [length, rad over the square root of a mass].
     pub shape: Vec<f64>,
 }
 
 impl Mode {
-    /// Angular frequency `ω`; zero without vibration [rad/time].
+    /// Angular frequency `ω`; zero if the mode does not vibrate [rad/time].
     pub fn angular_frequency(&self) -> f64 {
         self.square.max(0.0).sqrt()
     }
@@ -40,12 +40,12 @@ impl Mode {
         self.angular_frequency() / TAU
     }
 
-    /// Period `2π/ω`, infinite without vibration [time].
+    /// Period `2π/ω`; infinite if the mode does not vibrate [time].
     pub fn period(&self) -> f64 {
         1.0 / self.frequency()
     }
 
-    /// Returns true for an unrestrained movement, within rounding.
+    /// Returns true for an unrestrained motion within rounding.
     pub fn is_free(&self) -> bool {
         self.square == 0.0
     }
@@ -61,7 +61,7 @@ impl Mode {
 pub struct Modes {
     modes: Vec<Mode>,
     meshes: Vec<Mesh>,
-    /// Control points of all bodies, and shapes as their displacements.
+    /// Control points of all bodies, and the mode shapes as their displacements.
     points: Vec<Vec<Vec2>>,
     displacements: Vec<Vec<Vec<Vec2>>>,
     /// `½ φᵀ D φ` of each mode [1/time].
@@ -69,10 +69,11 @@ pub struct Modes {
 }
 
 impl Modes {
-    /// Computes the modes of a model in its present configuration, treated as an equilibrium; `goes_on` is called repeatedly in large scenes.
+    /// Computes the modes of a model in its present configuration, treated as an equilibrium. `goes_on` is called repeatedly; if it returns false,
+    /// the search stops.
     ///
     /// # Errors
-    /// Fails if there are too few modes, a load follows the beam, or the search is stopped.
+    /// Fails if there are too few modes, a load is a follower load, or the search is stopped.
     pub fn of(
         model: &System,
         count: usize,
@@ -104,7 +105,7 @@ impl Modes {
     /// Approximate peak memory of the search for `count` modes [bytes].
     pub fn memory(model: &System, count: usize) -> u64 {
         let unknowns = model.unknown_kinds().len();
-        // Larger numbers are rejected by the search.
+        // Larger numbers of modes are rejected by the search.
         let numbers = numbers(unknowns, count.min(unknowns));
         (numbers * size_of::<f64>() + Pencil::memory(model)) as u64
     }
@@ -114,13 +115,13 @@ impl Modes {
         &self.modes
     }
 
-    /// Decay rates `½ φᵀ D φ`: exact if damping does not couple modes, as for a material with one relaxation time for all strains, otherwise to first
-    /// order in the damping [1/time].
+    /// Decay rates `½ φᵀ D φ` [1/time]. They are exact if damping does not couple modes, as for a material with one relaxation time for all strains.
+    /// Otherwise they are accurate to first order in the damping.
     pub fn decay_rates(&self) -> &[f64] {
         &self.decay_rates
     }
 
-    /// Damping ratio of each mode: decay rate over angular frequency; zero without vibration [-].
+    /// Damping ratio of each mode: decay rate over angular frequency; zero if the mode does not vibrate [-].
     pub fn damping_ratios(&self) -> impl Iterator<Item = f64> {
         self.modes.iter().zip(&self.decay_rates).map(|(mode, decay)| match mode.square > 0.0 {
             true => decay / mode.angular_frequency(),
@@ -166,7 +167,7 @@ impl Modes {
         self.points.iter().zip(&self.displacements[mode]).map(moved).collect()
     }
 
-    /// Displacement of a place in a mode, relative to the largest of a control point [-].
+    /// Displacement of a place in a mode, relative to the largest displacement of a control point [-].
     pub fn displacement(&self, mode: usize, place: &BodyPoint) -> Vec2 {
         match self.largest(mode) {
             0.0 => Vec2::zeros(),
@@ -180,7 +181,8 @@ impl Modes {
     }
 }
 
-/// Number of unrestrained movements of the present configuration without loads; 0 for scenes without sliders that are too large for this computation.
+/// Number of unrestrained degrees of freedom of the present configuration without loads. It is 0 for scenes without sliders that are too large for
+/// this computation.
 pub fn loose_movements(model: &System) -> usize {
     if !is_small(model.unknowns()) && model.slider_names().next().is_none() {
         return 0;

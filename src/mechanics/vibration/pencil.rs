@@ -5,7 +5,7 @@ use super::elastic::{Elastic, FourVectors};
 use crate::linalg::{LinearError, PreciseBand, STRIP_WIDTH, SymmetricFactors, SymmetricSparse};
 use crate::system::{OrderAtRest, System, add_resistance};
 
-/// Growth above which an elimination is rejected, because half of its 32 digits are lost.
+/// Growth of an elimination above which it is rejected, because half of its 32 digits are lost.
 const MOST_GROWTH: f64 = 1e12;
 
 /// Eigenvalue problem `K φ = ω² M φ` with the stiffness and the inertia of a model.
@@ -14,9 +14,9 @@ pub(super) struct Pencil {
     pub(super) inertia: SymmetricSparse,
     pub(super) elastic: Elastic,
     pub(super) order: OrderAtRest,
-    /// Approximate square of the slowest bending frequency [1/time²].
+    /// Estimate of the squared frequency of the lowest bending mode [1/time²].
     pub(super) scale: f64,
-    /// Number of movements with inertia, and thus of modes with a finite frequency.
+    /// Number of degrees of freedom with mass, which is the number of modes with a finite frequency.
     pub(super) finite: usize,
 }
 
@@ -53,7 +53,7 @@ impl Pencil {
     pub(super) fn memory(model: &System) -> usize {
         let order = model.order_at_rest();
         let (size, reach) = (order.count(), order.half_bandwidth() + 1);
-        // Memory of the stiffness in double-double arithmetic, its factors, the inertia during sorting, and about two strains per degree of freedom.
+        // The stiffness in double-double arithmetic, its factors, the inertia during sorting, and about two strains per degree of freedom.
         size * reach * 8 * size_of::<f64>() + Elastic::memory(2 * size, reach)
     }
 
@@ -69,14 +69,14 @@ impl Pencil {
         vec![[0.0; STRIP_WIDTH]; self.length()]
     }
 
-    /// Factors of `K + σ M`; `None` if it is not positive definite.
+    /// Factors of `K + σ M`; `None` if the matrix is not positive definite.
     pub(super) fn factors(&self, shift: f64) -> Option<SymmetricFactors> {
         let factors = self.stiffness.factorise(shift, &self.inertia).ok()?;
         (factors.pivots().negative == 0).then_some(factors)
     }
 
-    /// Number of modes with `ω²` below `σ`: the negative eigenvalues of `K - σ M` (Sylvester's law of inertia). `None` if the elimination is
-    /// unreliable.
+    /// Number of modes with `ω²` below `σ`, from the number of negative eigenvalues of `K - σ M` (Sylvester's law of inertia). `None` if the
+    /// elimination is unreliable.
     pub(super) fn modes_below(&self, square: f64) -> Option<usize> {
         match self.stiffness.pivots(-square, &self.inertia) {
             Ok(pivots) if pivots.growth <= MOST_GROWTH => Some(pivots.negative),

@@ -1,9 +1,10 @@
-//! Quadratic eigenvalue problem `λ² + λ B Bᵀ + Ω² = 0` of damped vibration, slowest eigenvalues first, over a large range of magnitudes.
+//! Quadratic eigenvalue problem `λ² + λ B Bᵀ + Ω² = 0` of damped vibration. Eigenvalues are computed in increasing order of magnitude over a large
+//! range.
 //!
-//! Damping may be of any strength. A dashpot that is practically a support relaxes 10¹² times as slowly as the beam vibrates, and with material
-//! damping the fastest vibrations of a fine mesh decay 10¹⁴ times as fast as the slowest. A single matrix has all eigenvalues, but only the largest
-//! ones are accurate. They are therefore computed from shifts on the positive real axis, starting with the slowest ([`Resolvent`]), each of which
-//! gives those within a factor of about 10⁶.
+//! Damping may be of any strength. A dashpot that acts almost as a support relaxes 10¹² times as slowly as the beam vibrates. With material damping,
+//! the fastest vibrations of a fine mesh decay 10¹⁴ times as fast as the slowest. A single matrix would give accurate values only for the largest
+//! eigenvalues. The problem is therefore shifted repeatedly, by increasing positive real numbers ([`Resolvent`]). Each shift gives the eigenvalues
+//! within a factor of about 10⁶.
 
 use nalgebra::{Complex, DMatrix};
 
@@ -12,13 +13,13 @@ use super::resolvent::Resolvent;
 use crate::elementary::hypot;
 use crate::geometry::larger;
 
-/// Largest `|λ|` relative to the shift that is accurate.
+/// Largest `|λ|`, relative to the shift, at which an eigenvalue is accurate.
 const LARGEST_RATIO: f64 = 1e6;
 
-/// Largest `|λ|` relative to the shift that is accepted for the next eigenvalue beyond.
+/// Largest `|λ|`, relative to the shift, at which the next larger eigenvalue is accepted.
 const FARTHEST: f64 = 1e12;
 
-/// Movement of an unrestrained mode at a damper, relative to the largest of any mode there, below which it is rounding.
+/// Displacement of an unrestrained mode at a damper, relative to the largest of all modes at that damper, below which it is due to rounding.
 const ROUNDING: f64 = 1e-13;
 
 pub(super) type ComplexNumber = Complex<f64>;
@@ -43,7 +44,7 @@ impl Quadratic {
             free.filter(|(rate, _)| rate.abs() <= least).for_each(|(rate, _)| *rate = 0.0);
         }
         if dampers.ncols() > dampers.nrows() {
-            // `Bᵀ = Q R` preserves the relative rounding of rows, which is squared in undamped modes.
+            // `Bᵀ = Q R` preserves the relative rounding errors of rows, whose squares appear in undamped modes.
             dampers = dampers.transpose().qr().r().transpose();
         }
         Self { squares, dampers }
@@ -58,10 +59,10 @@ impl Quadratic {
         self.squares[mode] == 0.0 && self.damping(mode) == 0.0
     }
 
-    /// The `count` slowest eigenvalues, one of each conjugate pair, with positive imaginary part [1/time].
+    /// The `count` eigenvalues of smallest magnitude, one of each conjugate pair, with positive imaginary part [1/time].
     ///
     /// # Errors
-    /// Fails if there are too few, or the search does not end.
+    /// Fails if there are fewer eigenvalues, or if the search does not converge.
     pub(super) fn slowest(
         &self,
         count: usize,
@@ -105,8 +106,8 @@ impl Quadratic {
             .collect())
     }
 
-    /// Shift that no eigenvalue is far below: with `x` scaled by `Ω`, restrained movements satisfy `ẏ = A y` with `|A⁻¹| ≤ |Ω⁻¹ B|² + |Ω⁻¹|`
-    /// [1/time].
+    /// Shift that is not far above any eigenvalue [1/time]. With `x` scaled by `Ω`, restrained modes satisfy `ẏ = A y` with `|A⁻¹| ≤ |Ω⁻¹ B|² +
+    /// |Ω⁻¹|`.
     fn slowest_shift(&self) -> f64 {
         let modes = || self.squares.iter().enumerate();
         let held = modes().filter(|(_, square)| **square != 0.0);
@@ -116,7 +117,7 @@ impl Quadratic {
         let free =
             modes().filter(|(_, square)| **square == 0.0).map(|(mode, _)| self.damping(mode));
         let free = free.filter(|damping| *damping > 0.0).fold(f64::INFINITY, f64::min);
-        // The square of the shift must make unstable modes positive definite.
+        // The square of the shift must exceed the largest `-ω²` of unstable modes.
         let unstable = self.squares.iter().fold(0.0, |most, square| larger(most, -square));
         larger((1.0 / (compliance + 1.0 / slowest)).min(free), 2.0 * unstable.sqrt())
     }

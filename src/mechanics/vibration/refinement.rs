@@ -1,4 +1,4 @@
-//! Verification of pairs: each is corrected with its section forces as unknowns, and the last correction is its residual.
+//! Verification of eigenpairs. Each pair is corrected with its section forces as unknowns; the size of the last correction is its residual.
 
 use super::VibrationError;
 use super::elastic::{FourVectors, Shapes};
@@ -6,32 +6,32 @@ use super::lanczos::Pairs;
 use super::pencil::Pencil;
 use crate::linalg::{STRIP_WIDTH, SymmetricFactors, products, subtract_combination};
 
-/// Residual at which the square is accurate to all digits.
+/// Residual below which `ω²` is accurate to all digits, because its error is of the order of the squared residual.
 const SMALL: f64 = 1e-8;
 
 /// Largest number of corrections.
 const MOST_CORRECTIONS: usize = 8;
 
-/// Reduction factor above which a residual counts as stagnating.
+/// Ratio of two successive residuals above which the correction has stagnated.
 const FALLING: f64 = 0.3;
 
-/// Ratio of `μ` above which pairs are far apart.
+/// Ratio of the largest to the smallest `μ` above which pairs are refined separately.
 const WIDE: f64 = 1e7;
 
 pub(super) struct RefinedPair {
     pub(super) square: f64,
     /// Bound of the relative error of `ω² + σ`, apart from the rounding of the pair itself [-].
     pub(super) residual: f64,
-    /// Rounding error of the square `ω²` due to the movements [1/time²].
+    /// Rounding error of `ω²` due to the rounding of displacements [1/time²].
     pub(super) rounding: f64,
     pub(super) shape: Vec<f64>,
 }
 
 /// Corrects the first `count` pairs of a search.
 ///
-/// With the pair `(x, n)` of movements and section forces, `ω²` from its energies and `r = ω² M x - Bᵀ (n + k m) - K_g x`, the correction is
-/// `δ = A⁻¹ r`, which maps `x` to `(ω² + σ) A⁻¹ M x`. Components of other pairs are removed from `δ` and counted in the residual, because the
-/// inverted stiffness would amplify traces of low pairs above high ones.
+/// Let a pair `(x, n)` consist of displacements and section forces, with `ω²` from its energies. With the residual force `r = ω² M x - Bᵀ (n + k m) -
+/// K_g x`, the correction is `δ = A⁻¹ r`, which maps `x` to `(ω² + σ) A⁻¹ M x`. Components of other pairs are removed from `δ` and counted in the
+/// residual, because the inverted stiffness would amplify small components of low pairs in high ones.
 ///
 /// # Errors
 /// Fails if the refinement is stopped.
@@ -49,7 +49,7 @@ pub(super) fn refine(
     })
 }
 
-/// Residuals of the first `count` pairs of a complete set, which needs no correction.
+/// Residuals of the first `count` pairs of a complete set, which needs no corrections.
 ///
 /// # Errors
 /// Fails if the assessment is stopped.
@@ -94,12 +94,12 @@ struct OtherPairs<'a> {
     shift: f64,
     strips: &'a [Vec<FourVectors>],
     momenta: &'a [Vec<FourVectors>],
-    /// Values `μ`.
+    /// Eigenvalues `μ`.
     values: &'a [f64],
 }
 
 impl OtherPairs<'_> {
-    /// Squares of a strip according to the values; zero for empty lanes.
+    /// Squares `ω²` of a strip for the eigenvalues `μ`; zero for unused lanes.
     fn squares(&self, at: usize) -> FourVectors {
         std::array::from_fn(|lane| {
             let value = self.values.get(STRIP_WIDTH * at + lane).copied();
@@ -187,7 +187,7 @@ impl OtherPairs<'_> {
             for row in &mut momenta {
                 row.iter_mut().zip(&scale).for_each(|(entry, factor)| *entry *= factor);
             }
-            // The first correction removes the rounding of the movements and does not assess the pair.
+            // The first correction removes the rounding errors of the displacements, so it does not measure the residual of the pair.
             let is_done = (0..STRIP_WIDTH).all(|lane| {
                 residuals[lane].is_nan()
                     || residuals[lane] <= SMALL
@@ -200,9 +200,9 @@ impl OtherPairs<'_> {
         self.is_certain(shapes, &squares, &residuals)
     }
 
-    /// Removes the components of all pairs from residual forces. Returns their contribution to the residuals, relative to `ω² + σ`.
+    /// Removes the components of all pairs from residual forces. Returns the contribution of these components to the residuals, relative to `ω² + σ`.
     ///
-    /// Components in lower pairs count by magnitude only, because the inverted stiffness would overestimate them.
+    /// Components in lower pairs count by their magnitude only, because the inverted stiffness would overestimate them.
     fn remove_other_pairs(
         &self,
         imbalance: &mut [FourVectors],
@@ -221,13 +221,13 @@ impl OtherPairs<'_> {
         left
     }
 
-    /// Returns true if the highest pair is so far above the lowest that a solution for one contains the rounding of the other.
+    /// Returns true if `ω² + σ` of the highest pair is so much larger than that of the lowest that a common solution would mix their rounding errors.
     fn is_wide(&self) -> bool {
         let count = self.values.len().min(STRIP_WIDTH * self.strips.len());
         self.values[0] > WIDE * self.values[count - 1]
     }
 
-    /// Removes the components of all pairs from movements.
+    /// Removes the components of all pairs from displacements.
     fn clean(&self, movements: &mut [FourVectors]) {
         for (strip, momenta) in self.strips.iter().zip(self.momenta) {
             let parts = products(momenta, movements);

@@ -1,4 +1,4 @@
-//! Damped vibration about a shift: eigenvalues of `λ² + λ B Bᵀ + Ω²` near it.
+//! Damped vibration with a shift: eigenvalues of `λ² + λ B Bᵀ + Ω²` near the shift.
 //!
 //! With `y = (Ω x, ẋ)` the vibration is `ẏ = A y`, `A = [0 Ω; -Ω -B Bᵀ]`, which is dissipative. For `σ > 0` therefore `|(A - σ)⁻¹| ≤ 1/σ` for damping
 //! of any strength (Lumer & Phillips, Pacific J. Math. 11 (1961) 679–698). With the diagonals `e = (σ² + Ω²)^-½`, `w = Ω e` and `t = σ e`,
@@ -9,10 +9,10 @@
 //!               [  t (1 - P) w    -t (1 - P) t ]
 //! ```
 //!
-//! has no large entry: a dashpot of any strength is a projection `P`. With the singular vectors `U` and values `s` of `G`, which one-sided rotations
-//! compute accurately over all magnitudes, it is `U s²/(1 + s²) Uᵀ`. The eigenvalues `θ` of the matrix give `λ = σ (1 + 1/θ)`. Each reported one is
-//! corrected by inverse iteration with the Rayleigh quotient of the quadratic problem, with the forces of strong dashpots, divided by the damping, as
-//! unknowns (F. Tisseur & K. Meerbergen, SIAM Review 43 (2001) 235–286, sections 2 and 3.4).
+//! has no large entry: a dashpot of any strength is a projection `P`. With the singular vectors `U` and singular values `s` of `G`, which one-sided
+//! rotations compute accurately over all magnitudes, `P = U s²/(1 + s²) Uᵀ`. The eigenvalues `θ` of the matrix give `λ = σ (1 + 1/θ)`. Each reported
+//! `λ` is corrected by inverse iteration with the Rayleigh quotient of the quadratic problem. The unknowns of this iteration include the forces of
+//! strong dashpots, divided by their damping (F. Tisseur & K. Meerbergen, SIAM Review 43 (2001) 235–286, sections 2 and 3.4).
 
 use nalgebra::{DMatrix, DVector, Schur};
 
@@ -24,20 +24,21 @@ use crate::elementary::square;
 /// Largest number of sweeps per `θ`; a few are usual.
 const MOST_SWEEPS: usize = 40;
 
-/// Relative couplings of `θ` that count as zero. The next one is used if the search does not end.
+/// Couplings of `θ`, relative to the diagonal, that count as zero. If the search does not converge, the next larger value is used.
 const DECOUPLED: [f64; 3] = [f64::EPSILON, 1e-14, 1e-12];
 
 /// Number of corrections of each reported `λ`.
 const CORRECTIONS: usize = 4;
 
-/// Relative change of `λ` above which a correction has moved to another eigenvalue and is rejected,
+/// Relative change of `λ` above which a correction is rejected, because it has moved to another eigenvalue.
 const FAR: f64 = 1e-4;
 
-/// as are changes above this value next to the shift if they exceed a multiple of rounding, which indicates a cluster with mixed shapes.
+/// Relative change of `λ` next to the shift above which a correction is rejected if it exceeds a multiple of rounding. This indicates a cluster with
+/// mixed shapes.
 const NEAR: f64 = 1e-10;
 const ROUNDING_CHANGE: f64 = 1e-12;
 
-/// Relative offset of inverse iteration from `λ`, where the matrix is not singular.
+/// Offset of the inverse iteration from `λ`, relative to `λ`, at which the matrix is not singular.
 const BESIDE: f64 = 1e-8;
 
 /// Damping `s²` above which the force is an independent unknown. As a matrix entry it would reduce the accuracy of weakly damped modes.
@@ -46,18 +47,18 @@ const STRONG: f64 = 1e4;
 pub(super) struct Resolvent {
     /// Shift `σ` [1/time].
     pub(super) shift: f64,
-    /// `w = |ω|/√(σ² + ω²)`, `t = σ/√(σ² + ω²)` and the sign of `ω²` of each mode [-].
+    /// `w = |ω|/√(σ² + ω²)`, `t = σ/√(σ² + ω²)` and the sign of `ω²`, for each mode [-].
     scales: Vec<(f64, f64, f64)>,
-    /// Modes whose positions are variables (restrained ones), and modes whose velocities are (those not loose).
+    /// Modes whose displacements are variables (restrained modes), and modes whose velocities are variables (those that are not loose).
     places: Vec<usize>,
     velocities: Vec<usize>,
-    /// `U`, a column for each `s²`.
+    /// Singular vectors `U`, one column for each `s²`.
     directions: DMatrix<f64>,
     damping: Vec<f64>,
 }
 
 impl Resolvent {
-    /// Creates the problem about a shift whose square makes unstable modes positive.
+    /// Creates the problem for a shift whose square exceeds `-ω²` of all unstable modes.
     ///
     /// # Errors
     /// Fails if the search is stopped.
@@ -88,7 +89,7 @@ impl Resolvent {
         Ok(Self { shift, scales, places, velocities, directions, damping })
     }
 
-    /// All eigenvalues `λ/σ` in increasing order of magnitude. Those next to the shift are accurate.
+    /// All eigenvalues `λ/σ` in increasing order of magnitude. Those near the shift are accurate.
     ///
     /// # Errors
     /// Fails if the search does not converge.
@@ -98,8 +99,8 @@ impl Resolvent {
         if count == 0 {
             return Ok(Vec::new());
         }
-        // Deflation tests couplings relative to the diagonal, which may never succeed beside almost zero eigenvalues of no interest. Then all
-        // eigenvalues are shifted away from zero by the largest magnitude.
+        // Deflation compares couplings with the diagonal, which may never succeed beside eigenvalues near zero, which are not needed. In this case
+        // all eigenvalues are shifted away from zero by the largest magnitude.
         let search = |part: f64, moved: f64| {
             let mut matrix = matrix.clone();
             (0..count).for_each(|at| matrix[(at, at)] -= moved);
@@ -159,7 +160,7 @@ impl Resolvent {
         let strong: Vec<usize> =
             (0..self.damping.len()).filter(|at| self.damping[*at] > STRONG).collect();
         let mut at = start;
-        // `λ - σ` is the inverse of the computed value.
+        // `λ - σ` is the inverse of the computed eigenvalue.
         let rounding = ROUNDING_CHANGE * square(size(start - complex(1.0))) / size(start);
         let trusted = (NEAR + rounding).min(FAR) * size(start);
         let unknowns = modes + strong.len();
@@ -197,12 +198,12 @@ impl Resolvent {
             let mut damped =
                 moving.iter().zip(resisted.iter()).map(|(a, b)| a * b).sum::<ComplexNumber>();
             for (force, damper) in (modes..).zip(&strong) {
-                // The rate follows from the force without cancellation.
+                // The rate is computed from the force, without cancellation.
                 let rate = next[force] / (beside * self.damping[*damper]);
                 damped += rate * rate * self.damping[*damper];
             }
             let root = root(damped * damped - inertia * stiffness * 4.0);
-            // The sum without cancellation gives both.
+            // The sum has no cancellation; the difference follows from it.
             let [sum, difference] = [damped + root, damped - root];
             let sum = if size(sum) > size(difference) { sum } else { difference };
             let nearest = [-sum / (inertia * 2.0), -stiffness * 2.0 / sum];

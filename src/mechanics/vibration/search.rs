@@ -1,4 +1,4 @@
-//! Search for the lowest modes: a shift, converged pairs, and a count that verifies completeness.
+//! Search for the lowest modes: choice of a shift, computation of pairs, and a count of eigenvalues that verifies completeness.
 
 use super::VibrationError;
 use super::dense::all_pairs;
@@ -8,13 +8,13 @@ use super::pencil::Pencil;
 use super::refinement::{RefinedPair, assess, refine};
 use crate::linalg::{STRIP_WIDTH, SymmetricFactors};
 
-/// Number of unknowns up to which all modes are computed at once,
+/// Number of unknowns up to which all modes are computed at once.
 const SMALL: usize = 240;
 
-/// and the same if more than a quarter of the modes is requested.
+/// Number of unknowns up to which all modes are computed at once if more than a quarter of them is requested.
 const MEDIUM: usize = 2000;
 
-/// Number of simultaneous matrices of the size of the stiffness if all modes are computed.
+/// Number of matrices of the size of the stiffness that exist at the same time if all modes are computed.
 const DENSE_COPIES: usize = 5;
 
 /// Largest number of increases of the shift by a factor of a hundred, for unstable configurations.
@@ -23,19 +23,19 @@ const MOST_SHIFTS: usize = 14;
 /// Residual above which a pair is rejected.
 const LARGEST_RESIDUAL: f64 = 1e-6;
 
-/// Relative difference in `ω² + σ` below which modes are equal in counts.
+/// Difference of `ω² + σ` of two modes, relative to it, below which they are equal in counts.
 const EQUAL: f64 = 1e-6;
 
-/// Multiple of its rounding below which a square is zero.
+/// Multiple of its rounding error below which `ω²` counts as zero.
 const ROUNDING: f64 = 64.0;
 
-/// Square, relative to the shift, below which it is zero, because shapes of rigid motions contain components of others by rounding.
+/// `ω²`, relative to the shift, below which it counts as zero, because shapes of rigid motions contain components of other shapes due to rounding.
 const HIDDEN: f64 = 1e-14;
 
-/// Largest ratio of the shift to the lowest nonzero square,
+/// Largest ratio of the shift to the lowest nonzero `ω²`.
 const LARGEST_SHIFT: f64 = 1e4;
 
-/// and smallest ratio if there are zero squares.
+/// Smallest ratio of the shift to the lowest nonzero `ω²` if some `ω²` are zero.
 const SMALLEST_SHIFT: f64 = 1e-6;
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -58,7 +58,7 @@ pub(super) fn is_small(unknowns: usize) -> bool {
 pub(super) fn numbers(unknowns: usize, count: usize) -> usize {
     match ModeSearch::of(unknowns, count) {
         ModeSearch::All => DENSE_COPIES * unknowns * unknowns,
-        // Memory of the basis, of its copy during a restart, and of the eigenpairs with momenta, shapes and section forces.
+        // The basis, its copy during a restart, and the eigenpairs with momenta, shapes and section forces.
         ModeSearch::Lowest => unknowns * (2 * Lanczos::width(count) + 3 * count + 16 * STRIP_WIDTH),
     }
 }
@@ -75,7 +75,7 @@ pub(super) fn lowest(
         None => found,
         Some((shift, factors)) => match with_shift(pencil, shift, &factors, count, goes_on) {
             Err(VibrationError::Interrupted) => return Err(VibrationError::Interrupted),
-            // The first result is as accurate as its residuals.
+            // The result with the first shift is as accurate as its residuals show.
             Err(_) => found,
             Ok(finer) => finer,
         },
@@ -130,7 +130,7 @@ fn counted_pairs(
     let mut wanted = count;
     loop {
         let pairs = search.find_pairs(wanted, goes_on)?;
-        // Pairs equal to the last one are as good; all below must be found.
+        // Pairs equal to the last requested pair may be missing; all pairs below it must be found.
         let below = 1.0 / pairs.values[count - 1] * (1.0 - EQUAL) - shift;
         let found = pairs.values.iter().filter(|value| 1.0 / *value - shift < below).count();
         match pencil.modes_below(below) {

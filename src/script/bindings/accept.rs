@@ -14,7 +14,7 @@ use crate::system::refusal_of_name;
 
 /// Converts `value` to the form that native bodies read: numbers to `f64`, points to [`Vec2`], option maps to [`Options`].
 ///
-/// `owner` is the function or option map, for messages.
+/// `owner` is the function or option map that messages name.
 pub fn accept(
     engine: &Engine,
     owner: &str,
@@ -30,7 +30,7 @@ pub fn accept(
     }
 }
 
-/// Converts `value` for a parameter described by a script; `wanted` describes the allowed values.
+/// Converts `value` for a parameter that a script describes; `wanted` describes the allowed values.
 pub fn accept_described(
     engine: &Engine,
     owner: &str,
@@ -42,7 +42,7 @@ pub fn accept_described(
         .map_err(|refused| refusal(engine, owner, name, kind, wanted, &refused))
 }
 
-/// The outer error is final; the inner one returns the value for the general error message.
+/// Result of a conversion. The outer error is final; an inner error returns the value, for the general error message.
 type Conversion = Result<Result<Dynamic, Dynamic>, ScriptError>;
 
 fn convert(engine: &Engine, owner: &str, kind: &Kind, value: Dynamic) -> Conversion {
@@ -156,7 +156,7 @@ fn is_infinite_or_nan(value: &Dynamic) -> bool {
     as_number(value).is_some_and(|x| !x.is_finite())
 }
 
-/// Moves an error to argument `number`, unless it already points at a key.
+/// Sets the position of an error to argument `number`, unless it has the position of a key.
 pub fn at_argument(error: ScriptError, number: usize) -> ScriptError {
     match error {
         ScriptError::Failure(failure) if failure.place == CallPart::Call => {

@@ -8,7 +8,7 @@ use super::parameter::Parameter;
 use crate::geometry::Vec2;
 use crate::script::messages::error::ScriptError;
 
-/// Checked arguments of a call; omitted ones hold their default, if they have one.
+/// Checked arguments of a call. An omitted argument has its default, if there is one.
 #[derive(Clone)]
 pub struct Arguments {
     parameters: &'static [Parameter],
@@ -64,7 +64,7 @@ impl Arguments {
     /// The argument as a text, if present.
     ///
     /// # Errors
-    /// Fails if it is not a text, which the parameter must exclude.
+    /// Fails if it is not a text. The kind of the parameter must exclude this.
     pub fn optional_text(&self, name: &str) -> Result<Option<String>, ScriptError> {
         self.has(name).then(|| self.text(name).map(String::from)).transpose()
     }
@@ -98,7 +98,7 @@ impl Arguments {
         self.get(name)
     }
 
-    /// The argument as a map of options; if omitted, all keys have their defaults.
+    /// The argument as a map of options. If it is omitted, all keys have their defaults.
     pub fn options_or_defaults(&self, name: &str) -> Result<Options, ScriptError> {
         match self.parameters.iter().find(|parameter| parameter.name == name) {
             Some(Parameter { kind: Kind::Options(keys), .. }) if !self.has(name) => {

@@ -1,4 +1,4 @@
-//! Detection of branches that depend on parameters: the position of a jump then depends on a parameter, and derivatives are wrong there.
+//! Detection of branches that depend on parameters. There, the position of a jump depends on a parameter, and derivatives are wrong.
 
 use rhai::{Array, Dynamic, FnPtr, Map, NativeCallContext};
 
@@ -9,7 +9,7 @@ use crate::script::state::context::Context;
 mod jumps;
 mod search;
 
-/// Warns once per position of a function that branches on its argument and on a variable that depends on a parameter of a scene.
+/// Warns once per position of a function that branches on an expression of its argument and of a variable that depends on a parameter.
 pub fn warn_once(native: &NativeCallContext, context: &Context, given: &[Dynamic]) {
     given.iter().for_each(|value| warn_about(native, context, value));
 }

@@ -1,4 +1,4 @@
-//! Functions of Rhai that are part of the language: documented like bindings, registered by the engine.
+//! Functions of Rhai that are part of the language. They are documented like bindings, but the engine registers them.
 
 use super::returns::Returns;
 
@@ -26,7 +26,7 @@ pub struct BuiltIn {
 /// A parsed notation of a function of Rhai.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FunctionForm {
-    /// Kind of value before the dot, if any.
+    /// Kind of value before the dot; `None` for a function.
     pub receiver: Option<&'static str>,
     pub name: &'static str,
     /// Arguments in parentheses; empty for a property.

@@ -75,7 +75,7 @@ impl<'c, 'r> Call<'c, 'r> {
         Ok(())
     }
 
-    /// Script line of the call, from 1; for a call from the standard library, the line that called the library.
+    /// Script line of the call, from 1. For a call from the standard library, it is the line that called the library.
     pub fn line(&self) -> usize {
         let entered = Sources::of(self.native.engine())
             .entered_at(self.native.global_runtime_state().source());
@@ -92,12 +92,12 @@ impl<'c, 'r> Call<'c, 'r> {
         function.call_raw(self.native, None, arguments).map_err(ScriptError::Engine)
     }
 
-    /// Number of arguments of a script function, if known.
+    /// Number of arguments of a script function; `None` if unknown.
     pub fn arguments_of(&self, function: &FnPtr) -> Option<usize> {
         arguments_of(self.native, function)
     }
 
-    /// Definition of a script function, if it belongs to the running file.
+    /// Definition of a script function; `None` unless it belongs to the running file.
     pub fn definition(&self, function: &FnPtr) -> Option<Shared<ScriptFuncDef>> {
         definition_of(self.native, function)
     }
@@ -107,7 +107,7 @@ impl<'c, 'r> Call<'c, 'r> {
         body_of(self.native, function)
     }
 
-    /// Script function with this name and number of parameters, including captured ones, without captured values.
+    /// Script function with this name and number of parameters (including captured variables), without captured values.
     pub fn function_named(&self, name: &str, parameters: usize) -> Option<FnPtr> {
         let libraries = &self.native.global_runtime_state().lib;
         let found = libraries.iter().find_map(|of| of.get_script_fn(name, parameters).cloned());
@@ -144,12 +144,12 @@ impl<'c, 'r> Call<'c, 'r> {
         StoredFunction::new(function, self.native, self.context, role.to_owned())
     }
 
-    /// Returns an error if the run was interrupted. Long native loops call this once per step.
+    /// Returns an error if the run was interrupted. Long native loops must call this once per step.
     pub fn proceed(&self) -> Result<(), ScriptError> {
         self.context.proceed()
     }
 
-    /// Converts `value` for a parameter of a script function, given by its kind and a description.
+    /// Converts `value` for a parameter of a script function with a kind and a description.
     pub fn accept(
         &self,
         owner: &str,
@@ -201,7 +201,7 @@ fn definition_of(native: &NativeCallContext, function: &FnPtr) -> Option<Shared<
     libraries.iter().find_map(defined)
 }
 
-/// Script function by name and number of parameters, including captured ones; any number if `None`.
+/// Script function by name and number of parameters (including captured variables); any number if `None`.
 pub(super) fn defined(
     native: &NativeCallContext,
     name: &str,
@@ -222,7 +222,7 @@ fn body_of(native: &NativeCallContext, function: &FnPtr) -> AST {
     body_named(native, function.fn_name(), parameters)
 }
 
-/// Syntax tree of the script function with this name and number of parameters, including captured ones; empty if there is none.
+/// Syntax tree of the script function with this name and number of parameters (including captured variables); empty if there is none.
 pub(super) fn body_named(native: &NativeCallContext, name: &str, parameters: usize) -> AST {
     let libraries = &native.global_runtime_state().lib;
     let has = |library: &&Shared<Module>| library.get_script_fn(name, parameters).is_some();
@@ -233,7 +233,7 @@ pub(super) fn body_named(native: &NativeCallContext, name: &str, parameters: usi
     body
 }
 
-/// Closure created by this call expression, without captured values, and the captured variables.
+/// Closure that this call expression creates, without captured values, and the captured variables.
 pub fn written_within(call: &FnCallExpr) -> Option<(FnPtr, &[Expr])> {
     match call.args.as_slice() {
         [Expr::DynamicConstant(function, _), captured @ ..] if call.name == CAPTURE => {

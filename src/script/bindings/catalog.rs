@@ -14,7 +14,7 @@ pub struct Catalog {
 }
 
 impl Catalog {
-    /// Catalog of these domains and the functions taken from Rhai.
+    /// Catalog of the given tables and the functions of Rhai.
     pub fn of(tables: &[&'static BindingTable]) -> Self {
         Self { tables: tables.to_vec(), built_ins: builtins::TABLES }
     }
@@ -36,7 +36,7 @@ impl Catalog {
         self.tables().flat_map(|table| table.rows)
     }
 
-    /// Bindings with this name; several if types share a method name.
+    /// Bindings with this name. There are several if types have methods of the same name.
     pub fn named<'a>(
         &self,
         name: &'a str,

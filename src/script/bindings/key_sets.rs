@@ -1,25 +1,25 @@
-//! Options of which exactly one set of keys applies: a section is given by stiffness and inertia, or by a material and a shape.
+//! Option maps of which exactly one set of keys applies. For example, a section is given by stiffness and inertia, or by a material and a shape.
 
 use super::options::Options;
 use crate::script::messages::error::{CallPart, ScriptError};
 use crate::script::messages::nouns::with_article;
 
-/// Alternative sets of keys of an option map, each with a meaning for its reader.
+/// Alternative sets of keys of an option map, each with a meaning for the code that reads the map.
 pub struct KeySets<T: 'static> {
     pub description: &'static str,
     /// Keys that are allowed with every set.
     pub always_allowed: &'static [&'static str],
-    /// Sets of keys; if it is unclear which one is meant, the first applies.
+    /// Sets of keys. If the given keys do not determine the set, the first set applies.
     pub sets: &'static [KeySet<T>],
 }
 
 /// Keys that must be given together.
 pub struct KeySet<T> {
-    /// Meaning for the reader of the map.
+    /// Meaning for the code that reads the map.
     pub meaning: T,
-    /// Description of the set, following `given by`.
+    /// Description of the set, which follows the words `given by` in messages.
     pub description: &'static str,
-    /// Keys of the set, in the order in which missing ones are reported.
+    /// Keys of the set, in the order in which missing keys are reported.
     pub keys: &'static [&'static str],
     /// Key and text value that select this set.
     pub chosen_by: Option<(&'static str, &'static str)>,
@@ -47,7 +47,7 @@ impl<T: Copy> KeySets<T> {
         }
     }
 
-    /// Set selected by a text, or else the first of those with the most keys given.
+    /// Set that a text selects, otherwise the first of the sets with the largest number of given keys.
     fn meant(&self, options: &Options) -> Option<&'static KeySet<T>> {
         let is_chosen = |set: &&KeySet<T>| {
             let chosen = set.chosen_by.map(|(key, text)| (options.text(key), text));

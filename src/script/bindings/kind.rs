@@ -29,12 +29,12 @@ pub trait Scripted: Clone + 'static {
         None
     }
 
-    /// Parameters that the value, or its scene, depends on.
+    /// Set of the parameters on which the value or its scene depends.
     fn parameter_set(&self) -> Option<Rc<ParameterSet>> {
         None
     }
 
-    /// Reason why the value is in use, if a native call that is calling back a script function works on it.
+    /// Reason why the value is in use; `None` unless a native call that is running a script function works on it.
     fn is_busy(&self) -> Option<String> {
         None
     }
@@ -86,7 +86,7 @@ impl Type {
         (self.id)()
     }
 
-    /// Returns the value if it is of this type, or its implicit conversion.
+    /// Returns the value if it is of this type, or its implicit conversion; `None` if there is none.
     pub fn accept(&self, value: &Dynamic) -> Option<Dynamic> {
         if value.type_id() == self.id() { Some(value.clone()) } else { (self.convert)(value) }
     }
@@ -101,7 +101,7 @@ impl Type {
         (self.details)(value)
     }
 
-    /// Function that returns the reason why a value of this type is in use.
+    /// Function that returns the reason why a value of this type is in use, if it is.
     pub fn busy(&self) -> fn(&Dynamic) -> Option<String> {
         self.busy
     }

@@ -1,4 +1,4 @@
-//! Methods and properties of values that depend on parameters, delegated to the underlying section, curve, vector or number.
+//! Methods and properties of values that depend on parameters. They are evaluated for the section, curve, vector or number in each variant.
 
 use std::collections::BTreeMap;
 
@@ -39,7 +39,7 @@ impl Use {
 
 /// Registers the methods and properties of all types for variant values.
 pub fn install(engine: &mut Engine, catalog: &Catalog, context: &Context) {
-    // For each name and use: the methods of types, and the function of that name, which accepts any type.
+    // For each name and use: the methods of types, and the function of this name, which accepts any type.
     let mut members: BTreeMap<(&'static str, Use), Vec<RegisteredFunction>> = BTreeMap::new();
     for table in catalog.tables() {
         for row in table.rows {

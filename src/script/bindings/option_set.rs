@@ -1,4 +1,4 @@
-//! Typed option maps: one declaration for keys, kinds, units, defaults, and the fields that they are read into.
+//! Typed option maps. One declaration gives keys, kinds, units, defaults and the fields for the values.
 
 use rhai::{Array, Dynamic, FnPtr};
 
@@ -7,9 +7,9 @@ use super::parameter::Parameter;
 use crate::integrators::Method;
 use crate::script::messages::error::ScriptError;
 
-/// Types that the value of a key can be read as.
+/// Types into which the value of a key can be read.
 pub trait FromOption: Sized {
-    /// Reads the value of a key, given or by default.
+    /// Reads the value of a key. If the key is omitted, it has its default.
     ///
     /// # Errors
     /// Fails if the kind does not match, which is an internal error.

@@ -116,7 +116,7 @@ fn list(keys: &[Parameter]) -> String {
     names.collect::<Vec<_>>().join(", ")
 }
 
-/// Moves an error to the key, unless it points at a key of a nested map.
+/// Sets the position of an error to the key, unless it has the position of a key of a nested map.
 fn at_key(error: ScriptError, key: &str) -> ScriptError {
     match error {
         ScriptError::Failure(failure) if failure.place == CallPart::Call => {

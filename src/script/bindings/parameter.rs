@@ -7,7 +7,7 @@ use super::kind::{Kind, NumberRange, Type};
 /// A parameter of a binding, or a key of an option map.
 #[derive(Clone, Copy)]
 pub struct Parameter {
-    /// Name: the key in an option map, the word in messages.
+    /// Name: the key in an option map, and the name in messages.
     pub name: &'static str,
     /// Kind of value.
     pub kind: Kind,
@@ -26,7 +26,7 @@ pub struct Parameter {
 pub enum Presence {
     /// Required.
     Required,
-    /// Optional without default; the body sees that it is absent.
+    /// Optional without default. The native body must handle an omitted value.
     Optional,
     /// Optional with a default number.
     Number(f64),

@@ -72,7 +72,7 @@ pub(super) fn with_receiver(of: Type, count: usize) -> Vec<TypeId> {
     std::iter::once(of.id()).chain(std::iter::repeat_n(TypeId::of::<Dynamic>(), count)).collect()
 }
 
-/// Exact argument types of a function of numbers only, which take precedence over Rhai's functions of the same name.
+/// Exact argument types of a function of numbers only. The function takes precedence over Rhai's function of the same name.
 fn numbers_only(parameters: &[Parameter]) -> Vec<Vec<TypeId>> {
     let numeric = |parameter: &Parameter| matches!(parameter.kind, Kind::Number(_) | Kind::Numeric);
     match parameters.iter().all(numeric) {
@@ -81,7 +81,7 @@ fn numbers_only(parameters: &[Parameter]) -> Vec<Vec<TypeId>> {
     }
 }
 
-/// All combinations of exact types of an operator; those of built-in types only are left to the engine.
+/// All combinations of exact operand types of an operator. Combinations of built-in types only are left to the engine.
 fn operand_types(operands: &[Parameter]) -> Vec<Vec<TypeId>> {
     let built_in = [
         TypeId::of::<f64>(),
@@ -118,7 +118,7 @@ fn exact_types(kind: &Kind) -> Vec<TypeId> {
     }
 }
 
-/// A binding as one registered function; a property has two of them.
+/// A binding as one registered function. A property with a setter consists of two.
 #[derive(Clone)]
 pub(super) struct RegisteredFunction {
     row: &'static FunctionBinding,
@@ -179,7 +179,7 @@ fn called(
         (Some(_), [receiver, given @ ..]) => (Some(&mut **receiver), given),
         (_, given) => (None, given),
     };
-    // Cloned, because the first value may be the script's own variable.
+    // The values are cloned, because the first one may be the script's own variable.
     let given = given.iter().map(|value| (**value).clone().flatten());
     if !ParameterSet::is_any() {
         return make(binding, native, receiver, given);
@@ -224,7 +224,7 @@ pub const CONTROLLER_HINT: &str = "a load is a function of time; for a load that
     variable that is set between steps: let u = 0.0; scene.force(station, [1, 0], |t| u); then \
     u = … before each sim.step()";
 
-/// Rejects values in use by the native call that called back; arrays are searched.
+/// Rejects values in use by the native call that is running this script function. Arrays are searched.
 fn refuse_busy(
     row: &FunctionBinding,
     context: &Context,

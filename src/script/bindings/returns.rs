@@ -100,13 +100,13 @@ impl fmt::Display for ValueKind {
     }
 }
 
-/// Description of a return value: kind, dimension, remarks.
+/// Type of a return value with its dimension and description, for the documentation.
 #[derive(Clone, Copy)]
 pub struct Returns {
     pub kind: ValueKind,
-    /// Dimension, such as `force`; `-` for a pure number where others have one; empty if not applicable.
+    /// Dimension, such as `force`. It is `-` for a dimensionless number, and empty if the kind has no dimension.
     unit: &'static str,
-    /// Description that replaces that of the kind; may be empty.
+    /// Description that replaces the description of the kind; may be empty.
     description: &'static str,
     /// Text after the description, including a leading blank or comma.
     remark: &'static str,
@@ -169,7 +169,7 @@ impl Returns {
     }
 }
 
-/// Description: `a vector [force]`, `a number, whole if x is`; empty for nothing.
+/// Description such as `a vector [force]` or `a number, whole if x is`; empty for nothing.
 impl fmt::Display for Returns {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match (self.is_nothing(), self.description) {

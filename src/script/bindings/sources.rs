@@ -1,5 +1,5 @@
-//! Source files of script functions, and calls of the library. The engine loses the file when native code calls closures of modules, and it
-//! provides call lines only in errors.
+//! Source files of script functions, and lines of calls of the library. The engine does not know the file when native code calls closures of modules,
+//! and it provides the lines of calls only in errors.
 
 use std::cell::{Cell, RefCell};
 use std::collections::{BTreeMap, HashMap, HashSet};
@@ -58,17 +58,17 @@ impl Sources {
         engine.default_tag().clone().try_cast().unwrap_or_default()
     }
 
-    /// Starts parsing of another text.
+    /// Resets the parser state before another text.
     pub fn begin_reading(&self) {
         self.reader.begin();
     }
 
-    /// Calls `work` with parsing that cannot be stopped, for texts that were parsed before.
+    /// Calls `work`, whose parsing cannot be stopped, for texts that were parsed before.
     pub fn undisturbed<T>(&self, work: impl FnOnce() -> T) -> T {
         self.reader.undisturbed(work)
     }
 
-    /// Reason that stopped the last parsing, if any.
+    /// Reason for which the last parsing was stopped, if it was.
     pub fn reading_stopped(&self) -> Option<Stop> {
         self.reader.stopped()
     }
@@ -93,7 +93,7 @@ impl Sources {
         }
     }
 
-    /// File of the function `name`: `claimed` if possible, `None` for native functions.
+    /// File of the function `name`: `claimed` if it contains the function, `None` for native functions.
     pub fn find(&self, name: &str, claimed: &str) -> Option<String> {
         let known = self.functions.borrow();
         if known.is_empty() {
@@ -106,8 +106,8 @@ impl Sources {
         }
     }
 
-    /// Marks a call into the library from a line of the file `caller` until the guard is dropped. For nested library calls the outermost
-    /// line counts.
+    /// Marks a call into the library from a line of the file `caller` until the guard is dropped. For nested library calls, the outermost line is
+    /// kept.
     pub fn enter_library(&self, caller: Option<&str>, line: Option<usize>) -> LibraryCallGuard {
         let before = self.line.get();
         if !is_library(caller) {

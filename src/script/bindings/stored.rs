@@ -8,8 +8,8 @@ use crate::script::state::context::Context;
 
 /// A script function with its environment: functions, imports and constants of its file.
 ///
-/// A function pointer of Rhai 1.27 contains only a name and captured values. The engine of the run is referenced weakly, because it owns
-/// this function through the scenes of the script.
+/// A function pointer of Rhai 1.27 contains only a name and captured values. The reference to the engine is weak, because the engine owns this
+/// function through the scenes of the script.
 pub struct StoredFunction {
     function: FnPtr,
     surroundings: GlobalRuntimeState,
@@ -80,6 +80,6 @@ impl StoredFunction {
 /// Reason why a script function returned no number.
 pub enum NoNumber {
     Failed(Box<EvalAltResult>),
-    /// The function returned something else, described here.
+    /// The function returned another kind of value, which the text describes.
     Other(String),
 }

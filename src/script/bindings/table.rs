@@ -16,7 +16,7 @@ use crate::script::messages::error::ScriptError;
 /// Native body of a binding. Its arguments are counted, converted and range-checked before the call.
 pub type NativeFunction = fn(&mut Call<'_, '_>) -> Result<Dynamic, ScriptError>;
 
-/// Everything that a domain adds to the language.
+/// Table of all types, constants and functions of a domain.
 pub struct BindingTable {
     /// Name of the domain, used as a heading in the reference.
     pub name: &'static str,
@@ -93,7 +93,7 @@ pub struct FunctionBinding {
     pub body: NativeFunction,
     /// Setter of a writable property.
     pub setter: Option<Setter>,
-    /// Test for arguments at which the result is not differentiable.
+    /// Check for arguments at which the result is not differentiable.
     pub corner: Option<NonsmoothCheck>,
 }
 
@@ -197,7 +197,7 @@ impl FunctionBinding {
         self
     }
 
-    /// Sets the test for arguments at which the result is not differentiable.
+    /// Sets the check for arguments at which the result is not differentiable.
     pub const fn corner(mut self, corner: NonsmoothCheck) -> Self {
         self.corner = Some(corner);
         self

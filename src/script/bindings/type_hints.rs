@@ -5,7 +5,7 @@ use rhai::{Array, Dynamic, FnPtr, Map};
 use super::kind::{Kind, NumberRange};
 use crate::script::messages::numbers::{as_number, format_number};
 
-/// Hint for `value` given for a parameter of this kind, if the mistake is a known one; `given` is its type name.
+/// Hint for `value`, given for a parameter of this kind, if the mistake is a known one. `given` is the type name of the value.
 pub fn hint(kind: &Kind, value: &Dynamic, given: &str) -> Option<String> {
     match kind {
         Kind::Number(_) if is_infinite_or_nan(value) => {
@@ -48,7 +48,7 @@ pub fn hint(kind: &Kind, value: &Dynamic, given: &str) -> Option<String> {
             })
         }
         Kind::Object(of) => of_object(of.name(), value, given).map(str::to_owned),
-        // A number out of range needs no other kind.
+        // A number outside the range has the right kind.
         Kind::Either(kinds) if as_number(value).is_some() && kinds.iter().any(is_number) => {
             kinds.iter().filter(|kind| is_number(kind)).find_map(|kind| hint(kind, value, given))
         }

@@ -24,7 +24,7 @@ pub enum Ending {
     Finished,
     /// The script has an error.
     Failed(Diagnostic),
-    /// A dry build reached a loop that waits for a simulation result; no error was found before.
+    /// A dry run reached a loop that waits for a simulation result; no error was found before.
     Undecided,
     /// Interrupted from outside.
     Interrupted,

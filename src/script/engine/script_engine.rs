@@ -32,7 +32,7 @@ pub struct ScriptEngine {
 pub enum Halt {
     /// An error in the script, an exceeded limit, or an internal error.
     Failed(Diagnostic),
-    /// A dry build reached a point where the script waits for a simulation result, as the diagnostic says.
+    /// A dry run reached a point where the script waits for a simulation result, as the diagnostic says.
     Undecided(Diagnostic),
     /// Interrupted from outside.
     Interrupted,

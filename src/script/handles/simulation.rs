@@ -82,7 +82,7 @@ impl Monitor for ProgressMonitor<'_> {
     }
 }
 
-/// Observer of a skipped run in a dry build, which is stopped like a real run but counts no steps.
+/// Observer of a skipped run in a dry run, which is stopped like a real run but counts no steps.
 struct DryRunObserver<'a>(&'a Context);
 
 impl Monitor for DryRunObserver<'_> {
@@ -193,7 +193,7 @@ impl SimulationHandle {
         Ok(())
     }
 
-    /// Rewinds the simulation to an earlier state; a dry build approximates this.
+    /// Rewinds the simulation to an earlier state; a dry run approximates this.
     pub fn rewind_to(&self, call: &Call, goal: &RunTarget) -> Result<(), ScriptError> {
         self.0.sensing.expect_idle()?;
         let mut simulation = self.0.simulation.borrow_mut();
@@ -300,7 +300,7 @@ impl SimulationHandle {
         }
     }
 
-    /// Replacement of a run in a dry build: time advances, and events are called.
+    /// Replacement of a run in a dry run: time advances, and events are called.
     fn dry_run(&self, call: &Call, end: f64) -> Result<(), ScriptError> {
         call.context().meter().count_dry_run();
         call.context().proceed()?;

@@ -29,7 +29,7 @@ pub enum Stop {
     Files(u64),
     /// The output could not be written.
     OutputLost(io::ErrorKind),
-    /// In a dry build the script waits for a result that only a real run produces.
+    /// In a dry run the script waits for a result that only a real run produces.
     Waiting,
 }
 

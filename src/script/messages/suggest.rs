@@ -1,11 +1,11 @@
 //! Suggestions for misspelt names.
 
-/// Maximum length of a name that is checked [bytes].
+/// Largest length of a misspelt name for which a suggestion is searched [bytes].
 const LONGEST: usize = 200;
 
 /// Candidate nearest to `wrong`, if one is near enough.
 pub fn nearest<'a>(wrong: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
-    // The cost grows with both lengths, and no name of the language is that long.
+    // The cost of a comparison grows with the length of both names, and no name of the language is this long.
     if wrong.len() > LONGEST {
         return None;
     }

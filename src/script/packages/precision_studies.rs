@@ -182,7 +182,7 @@ fn cheapest(call: &mut Call) -> Result<Dynamic, ScriptError> {
             None => Ok(comparison(&study, &errors).into()),
         };
     };
-    // In a dry build a placeholder row is returned, because no row has run.
+    // In a dry run a placeholder row is returned, because no row has run.
     let pretended = study.rows.first().filter(|_| call.context().mode() == RunMode::DryBuild);
     let row = pretended.or_else(|| study.cheapest(error));
     Ok(row.map_or(Dynamic::UNIT, |row| map_of(&study, row).into()))

@@ -263,7 +263,7 @@ fn expect_other_names(call: &Call, sweep: &Sweep) -> Result<(), ScriptError> {
     })
 }
 
-/// Result of a dry build: the function is called for the first row, whose results are used for all rows.
+/// Result of a dry run: the function is called for the first row, whose results are used for all rows.
 fn dry_run(call: &Call, order: SweepRequest) -> Result<FinishedSweep, ScriptError> {
     RunFunction::read(call, "run", order.function)?;
     let given = order.invoked(call, 0)?;
@@ -305,7 +305,7 @@ fn sensitivity(call: &mut Call) -> Result<Dynamic, ScriptError> {
     };
     let names = sweep.design.parameters.iter().map(|of| of.name.as_str());
     let Some(shares) = sweep.variance_fractions(&result) else {
-        // A dry build has no runs.
+        // A dry run has no runs.
         if call.context().mode() == RunMode::DryBuild {
             let none = VarianceShare { first: 0.0, total: Some(0.0) };
             return Ok(names.map(|name| of((name, none))).collect::<Array>().into());

@@ -55,7 +55,7 @@ const OPERAND: &str = "\u{E002}";
 #[derive(Clone)]
 pub struct DivisionOperand(pub Dynamic);
 
-/// Operator that replaces the power at position `chain` of a chain of powers.
+/// Internal operator that replaces the power operator at position `chain` of a chain of powers.
 pub fn power_name(chain: u8) -> String {
     format!("{OWN}^{chain}")
 }
@@ -65,7 +65,7 @@ pub fn power_name(chain: u8) -> String {
 pub struct TokenReader {
     nesting: Rc<RefCell<Nesting>>,
     stopped: Rc<Cell<Option<Stop>>>,
-    /// True while parsing must not be stopped.
+    /// True while reading a text must not be interrupted.
     is_undisturbed: Rc<Cell<bool>>,
 }
 

@@ -24,7 +24,7 @@ pub struct OutputFolder {
     record: OnceCell<RefCell<WrittenFiles>>,
     /// Folders whose abandoned temporary files were removed.
     tidied: RefCell<HashSet<Option<PathBuf>>>,
-    /// Files that a dry build would have written, for reading them again.
+    /// Files that a dry run would have written, for reading them again.
     pretended: RefCell<HashMap<PathBuf, Vec<u8>>>,
 }
 
@@ -48,7 +48,7 @@ impl OutputFolder {
         }
     }
 
-    /// Writes the file `name` in the output folder. A dry build only checks the name.
+    /// Writes the file `name` in the output folder. A dry run only checks the name.
     ///
     /// # Errors
     /// Fails if the name leads out of the folder, or writing fails.
@@ -56,7 +56,7 @@ impl OutputFolder {
         self.write_by(name, |file| file.write_all(content))
     }
 
-    /// Writes the file `name` in the output folder piece by piece, by calls of `write`. A dry build only checks the name.
+    /// Writes the file `name` in the output folder piece by piece, by calls of `write`. A dry run only checks the name.
     ///
     /// # Errors
     /// Fails if the name leads out of the folder, or writing fails.
@@ -124,7 +124,7 @@ impl OutputFolder {
         Ok(kept.map(|kept| self.folder.join(kept)))
     }
 
-    /// Writes a file that the script may [`read`](Self::read) again, also in a dry build.
+    /// Writes a file that the script may [`read`](Self::read) again, also in a dry run.
     ///
     /// # Errors
     /// Fails if the name leads out of the folder, or writing fails.

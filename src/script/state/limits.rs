@@ -92,7 +92,7 @@ pub struct Meter {
     written: Cell<u64>,
     files: Cell<u64>,
     stopped: Cell<Option<Stop>>,
-    /// Number of simulation advances skipped by a dry build.
+    /// Number of simulation advances skipped by a dry run.
     pretended: Cell<u64>,
 }
 
@@ -145,12 +145,12 @@ impl Meter {
         }
     }
 
-    /// Counts a skipped simulation advance of a dry build.
+    /// Counts a skipped simulation advance of a dry run.
     pub fn count_dry_run(&self) {
         self.pretended.set(self.pretended.get() + 1);
     }
 
-    /// Returns true if the script depends on results that a dry build does not compute.
+    /// Returns true if the script depends on results that a dry run does not compute.
     pub fn depends_on_dry_run(&self) -> bool {
         self.pretended.get() > 0
     }

@@ -75,7 +75,7 @@ pub enum JournalPreference {
 }
 
 impl RunSettings {
-    /// Settings without any output, for dry builds and as a base for others.
+    /// Settings without any output, for dry runs and as a base for others.
     pub fn silent(mode: RunMode) -> Self {
         Self {
             mode,

@@ -38,7 +38,7 @@ impl CaseResult for Option<Timing> {
     }
 }
 
-/// Prints the table of a study and an empty line, except in a dry build.
+/// Prints the table of a study and an empty line, except in a dry run.
 pub fn print_table(context: &Context, table: &str) {
     if context.mode() == RunMode::Run {
         context.print(table);

@@ -19,7 +19,7 @@ use crate::script::messages::error::ScriptError;
 use crate::script::state::settings::RunMode;
 use crate::simulation::{SimulationSettings, StepSize};
 
-/// Runs the study; nothing is computed in a dry build.
+/// Runs the study; nothing is computed in a dry run.
 pub fn study(call: &Call, options: &ErrorOptions) -> Result<Convergence, ScriptError> {
     let mut plan = ErrorStudyPlan::read(call, options)?;
     let refined = refined(call, &plan)?;
@@ -162,7 +162,7 @@ pub fn expect_quantity(
     Err(call.error(told).hint(format!("quantities: {}", known.join(", "))))
 }
 
-/// Errors of a quantity with an integrator; `None` in a dry build.
+/// Errors of a quantity with an integrator; `None` in a dry run.
 ///
 /// # Errors
 /// Fails if the quantity or integrator is not in the study; the error lists the known ones.

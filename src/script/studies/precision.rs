@@ -14,7 +14,7 @@ use crate::script::bindings::call::Call;
 use crate::script::messages::error::ScriptError;
 use crate::script::state::settings::RunMode;
 
-/// Runs the study; nothing is computed in a dry build.
+/// Runs the study; nothing is computed in a dry run.
 pub fn study(
     call: &Call,
     options: &ErrorOptions,

@@ -294,7 +294,7 @@ impl Reference {
         Ok(Some((trials, truth)))
     }
 
-    /// Results of a dry build.
+    /// Results of a dry run.
     pub fn no_trials(cases: &[Case]) -> (Vec<RunResult>, ReferenceSolution) {
         let reason = "nothing is run here".to_owned();
         let trial = RunResult::not_started(CaseOutcome::Failed { time: 0.0, reason });

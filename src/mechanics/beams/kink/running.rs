@@ -4,19 +4,19 @@ use super::SplineString;
 use crate::beams::Mesh;
 use crate::geometry::{GaussRule, PiecewisePolynomial, Span, Vec2, lower_splines};
 
-/// Largest number of spans in the mean.
+/// Largest number of spans over which the factor is averaged.
 const SAMPLES: usize = 16;
 
 impl SplineString {
-    /// Correction factor `μ` such that `½ μ ρA g |a|² v²` is the kinetic energy that the mesh misses, averaged over the places of a kink `a` moving
-    /// with the speed `v`: a mean over evenly spread spans.
+    /// Correction factor `μ` such that `½ μ ρA g |a|² v²` is the kinetic energy that the mesh misses for a kink `a` moving with the speed `v`. It is
+    /// averaged over places in evenly spread spans.
     ///
     /// ```text
     /// μ = ∫ (X(L) - s(ξ) - ∫ u² dX) ds/∫ g ds        u = l(X)ᵀ M⁻¹ t(ξ)/|x_ξ|
     /// ```
     ///
-    /// With the start held, points in front of a unit kink rise with `v` and nothing else moves. The mesh moves with `u v` instead. Away from the
-    /// kink `u` is exact, so that the difference involves only the spans around it.
+    /// If the start is held, points in front of a unit kink move with the velocity `v` and all other points are fixed. In the mesh they move with `u
+    /// v` instead. Away from the kink `u` is exact, so only the spans around the kink contribute to the difference.
     pub fn inertia(
         &self,
         mesh: &Mesh,
@@ -39,7 +39,7 @@ impl SplineString {
                         let fields = rule.iter_on(around.start, around.end).map(|(x, weight)| {
                             let values = basis.evaluate_in(around, x);
                             let own = values.values().iter().enumerate();
-                            // Motion that is missing in front of the kink, or present behind it.
+                            // Missing motion in front of the kink, and additional motion behind it.
                             let (there, missing) =
                                 own.fold((0.0, 0.0), |(there, missing), (a, n)| {
                                     let [low, high] = motion[around.first + a];
@@ -64,8 +64,8 @@ impl SplineString {
         missed / lengths
     }
 
-    /// Motion of control points as a kink passes a place on a span with the given lower splines, relative to that of the end of the string; and its
-    /// difference from that of the end.
+    /// Motion of the control points for a kink at a place on a span, from the lower splines there, relative to the motion of the end of the string;
+    /// and its difference from the motion of the end.
     fn motion(&self, span: &Span, lower: &[f64]) -> Vec<[f64; 2]> {
         let mut strains = vec![0.0; self.stretched.len()];
         strains[span.first..][..lower.len()].copy_from_slice(lower);

@@ -1,8 +1,8 @@
-//! Section at a place between quadrature points.
+//! Interpolated section between quadrature points.
 
 use crate::beams::Section;
 
-/// Section at a place between points, by weights that add up to one.
+/// Section at a place between points, from weights whose sum is one.
 pub(in crate::beams) trait Interpolation: Default {
     /// Adds a weighted section.
     fn add(&mut self, section: &Section, share: f64);

@@ -15,10 +15,10 @@ pub(in crate::beams) trait MassIntegral:
     /// Integral of the product without inertia [length].
     fn length(self) -> f64;
 
-    /// Quantity proportional to the inertia of each component: the integral itself, or mass and rotary inertia.
+    /// Integrals that are proportional to the inertia of each component: the length integral, or the integrals of mass and rotary inertia.
     fn weights(self) -> Movement;
 
-    /// Factors of the [`weights`](Self::weights): mass and rotary inertia per length, or one.
+    /// Factors of the [`weights`](Self::weights) that give the inertia: mass and rotary inertia per length, or one.
     fn shares(uniform: &Section) -> Movement;
 
     /// Inertia of each component, times a factor.

@@ -3,7 +3,7 @@
 use crate::beams::{BeamError, Mesh, Section, SectionVariation};
 use crate::geometry::{GaussRule, Span, Vec2};
 
-/// Number of points for the arc length within a span.
+/// Number of Gauss points for the arc length within a span.
 const POINTS: usize = 8;
 
 /// Sections of a beam along an axis given by control points.
@@ -36,7 +36,7 @@ impl<'a> SectionsOnAxis<'a> {
         Ok(along)
     }
 
-    /// Arc length from the start of a span to a parameter in it [length].
+    /// Arc length from the start of a span to a parameter in the span [length].
     fn within(&self, span: &Span, xi: f64) -> f64 {
         let speed = |at: f64| {
             self.mesh.basis().evaluate_in(span, at).combine(1, self.control_points).norm()

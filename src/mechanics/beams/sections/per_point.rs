@@ -12,7 +12,7 @@ use crate::beams::simd::{LANES, LaneChunk, Lanes, Vector};
 
 /// Sections of the quadrature points of neighbouring spans, by storage type. A uniform beam shares one section without lookup.
 pub(in crate::beams) trait Sections: Clone + Debug + Send + Sync {
-    /// Integral of a product of two shape functions, and its integral weighted with the inertia if that varies along the beam.
+    /// Integral of a product of two shape functions; if the inertia varies along the beam, also weighted with the inertia.
     type MassIntegral: MassIntegral;
     /// Section at a place between points.
     type Interpolation: Interpolation;
@@ -42,7 +42,7 @@ pub(in crate::beams) trait Sections: Clone + Debug + Send + Sync {
         part: LaneChunk<V>,
     ) -> Vector<V>;
 
-    /// Masses of control points: from their lengths if uniform, otherwise as integrated.
+    /// Masses of control points: from their lengths if the section is uniform, otherwise from the integrals.
     fn masses(uniform: &Section, lengths: Vec<f64>, weighed: Vec<f64>) -> Vec<f64>;
 }
 
@@ -101,7 +101,7 @@ pub(in crate::beams) struct PerPoint {
     bending_stiffness: Vec<Lanes>,
 }
 
-/// Property of the sections of points in lanes. Empty lanes repeat the last point.
+/// Property of the sections of points, in lanes. Unused lanes repeat the last point.
 fn side_by_side(sections: &[Section], of: impl Fn(&Section) -> f64) -> Lanes {
     let mut lanes = Lanes::default();
     for lane in 0..LANES {

@@ -1,4 +1,4 @@
-//! Contact of a slider in a step: kinematics of the path on the master, and the forces on both.
+//! Contact of a slider in a step: path on the master, and forces on slave and master.
 
 use super::{Equation, Unit};
 use crate::geometry::{ContactPath, FunctionOnPath, Vec2};
@@ -11,9 +11,9 @@ pub const CONTACT_UNKNOWNS: usize = 5;
 pub struct ContactUnknowns {
     /// Contact force `λ` on the master; `-λ` acts on the slave [force].
     pub force: Vec2,
-    /// Couple of the contact, `η`, or `χ` with a kink. The forces `Δξ D_i η`, or `D_i χ`, on the master balance the angular momentum [force].
+    /// Couple of the contact: `η`, or `χ` with a kink. The forces `Δξ D_i η` or `D_i χ` on the master balance the angular momentum [force].
     pub couple: Vec2,
-    /// Movement `Δξ` of the slave along the parameter of the master in the step [-].
+    /// Increment `Δξ` of the position of the slave along the parameter of the master in the step [-].
     pub increment: f64,
 }
 
@@ -44,7 +44,7 @@ impl ContactUnknowns {
     }
 }
 
-/// Place or direction on the path of a slave along its master, with its derivative with respect to the end `ξ1` of the path [length].
+/// Position or direction on the path of a slave along its master, with its derivative with respect to the end `ξ1` of the path [length].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PathVector {
     /// Place or direction [length].
@@ -53,15 +53,15 @@ pub struct PathVector {
     pub by_end: Vec2,
 }
 
-/// Kink of the master axis under the contact force, which the mesh does not represent: an offset `g a` across the axis with the jump `a = p/GA` of
-/// the tangent.
+/// Kink of the master axis under the contact force, which the mesh does not represent. The axis has an offset `g a`, where `a = p/GA` is the jump of
+/// its tangent.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Kink {
     /// Kink length `g` of the master along the path of the slave [length].
     pub along: FunctionOnPath,
     /// Compliance `1/GA` of the master [1/force].
     pub compliance: f64,
-    /// Jump of the tangent at the start of the step as a force `p0 = GA a0`, which causes it for a kink at rest [force].
+    /// Jump of the tangent at the start of the step, as the force `p0 = GA a0` that causes it statically [force].
     pub before: Vec2,
     /// Motion of the kink along the master.
     pub motion: KinkMotion,
@@ -70,7 +70,7 @@ pub struct Kink {
 /// Kink of a master at the end of a step.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct KinkState {
-    /// Jump of the tangent as a force `p = GA a`, which causes it for a kink at rest [force].
+    /// Jump of the tangent, as the force `p = GA a` that causes it statically [force].
     pub jump: Vec2,
     /// Speed `v` along the undeformed axis of the master [length/time].
     pub speed: f64,
@@ -83,29 +83,28 @@ pub struct KinkMotion {
     pub arc: FunctionOnPath,
     /// Speed `v0` at the start of the step [length/time].
     pub speed: f64,
-    /// `μ ρA/GA`, the inverse square of the speed of shear waves up to the correction `μ` of the mesh [time²/length²].
+    /// `μ ρA/GA`: the inverse square of the shear wave speed, times the correction `μ` of the mesh [time²/length²].
     pub inverse_square_speed: f64,
     /// Duration `Δt` of the step [time].
     pub duration: f64,
 }
 
-/// Kinematics of a sliding contact in a step, with places relative to the start of the slave.
+/// Kinematics of a sliding contact in a step. Positions are relative to that of the slave at the start of the step.
 ///
-/// The forces are the same in all laws: `-λ` on the slave, and `B̄_i λ - Δξ D_i η` on control point `i` of the master, or `B̄_i λ - D_i χ` with a
-/// kink.
+/// All laws have the same forces: `-λ` on the slave, and on control point `i` of the master `B̄_i λ - Δξ D_i η`, or `B̄_i λ - D_i χ` with a kink.
 #[derive(Debug, Clone, Copy)]
 pub struct Contact<'a> {
     /// Path of the slave along the master.
     pub path: &'a ContactPath,
-    /// Control points of the master in the window of the path, relative to the slave, and their movements in the step [length].
+    /// Control points of the master in the window of the path, relative to the slave, and their increments in the step [length].
     pub master: (&'a [Vec2], &'a [Vec2]),
-    /// Movement `Δx_s` of the slave in the step [length].
+    /// Increment `Δx_s` of the slave in the step [length].
     pub slave_movement: Vec2,
     /// Unknowns of the contact: `λ` [force], `η` [force] and `Δξ` [-].
     pub unknowns: ContactUnknowns,
     /// Kink of the master under the contact force, if the law has one.
     pub kink: Option<Kink>,
-    /// Length of the master per unit of parameter, which scales equations to lengths and forces [length].
+    /// Length of the master per unit of parameter, which scales the equations [length].
     pub length: f64,
 }
 
@@ -136,19 +135,19 @@ impl Contact<'_> {
         PathVector { value, by_end: self.sum(self.path.change(), 0.0) }
     }
 
-    /// Place `Σ B_i(ξ1) x_i1` on the master at the end of path and step [length].
+    /// Position `Σ B_i(ξ1) x_i1` on the master at the end of the path and the step [length].
     #[inline]
     pub fn end_point(&self) -> PathVector {
         let value = self.sum(self.path.end(), 1.0);
         PathVector { value, by_end: self.sum(self.path.slope(), 1.0) }
     }
 
-    /// Outward push of the slave at the end of the step: `λ·x'(ξ1)` times the sign of `dξ` towards an end [force·length].
+    /// Outward force of the slave at the end of the step: `λ·x'(ξ1)` times the sign of `dξ` towards an end [force·length].
     pub fn outward_push(&self, outward: f64) -> f64 {
         self.unknowns.force.dot(&self.end_point().by_end) * outward
     }
 
-    /// Sum `Σ ∂D_i/∂ξ1 x_i1` at the end of the step: half the second derivative for a path of length zero [length].
+    /// Sum `Σ ∂D_i/∂ξ1 x_i1` at the end of the step; half the second derivative for a path of zero length [length].
     pub(super) fn end_bend(&self) -> Vec2 {
         self.sum(self.path.change(), 1.0)
     }
@@ -178,8 +177,8 @@ impl Contact<'_> {
         self.path.first()
     }
 
-    /// Factor of the couple in the forces on the master: the sliding increment `Δξ`, or one with a kink, because the offset of the slave is a moment
-    /// arm for paths of any length.
+    /// Factor of the couple in the forces on the master: the sliding increment `Δξ`. With a kink it is 1, because then the offset of the slave is a
+    /// moment arm even for a path of zero length.
     fn couple_factor(&self) -> f64 {
         self.kink.map_or(self.unknowns.increment, |_| 1.0)
     }
@@ -226,8 +225,8 @@ impl Contact<'_> {
         })
     }
 
-    /// Equations of a closed gap on a kinked axis at the end of the step: `x_s1 = Σ B_i(ξ1) x_i1 + g1 p1/GA`, where the force `p1` depends on the
-    /// contact force by `factor`. Without a kink those of [`closed`](Self::closed).
+    /// Equations of a closed gap on a kinked axis at the end of the step: `x_s1 = Σ B_i(ξ1) x_i1 + g1 p1/GA`, where `factor` is the derivative of the
+    /// force `p1` with respect to the contact force. Without a kink, they are the equations of [`closed`](Self::closed).
     pub(super) fn closed_on_kink(&self, force: Vec2, factor: f64) -> [Equation; 2] {
         let mut equations = self.closed();
         if let Some(kink) = &self.kink {
@@ -265,7 +264,7 @@ impl Contact<'_> {
         }
     }
 
-    /// Equation `λ·direction/ℓ = 0` of a frictionless contact, for a direction independent of the master.
+    /// Equation `λ·direction/ℓ = 0` of a frictionless contact, for a direction that does not depend on the master.
     pub(super) fn frictionless(&self, direction: PathVector) -> Equation {
         let (force, scale) = (self.unknowns.force, 1.0 / self.length);
         let way = force.dot(&direction.by_end) * scale;

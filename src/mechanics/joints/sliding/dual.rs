@@ -9,7 +9,7 @@ use crate::geometry::Vec2;
 /// Number of derivatives: offset of the slave, tangent, swing, `λ`, couple and sliding increment.
 pub(super) const ALL_SLOPES: usize = 11;
 
-/// No derivatives. Values come from the same operations in the same order.
+/// Number of derivatives of plain values, which result from the same operations in the same order.
 pub(super) const NO_SLOPES: usize = 0;
 
 const OFFSET: usize = 0;
@@ -19,8 +19,8 @@ const FORCE: usize = 6;
 const COUPLE: usize = 8;
 const WAY: usize = 10;
 
-/// Number with derivatives with respect to the offset of the slave from the smooth axis, mean tangent `τ`, swing `d`, force `λ`, couple, and sliding
-/// increment `Δξ`: [`ALL_SLOPES`] of them, or [`NO_SLOPES`].
+/// Number with its derivatives with respect to the offset of the slave from the smooth axis, the mean tangent `τ`, the swing `d`, the force `λ`, the
+/// couple, and the sliding increment `Δξ`. There are [`ALL_SLOPES`] or [`NO_SLOPES`] of them.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Dual<const SLOPES: usize> {
     pub value: f64,

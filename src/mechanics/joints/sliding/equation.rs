@@ -19,13 +19,13 @@ pub struct Equation {
     pub value: f64,
     /// Unit of the value.
     pub unit: Unit,
-    /// Derivative with respect to the movement of the slave.
+    /// Derivative with respect to the increment of the slave.
     pub by_slave: Vec2,
-    /// Factor of `B_i(ξ1)` in the derivative with respect to the movement of control point `i` of the master.
+    /// Factor of `B_i(ξ1)` in the derivative with respect to the increment of control point `i` of the master.
     pub by_end: Vec2,
-    /// Factor of `B̄_i` in the derivative with respect to the movement of control point `i` of the master.
+    /// Factor of `B̄_i` in the derivative with respect to the increment of control point `i` of the master.
     pub by_mean: Vec2,
-    /// Factor of `D_i` in the derivative with respect to the movement of control point `i` of the master.
+    /// Factor of `D_i` in the derivative with respect to the increment of control point `i` of the master.
     pub by_difference: Vec2,
     /// Derivatives with respect to the unknowns `λ`, `η` and `Δξ`.
     pub by_unknowns: ContactUnknowns,
@@ -45,7 +45,7 @@ impl Equation {
         }
     }
 
-    /// Derivative with respect to the movement of a control point of the master with these `B_i(ξ1)`, `B̄_i` and `D_i`.
+    /// Derivative with respect to the increment of a control point of the master with these `B_i(ξ1)`, `B̄_i` and `D_i`.
     pub fn by_master(&self, (end, mean, difference): (f64, f64, f64)) -> Vec2 {
         self.by_end * end + self.by_mean * mean + self.by_difference * difference
     }

@@ -4,8 +4,8 @@ use super::dual::{ContactDuals, Dual, DualVector, NO_SLOPES};
 use super::kink_on_path::{KinkOnPath, vanish};
 use super::{CONTACT_UNKNOWNS, Conserving, Contact, Equation, Kink, KinkState, SlidingLaw};
 
-/// Law of a slider on a master whose kink rotates with the master and is otherwise fixed, independent of the contact force. Energy, linear and
-/// angular momentum, and the gap to the kinked axis are conserved for any step size.
+/// Law of a slider on a master with a kink that only rotates with the master and does not depend on the contact force. Energy, linear and angular
+/// momentum, and the gap to the kinked axis are conserved for any step size.
 ///
 /// ```text
 /// x_s1 = Σ B_i(ξ1) x_i1 + g1 a1          a1 = (1 - q J)⁻¹ (1 + q J) a0          q = 2 Jτ·d/|τ|²
@@ -40,11 +40,11 @@ struct FrozenInStep<const SLOPES: usize> {
     direction: DualVector<SLOPES>,
     /// Speed `v1` of the kink along the master at the end of the step [length/time].
     speed: Dual<SLOPES>,
-    /// Shear force `p1 = GA a1` that belongs to the tangent jump `a1`, at the end of the step [force].
+    /// Force `p1 = GA a1` of the jump `a1` of the tangent at the end of the step [force].
     jump: DualVector<SLOPES>,
     /// Inertia force of the kink, `(Δπ/Δt) e` [force].
     inertia: DualVector<SLOPES>,
-    /// Growth of the kink energy per unit of path [force·length].
+    /// Change of the kink energy per unit of path [force·length].
     energy_slope: Dual<SLOPES>,
 }
 

@@ -16,7 +16,7 @@ pub(super) struct KinkOnPath<const SLOPES: usize> {
     pub over_square: Dual<SLOPES>,
     /// Offset of the slave from the smooth axis at the start of the step, `g0 a0` [length].
     pub offset_before: DualVector<SLOPES>,
-    /// Mean vector `r` from the contact on the master to the slave [length].
+    /// Mean vector `r` from the contact point of the master to the slave [length].
     pub arm: DualVector<SLOPES>,
 }
 
@@ -24,7 +24,7 @@ pub(super) struct KinkOnPath<const SLOPES: usize> {
 pub(super) const UNITS: [Unit; CONTACT_UNKNOWNS] =
     [Unit::Length, Unit::Length, Unit::Force, Unit::Force, Unit::Force];
 
-/// Equations that set these numbers to zero, in their [`UNITS`].
+/// Equations that set these values to zero, with the units [`UNITS`].
 pub(super) fn vanish(
     numbers: [Dual<ALL_SLOPES>; CONTACT_UNKNOWNS],
 ) -> [Equation; CONTACT_UNKNOWNS] {

@@ -13,10 +13,10 @@ use super::{CONTACT_UNKNOWNS, Conserving, Contact, Equation, Kink, KinkState, Sl
 /// ½ (v0 + v1) Δt = (Δs/Δξ) τ·u/|τ|²                      u = Δξ τ + Δ(g a) - 4 b J r
 /// ```
 ///
-/// The slave is on the axis as kinked by the contact force: the tangent jumps by `a` there, and the kink moves along the master with the speed `v`.
-/// Its energy `½ g |a|² (GA + ρA v²)`, with `ρA` a little larger than that of the beam, is missing in the mesh. The jump at the end of the step
-/// follows from `λ` across the master and from the second line. The balance of forces along the master remains. Without a [`Kink`] the law is
-/// [`Conserving`]. Derived in docs/theory.md, sections 10 and 10.1.
+/// The slave is on the axis with its kink under the contact force: the tangent of the axis jumps by `a` at the slave, and the kink moves along the
+/// master with the speed `v`. The mesh does not contain the energy `½ g |a|² (GA + ρA v²)` of the kink, in which `ρA` is slightly larger than that of
+/// the beam. The jump at the end of the step follows from the component of `λ` across the master and from the second line. The remaining equation is
+/// the balance of forces along the master. Without a [`Kink`] the law is [`Conserving`]. Derived in docs/theory.md, sections 10 and 10.1.
 #[derive(Debug, Clone, Copy)]
 pub struct Kinked;
 
@@ -54,7 +54,7 @@ struct KinkInStep<const SLOPES: usize> {
     on_path: KinkOnPath<SLOPES>,
     /// Speed `v1` of the kink along the master at the end of the step [length/time].
     speed: Dual<SLOPES>,
-    /// Force `p1 = GA a1` of the jump of the tangent at the end of the step [force].
+    /// Force `p1 = GA a1` of the jump `a1` of the tangent at the end of the step [force].
     jump: DualVector<SLOPES>,
     /// Mean force of the kink, `κ ½ (p0 + p1)` with `κ = 1 - ρA v0 v1/GA` [force].
     mean_force: DualVector<SLOPES>,

@@ -7,7 +7,7 @@ pub trait SlidingLaw {
     /// Five equations for the five unknowns of the contact, with derivatives.
     fn equations(&self, contact: &Contact<'_>) -> [Equation; CONTACT_UNKNOWNS];
 
-    /// Values of these equations with their units, bit-identical, for iterates without derivatives.
+    /// Values of these equations with their units, for iterates without derivatives. They are identical to the last bit.
     fn values(&self, contact: &Contact<'_>) -> [(f64, Unit); CONTACT_UNKNOWNS] {
         self.equations(contact).map(|equation| (equation.value, equation.unit))
     }

@@ -3,7 +3,7 @@
 use super::contact::AXES;
 use super::{CONTACT_UNKNOWNS, Contact, Equation, SlidingLaw, Unit};
 
-/// Gaps below this fraction of the master are rounding and define no direction.
+/// Gap, relative to the length of the master, below which it is due to rounding and defines no direction.
 const ROUNDING: f64 = 1e-13;
 
 /// Relaxed law of sliding: the contact is closed on average over each step. Energy, linear and angular momentum are conserved, the gap is not.

@@ -1,11 +1,11 @@
-//! Sliders in equilibrium.
+//! Static laws of sliders.
 //!
-//! The contact of a movement between two equilibria is that of a path of length zero at its end `ξ1`, on the master in its final configuration.
+//! A static contact is a contact with a path of zero length at `ξ1`, on the master in its final configuration.
 
 use super::{CONTACT_UNKNOWNS, Contact, Equation, SlidingLaw};
 use crate::geometry::Vec2;
 
-/// Law of a frictionless slider at rest, which makes the potential energy `λ·(x_s - Σ B_i(ξ) x_i) - ½ g(ξ) |λ|²/GA` of its contact stationary:
+/// Static law of a frictionless slider, which makes the potential energy `λ·(x_s - Σ B_i(ξ) x_i) - ½ g(ξ) |λ|²/GA` of its contact stationary:
 ///
 /// ```text
 /// x_s = Σ B_i(ξ) x_i + g(ξ) λ/GA          λ·x'(ξ) + ½ g'(ξ) |λ|²/GA = 0          η = 0
@@ -15,7 +15,7 @@ use crate::geometry::Vec2;
 #[derive(Debug, Clone, Copy)]
 pub struct Resting;
 
-/// Law of a slider held at the stop at an end of its master: `x_s = Σ B_i(ξ) x_i` at that end, with its kink.
+/// Static law of a slider held at the stop at an end of its master: `x_s = Σ B_i(ξ) x_i` at that end, with the kink of the master.
 #[derive(Debug, Clone, Copy)]
 pub struct AtStop {
     /// Sliding increment `Δξ` to the end [-].
@@ -40,7 +40,7 @@ impl SlidingLaw for AtStop {
     }
 }
 
-/// `(λ·x'(ξ) + ½ g'(ξ) |λ|²/GA)/ℓ = 0`: no work in displacements of the slave along the master.
+/// `(λ·x'(ξ) + ½ g'(ξ) |λ|²/GA)/ℓ = 0`: the contact does no work in displacements of the slave along the master.
 fn not_driven(contact: &Contact<'_>) -> Equation {
     let (force, scale) = (contact.unknowns.force, 1.0 / contact.length);
     let tangent = contact.end_point().by_end;
@@ -51,20 +51,20 @@ fn not_driven(contact: &Contact<'_>) -> Equation {
         let half = 0.5 * kink.compliance * scale;
         equation.value += half * kink.along.slope * force.norm_squared();
         equation.by_unknowns.force += force * (2.0 * half * kink.along.slope);
-        // For a path of length zero, the change of the slope is half the second derivative.
+        // For a path of zero length, the change of the slope is half the second derivative.
         equation.by_unknowns.increment += 2.0 * half * kink.along.change * force.norm_squared();
     }
     equation
 }
 
 impl Contact<'_> {
-    /// Contact forces `B_i(ξ) λ` on the control points of the master at rest [force].
+    /// Static contact forces `B_i(ξ) λ` on the control points of the master [force].
     pub fn master_forces_at_rest(&self) -> impl Iterator<Item = Vec2> + '_ {
         self.path.end().iter().map(|value| self.unknowns.force * *value)
     }
 
-    /// Derivatives of the contact forces `B_i(ξ) λ` on the control points of the master at rest: factors with respect to `λ` and `η`, and a force
-    /// with respect to `Δξ`.
+    /// Derivatives of the static contact forces `B_i(ξ) λ` on the control points of the master: factors with respect to `λ` and `η`, and a force with
+    /// respect to `Δξ`.
     pub fn master_force_slopes_at_rest(&self) -> impl Iterator<Item = (f64, f64, Vec2)> + '_ {
         let force = self.unknowns.force;
         let weights = self.path.end().iter().zip(self.path.slope());

@@ -18,8 +18,8 @@ impl Schedule {
         }
     }
 
-    /// Clock of a digital controller, if the schedule is one. Steps should end at its samples and actions. Controllers are never combined with other
-    /// schedules.
+    /// Clock of a digital controller; `None` for other schedules. Steps should end at its samples and actions. Controllers cannot be combined with
+    /// other schedules.
     pub fn sample_clock(&self) -> Option<SampleClock> {
         if let Self::DigitalController { clock, .. } = self { Some(*clock) } else { None }
     }

@@ -1,12 +1,12 @@
 //! File envelope: magic number, versions, lengths and checksum.
 //!
 //! ```text
-//! mark       8 bytes    89 "withy" 0D 0A; the first byte is no text, the last two show what turns line ends round
+//! mark       8 bytes    89 "withy" 0D 0A; the first byte is not text, the last two reveal converted line ends
 //! format     u16        little-endian, as all numbers
 //! program    u8, text   length and version of the program that wrote it, for people
 //! length     u64        of the content
 //! content
-//! checksum   u32        CRC-32 of all before it
+//! checksum   u32        CRC-32 of all preceding bytes
 //! ```
 
 use super::ArchiveError;

@@ -69,7 +69,7 @@ pub enum ArchiveError {
         "the file is damaged: its checksum is {found:08x}, but should be {right:08x}; use another copy"
     )]
     Damaged {
-        /// Checksum in the header.
+        /// Checksum stored in the file.
         found: u32,
         /// Checksum of the content.
         right: u32,

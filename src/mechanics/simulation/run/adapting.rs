@@ -24,7 +24,7 @@ impl Simulation {
         planned.map_or(stop, |(adaptive, pace)| adaptive.plan(&pace, now, stop).interval.end)
     }
 
-    /// Takes two equal steps within the tolerance, with shorter ones after rejections.
+    /// Takes two equal steps within the tolerance. After a rejection they are repeated with a smaller size.
     pub(super) fn adapt(
         &mut self,
         adaptive: &mut Adaptive,
@@ -88,7 +88,7 @@ impl Simulation {
                 }
                 Err(FailedStep { source: StepError::Overshoot { iterations, .. }, before }) => {
                     self.progress.count_try(before + iterations);
-                    // There is no comparison beyond an end, and the motion after an arrival differs from that before.
+                    // The error before the event does not apply to the motion after it.
                     self.clock.step_size = Some(StepSizeState { error: None, tries: 0, ..pace });
                     let start = interval.start;
                     let half = StepRetry::new(Interval::between(start, start + 0.5 * dt));
@@ -118,7 +118,7 @@ impl Simulation {
         }
     }
 
-    /// Takes a whole step and two halves. If a part has no solution, all are repeated with fixed kinks under contact forces.
+    /// Takes a whole step and two halves. If one of them has no solution, all are repeated with fixed kinks under contact forces.
     fn try_step(
         &mut self,
         adaptive: &mut Adaptive,
@@ -155,7 +155,7 @@ impl Simulation {
         resampling.as_mut()?.resume(doubling, &mut *self.stepper.integrator, &mut self.model, order)
     }
 
-    /// Returns true if a step is paused in its middle to sample controllers. A stopped run may continue or [restore the start of the
+    /// Returns true if a step is paused in its middle to sample controllers. A run stopped there may continue, or [restore the start of the
     /// step](Self::restore_step_start).
     pub fn is_paused_in_step(&self) -> bool {
         let adaptive = self.adaptive.as_ref();
@@ -164,7 +164,7 @@ impl Simulation {
             .is_some_and(Resampling::is_paused)
     }
 
-    /// Restores the start of a paused step, if there is one.
+    /// Restores the start of a paused step; does nothing otherwise.
     pub fn restore_step_start(&mut self) {
         if let Some(adaptive) = &mut self.adaptive
             && adaptive.resampling.as_mut().is_some_and(Resampling::abandon)
@@ -173,7 +173,7 @@ impl Simulation {
         }
     }
 
-    /// Continues to the end of a step without error estimate, or until a slider arrives.
+    /// Takes the rest of a step without error estimate, or the part until a slider arrives.
     fn cover_uncompared(
         &mut self,
         halving: StepRetry,

@@ -9,8 +9,8 @@ use crate::simulation::{SimulationError, WorkCounts};
 use crate::system::SystemState;
 
 impl Simulation {
-    /// Keeps snapshots after every step within a memory limit in bytes. When the limit is exceeded, the oldest snapshots except the first are
-    /// discarded. Zero disables snapshots. A reduced limit applies immediately.
+    /// Keeps snapshots after every step within a memory limit in bytes. Beyond the limit, the oldest snapshots are discarded, except the first. A
+    /// limit of zero disables snapshots. A reduced limit applies immediately.
     pub fn enable_snapshots(&mut self, limit: usize) {
         let mut snapshots = std::mem::take(&mut self.snapshots);
         snapshots.set_limit(limit, || self.snapshot(self.model.state()));
@@ -39,14 +39,14 @@ impl Simulation {
         }
     }
 
-    /// Rewinds to the end of the last step at or before a time, bit for bit. The present counts.
+    /// Rewinds to the end of the last step at or before a time, bit for bit. The present state is included.
     ///
     /// # Errors
     /// Fails if the time is outside the run, or the state is not stored.
     pub fn rewind(&mut self, time: f64) -> Result<(), SimulationError> {
         let (now, slack) = (self.time(), self.slack());
         let begun = self.history().samples().first().map_or(0.0, |row| row.measures.time);
-        // Zero denotes the start, which may be later.
+        // A time of zero denotes the start of the run, which may be later.
         let time = if time.abs() <= slack { begun } else { time };
         if time.is_nan() || time < begun - slack || time > now + slack {
             return Err(SimulationError::OutsideRun { time, start: begun, now });
@@ -134,7 +134,7 @@ impl Simulation {
         Ok(())
     }
 
-    /// Error for a state that is not stored, with the fewest steps that may lead to it.
+    /// Error for a state that is not stored, with the smallest number of steps that may lead to it.
     fn missing_snapshot_error(&self, target: String, steps: usize) -> SimulationError {
         let now = self.progress.counts.steps;
         let kept = self.snapshots.first().zip(self.snapshots.unbroken_from(now));

@@ -14,7 +14,7 @@ use crate::simulation::step_retry::StepRetry;
 use crate::simulation::{Arrival, Recording, ReleaseEvent, Sample, SimulationSettings, WorkCounts};
 use crate::system::{Scene, SystemState, check_name};
 
-/// Bound of plausible counters and grid points.
+/// Largest plausible counter and grid index.
 const MOST_COUNTED: usize = 1 << 52;
 
 /// Largest number of Newton iterations in settings.
@@ -31,7 +31,7 @@ struct Content<'a> {
     samples: Cow<'a, [Sample]>,
     permanent_rows: usize,
     extra: Cow<'a, [f64]>,
-    /// Number of configurations offered to the trajectory per stored one.
+    /// Number of configurations passed to the trajectory per stored configuration.
     every: usize,
     times: Cow<'a, [f64]>,
     numbers: Cow<'a, [f64]>,
@@ -52,7 +52,7 @@ impl Simulation {
     /// Serialises the simulation under a name, for [`from_bytes`](Self::from_bytes). Snapshots are not included.
     ///
     /// # Errors
-    /// Fails if a load follows a script function, or a release waits for one.
+    /// Fails if a load follows a script function, or a script function triggers a release.
     pub fn to_bytes(&self, name: &str) -> Result<Vec<u8>, ArchiveError> {
         let mut schedules = self.scene.schedules();
         if let Some((load, schedule)) = schedules.find(|(_, schedule)| !schedule.can_be_stored()) {

@@ -1,4 +1,4 @@
-//! Derivatives with respect to parameters of the scene, computed with the steps.
+//! Derivatives with respect to parameters of the scene, computed together with the steps.
 
 use super::{Simulation, SimulationSettings};
 use crate::simulation::sensitivities::Sensitivities;
@@ -8,11 +8,11 @@ use crate::simulation::{
 use crate::system::{Scene, System};
 
 impl Simulation {
-    /// Starts a simulation with its scenes at perturbed parameters. Derivatives with respect to these parameters are computed with the steps and do
-    /// not change them.
+    /// Starts a simulation together with scenes at perturbed parameters. The steps also compute derivatives with respect to these parameters, and
+    /// their results do not change.
     ///
     /// # Errors
-    /// Errors of [`start`](Self::start). Also fails if the method has no derivatives or the scenes differ in more than numbers.
+    /// Errors of [`start`](Self::start). Also fails if the method provides no derivatives, or the scenes differ in more than numbers.
     pub fn start_with_derivatives(
         scene: Scene,
         settings: SimulationSettings,
@@ -24,13 +24,13 @@ impl Simulation {
         Ok(run)
     }
 
-    /// Names of the parameters of derivatives, with the perturbations.
+    /// Names of the parameters, with their perturbations.
     pub fn parameters(&self) -> impl Iterator<Item = (&str, f64)> {
         self.stepper.sensitivities.iter().flat_map(|of| of.parameters())
     }
 
-    /// Perturbed run of a parameter. Its state is the present one plus or minus the derivative times the perturbation, so half the difference of both
-    /// results over the perturbation is a derivative.
+    /// Perturbed run of a parameter. Its state is the present state plus or minus the derivative times the perturbation. Half the difference of a
+    /// result between both runs, divided by the perturbation, is a derivative.
     ///
     /// # Errors
     /// Fails if there are no derivatives.
@@ -101,7 +101,7 @@ impl Simulation {
         &mut self.model
     }
 
-    /// Ends the derivatives at an event that they cannot pass.
+    /// Ends the computation of derivatives at an event after which they are undefined.
     pub(super) fn disable_derivatives(&mut self, event: &'static str) {
         let time = self.time();
         if let Some(sensitivities) = &mut self.stepper.sensitivities {

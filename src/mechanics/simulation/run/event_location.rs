@@ -10,30 +10,30 @@ use crate::simulation::first_step::first_step;
 use crate::simulation::{Arrival, ArrivalKind, SimulationError, StepSize};
 use crate::system::{Arriving, MasterEnd, MasterLimit, SliderState};
 
-/// Largest number of tries to find the time of an arrival. A few are usual.
+/// Largest number of attempts to find the time of an arrival. A few are usual.
 const MOST_TRIES: usize = 60;
 
-/// Distance from an end, relative to the master, at which an approaching slider has reached it. A step over the rest would convert rounding of
-/// positions to velocities.
+/// Distance from an end, relative to the master, below which an approaching slider has reached the end. A step over a shorter distance would convert
+/// rounding errors of positions to velocities.
 const NEAR: f64 = 1e-10;
 
-/// Number of halvings of a step to detect whether a slider at an end leaves it for a while.
+/// Number of halvings of a step in the test whether a slider at an end leaves it temporarily.
 const PROBES: i32 = 12;
 
-/// Number of impacts at the same end within as many steps after which the slider is held at the stop.
+/// Number of impacts at the same end, within as many steps, after which the slider is held at the stop.
 const CHATTER: usize = 3;
 
-/// Largest number of arrivals within one step of the grid; more are an error.
+/// Largest number of arrivals within one step of the grid. More arrivals are an error.
 pub(super) const MOST_ARRIVALS: usize = 10_000;
 
-/// Step that was cut at the arrival of a slider at an end of its master.
+/// Step that ends at the arrival of a slider at an end of its master.
 pub(super) struct EventStep {
-    /// Interval of the step and its work; `None` for a slider at the end that every step leads beyond it.
+    /// Interval of the step and its work. `None` if the slider is at the end and every step would lead beyond it.
     pub(super) step: Option<(Interval, NewtonReport)>,
     event: Event,
 }
 
-/// Event that ends a step early, or prevents it.
+/// Event that shortens or prevents a step.
 enum Event {
     Arrival(MasterLimit),
     /// A slider would jump past a limit, so the step ends just before it.
@@ -44,7 +44,7 @@ enum Event {
 
 enum ArrivalEstimate {
     Between(TimeBracket),
-    /// A step that ends with it was taken, or none is needed.
+    /// A step that ends with the event was taken, or no step is needed.
     Located(EventStep),
 }
 
@@ -66,7 +66,7 @@ impl TimeBracket {
         Self { before, after, last: None }
     }
 
-    /// Replaces the duration on the side of the new one.
+    /// Replaces the duration on the same side of the arrival.
     fn narrow(&mut self, duration: f64, distance: f64) {
         let side = if distance > 0.0 { BracketSide::After } else { BracketSide::Before };
         let is_again = self.last == Some(side);
@@ -85,17 +85,17 @@ impl TimeBracket {
         self.after.0 - self.before.0 <= 4.0 * f64::EPSILON * self.after.0
     }
 
-    /// Next duration to try: false position with a halved weight of a retained end (Illinois; Dowell & Jarratt 1971).
+    /// Next duration: false position, where the weight of a retained end is halved (Illinois; Dowell & Jarratt 1971).
     fn next_duration(&self) -> f64 {
         let ((t0, f0), (t1, f1)) = (self.before, self.after);
         let t = t1 - f1 * (t1 - t0) / (f1 - f0);
-        // Rounding may give an end.
+        // Rounding may give one of the ends.
         if t > t0 && t < t1 { t } else { 0.5 * (t0 + t1) }
     }
 }
 
 impl Simulation {
-    /// Takes a step that ends at the arrival of the slider that overshoots in the whole interval.
+    /// Takes a step that ends at the arrival of the slider that passes its limit in the whole interval.
     pub(super) fn locate_arrival(
         &mut self,
         interval: Interval,
@@ -147,7 +147,7 @@ impl Simulation {
         }
     }
 
-    /// Searches for a step that ends before the arrival, given one that ends after it.
+    /// Searches for a step that ends before the arrival, given a step that ends after it.
     fn bracket_arrival(
         &mut self,
         interval: Interval,
@@ -164,7 +164,7 @@ impl Simulation {
         if !self.model.is_at(limit) {
             return Ok(ArrivalEstimate::Between(TimeBracket::new((0.0, -left), after)));
         }
-        // If the whole step hardly leaves the end, the slider is held there. Half steps would only show rounding.
+        // If the slider hardly moves in the whole step, it is held at the end. Shorter steps would only show rounding errors.
         for halving in 1..=PROBES {
             if after.1 <= NEAR {
                 break;
@@ -192,7 +192,7 @@ impl Simulation {
         Ok(ArrivalEstimate::Located(at_once))
     }
 
-    /// Tries a step. A step that misses its target is counted but not taken.
+    /// Attempts a step. A step that misses its target is counted but not accepted.
     fn attempt(&mut self, cut: Interval) -> Result<Result<NewtonReport, Overshoot>, StepError> {
         match self.stepper.integrator.step(&mut self.model, cut) {
             Ok(report) => Ok(Ok(report)),
@@ -204,7 +204,7 @@ impl Simulation {
         }
     }
 
-    /// Returns true if a slider at a limit has an event other than being held: in the motion resolved by the steps it strikes.
+    /// Returns true if a slider at a limit strikes it, for velocities that the steps resolve. Otherwise it can only be held.
     fn has_impact(&mut self, limit: MasterLimit) -> bool {
         let dt = self.dt();
         !self.model.end_action(limit.slider).has_stop()
@@ -226,7 +226,7 @@ impl Simulation {
             let strikes = self.model.leads_beyond(limit);
             let kind = match self.model.end_action(limit.slider) {
                 _ if self.model.continues_beyond(limit) => {
-                    // The slider only touched the seam, or its velocity reversed just there.
+                    // The slider only touched the seam, or its velocity was reversed exactly there.
                     if landing.step.is_some() && !strikes {
                         continue;
                     }
@@ -242,7 +242,7 @@ impl Simulation {
                     self.model.release_slider(limit.slider);
                     ArrivalKind::Released
                 }
-                // The slider only touched the stop, or its velocity reversed just there.
+                // The slider only touched the stop, or its velocity was reversed exactly there.
                 _ if landing.step.is_some() && !strikes => ArrivalKind::Bounced,
                 _ if self.stays_held(limit, landing, dt)? => {
                     arriving.held.push(limit);
@@ -271,8 +271,8 @@ impl Simulation {
         Ok(())
     }
 
-    /// Returns true if a slider at a limit stays at its stop instead of bouncing: repeated impacts within few steps, an elastic contact that the
-    /// next steps resolve, or steps that pass the limit although the slider does not approach it.
+    /// Returns true if a slider at a limit stays at its stop instead of bouncing. This is the case for repeated impacts within few steps, for an
+    /// elastic contact that the next steps resolve, and if steps pass the limit although the slider does not approach it.
     fn stays_held(
         &mut self,
         limit: MasterLimit,
@@ -286,14 +286,14 @@ impl Simulation {
         Ok(landing.step.is_none() && !self.model.approaches(limit, dt)?)
     }
 
-    /// Returns true if a slider at a seam becomes held instead of passing: both sides lead it back at once, or it oscillates within few steps.
+    /// Returns true if a slider at a seam becomes held instead of passing it: both sides lead it back at once, or it oscillates within few steps.
     fn is_held_at_seam(&self, limit: MasterLimit, landing: &EventStep, dt: f64) -> bool {
         let is_led_back = landing.step.is_none() && self.model.is_at_seam_event(limit.slider);
         is_led_back || self.oscillates_at_seam(limit, dt)
     }
 
-    /// Time in which repeated impacts or oscillations are not resolved by steps of a length [time]. Variable steps grow with the flights, so for them
-    /// the step in which a wave passes a span is used.
+    /// Time within which repeated impacts or oscillations are not resolved by steps of length `dt` [time]. Variable steps become longer between
+    /// impacts. For them, the time in which a wave passes a span replaces the step length.
     fn unresolved(&self, dt: f64) -> f64 {
         CHATTER as f64
             * match self.settings.dt {
@@ -302,7 +302,7 @@ impl Simulation {
             }
     }
 
-    /// Returns true if a slider has passed the same seam back and forth so often within as many steps that the motion in between is not resolved.
+    /// Returns true if a slider has passed a seam back and forth several times within as many steps, so that the motion in between is not resolved.
     fn oscillates_at_seam(&self, limit: MasterLimit, dt: f64) -> bool {
         let since = self.time() - self.unresolved(dt);
         let own = self.progress.arrivals.iter().rev();
@@ -323,7 +323,7 @@ impl Simulation {
         Arrival { time: self.model.time(), limit, beam, kind, impulse: Vec2::zeros() }
     }
 
-    /// Returns true if a slider has struck the same end so often within as many steps that its flights are not resolved.
+    /// Returns true if a slider has struck an end several times within as many steps, so that the motion in between is not resolved.
     fn chatters(&self, limit: MasterLimit, dt: f64) -> bool {
         let own = self.progress.arrivals.iter().rev();
         let mut last = own.filter(|arrival| arrival.limit.slider == limit.slider).take(CHATTER);

@@ -6,7 +6,7 @@ use crate::simulation::{Recording, WorkCounts};
 use crate::system::SystemFeature;
 
 impl Simulation {
-    /// Features that this simulation uses and omits: those of its scene, then those of its steps.
+    /// Features that this simulation uses and omits: features of its scene, then of its steps.
     pub fn explain(&self) -> Vec<SystemFeature> {
         let method = self.settings().method;
         let mut parts = self.model().explain(self.scene(), &[method]);
@@ -55,7 +55,7 @@ impl Simulation {
         }
     }
 
-    /// Treatment and number of failed and rejected steps.
+    /// Treatment of failed and rejected steps, with their number.
     fn explain_tries(&self) -> SystemFeature {
         let WorkCounts { rejected, retries, .. } = self.counts();
         match &self.adaptive {

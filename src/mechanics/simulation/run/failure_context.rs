@@ -1,4 +1,4 @@
-//! Conditions under which every step fails, however short.
+//! Conditions under which steps of any length fail.
 
 use super::Simulation;
 use crate::beams::BodyIndex;
@@ -9,16 +9,16 @@ use crate::simulation::Axes;
 use crate::simulation::warning::short;
 use crate::system::{Element, SliderState};
 
-/// Axis compression factor below which the axis counts as crushed.
+/// Ratio of the axis length to the drawn length below which the axis counts as crushed.
 const COMPRESSED: f64 = 0.5;
 
-/// Axis stretch factor above which the axis counts as torn.
+/// Ratio of the axis length to the drawn length above which the axis counts as torn.
 const STRETCHED: f64 = 1.5;
 
 /// Contact force, relative to the shear stiffness of the beam, above which the axis folds.
 const FOLDING_FORCE: f64 = 0.1;
 
-/// Relative distance to an end below which the kink under a slider keeps it off the end.
+/// Distance of a slider from an end, relative to the master, below which the kink under the slider keeps it off the end.
 const END_DISTANCE: f64 = 5e-3;
 
 impl Simulation {

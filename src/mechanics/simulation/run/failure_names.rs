@@ -5,7 +5,7 @@ use crate::beams::{BodyIndex, Station};
 use crate::integrators::{FailureSource, StepError};
 use crate::joints::CONTACT_UNKNOWNS;
 
-/// Names of the movements of a control point.
+/// Names of the components of a control point.
 const MOVEMENTS: [&str; 3] = ["x", "y", "the angle"];
 
 impl Simulation {

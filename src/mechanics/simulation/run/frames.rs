@@ -6,7 +6,7 @@ use crate::simulation::Outline;
 use crate::system::SystemError;
 
 impl Simulation {
-    /// Indices of recorded configurations between two times, at most `most`, spread as evenly in time as recorded.
+    /// Indices of at most `most` recorded configurations between two times, spread over the recorded ones as evenly as possible.
     pub fn frames_between(&self, from: f64, to: f64, most: usize) -> Vec<usize> {
         let trajectory = self.trajectory();
         let first = trajectory.times().partition_point(|time| *time < from);

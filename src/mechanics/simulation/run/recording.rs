@@ -9,7 +9,7 @@ impl Simulation {
         self.record.recording
     }
 
-    /// Changes the selection of recorded states from here on.
+    /// Changes the selection of recorded states for the following steps.
     pub fn record(&mut self, recording: Recording) {
         self.record.recording = recording;
         if let Some(sensitivities) = &mut self.stepper.sensitivities {
@@ -41,7 +41,7 @@ impl Simulation {
         self.store_snapshot();
     }
 
-    /// Adds a temporary row for the present state, unless it has one or a step is paused in its middle.
+    /// Adds a temporary row for the present state, unless the state has a row or a step is paused in its middle.
     pub(in crate::simulation) fn show_present(&mut self) {
         if self.is_paused_in_step() {
             return;

@@ -1,6 +1,6 @@
 //! Releases between two steps of a run.
 //!
-//! A release belongs to the start of a step. The state at the end of the previous step is unreleased, so continuing after a rewind repeats the
+//! A release occurs at the start of a step. The state at the end of the previous step is unreleased, so that the run after a rewind repeats the
 //! release.
 
 use std::rc::Rc;
@@ -15,7 +15,7 @@ impl Simulation {
         &self.progress.releases
     }
 
-    /// Returns true if a release waits to be triggered by the caller.
+    /// Returns true if a release is triggered by the caller and has not been executed.
     pub fn waits_for_release(&self, release: usize) -> bool {
         let described = self.scene.releases.get(release);
         described.is_some_and(|described| described.trigger == Trigger::Outside)
@@ -26,7 +26,7 @@ impl Simulation {
         self.releases().iter().any(|gone| gone.release == release)
     }
 
-    /// Executes a release of the scene at the present time, once.
+    /// Executes a release of the scene at the present time, unless it was executed before.
     ///
     /// # Errors
     /// Fails if the scene cannot be built, which succeeded before.
@@ -68,7 +68,7 @@ impl Simulation {
         Ok(())
     }
 
-    /// Marks the given objects released, before a state is restored.
+    /// Marks the given objects as released, before a state is restored.
     pub(super) fn restore_releases(
         &mut self,
         let_go: &Rc<[ReleaseEvent]>,
@@ -92,7 +92,7 @@ impl Simulation {
         Ok(record.relocate_sensors(scene, model)?)
     }
 
-    /// Executes all pending triggered releases in a dry run, because scripts may wait for them.
+    /// Executes all releases that the caller triggers in a dry run, because scripts may wait for them.
     pub(super) fn dry_run_releases(&mut self) -> Result<(), SimulationError> {
         for release in 0..self.scene.releases.len() {
             if self.waits_for_release(release) {

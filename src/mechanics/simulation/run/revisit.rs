@@ -1,4 +1,4 @@
-//! Access to earlier states through a copy: stored snapshots, or a repeated run.
+//! Access to earlier states through a copy, by a stored snapshot or by repeating the run.
 
 use super::Simulation;
 use crate::simulation::{Monitor, SimulationError};
@@ -16,7 +16,7 @@ impl Monitor for PauseTime<'_> {
 }
 
 impl Simulation {
-    /// Steps and times of the contiguous stored states up to the present, inclusive.
+    /// Steps and times of the uninterrupted sequence of stored states that ends at the present.
     pub fn stored_states(&self) -> Vec<(usize, f64)> {
         let steps = self.progress.counts.steps;
         let from = self.snapshots.unbroken_from(steps).unwrap_or(steps);
@@ -64,8 +64,8 @@ impl Simulation {
         Ok(copy)
     }
 
-    /// Repeats the run of the original in a copy up to a row of its history. Returns true if energies, momenta and exchanges agree bit for bit.
-    /// Script functions called during the original run may make them differ.
+    /// Repeats the run of the original in a copy up to a row of its history. Returns true if energies, momenta and exchanges agree bit for bit. They
+    /// may differ if script functions were called during the original run.
     ///
     /// # Errors
     /// Errors of [`run_to`](Self::run_to), or a missing row.
@@ -79,7 +79,7 @@ impl Simulation {
         let Some(wanted) = rows.get(row) else { return Ok(false) };
         let time = wanted.measures.time;
         if time > self.time() {
-            // Steps were not planned to end at arrivals, so the run continues towards the next row and pauses.
+            // The original steps may have been planned beyond the arrival, so the run continues towards the next row and pauses at the arrival.
             let is_arrival = |at: &f64| of.arrivals().iter().any(|arrival| arrival.time == *at);
             let mut ends = rows[row..].iter().map(|row| row.measures.time);
             let goal = ends.find(|end| !is_arrival(end)).unwrap_or(time);

@@ -24,7 +24,7 @@ impl Simulation {
         self.model.section_forces_along(&self.scene, beam)
     }
 
-    /// Places along a beam for repeated sampling: its knots, and a number of places between consecutive knots.
+    /// Places along a beam for repeated sampling: its knots, and `within` places between consecutive knots.
     ///
     /// # Errors
     /// Fails if an axis has a point without a tangent.

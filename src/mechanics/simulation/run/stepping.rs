@@ -1,4 +1,4 @@
-//! Steps of the time grid: whole or halved, cut at arrivals of sliders, and recorded.
+//! Steps of the time grid: taken, halved on failure, cut at arrivals of sliders, and recorded.
 
 use super::Simulation;
 use super::event_location::MOST_ARRIVALS;
@@ -61,7 +61,7 @@ impl Simulation {
                             self.keep_row();
                         }
                         let arrived = self.execute_arrivals(&landing);
-                        // An arrival without a step has no snapshot. Continuing from the previous step leads here again.
+                        // An arrival without a step has no snapshot. A run from the previous step reaches the arrival again.
                         if landing.step.is_some() {
                             self.store_snapshot();
                         }
@@ -98,7 +98,7 @@ impl Simulation {
     }
 
     fn step_or_freeze_kinks(&mut self, interval: Interval) -> Result<NewtonReport, StepError> {
-        // Resets the law only here, because queries of the last step depend on it.
+        // The kinks follow the forces again only from here on, because queries of the last step depend on the fixed kinks.
         self.model.unfreeze_kinks();
         let stepped = self.stepper.step(&mut self.model, interval);
         let stepped = match stepped {
@@ -109,13 +109,13 @@ impl Simulation {
             other => other,
         };
         if self.stepper.sensitivities.is_some() && self.model.has_frozen_kinks() {
-            // The perturbed runs may use the other law.
+            // The perturbed runs may have had no need to fix the kinks, and then have other equations.
             self.disable_derivatives("the kink under a slider is not adapted to the contact force");
         }
         stepped
     }
 
-    /// Fixes the kinks under contact forces after a failed step. Returns true if that changes the step.
+    /// Fixes the kinks under contact forces after a failed step. Returns true if this changes the equations of the step.
     pub(super) fn keeps_kinks_for(&mut self, source: &StepError) -> bool {
         match source {
             StepError::Overshoot { .. } | StepError::Load { .. } => false,

@@ -17,10 +17,10 @@ impl Simulation {
         self.scene.place(station, self.model.meshes())
     }
 
-    /// Lowest natural modes about the present configuration, treated as an equilibrium under its present section and constraint forces.
+    /// Lowest natural modes about the present configuration, treated as an equilibrium with its present section and constraint forces.
     ///
     /// # Errors
-    /// Fails if there are too few modes, a load follows the beam, these forces are undetermined, or the search is stopped.
+    /// Fails if there are too few modes, a load is a follower load, forces are undetermined, or the search is stopped.
     pub fn modes(
         &mut self,
         count: usize,
@@ -62,7 +62,7 @@ impl Simulation {
         Ok(Outline::draw(self.outlines()?, self.time(), &bodies))
     }
 
-    /// Recorded configuration nearest to a time, for drawing; `None` without any.
+    /// Recorded configuration nearest to a time, for drawing; `None` if nothing is recorded.
     ///
     /// # Errors
     /// Fails if an axis has a point without a tangent.
@@ -73,7 +73,7 @@ impl Simulation {
         Ok(Some(Outline::draw(self.outlines()?, self.record.trajectory.times()[index], &bodies)))
     }
 
-    /// Time at which an object was released or a slider left its master, if it was [time].
+    /// Time at which an object was released or a slider left its master [time]; `None` if neither occurred.
     pub fn release_of(&self, hold: Releasable) -> Option<f64> {
         let is_release = |arrival: &&Arrival| {
             Releasable::Slider(arrival.limit.slider) == hold

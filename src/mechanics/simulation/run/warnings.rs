@@ -10,50 +10,50 @@ use crate::simulation::{Invariant, StepSize, Warning};
 use crate::system::{RESOLVED_IMPACT, Resolution, SpringLaw, System, SystemFeature};
 use crate::vibration::{Modes, VibrationError};
 
-/// Unresolved fraction of the kinetic energy above which steps are too long. It is that of a single vibration with 3.5 steps per period, whose period
-/// is 20 % too long.
+/// Unresolved fraction of the kinetic energy above which the steps are too long. A single vibration reaches it with 3.5 steps per period; its period
+/// is then 20 % too long.
 const LARGEST_SHARE: f64 = 0.2;
 
-/// Unresolved fraction that is reported even if the motion as a whole is resolved,
+/// Unresolved fraction above which a warning is given even if the motion as a whole is resolved, if the phase exceeds [`HIDDEN_TURN`].
 const HIDDEN_SHARE: f64 = 0.05;
 
-/// provided that its phase per step exceeds this value [rad].
+/// Phase per step above which a small unresolved fraction causes a warning [rad].
 const HIDDEN_TURN: f64 = 2.0 * TAU;
 
-/// Bodies with less than this fraction of the kinetic energy are ignored.
+/// Kinetic energy of a body, relative to the total, below which the body is ignored.
 const NOTHING: f64 = 1e-8;
 
-/// Energy drift that rounding does not reach in some ten thousand steps, for any stiffness.
+/// Energy drift above which a warning is given. Rounding does not reach it in some ten thousand steps, for any stiffness.
 const LARGEST_DRIFT: f64 = 1e-7;
 
-/// Relative rounding error of dissipated energies.
+/// Rounding error of dissipated energies, relative to them.
 const DISSIPATION_ROUNDING: f64 = 1e-7;
 
-/// Fraction of the total energy that counts as large.
+/// Change of the kinetic energy in a step, relative to the total energy, above which it counts as large.
 const MUCH: f64 = 0.3;
 
-/// Largest number of unknowns for which modes as drawn are computed.
+/// Largest number of unknowns for which modes of the initial configuration are computed.
 const MOST_UNKNOWNS: usize = 1200;
 
-/// Numbers of modes to compute until one is not a rigid-body mode.
+/// Numbers of modes that are computed until one of them is not a rigid-body mode.
 const MODES: [usize; 3] = [4, 8, 16];
 
 /// Number of recent steps examined for alternating lengths.
 const RECENT_STEPS: usize = 200;
 
-/// Relative difference of alternating step lengths.
+/// Difference of successive step lengths, relative to them, above which they alternate.
 const ALTERNATION: f64 = 0.1;
 
 /// Largest acceptable number of alternations.
 const MOST_TURNS: usize = 20;
 
-/// Largest number of sliders whose resolution is explained.
+/// Largest number of sliders whose resolution is described.
 const SLIDERS: usize = 6;
 
 impl Simulation {
-    /// Warnings about motion that the steps so far do not resolve. Undone steps do not count.
+    /// Warnings about motion that the steps so far do not resolve. Steps undone by a rewind do not count.
     ///
-    /// The lowest period of the scene is computed when the first warning needs it.
+    /// The lowest period of the scene is computed when a warning first needs it.
     pub fn warnings(&self) -> Vec<Warning> {
         let (dt, resolution) = (self.longest_step(), self.model.resolution());
         let mut notes = Vec::new();
@@ -134,7 +134,7 @@ impl Simulation {
         share > LARGEST_SHARE || (share > HIDDEN_SHARE && turn > HIDDEN_TURN)
     }
 
-    /// Damped beams whose motion is unresolved at a step size [time] although that of the scene is resolved.
+    /// Damped beams whose motion is unresolved at a step size [time], although the motion of the scene as a whole is resolved.
     fn unresolved_beams(&self, dt: f64) -> impl Iterator<Item = Warning> {
         let least = NOTHING * self.model.resolution().kinetic();
         let beams = self.model.resolution_by_beam();
@@ -147,8 +147,8 @@ impl Simulation {
         })
     }
 
-    /// Alternating long and short steps in scenes where velocity errors persist. Such errors are multiplied by -1 in each step, and long and short
-    /// steps do not cancel.
+    /// Warning about alternating long and short steps in scenes with persistent velocity errors. Each step multiplies such errors by -1, so the
+    /// errors of a long and a short step do not cancel.
     fn uneven_steps(&self) -> Option<Warning> {
         let keeps = self.model.has_rigid_links() || self.scene.dissipating().next().is_some();
         if !keeps || !matches!(self.settings.dt, StepSize::Fixed(_)) {
@@ -168,14 +168,15 @@ impl Simulation {
         (turns >= MOST_TURNS).then_some(Warning::Uneven { shortest, longest })
     }
 
-    /// Longest step taken; a requested step size may never have been used [time].
+    /// Longest step taken [time]. The requested step size may be longer.
     fn longest_step(&self) -> f64 {
         let rows = self.history().samples();
         let longest = rows.iter().map(|row| row.dt).fold(0.0, larger);
         if longest > 0.0 { longest.min(self.dt()) } else { self.dt() }
     }
 
-    /// Energy drift that contradicts the claims of the method and exceeds rounding. Sliders are excluded, because their rules make their own claims.
+    /// Energy drift that exceeds rounding although the method claims to conserve the energy. Scenes with sliders are excluded, because sliding rules
+    /// have their own claims.
     fn excess_energy_drift(&self) -> Option<f64> {
         let keeps = self.settings.method.entry().claims.energy == EnergyClaim::Conserved;
         let rows = self.history().samples();
@@ -193,7 +194,8 @@ impl Simulation {
         (drift > LARGEST_DRIFT).then_some(drift)
     }
 
-    /// Name of the method with numerical damping; `None` if it is in use. It damps strains: beams, and springs with a linear law.
+    /// Name of the method with numerical damping; `None` if it is in use or has no effect. It damps strains of beams and of springs with a linear
+    /// law.
     fn damping_method(&self) -> Option<&'static str> {
         let entries = INTEGRATORS.iter();
         let damping = entries.filter(|entry| entry.claims.energy == EnergyClaim::NonIncreasing);
@@ -204,8 +206,8 @@ impl Simulation {
         others.find(|name| *name != self.settings.method.entry().name)
     }
 
-    /// Largest energy gained from a dissipative element in a step of the fourth-order method, which has a backward substep; `None` if explained by
-    /// rounding.
+    /// Largest energy gained from a dissipative element in a step of the fourth-order method, whose backward substep may gain energy; `None` if it is
+    /// due to rounding.
     fn energy_gain(&self) -> Option<Warning> {
         if self.settings.method != Method::FourthOrder {
             return None;
@@ -223,11 +225,11 @@ impl Simulation {
         (beyond > 0.0).then_some(Warning::EnergyGain { time, dt, energy })
     }
 
-    /// Possible causes of a large change of kinetic energy within a step: the strongest damping, and controllers.
+    /// Possible causes of a large change of the kinetic energy within a step: the element with the largest dissipation, and controllers.
     fn possible_causes(&self) -> Vec<RateChangeCause> {
         let rows = self.history().samples();
         let others = rows.last().map(|row| row.measures).unwrap_or_default().dissipated;
-        // A damper may release stored energy arbitrarily slowly, so only kinetic energy lost within a step counts.
+        // A damper may dissipate stored energy arbitrarily slowly, so only the kinetic energy lost within a step counts.
         let left = rows.iter().map(|row| row.measures.energy.kinetic).fold(0.0, larger);
         let most = self.model.most_damping();
         let is_much = |energy: f64| larger(energy, others) > MUCH * (larger(energy, others) + left);
@@ -240,7 +242,7 @@ impl Simulation {
         dampers.into_iter().chain(controllers.take(1)).collect()
     }
 
-    /// Lowest period of the scene as drawn; `None` with sliders, without vibration, or for large scenes [time].
+    /// Lowest period of the initial configuration [time]; `None` with sliders, without vibration, or for large scenes.
     fn lowest_period(&self) -> Option<f64> {
         self.initial_geometry.lowest_period(|| {
             let slides = self.model.slider_names().next().is_some();

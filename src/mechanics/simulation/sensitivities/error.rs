@@ -44,7 +44,7 @@ pub enum DerivativeError {
         /// Perturbation in the units of the parameter.
         distance: f64,
     },
-    /// Parameter that shifts times of jumps or kinks of loads.
+    /// Parameter that changes the times of jumps or kinks of loads.
     #[error(
         "times of jumps, kinks or releases depend on '{parameter}', so that derivatives are discontinuous; give times that do not depend on it"
     )]
@@ -52,7 +52,7 @@ pub enum DerivativeError {
         /// Name of the parameter.
         parameter: String,
     },
-    /// Event at a time that depends on parameters.
+    /// Event whose time depends on parameters.
     #[error(
         "there are no derivatives after t = {time}: {event}, at a time that depends on the parameters, where derivatives are discontinuous"
     )]
@@ -62,7 +62,7 @@ pub enum DerivativeError {
         /// Description of the event.
         event: &'static str,
     },
-    /// Run that was changed other than by steps.
+    /// Run that was changed in another way than by steps.
     #[error(
         "there are no derivatives after {change}: they are computed during the steps of an uninterrupted run"
     )]

@@ -15,7 +15,7 @@ use crate::system::sliders::Sliders;
 use crate::system::state::MotionState;
 use crate::system::{BeamDefinition, Scene, System, SystemError, SystemState};
 
-/// Accuracy of strains in units of rounding. Strains are differences of coordinates larger than spans.
+/// Accuracy of strains in units of rounding. Strains are differences of coordinates that are larger than spans.
 const STRAIN_ROUNDINGS: f64 = 100.0;
 
 /// Bodies of a scene on their meshes, from which the model is built.
@@ -38,7 +38,7 @@ impl System {
         Ok(model)
     }
 
-    /// Builds the mechanism of a scene at rest in the given state and time. Velocities are checked against the joints only there.
+    /// Builds the mechanism of a scene in the given static state and time. Only there, velocities are checked against the joints.
     ///
     /// # Errors
     /// Errors of [`assemble`](Self::assemble), or a function without a value at that time.

@@ -5,10 +5,10 @@ use crate::linalg::BlockLayout;
 use crate::system::scene::Ties;
 use crate::system::sliders::SliderContact;
 
-/// Number of sliders from which contacts are eliminated block by block. For fewer, the border is faster (docs/studies.md).
+/// Number of sliders from which contacts are eliminated block by block. For fewer sliders a dense border is faster (docs/studies.md).
 const MANY: usize = 4;
 
-/// Largest number of points of a rigid body that is eliminated with its contact.
+/// Largest number of points of a rigid body that is eliminated together with its contact.
 const MOST_POINTS: usize = 4;
 
 impl Numbering {
@@ -35,7 +35,7 @@ impl Numbering {
             }
             roots.into_iter().flatten().for_each(|root| sliders_on[root] += 1);
         }
-        // Nothing else slides on free slaves.
+        // A slave can be eliminated with its contact if no other slider moves its unknowns.
         let own = sliders.iter().map(|slider| {
             let own = self.unknowns_of_free_slave(slider);
             let root = component[*own.first()?];

@@ -6,10 +6,10 @@ use crate::system::elements::{Dragged, Element};
 use crate::system::{Scene, SpringKind, System, SystemError};
 
 impl System {
-    /// Rejects a rigid body with a movement that has neither inertia nor restraint, because its acceleration would be undetermined.
+    /// Rejects a rigid body with a degree of freedom without inertia and without restraint, because its acceleration would be undetermined.
     ///
-    /// Restraints are a support, a drive, a shared movement, a mass at a point, or an element at a point. To restrain the angle, the point must be
-    /// off the centre or rotate with the body.
+    /// A restraint is a support, a drive, a tied degree of freedom, a mass at a point, or an element at a point. A point restrains the angle only if
+    /// it is off the centre or rotates with the body.
     pub(super) fn check_movements_held(&self, scene: &Scene) -> Result<(), SystemError> {
         let inertia = self.diagonal_of_inertia();
         let first = scene.first_rigid_body();

@@ -6,7 +6,7 @@ use crate::joints::Component;
 use crate::system::SystemError;
 use crate::system::scene::Scene;
 
-/// Marks components that are not unknowns.
+/// Number of components that are not unknowns.
 const NONE: usize = usize::MAX;
 
 /// Unknowns in the order of the bodies, before bandwidth reduction.
@@ -21,10 +21,10 @@ pub struct InitialNumbering {
 }
 
 impl InitialNumbering {
-    /// Numbers the free components of a scene, with one number per tied class.
+    /// Numbers the free components of a scene. Tied components share a number.
     ///
     /// # Errors
-    /// Fails if nothing is free.
+    /// Fails if all degrees of freedom are fixed.
     pub fn new(scene: &Scene, tied: &mut TiedComponents) -> Result<Self, SystemError> {
         let all = tied.count();
         let held = tied.links.iter().map(|link| tied.component(*link, Component::X));
@@ -53,7 +53,7 @@ impl InitialNumbering {
             }
         }
         match unknowns {
-            // Scenes with prescribed movements only still yield forces.
+            // Reactions of scenes in which all motions are prescribed can still be computed.
             0 if scene.drives.is_empty() => {
                 Err(SystemError::NothingMoves { scene: scene.name.clone() })
             }

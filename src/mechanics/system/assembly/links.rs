@@ -5,14 +5,14 @@ use crate::geometry::larger;
 use crate::linalg::BandedMatrix;
 use crate::system::{Scene, System, SystemError, UnknownKind};
 
-/// Response to a disturbance of size one above which a force is due to rounding.
+/// Force response to a unit gap above which a constraint force is undetermined except for rounding.
 const UNDETERMINED: f64 = 1e11;
 
 impl System {
     /// Rejects rigid bodies and rollers with redundant constraints.
     ///
-    /// All movements get unit mass. Then the forces that close small gaps are about as large as the gaps, times at most the square of the number of
-    /// bodies in a chain, if they are determined.
+    /// All degrees of freedom get unit mass. Determined forces that close small gaps are then at most as large as the gaps times the square of the
+    /// number of bodies in a chain.
     pub(super) fn check_links(&self, scene: &Scene) -> Result<(), SystemError> {
         if self.links().forces() == 0 {
             return Ok(());
@@ -29,7 +29,7 @@ impl System {
             }
         }
         self.links().add_coupling(self.bodies(), unknowns.count(), &mut matrix);
-        // Gaps without symmetry, which no symmetry of a scene can close.
+        // Pseudo-random gaps, which a symmetry of the scene cannot close by chance.
         let mut forces = vec![0.0; unknowns.count()];
         let across = self.links().rollers().map(|(unknown, _)| unknown);
         let of_links = self.links().iter().flat_map(|link| link.unknowns);

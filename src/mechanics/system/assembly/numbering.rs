@@ -1,4 +1,4 @@
-//! Degrees of freedom with movements tied to each other or to the ground.
+//! Degrees of freedom, tied to each other or to the ground.
 
 use super::initial_numbering::InitialNumbering;
 use super::tied_components::{GROUND, TiedComponents};
@@ -18,7 +18,7 @@ pub struct LinkPlace {
     pub force: [usize; 2],
 }
 
-/// Degree of freedom of every component of every control point. Unknowns come first, supported ones last.
+/// Degree of freedom of every component of every control point. Unknowns come first, supported degrees of freedom last.
 #[derive(Debug, Clone)]
 pub struct Numbering {
     pub degrees_of_freedom: Vec<Vec<[usize; 3]>>,
@@ -27,15 +27,15 @@ pub struct Numbering {
     pub rollers: Vec<Option<(usize, (usize, usize))>>,
     pub unknowns: usize,
     pub groups: Vec<Vec<usize>>,
-    /// Number of prescribed degrees of freedom, the first of the supported ones.
+    /// Number of prescribed degrees of freedom, which precede the fixed ones.
     prescribed: usize,
     supported: usize,
     half_bandwidth: usize,
 }
 
 impl Numbering {
-    /// Numbers the movements of bodies; `place` locates stations on the meshes. Constraints with `border` unknowns are numbered between the unknown
-    /// and the supported movements. Joints and drives in `released` tie nothing.
+    /// Numbers the degrees of freedom of bodies; `place` locates stations on the meshes. `border` contact unknowns are numbered between unknown and
+    /// supported degrees of freedom. Joints and drives in `released` tie nothing.
     pub fn new(
         scene: &Scene,
         released: &[Releasable],
@@ -77,7 +77,7 @@ impl Numbering {
             });
             degrees_of_freedom.push(points.collect());
         }
-        // Forces at a point couple its movements, so they are numbered next to each other.
+        // Elements at a point couple its components, so consecutive numbers keep the band narrow.
         for (index, body) in bodies.iter().enumerate().filter(|(_, body)| body.order() == 1) {
             for point in 0..body.control_points().len() {
                 groups.push(initial.numbers([(index, point)].into_iter(), &mut tied));
@@ -98,8 +98,8 @@ impl Numbering {
         })
     }
 
-    /// Supports in the order of their degrees of freedom (prescribed ones first), and the unknowns; constraints with `border` unknowns are numbered
-    /// between.
+    /// Supports in the order of their degrees of freedom (prescribed ones first), and the unknowns. `border` contact unknowns are numbered between
+    /// them.
     pub fn supports_and_unknowns(
         &self,
         scene: &Scene,

@@ -1,15 +1,15 @@
 //! Determinacy of the contact forces of sliders. Redundant contacts have no unique forces.
 //!
-//! Impulses `P` at the contacts change the velocities across the masters by `G M⁻¹ Gᵀ P`. If this matrix is singular, some impulses change nothing,
-//! and the forces of a step are not determined.
+//! Contact impulses `P` change the velocities across the masters by `G M⁻¹ Gᵀ P`. If this matrix is singular, some impulses have no effect, and the
+//! forces of a step are not determined.
 
 use crate::system::errors::SliderError;
 use crate::system::{Scene, System, SystemError};
 
-/// Pivot of the Cholesky factorisation, relative to the diagonal, below which a response is due to rounding.
+/// Pivot of the Cholesky factorisation, relative to the diagonal entry, below which a pivot is due to rounding.
 const ROUNDING_PIVOT: f64 = 1e-13;
 
-/// Response below which only rounding acts on a slider, relative to the response of the total mass.
+/// Velocity response to a unit impulse at a slider, relative to that of the total mass, below which the response is due to rounding.
 const NO_RESPONSE: f64 = 1e-26;
 
 impl System {

@@ -9,8 +9,8 @@ use crate::system::mechanism::DofNumbers;
 use crate::system::{Scene, System, SystemError};
 
 impl System {
-    /// Releases an object of the scene at the present time; `released` lists the earlier releases. Places and rates are continuous. The energy stored
-    /// in a released spring counts as dissipated. Methods need a new work space afterwards.
+    /// Releases an object of the scene at the present time; `released` lists the earlier releases. Positions and rates are continuous. The energy
+    /// stored in a released spring counts as dissipated. Integrators must allocate a new work space afterwards.
     ///
     /// # Errors
     /// Fails if a station lies off its beam, which the scene excludes.
@@ -32,7 +32,7 @@ impl System {
         Ok(())
     }
 
-    /// Marks exactly the given objects released, before a state is restored.
+    /// Marks exactly the given objects as released, before a state is restored.
     ///
     /// # Errors
     /// Fails if a station lies off its beam, which the scene excludes.

@@ -14,12 +14,12 @@ use crate::system::sliders::{
 };
 use crate::system::{BeamDefinition, Scene, System, SystemError};
 
-/// Largest start velocity across the master, relative to the fastest point of the scene. At a dead centre of a mechanism, velocities of this size are
-/// due to rounding.
+/// Largest start velocity of a slave across its master that counts as zero, relative to the velocity of the fastest point of the scene. At a dead
+/// centre of a mechanism, velocities of this size are due to rounding.
 const SAME_VELOCITY: f64 = 1e-9;
 
 impl Assembly<'_> {
-    /// Sliders of the scene with their contacts, in its order.
+    /// Contacts of the sliders, in the order of the scene.
     pub fn sliders(&self, numbering: &Numbering) -> Result<Vec<SliderContact>, SystemError> {
         let mut sliders: Vec<SliderContact> = Vec::new();
         let mut kink_lengths = vec![None; self.scene.beams.len()];
@@ -94,8 +94,8 @@ impl Assembly<'_> {
         legs.iter().map(leg).collect()
     }
 
-    /// Axis of the master with a kink under the contact force, if the rule has one and the mesh of the master is smooth. Kink lengths are computed
-    /// once.
+    /// Axis of the master with a kink under the contact force, if the rule includes the kink and the mesh of the master is smooth. Kink lengths are
+    /// computed once per master.
     fn kinked_axis(
         &self,
         slider: &Slider,
@@ -103,7 +103,7 @@ impl Assembly<'_> {
     ) -> Result<Option<KinkedAxis>, SystemError> {
         let (master, beam) = (slider.master, &self.scene.beams[slider.master]);
         let basis = self.mesh(master).basis();
-        // A C0 mesh represents the kink at its nodes, so no compliance is missing there; the kink could not pass a node.
+        // A C0 mesh represents the kink at its nodes, so no compliance is missing there, and the kink could not pass a node.
         let has_nodes = basis.breaks().len() > 2 && basis.continuity() == 0;
         if slider.rule != SlidingRule::Kinked || has_nodes {
             return Ok(None);
@@ -142,7 +142,7 @@ fn bar(beam: &BeamDefinition) -> ImpactBar {
 impl System {
     /// Adjusts start velocities across the masters as each slider specifies.
     ///
-    /// Speeds across a master count as zero if their strain wave is below rounding: `w/c < ε`.
+    /// A speed `w` across a master counts as zero if the strain of its wave is below rounding: `w/c < ε`.
     pub(super) fn project_start_velocities(&mut self, scene: &Scene) -> Result<(), SystemError> {
         let negligible = self.negligible_velocity(scene);
         let mut is_projected = false;
@@ -159,7 +159,7 @@ impl System {
         Ok(())
     }
 
-    /// Sets a model at rest to a time. Prescribed movements get the rates of their functions, and points of rigid bodies the compatible ones.
+    /// Sets a static model to a time. Prescribed motions get the rates of their functions, and points of rigid bodies the compatible rates.
     ///
     /// # Errors
     /// Fails if a function has no value at that time, or velocities contradict the sliders.

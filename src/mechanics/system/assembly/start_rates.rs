@@ -1,4 +1,4 @@
-//! Start velocities: rigid motions of beams and bodies, shared by tied movements, and velocities of single nodes.
+//! Start velocities: rigid motions of beams and bodies, tied at joints, and velocities of single nodes.
 
 use super::{Assembly, Numbering};
 use crate::beams::{BodyDynamics, BodyIndex, Station};
@@ -7,10 +7,11 @@ use crate::system::elements::AssemblyContext;
 use crate::system::errors::{rounded, written};
 use crate::system::{Scene, StartMotion, StationVelocity, SystemError, Turning};
 
-/// Largest difference of tied start velocities, relative to the velocities of the beam.
+/// Largest difference of start velocities tied by a joint, relative to the velocities of the beam.
 const SAME_VELOCITY: f64 = 1e-9;
 
-/// Largest difference of a start velocity from the initial rate of a prescribed motion, which is computed by finite differences.
+/// Largest difference of a start velocity from the initial rate of a prescribed motion, relative to that rate. The rate is computed by finite
+/// differences.
 const SAME_START: f64 = 1e-6;
 
 /// Names of the components in messages.
@@ -22,7 +23,7 @@ fn given_rate_text(rate: f64) -> String {
     format!("its motion is prescribed there and begins with {}", rounded(rate))
 }
 
-/// Rate of each unknown with the body that has set it, and the requested rates of single nodes.
+/// Rate of each unknown with the body that set the rate, and the requested rates of single nodes.
 struct SharedRates<'a> {
     rates: Vec<Option<(usize, f64)>>,
     requested: Vec<Option<RequestedRate<'a>>>,
@@ -35,11 +36,11 @@ struct RequestedRate<'a> {
     at: &'a Station,
 }
 
-/// Initial rates of prescribed movements, numbered after the unknown ones.
+/// Initial rates of prescribed degrees of freedom, numbered after the unknowns.
 #[derive(Clone, Copy)]
 struct InitialDriveRates<'a> {
     unknowns: usize,
-    /// Includes leading entries of constraints, which are unused.
+    /// Includes leading entries for contact unknowns, which are unused.
     rates: &'a [f64],
     constraints: usize,
 }
@@ -52,7 +53,7 @@ impl InitialDriveRates<'_> {
 }
 
 impl SharedRates<'_> {
-    /// Sets the rate of a degree of freedom. Returns a different rate set earlier by another body or the ground.
+    /// Sets the rate of a degree of freedom. Returns the earlier rate if another body or the ground set a different one.
     fn set_rate(
         &mut self,
         at: usize,
@@ -85,9 +86,9 @@ impl RequestedRate<'_> {
 }
 
 impl Assembly<'_> {
-    /// Rates of the unknown movements at the start, compatible with joints and start velocities [length/time, 1/time].
+    /// Rates of the unknowns at the start, compatible with joints and start velocities [length/time, 1/time].
     ///
-    /// Constraints with `border` unknowns follow, then prescribed movements with their own rates.
+    /// The result also contains entries for `border` contact unknowns, and then the rates of prescribed degrees of freedom.
     pub fn start_rates(
         &self,
         numbering: &Numbering,
@@ -106,7 +107,7 @@ impl Assembly<'_> {
         let first = self.scene.first_rigid_body();
         for (index, body) in (first..).zip(&self.scene.rigid_bodies) {
             let degrees = &numbering.degrees_of_freedom[index];
-            // A body without points shares only its centre, so any size does.
+            // A body without points shares only its centre, so its angle does not matter and any size may be used.
             let size = if body.size() > 0.0 { body.size() } else { 1.0 };
             self.apply_rigid_motion(index, size, &body.motion, degrees, &mut shared, begun)?;
         }
@@ -163,7 +164,7 @@ impl Assembly<'_> {
             let sized = degrees.iter().zip(rates).zip(sizes).zip(COMPONENTS);
             for (((&at, rate), size), component) in sized {
                 if let Some(begins) = begun.at(at) {
-                    // A body at rest is set in motion by an impact.
+                    // A body with zero velocity is set in motion by an impact.
                     if !rests && (rate - begins).abs() > SAME_START * size.max(begins.abs()) {
                         return Err(SystemError::StartVelocity {
                             body: self.name_of(index),
@@ -175,8 +176,8 @@ impl Assembly<'_> {
                     continue;
                 }
                 if let Some(asked) = shared.requested.get(at).copied().flatten() {
-                    // A node of a beam may have its own velocity. A rigid body cannot, nor can a moving beam joined to a particle that moves
-                    // differently.
+                    // A node of a beam may have its own velocity. A rigid body cannot, nor can a moving beam joined to a particle with another
+                    // velocity.
                     let is_rigid = degrees_of_freedom.len() > 1 && index >= self.scene.beams.len();
                     let moves_apart = !rests && matches!(asked.at.body, BodyIndex::Particle(_));
                     let missed = (rate - asked.rate).abs();
@@ -207,7 +208,7 @@ impl Assembly<'_> {
         Ok(())
     }
 
-    /// Requested rates of single nodes by unknown.
+    /// Requested rates of single nodes, by unknown.
     ///
     /// # Errors
     /// Fails if joined stations have different requested rates.

@@ -5,7 +5,7 @@ use crate::joints::{Component, Partner, Releasable};
 use crate::system::SystemError;
 use crate::system::scene::{Scene, Ties};
 
-/// Class of the fixed components.
+/// Class of the components fixed to the ground.
 pub const GROUND: usize = 0;
 
 /// Components of control points, numbered from one in the order of the bodies, in classes tied by joints, particles and rigid bodies.

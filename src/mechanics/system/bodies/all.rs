@@ -7,7 +7,7 @@ use super::{Body, DegreesOfFreedom, Momenta, Tracker};
 use crate::beams::{BodyPoint, Mesh, Movement};
 use crate::geometry::{Vec2, larger};
 
-/// Basis functions below this value count as zero at a node.
+/// Value of a basis function at a node below which the function counts as zero there.
 const NO_WEIGHT: f64 = 1e-12;
 
 /// Bodies of a model (beams, then particles, then rigid bodies) with tracked sections. Dereferences to the slice of bodies.
@@ -116,7 +116,7 @@ impl Bodies {
         }
     }
 
-    /// Values at the control points of every body; zero for supported movements.
+    /// Values at the control points of every body; zero at supported degrees of freedom.
     pub fn by_control_point(&self, values: &[f64]) -> Vec<Vec<Movement>> {
         self.iter().map(|body| body.by_control_point(values).collect()).collect()
     }

@@ -1,4 +1,4 @@
-//! Body of a model: its dynamics and the degrees of freedom of its movements.
+//! Body of a model: its dynamics and its degrees of freedom.
 
 use std::iter::once;
 use std::ops::Range;
@@ -12,15 +12,15 @@ use crate::geometry::{Vec2, cross};
 use crate::linalg::BandRows;
 use crate::threads::run_concurrently;
 
-/// Beam, particle or rigid body with the degrees of freedom of its movements.
+/// Beam, particle or rigid body with its degrees of freedom.
 pub struct Body {
     pub dynamics: Box<dyn BodyDynamics>,
     pub degrees_of_freedom: DegreesOfFreedom,
     consecutive: Vec<Option<usize>>,
-    /// For each control point, true if all spans that contain it have consecutive unknowns.
+    /// For each control point, true if the unknowns of all spans that contain it are consecutive.
     in_order: Vec<bool>,
     unknowns: usize,
-    /// First control point and first row of each concurrent part except the first.
+    /// First control point and first row of each concurrent part, except the first part.
     parts: Vec<(usize, usize)>,
     movements: Vec<Movement>,
     forces: Vec<Movement>,
@@ -71,8 +71,8 @@ impl Body {
         }
     }
 
-    /// Divides the body into at most `most` concurrent parts with unchanged results, and returns their number. Small bodies, and bodies whose parts
-    /// have interleaved rows, are not divided.
+    /// Divides the body into at most `most` concurrent parts with unchanged results, and returns their number. Small bodies are not divided, nor
+    /// bodies whose parts have interleaved rows.
     pub fn divide(&mut self, most: usize) -> usize {
         let points = self.dynamics.divide(most);
         let rows_of = |points: &[[usize; 3]]| {
@@ -112,19 +112,19 @@ impl Body {
         self.rows().max()
     }
 
-    /// Gathers values of the unknowns by control point; zero for supported movements.
+    /// Gathers values of the unknowns by control point; zero at supported degrees of freedom.
     pub fn gather(&mut self, values: &[f64]) -> &[Movement] {
         self.degrees_of_freedom.gather(values, &mut self.movements);
         &self.movements
     }
 
-    /// Values of the unknowns by control point; zero for supported movements.
+    /// Values of the unknowns by control point; zero at supported degrees of freedom.
     pub fn by_control_point(&self, values: &[f64]) -> impl Iterator<Item = Movement> {
         let value = |at: usize| values.get(at).copied().unwrap_or(0.0);
         self.degrees_of_freedom.iter().map(move |degrees| degrees.map(value))
     }
 
-    /// Movement of a place [length, length, rad], from values of the unknowns.
+    /// Displacement and rotation of a place [length, length, rad], from values of the unknowns.
     pub fn at(&self, place: &BodyPoint, values: &[f64]) -> Movement {
         let mut sum = [0.0; 3];
         for (point, share) in place.weights() {
@@ -154,7 +154,7 @@ impl Body {
         self.dynamics.advance(&self.movements, rotations);
     }
 
-    /// Adds the accumulated forces to `out`, clears them, and returns their summary.
+    /// Adds the accumulated forces to `out`, resets them to zero, and returns their summary.
     pub fn scatter(&mut self, out: &mut [f64]) -> ForceSummary {
         self.degrees_of_freedom.scatter(&mut self.forces, out);
         std::mem::take(&mut self.summary)
@@ -222,7 +222,7 @@ impl Body {
         self.dynamics.add_inertia(factor, &self.movements, &mut self.forces);
     }
 
-    /// Passes the entries of `factor · M` to `add` as row, column and value. Entries of the same place add up.
+    /// Calls `add` with the row, column and value of each entry of `factor · M`. Entries at the same place add up.
     pub fn inertia_entries(&self, factor: f64, add: &mut impl FnMut(usize, usize, f64)) {
         self.inertia_entries_of(0..self.degrees_of_freedom.len(), factor, add);
     }
@@ -238,7 +238,7 @@ impl Body {
         });
     }
 
-    /// Passes the inertia entries of one control point to `add`.
+    /// Calls `add` with the inertia entries of one control point.
     fn entries_of(
         &self,
         point: usize,
@@ -248,7 +248,7 @@ impl Body {
     ) {
         let rows = &self.degrees_of_freedom[point];
         for (columns, inertia) in self.degrees_of_freedom[first..].iter().zip(inertia) {
-            // Basis functions without a common span may be far apart in the numbering of the tangent.
+            // Control points without a common span may be far apart in the numbering, outside the band of the tangent.
             if *inertia == Movement::default() {
                 continue;
             }

@@ -1,10 +1,10 @@
-//! Degrees of freedom of the movements of a body.
+//! Degrees of freedom of a body.
 
 use std::ops::{Deref, Range};
 
 use crate::beams::Movement;
 
-/// Degrees of freedom by control point, three for each. Dereferences to them.
+/// Degrees of freedom by control point, three for each. Dereferences to a slice of them.
 #[derive(Debug, Clone, Default)]
 pub struct DegreesOfFreedom {
     numbers: Vec<[usize; 3]>,
@@ -55,7 +55,7 @@ impl DegreesOfFreedom {
         self.numbers.as_flattened().iter().copied().filter(|number| *number < unknowns).collect()
     }
 
-    /// Adds nodal forces to `out` and clears them.
+    /// Adds nodal forces to `out` and resets them to zero.
     pub fn scatter(&self, forces: &mut [Movement], out: &mut [f64]) {
         let forces = forces.as_flattened_mut();
         for DofRun { movements, first } in &self.runs {

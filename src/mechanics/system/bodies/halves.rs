@@ -1,15 +1,14 @@
 //! Partition of many bodies into two halves for two threads, with results identical to those of one thread.
 //!
-//! Sums are made in the order of the bodies: each body accumulates its own forces, and one thread hands them on. In the tangent, the second half
-//! exclusively owns the rows that no body of the first half has. Bodies of the second half that contribute to earlier rows are processed again
-//! afterwards.
+//! Sums are made in the order of the bodies: each body accumulates its own forces, and one thread adds them to the result. In the tangent, only the
+//! second half writes the rows that no body of the first half has. The other rows of bodies of the second half are added afterwards.
 
 use super::Body;
 
-/// Fewest control points of a half. Smaller halves gain little, and lose if the other core is busy (docs/studies.md).
+/// Smallest number of control points of a half. Smaller halves gain little, and cost time if the other core is busy (docs/studies.md).
 const SMALLEST_HALF: usize = 1500;
 
-/// Largest fraction of control points in bodies astride, whose work is done twice.
+/// Largest fraction of control points in bodies that have rows in both halves, whose work is done twice.
 const LARGEST_ASTRIDE: f64 = 0.1;
 
 #[derive(Debug, Clone)]
@@ -17,7 +16,7 @@ pub(super) struct BodyHalves {
     pub(super) body: usize,
     /// First row of the tangent without a body of the first half.
     pub(super) row: usize,
-    /// Bodies of the second half with rows before that one.
+    /// Bodies of the second half with rows before `row`.
     pub(super) astride: Vec<usize>,
 }
 

@@ -1,4 +1,4 @@
-//! Rows of the movements of a body in the tangent.
+//! Rows of a body in the tangent.
 
 use std::iter::once;
 

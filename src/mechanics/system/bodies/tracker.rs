@@ -2,7 +2,7 @@
 
 use crate::beams::{BodyPoint, Movement, Rotation, RotationIncrement};
 
-/// Place of a beam with a tracked section angle, advanced in every step.
+/// Place of a beam with a tracked section angle, updated in every step.
 #[derive(Debug, Clone, Copy)]
 pub struct Tracker {
     pub place: BodyPoint,

@@ -45,7 +45,7 @@ impl Bodies {
         self.scatter(out)
     }
 
-    /// Hands on the accumulated forces in the order of the bodies, which determines rounding. Returns their summary.
+    /// Adds the accumulated forces in the order of the bodies, which determines rounding. Returns their summary.
     fn scatter(&mut self, out: &mut [f64]) -> ForceSummary {
         let mut summary = ForceSummary::default();
         for body in &mut self.all {

@@ -18,7 +18,7 @@ pub struct Elements {
     forces: Vec<Box<dyn ExternalForce>>,
     /// Internal forces, in the order of the scene.
     resistances: Vec<Box<dyn InternalForce>>,
-    /// Largest relative force mismatch in the last iterate, and the index of its internal force.
+    /// Largest relative force mismatch in the last iterate, and the index of the internal force.
     largest_mismatch: (f64, usize),
 }
 
@@ -64,7 +64,7 @@ impl Elements {
         self.springs_mut().nth(spring).into_iter().for_each(|spring| spring.release());
     }
 
-    /// Marks the given springs released and all others attached, before a state of theirs is restored.
+    /// Marks the given springs as released and all others as attached, before their state is restored.
     pub fn detach_only(&mut self, is_released: impl Fn(usize) -> bool) {
         for (at, spring) in self.springs_mut().enumerate() {
             if is_released(at) { spring.detach() } else { spring.attach() }
@@ -89,7 +89,7 @@ impl Elements {
         })
     }
 
-    /// Evaluates all elements just after a time.
+    /// Evaluates all loads just after a time.
     ///
     /// # Errors
     /// Name of the element without a finite value, and the reason.
@@ -112,7 +112,7 @@ impl Elements {
         self.masses.iter().for_each(|mass| mass.add_inertia(bodies, factor, rates, out));
     }
 
-    /// Passes the entries of `factor · M` of all point masses to `add` as row, column and value. Entries of the same place add up.
+    /// Calls `add` with the row, column and value of each entry of `factor · M` of all point masses. Entries at the same place add up.
     pub fn inertia_entries(
         &self,
         bodies: &[Body],
@@ -138,7 +138,7 @@ impl Elements {
         self.weight.as_ref().map_or(0.0, |weight| weight.energy_of(bodies, body))
     }
 
-    /// Subtracts the forces of all elements in an iterate. Returns the largest force and the largest moment on a control point.
+    /// Subtracts the forces of all elements in an iterate from `out`. Returns the largest force and the largest moment on a control point.
     pub fn subtract_from(&mut self, at: TrialState<'_>, out: &mut [f64]) -> (f64, f64) {
         let weight = self.weight.iter_mut().map(|weight| weight as &mut dyn ExternalForce);
         let forces = self.forces.iter_mut().map(|force| &mut **force as &mut dyn ExternalForce);
@@ -148,7 +148,7 @@ impl Elements {
         })
     }
 
-    /// Adds minus the derivative of all forces with respect to the increments to the tangent with `unknowns` rows.
+    /// Adds the negative derivative of all forces with respect to the increments to the tangent with `unknowns` rows.
     pub fn add_tangent(&self, at: TrialState<'_>, unknowns: usize, tangent: &mut BandedMatrix) {
         self.forces.iter().for_each(|force| force.add_tangent(at, unknowns, tangent));
     }
@@ -177,7 +177,7 @@ impl Elements {
         }
     }
 
-    /// Name and relative mismatch of the internal force farthest from its target in the last iterate; `None` if all match.
+    /// Name and relative mismatch of the internal force with the largest mismatch in the last iterate; `None` if all mismatches are zero.
     pub fn farthest(&self) -> Option<(&str, f64)> {
         let (missing, index) = self.largest_mismatch;
         let resistance = self.resistances.get(index)?;
@@ -197,7 +197,7 @@ impl Elements {
         }
     }
 
-    /// Adds `weight` times the forces that would remove the current mismatch.
+    /// Adds `weight` times the forces that would remove the current force mismatch.
     pub fn add_mismatch_forces(&self, bodies: &[Body], weight: f64, out: &mut [f64]) {
         self.resistances.iter().for_each(|resistance| {
             resistance.add_mismatch_forces(bodies, weight, out);
@@ -230,12 +230,12 @@ impl Elements {
             .for_each(|resistance| resistance.add_forces_at_start(bodies, rates, out));
     }
 
-    /// Passes each damped rate and the damping coefficient to `take`, at the start of the step.
+    /// Calls `take` with each damped rate and its damping coefficient, at the start of the step.
     pub fn each_damped_rate(&self, bodies: &[Body], rates: &[f64], take: &mut dyn FnMut(f64, f64)) {
         self.resistances().for_each(|resistance| resistance.each_damped_rate(bodies, rates, take));
     }
 
-    /// Passes the degrees of freedom and stiffness of each spring at rest to `take`.
+    /// Calls `take` with the degrees of freedom and the static stiffness of each spring.
     pub fn for_each_static_stiffness(
         &self,
         bodies: &[Body],
@@ -244,7 +244,7 @@ impl Elements {
         self.resistances().for_each(|resistance| resistance.static_stiffness(bodies, take));
     }
 
-    /// Work and impulse of all elements in the step whose movements the bodies gathered last.
+    /// Work and impulse of all elements in the step whose increments the bodies gathered last.
     pub fn exchange(&self, bodies: &[Body], duration: f64) -> WorkAndImpulse {
         let mut sum = WorkAndImpulse::default();
         for element in self.forces().chain(self.weight()) {

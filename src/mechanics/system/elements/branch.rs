@@ -1,9 +1,9 @@
-//! The branch of a piecewise law on which a spring is.
+//! Branch of a piecewise law on which a spring is.
 
-/// Segment of a piecewise law on which a spring is, and its rate there.
+/// Segment of a piecewise law on which a spring is, and the rate of the elongation.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Branch {
-    /// Number of sharp corners of the law below the current elongation. A bumper changes its branch when contact begins.
+    /// Number of sharp corners of the law below the current elongation. It changes, for example, when the contact of a bumper begins.
     pub index: usize,
     /// Rate of the elongation [length/time, rad/time].
     pub rate: f64,

@@ -1,18 +1,18 @@
-//! Duration of bounces on springs that are slack at times, such as bumpers and ropes.
+//! Duration of bounces on springs that can be slack, such as bumpers and ropes.
 
-/// Bounces of at most this many steps are unresolved. Half of the contact period passes in three steps.
+/// Number of steps up to which a bounce is unresolved. Three steps cover half of the contact period.
 const FEW: f64 = 3.0;
 
-/// Contacts that change the rate by less than this fraction are no bounces.
+/// Change of the rate during a contact, relative to the rate at its start, below which the contact is not a bounce.
 const TURNED: f64 = 0.5;
 
-/// Contact depths below this fraction of the length or angle are attributed to rounding.
+/// Contact depth, relative to the length or angle, below which the contact is attributed to rounding.
 const ROUNDING_DEPTH: f64 = 1e-12;
 
-/// Bounce on a spring that the steps did not resolve.
+/// Bounce on a spring that the steps do not resolve.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ShortBounce {
-    /// Number of steps, or parts of steps, with the spring not slack [-].
+    /// Number of steps, or fractions of steps, in which the spring is not slack [-].
     pub steps: f64,
     /// Largest force of the bounce, averaged over a step [force, force·length].
     pub force: f64,
@@ -41,7 +41,8 @@ impl ContactWatch {
         Self { noise: ROUNDING_DEPTH * largest_stiffness * extent, ..Self::default() }
     }
 
-    /// Records a step: slackness at its start and end, rates of elongation of the previous step and of this one, force and duration.
+    /// Records a step: whether the spring is slack at its start and end, the rates of elongation of the previous and of this step, force and
+    /// duration.
     pub fn add(
         &mut self,
         [was_slack, is_slack]: [bool; 2],

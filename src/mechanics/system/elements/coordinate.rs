@@ -2,8 +2,8 @@
 
 /// Length, angle or rate that is accumulated from increments, with the rounding error of the sum.
 ///
-/// Compensated summation (N. J. Higham, Accuracy and Stability of Numerical Algorithms (2002), section 4.3). Without it, a rope of 1 m that is
-/// stretched by a micrometre in an impact would know its stretch, and thereby its stored energy, to ten digits only.
+/// Compensated summation (N. J. Higham, Accuracy and Stability of Numerical Algorithms (2002), section 4.3). Without it, the elongation of a rope of
+/// 1 m that is stretched by a micrometre in an impact, and thereby its stored energy, would be accurate to ten digits only.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Coordinate {
     pub value: f64,
@@ -24,7 +24,7 @@ impl Coordinate {
         Self { value, rest: self.rest + lost }
     }
 
-    /// Difference from a number, accurate to the rounding of the difference.
+    /// Difference from a number, as accurate as the rounding of the difference itself.
     pub fn difference(self, number: f64) -> f64 {
         (self.value - number) + self.rest
     }

@@ -8,10 +8,10 @@ use super::law_range::LawRange;
 use super::spring_law::SpringLaw;
 use crate::geometry::larger;
 
-/// Forces at rest, or in the direction of the motion, below this fraction of the largest force are attributed to rounding.
+/// Force, relative to the largest force of the law, below which a force at zero rate or in the direction of the rate is attributed to rounding.
 const ROUNDING: f64 = 1e-12;
 
-/// Damping force as a function of the rate `q̇` of an elongation. It is zero at rest and opposes the motion.
+/// Damping force as a function of the rate `q̇` of an elongation. It is zero at zero rate and opposes the motion.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub enum DampingLaw {
     /// `c q̇`, with `c` at least zero [force·time/length; of torsion force·length·time/rad].
@@ -57,7 +57,7 @@ impl fmt::Display for NegativeDamping {
 }
 
 impl DampingLaw {
-    /// Samples a damping force over a range of rates that contains zero, with `SpringLaw::sampled` on either side.
+    /// Samples a damping force over a range of rates that contains zero, by `SpringLaw::sampled` on either side of zero.
     ///
     /// # Errors
     /// Errors of the function.
@@ -100,7 +100,7 @@ impl DampingLaw {
         *self != Self::Linear(0.0)
     }
 
-    /// Range in which the law adds energy or has a force at rest; `None` if it dissipates at every rate, including its extrapolation.
+    /// Range in which the law adds energy or has a force at zero rate; `None` if it dissipates at every rate, including its extrapolation.
     pub fn active_range(&self) -> Option<NegativeDamping> {
         let corners = self.corners();
         let (Some(first), Some(last)) = (corners.first(), corners.last()) else { return None };
@@ -114,7 +114,7 @@ impl DampingLaw {
         if let Some((rate, force)) = moving.find(|at| feeds(*at)) {
             return Some(NegativeDamping::At { rate, force });
         }
-        // Far enough beyond the ends for a falling line to change its sign.
+        // Far enough beyond the ends that a falling line changes its sign.
         let reach = |end: f64| 1e6 * (end.abs() + (last.0 - first.0));
         let beyond = [(first, first.0 - reach(first.0)), (last, last.0 + reach(last.0))];
         let (end, rate) = beyond.into_iter().find(|(_, rate)| feeds((*rate, self.force(*rate))))?;
@@ -122,7 +122,7 @@ impl DampingLaw {
         Some(NegativeDamping::Extrapolated { end: end.0, from: end.0 - end.1 / slope })
     }
 
-    /// Returns the law with a corner at rest where its force is exactly zero.
+    /// Returns the law with a table point of zero force at zero rate, where its slope may change.
     pub fn with_corner_at_rest(&self) -> Self {
         let mut law = self.clone();
         if let Self::Curve(SpringLaw::Table { points } | SpringLaw::Sampled { points, .. }) =
@@ -145,7 +145,7 @@ impl DampingLaw {
         }
     }
 
-    /// Derivative of the force with respect to the rate; at a corner that of the upper segment [force·time/length, force·length·time/rad].
+    /// Derivative of the force with respect to the rate; at a corner that of the segment above it [force·time/length, force·length·time/rad].
     pub fn slope(&self, rate: f64) -> f64 {
         match self {
             Self::Linear(constant) => *constant,
@@ -153,8 +153,8 @@ impl DampingLaw {
         }
     }
 
-    /// Force and slope for Newton's method. With a given impedance of the loaded system, they are taken on the segment that the line of this
-    /// impedance through rate and force intersects. Without it, the iteration could alternate between two steep segments.
+    /// Force and slope for Newton's method. With an impedance of the loaded system, they belong to the segment that intersects the line of this
+    /// impedance through `rate` and `force`. Without it, the iteration could alternate between two steep segments.
     pub fn linearised_target(&self, rate: f64, force: f64, impedance: Option<f64>) -> (f64, f64) {
         let at_rate = (self.force(rate), self.slope(rate));
         let (Some(impedance), corners) = (impedance, self.corners()) else { return at_rate };
@@ -162,14 +162,14 @@ impl DampingLaw {
         let Some(passed) = corners.iter().position(|(at, _)| above(*at) >= 0.0) else {
             return at_rate;
         };
-        // Rate inside the segment before that corner.
+        // A rate inside the segment before that corner.
         let Some(before) = passed.checked_sub(1) else { return at_rate };
         let inside = 0.5 * (corners[before].0 + corners[passed].0);
         let slope = self.slope(inside);
         (self.force(inside) + slope * (rate - inside), slope)
     }
 
-    /// Damping coefficient for small vibrations: the slope at rest, averaged over both sides [force·time/length, force·length·time/rad].
+    /// Damping coefficient for small vibrations: the slope at zero rate, averaged over both sides [force·time/length, force·length·time/rad].
     pub fn slope_at_rest(&self) -> f64 {
         match self {
             Self::Linear(constant) => *constant,

@@ -32,7 +32,7 @@ pub enum Dragged {
     },
 }
 
-/// Drag: forces against the velocity relative to a resting or flowing medium.
+/// Drag: forces against the velocity relative to a medium with a uniform velocity.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Drag {
     /// Name in messages and columns.
@@ -78,7 +78,7 @@ impl ElementDef for Drag {
         }
     }
 
-    /// Quadratic drag couples the components of the velocity.
+    /// Quadratic drag couples the velocity components.
     fn coupled(&self) -> Vec<Station> {
         match &self.on {
             Dragged::Beam { .. } => Vec::new(),
@@ -101,7 +101,7 @@ impl ElementDef for Drag {
     }
 }
 
-/// `degree + 1` Gauss points per span.
+/// Drag points of a beam: `degree + 1` Gauss points per span.
 fn points_of_beam(site: &dyn AssemblyContext, beam: usize) -> Result<Vec<DragPoint>, SystemError> {
     let basis = site.mesh(beam).basis();
     let rule = GaussRule::new(basis.degree() + 1).map_err(|error| site.wrong(beam, error))?;

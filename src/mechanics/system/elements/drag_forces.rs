@@ -4,8 +4,8 @@
 //! v = Δx/Δt - wind      f_a = -w N_a G(v, t)      D grows by Σ w G·v Δt ≥ 0, W by -Σ w G·wind Δt
 //! ```
 //!
-//! With a wind, `G·v` is the power of the law at the force `G`. Evaluated as `G·Δx - G·wind Δt`, it would be a small difference of large numbers
-//! whose rounding may have either sign. `W` is the remainder of `-G·Δx`, so that the energy balance closes.
+//! The power dissipated relative to the wind, `G·v`, is evaluated from the force `G` by the law. As `G·Δx - G·wind Δt` it would be a small difference
+//! of large numbers whose rounding may have either sign. `W` is the remainder of `-G·Δx`, so that the energy balance is exact.
 //!
 //! `t` is the direction of the axis in the mean configuration.
 
@@ -47,7 +47,7 @@ impl DragForces {
         self.rate_history.at(at.stage, at.weight).filter(|_| is_timed)
     }
 
-    /// Work of the wind and dissipated energy of one point, in the step whose movements its body gathered last [energy].
+    /// Work of the wind and dissipated energy at one point, in the step whose increments its body gathered last [energy].
     fn turnover(&self, point: &DragPoint, body: &Body) -> [f64; 2] {
         let (force, movement) = (point.applied_force(), point.movement(body));
         let taken = force.dot(&movement);
@@ -172,7 +172,7 @@ impl InternalForce for DragForces {
         }
     }
 
-    /// Small vibrations are damped by the linear part only.
+    /// The quadratic part does not damp small vibrations.
     fn each_damped_rate(&self, bodies: &[Body], rates: &[f64], take: &mut dyn FnMut(f64, f64)) {
         let damping = self.medium.law.linear();
         for point in &self.points {

@@ -22,7 +22,7 @@ impl SpeedLaw {
         (self.linear + self.quadratic * speed.abs()) * speed
     }
 
-    /// Power `F s` at a force `F = c s + k |s| s`. It is computed from the force alone, and never negative.
+    /// Power `F s`, computed from the force `F = c s + k |s| s` alone; never negative.
     fn power(&self, force: f64) -> f64 {
         let force = force.abs();
         if force == 0.0 {
@@ -37,14 +37,14 @@ impl SpeedLaw {
     }
 }
 
-/// Drag law of a point or a line.
+/// Drag law of a point or of a line.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum DragLaw {
     Point(SpeedLaw),
     Line { normal: SpeedLaw, tangent: SpeedLaw },
 }
 
-/// Force of the body on the medium in components across the line (`n = J t`) and along it, with derivatives.
+/// Force of the body on the medium, in components across (`n = J t`) and along a line with unit tangent `t`, with its derivatives.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct DragResponse {
     /// `(G·n, G·t)` [force, or force/length].
@@ -54,13 +54,13 @@ pub struct DragResponse {
     pub by_angle: Vec2,
 }
 
-/// Vector in space of components across and along a line with unit tangent `t`.
+/// Vector in space with the given components across and along a line with unit tangent `t`.
 pub fn in_space(t: Vec2, components: Vec2) -> Vec2 {
     perpendicular(t) * components.x + t * components.y
 }
 
 impl DragLaw {
-    /// Drag at a velocity relative to the medium, for a line with unit tangent `t`. Points ignore `t`.
+    /// Drag force at a velocity relative to the medium, for a line with unit tangent `t`. Points ignore `t`.
     pub fn force(&self, velocity: Vec2, t: Vec2) -> DragResponse {
         let n = perpendicular(t);
         let (across, along) = (n.dot(&velocity), t.dot(&velocity));
@@ -153,7 +153,7 @@ mod tests {
                     assert!((by - expected).norm() < 1e-8, "{law:?}: {by} {expected}");
                 }
                 let turned = force(velocity, angle + h) - force(velocity, angle - h);
-                // Derivative of the components plus that of the rotating line.
+                // Derivative of the components plus that of the rotating directions.
                 let by = found.by_angle + Vec2::new(found.force.y, -found.force.x);
                 assert!((in_space(t, by) - turned / (2.0 * h)).norm() < 1e-8, "{law:?}");
             }

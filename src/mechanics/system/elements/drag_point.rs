@@ -1,7 +1,7 @@
 //! Drag at a point of a body in a step.
 //!
-//! The force is an independent unknown, in components across and along the line. A force computed from velocities would carry `c` times their
-//! rounding, which under strong drag or wind exceeds the forces that it balances.
+//! The force is an independent unknown, in components across and along the line. A force computed from velocities would have `c` times their rounding
+//! error. Under strong drag or wind this exceeds the forces in the balance.
 
 use super::drag_law::{DragLaw, DragResponse, in_space};
 use crate::beams::{BodyPoint, RateCollocation};
@@ -26,7 +26,7 @@ pub struct DragPoint {
     weight: f64,
     /// Velocity in the previous step [length/time].
     last_velocity: Vec2,
-    /// Largest speed of which the velocity may be a difference, at the start of the step [length/time].
+    /// Largest speed that enters the velocity as a term, at the start of the step [length/time].
     speed: f64,
     /// Force components across and along the line in the iterate [force, or force/length].
     force: Vec2,
@@ -54,7 +54,7 @@ impl DragTrial {
         Self { tangent: Vec2::x(), response, angle_by_gradient: none, rates: (0.0, 0.0) }
     }
 
-    /// Drag at a velocity, for a line with a tangent of any length.
+    /// Drag at a velocity, for a line along `gradient` (of any length).
     fn new(law: &DragLaw, velocity: Vec2, gradient: Vec2, rates: (f64, f64)) -> Self {
         let (tangent, inverse) = unit_tangent(gradient);
         let response = law.force(velocity, tangent);
@@ -62,7 +62,7 @@ impl DragTrial {
     }
 }
 
-/// Unit tangent along a gradient and the inverse length of the gradient [1/length]; an arbitrary direction for a zero gradient.
+/// Unit tangent along a gradient and the inverse length of the gradient [1/length]; an arbitrary direction if the gradient is zero.
 fn unit_tangent(gradient: Vec2) -> (Vec2, f64) {
     let length = gradient.norm();
     match length > 0.0 {
@@ -109,7 +109,7 @@ impl DragPoint {
             .fold(Vec2::zeros(), |sum, (at, by)| sum + value(self.first + at) * *by)
     }
 
-    /// Largest magnitude that cancels in a sum over the functions.
+    /// Largest term in a sum over the functions, for the rounding of the sum.
     fn size(&self, value: impl Fn(usize) -> Vec2) -> f64 {
         let sizes = self.shape.iter().enumerate();
         sizes.fold(0.0, |sum, (at, by)| sum + value(self.first + at).norm() * by.abs())
@@ -141,7 +141,7 @@ impl DragPoint {
         self.combine(&self.shape, |at| Vec2::new(moved[at][0], moved[at][1]))
     }
 
-    /// Mean position of the point in that step.
+    /// Mean position of the point in the step whose increments its body gathered last.
     pub fn middle(&self, body: &Body) -> Vec2 {
         let points = body.dynamics.control_points();
         let origin = points[self.first];
@@ -210,7 +210,7 @@ impl DragPoint {
         in_space(tangent, resisted.force) * self.weight
     }
 
-    /// Passes the derivatives of the nodal forces with respect to nodal movements to `give`, including the rotation of the line with the current
+    /// Calls `give` with the derivatives of the nodal forces with respect to nodal increments, including the rotation of the line with the current
     /// force.
     pub fn each_derivative(&self, mut give: impl FnMut((usize, usize), (usize, usize), f64)) {
         let DragTrial {
@@ -255,12 +255,12 @@ impl DragPoint {
         self.applied_force
     }
 
-    /// Dissipated power at the force of the last iterate, free of the rounding of velocities [power].
+    /// Dissipated power at the force of the last iterate, without the rounding of velocities [power].
     pub fn power(&self, law: &DragLaw) -> f64 {
         law.power(self.force) * self.weight
     }
 
-    /// Movement of the point minus `duration` times the resisted velocity; zero where that is the mean velocity [length].
+    /// Displacement of the point minus `duration` times the velocity of the drag law; zero if that is the mean velocity [length].
     pub fn besides(&self, movement: Vec2, duration: f64) -> Vec2 {
         let Some(rates) = self.rates else { return Vec2::zeros() };
         movement * (1.0 - rates.by_change * duration)
@@ -272,7 +272,7 @@ impl DragPoint {
         in_space(self.linearised.tangent, self.mismatch) * self.weight
     }
 
-    /// Force on the medium at rates at the start of a step [force].
+    /// Force on the medium for the rates at the start of a step [force].
     pub fn force_at_start(
         &self,
         around: &Medium,

@@ -34,7 +34,7 @@ pub struct Drive {
     pub kind: DriveKind,
     /// Station whose motion is prescribed.
     pub station: Station,
-    /// Prescribed motions of x, y and the angle. Displacements are relative to the place as drawn.
+    /// Prescribed motions of x, y and the angle. Displacements are relative to the initial position.
     pub motions: [Option<PrescribedMotion>; 3],
 }
 

@@ -73,20 +73,19 @@ pub trait ElementDef {
         Vec::new()
     }
 
-    /// Stations that the element couples. The numbering keeps their unknowns close to each other.
+    /// Stations that the element couples. Their unknowns get close numbers, for a narrow band.
     fn coupled(&self) -> Vec<Station> {
         Vec::new()
     }
 
-    /// Schedule and name of the element. Steps end where a schedule jumps or has a kink.
+    /// Schedule and name of the element. Steps end where the schedule or its derivative jumps.
     fn schedule(&self) -> Option<(&str, &Schedule)> {
         None
     }
 
-    /// Builds the element for a model.
     ///
     /// # Errors
-    /// Fails if the element cannot act at its place.
+    /// Fails if the element cannot be applied at its place.
     fn build(&self, site: &dyn AssemblyContext) -> Result<BuiltElement, SystemError>;
 }
 

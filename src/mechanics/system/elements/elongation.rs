@@ -4,9 +4,9 @@
 //! way:    Δℓ = e·Δd, e = (d₀ + d₁)/(ℓ₀ + ℓ₁), part by part        angle:  Δθ = r (Δω_b - Δω_a)
 //! ```
 //!
-//! `e` and `r` are secants. A force along them does exactly the work `F Δℓ` or `M Δθ`, and is opposite at both ends. Differences of places are
-//! advanced by increments, so that rounding does not depend on the distance from the origin. The elongation is accumulated as its growth since the
-//! start. Otherwise, the difference to the natural length would carry the rounding of a length that may be millions of times as large.
+//! `e` and `r` are secants. A force along a secant does exactly the work `F Δℓ` or `M Δθ`, and is opposite at both ends. Differences of positions are
+//! updated by increments, so that rounding does not depend on the distance from the origin. The elongation is stored as its growth since the start.
+//! As the difference of a length from the natural length, it would have the rounding error of a length that may be millions of times as large.
 
 mod shares;
 mod term;
@@ -21,7 +21,7 @@ use crate::beams::{BodyPoint, Movement, RotationIncrement};
 use crate::geometry::{Vec2, larger};
 use crate::system::bodies::Body;
 
-/// Bound of the rounding error of movements, in units of their last digit.
+/// Bound of the rounding error of increments, in units of their last digit.
 const MOST_ROUNDING: f64 = 16.0;
 
 /// End of an elongation: a place of a body, or the ground.
@@ -53,39 +53,40 @@ enum Measure {
     /// Length of the path with the differences `d₀` between consecutive terminals [length].
     Length(Vec<Vec2>),
     Angle,
-    /// One component of the vector between two terminals, x (0) or y (1).
+    /// Component of the vector between two terminals: x (0) or y (1).
     Component(usize),
 }
 
 /// Length or angle between terminals at the start of a step, and its change in an iterate.
 ///
-/// Its coordinates are the movements of the terminals, one terminal after another: x and y for a length, the rotation for an angle.
+///
+/// Its coordinates are the increments of the terminals in their order: x and y for a length, the rotation for an angle.
 #[derive(Debug, Clone)]
 pub struct Elongation {
     measure: Measure,
     terminals: Vec<ElongationEnd>,
-    /// Shares of the degrees of freedom in the coordinates, as located last.
+    /// Shares of the degrees of freedom in the coordinates, in the numbering of the last call of `locate`.
     shares: Vec<CoordinateShare>,
     /// Value in the scene as built [length, rad].
     initial: f64,
-    /// Growth since then, up to the start of the step [length, rad].
+    /// Growth since the scene was built, up to the start of the step [length, rad].
     growth: Coordinate,
     movements: Vec<f64>,
     corrected: Vec<f64>,
     /// Change `Δq` in the step [length, rad].
     pub change: f64,
-    /// Change in the iterate whose force was settled last, and the correction that the force implies. The correction excludes the rounding of
-    /// movements, which would store energy in a stiff spring [length, rad].
+    /// Change in the iterate whose force was accepted last, and the correction that the force implies. The correction excludes the rounding of
+    /// increments, which would store energy in a stiff spring [length, rad].
     settled: (f64, f64),
-    /// Secant `g` with `Σ g u = Δq`; for forces at the end of a step the derivative there [-].
+    /// Secant `g` with `Σ g u = Δq`; for forces at the end of a step the derivative of `q` there [-].
     pub secant: Vec<f64>,
-    /// Derivative `∂Δq/∂u` with respect to the movements [-].
+    /// Derivative `∂Δq/∂u` with respect to the coordinates [-].
     pub slope: Vec<f64>,
-    /// Derivative `∂g/∂u` of the secant, row by row, at the place where it was found last [1/length, 1/rad].
+    /// Derivative `∂g/∂u` of the secant, row by row, in the iterate of its last evaluation [1/length, 1/rad].
     pub secant_slope: Vec<f64>,
-    /// Difference between the direction at the time of the step taken last by [`balance`](Self::balance) and the secant [-].
+    /// Difference between the direction at the time within the step given to [`balance`](Self::balance), and the secant [-].
     pub lag: Vec<f64>,
-    /// Derivative of the lag with respect to the movements, row by row [1/length].
+    /// Derivative of the lag with respect to the coordinates, row by row [1/length].
     pub lag_slope: Vec<f64>,
 }
 
@@ -156,13 +157,13 @@ impl Elongation {
         self.growth
     }
 
-    /// Scale of its rounding in an iterate: the largest length or angle that enters [length, rad].
+    /// Scale of the rounding error of `q` in an iterate: the largest length or angle in its terms [length, rad].
     pub fn extent(&self) -> f64 {
         let after = (self.value() + self.change).abs();
         match self.measure {
             Measure::Length(_) => after,
             Measure::Angle => larger(1.0, after),
-            // It is advanced by movements that may be much larger.
+            // The increments of the component may be much larger than the component.
             Measure::Component(..) => {
                 self.movements.iter().fold(after, |size, by| size.max(by.abs()))
             }
@@ -175,7 +176,8 @@ impl Elongation {
         MOST_ROUNDING * f64::EPSILON * moved
     }
 
-    /// Adds `missing` to the elongation change of the last iterate if it is within the rounding error of the movements. Returns true if it was added.
+    /// Adds `missing` to the elongation change of the last iterate if it is within the rounding error of the increments. Returns true if it was
+    /// added.
     pub fn absorb_rounding(&mut self, missing: f64) -> bool {
         let is_rounding = missing.abs() <= self.rounding();
         self.settled = (self.change, if is_rounding { missing } else { 0.0 });
@@ -209,8 +211,8 @@ impl Elongation {
         self.compare(collocation.rotations);
     }
 
-    /// Evaluates the lag in the last iterate: the direction at a share of the step minus the secant. The lag is zero without a share, and for angles,
-    /// whose directions are constant.
+    /// Evaluates the lag in the last iterate: the direction at a fraction `share` of the step minus the secant. The lag is zero if `share` is `None`,
+    /// and for angles, whose directions are constant.
     pub fn balance(&mut self, share: Option<f64>) {
         let Self { measure, movements: moved, lag, lag_slope: lag_bend, .. } = self;
         [&mut *lag, lag_bend].into_iter().for_each(|all| all.fill(0.0));
@@ -251,12 +253,12 @@ impl Elongation {
         sum
     }
 
-    /// Rate of `q` at the end of the last step for the rates of the unknowns at that time.
+    /// Rate of `q` at the end of the last step, for the rates of the unknowns at that time.
     pub fn rate_at_last_end(&self, bodies: &[Body], rates: &[f64]) -> f64 {
         self.moving().fold(0.0, |sum, (place, coordinates)| {
             let [x, y, spin] = bodies[place.body].at(place, rates);
             match (self.is_angle(), &self.slope[coordinates]) {
-                // The factor that converts increments to angles applies to increments of a step, not to rates.
+                // The factor that converts increments to angles does not apply to rates.
                 (true, slope) => sum + slope[0].signum() * spin,
                 (false, slope) => sum + (slope[0] * x + slope[1] * y),
             }
@@ -351,7 +353,8 @@ impl Elongation {
         }
     }
 
-    /// Length and derivative at rest of each segment of a path. Their force is rotated by movements of the segment.
+    /// Length, and derivative with respect to the coordinates, of each segment of a path in the present configuration. The direction of the force
+    /// rotates with the segment.
     pub fn turned(&self) -> Vec<(f64, Vec<f64>)> {
         let Measure::Length(parts) = &self.measure else { return Vec::new() };
         let of_part = |(index, part): (usize, &Vec2)| {

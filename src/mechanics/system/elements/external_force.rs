@@ -7,7 +7,7 @@ use crate::linalg::BandedMatrix;
 use crate::loads::LoadError;
 use crate::system::bodies::Body;
 
-/// Collocation of the forces of a stage. At the ends of a step, increments of the angle itself are interpolated.
+/// Collocation of the forces of a stage. At the ends of a step, the increments are those of the angle itself.
 pub fn collocation(stage: Stage) -> Collocation {
     let (tau, sigma, rotations) = match stage {
         Stage::Start => (0.0, 0.0, RotationIncrement::Angle),
@@ -24,7 +24,7 @@ pub struct TrialState<'a> {
     /// All bodies of the model at the start of the step.
     pub bodies: &'a [Body],
     pub stage: Stage,
-    /// Movements of the unknowns since the start of the step [length, rad].
+    /// Increments of the unknowns since the start of the step [length, rad].
     pub increments: &'a [f64],
     /// Factor of the forces [-].
     pub weight: f64,
@@ -39,11 +39,12 @@ pub struct LoadAccount {
     pub value: f64,
 }
 
-/// Element that applies forces to bodies: a load, the weight, a spring.
+/// Element that applies forces to bodies: a load or the weight.
 ///
-/// Forces are evaluated in every iterate, and the exchanged work and impulse at the end of a step. An element with a potential applies forces that do
-/// exactly the work by which its energy changes (a discrete gradient). All methods with a default are optional. Dispatch is dynamic, once per element
-/// and iterate.
+///
+/// Forces are evaluated in every iterate, work and impulse at the end of a step. If an element has a potential, the work of its forces is exactly the
+/// negative change of the potential (a discrete gradient). All methods with a default are optional. Dispatch is dynamic, once per element and
+/// iterate.
 pub trait ExternalForce {
     fn name(&self) -> &str;
 
@@ -55,7 +56,7 @@ pub trait ExternalForce {
         Ok(())
     }
 
-    /// Evaluates the element just after a time, as at the end of a movement.
+    /// Evaluates the element just after a time, as at the end of a static load step.
     ///
     /// # Errors
     /// Fails without a finite value at this time.
@@ -76,10 +77,10 @@ pub trait ExternalForce {
     /// Subtracts the forces on bodies in an iterate. Returns the largest force and the largest moment on a control point.
     fn subtract_from(&mut self, at: TrialState<'_>, out: &mut [f64]) -> (f64, f64);
 
-    /// Adds minus the derivative of the forces with respect to the increments to the tangent.
+    /// Adds the negative derivative of the forces with respect to the increments to the tangent.
     fn add_tangent(&self, _at: TrialState<'_>, _unknowns: usize, _tangent: &mut BandedMatrix) {}
 
-    /// Work and impulse in the step whose movements the bodies gathered last. A change of the potential is not counted as work.
+    /// Work and impulse in the step whose increments the bodies gathered last. A change of the potential does not count as work.
     fn exchange(&self, bodies: &[Body], duration: f64) -> WorkAndImpulse;
 
     /// Stored energy at the start of the step [energy].
@@ -92,7 +93,7 @@ pub trait ExternalForce {
         None
     }
 
-    /// Returns true if the forces follow a section, so that they have no potential.
+    /// Returns true if the forces rotate with a section, so that they have no potential.
     fn turns(&self) -> bool {
         false
     }
@@ -102,7 +103,7 @@ pub trait ExternalForce {
         0
     }
 
-    /// Accepts the movements that the bodies gathered last.
+    /// Accepts the increments that the bodies gathered last.
     fn advance(&mut self, _bodies: &[Body], _rotations: RotationIncrement) {}
 
     fn save(&self, _state: &mut Vec<f64>) {}

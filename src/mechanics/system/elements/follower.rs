@@ -12,7 +12,7 @@ use crate::system::bodies::{Body, Tracker};
 pub struct Follower {
     tracker: Tracker,
     force: Vec2,
-    /// Contributions of the start of the step and of the iterate.
+    /// Force parts from the value at the start of the step and from that of the iterate.
     force_parts: Vec2,
     current: Vec2,
 }
@@ -27,7 +27,7 @@ impl Follower {
         &bodies[self.tracker.place.body]
     }
 
-    /// Rotations at `τ` and at the end, and `Δω`.
+    /// Rotations at `τ` and at the end of the step, and `Δω`.
     fn rotations(&self, at: TrialState<'_>) -> (Rotation, Rotation, f64) {
         let [.., increment] = self.body(at.bodies).at(&self.tracker.place, at.increments);
         let collocation = collocation(at.stage);
@@ -84,7 +84,7 @@ impl Follower {
         }
     }
 
-    /// Adds the work and impulse of the follower force in the step whose movements the bodies gathered last.
+    /// Adds the work and impulse of the follower force in the step whose increments the bodies gathered last.
     pub fn add_exchange(&self, bodies: &[Body], duration: f64, sum: &mut WorkAndImpulse) {
         let body = self.body(bodies);
         let force = self.force_parts + self.current;

@@ -1,4 +1,4 @@
-//! Interface of elements that resist movements: springs, dampers, drag.
+//! Interface of elements that resist motion: springs, dampers, drag.
 
 use super::{Branch, OutsideLaw, ShortBounce, TrialState, WorkAndImpulse};
 use crate::beams::{ForceSummary, Movement, SectionPlace, SpanStiffness};
@@ -17,18 +17,19 @@ pub struct SpringTrialState {
     pub stiffness: f64,
 }
 
-/// Element that resists movements of bodies and stores or dissipates energy.
+/// Element that resists the motion of bodies and stores or dissipates energy.
 ///
-/// The force is an independent unknown, as the section forces of beams are. Residuals use the current force, linearisations condense it, and
-/// corrections update it together with the movements. Thereby stiff elements do not carry the rounding of the configuration, and the number of
-/// iterations does not grow with stiffness. Dispatch is dynamic, once per element and iterate.
+///
+/// The force is an independent unknown, as the section forces of beams are. Residuals use the current force. Linearisations condense it, and
+/// corrections update it together with the increments. Hence the rounding error of the configuration is not multiplied by the stiffness, and the
+/// number of iterations does not grow with stiffness. Dispatch is dynamic, once per element and iterate.
 pub trait InternalForce {
     fn name(&self) -> &str;
 
-    /// Prepares a step with the given rates of the unknowns. Forces start from those of the last step.
+    /// Prepares a step with the given rates of the unknowns. Forces start from their values in the last step.
     fn begin_step(&mut self, interval: Interval, bodies: &[Body], rates: &[f64]);
 
-    /// Prepares a movement of zero duration without damping.
+    /// Prepares an increment of zero duration without damping.
     fn begin_movement(&mut self);
 
     /// Discards the rate history after a jump of the rates.
@@ -46,16 +47,16 @@ pub trait InternalForce {
         tangent: &mut BandedMatrix,
     );
 
-    /// Adds `weight` times the forces that would remove the current mismatch, in the directions of the last linearisation.
+    /// Adds `weight` times the forces that would remove the current force mismatch, with the directions of the last linearisation.
     fn add_mismatch_forces(&self, bodies: &[Body], weight: f64, out: &mut [f64]);
 
     /// Updates the force after a correction of the increments.
     fn correct(&mut self, bodies: &[Body], correction: &[f64]);
 
-    /// Work and impulse from the ground in the step whose movements the bodies gathered last.
+    /// Work and impulse from the ground in the step whose increments the bodies gathered last.
     fn exchange(&self, bodies: &[Body], duration: f64) -> WorkAndImpulse;
 
-    /// Accepts the movements that the bodies gathered last.
+    /// Accepts the increments that the bodies gathered last.
     fn advance(&mut self, bodies: &[Body]);
 
     /// Stored energy at the start of the step [energy].
@@ -89,7 +90,7 @@ pub trait InternalForce {
         None
     }
 
-    /// Damping force [force] and moment [force·length] at a place of a beam, at the given rates and the start of the step. `None` if the element does
+    /// Damping force [force] and moment [force·length] at a place of a beam, for the given rates at the start of the step. `None` if the element does
     /// not damp this beam.
     fn transmitted(
         &self,
@@ -105,17 +106,17 @@ pub trait InternalForce {
         None
     }
 
-    /// Adds the forces at given rates at the start of the step.
+    /// Adds the forces for the given rates at the start of the step.
     fn add_forces_at_start(&self, bodies: &[Body], rates: &[Vec<Movement>], out: &mut [f64]);
 
-    /// Passes each damped rate and its small-rate damping coefficient to `take`, at the start of the step. The sum of coefficient times squared rate
-    /// is the dissipated power. The number and order of calls do not depend on the rates.
+    /// Calls `take` with each damped rate and its damping coefficient for small rates, at the start of the step. Coefficient times squared rate is
+    /// the dissipated power. The number and order of calls do not depend on the rates.
     fn each_damped_rate(&self, bodies: &[Body], rates: &[f64], take: &mut dyn FnMut(f64, f64));
 
-    /// Passes degrees of freedom and stiffness at rest to `take`.
+    /// Calls `take` with the degrees of freedom and the static stiffness.
     fn static_stiffness(&self, _bodies: &[Body], _take: &mut dyn FnMut(&[usize], &SpanStiffness)) {}
 
-    /// Releases the element at the start of a step. Its stored energy counts as dissipated. The default ignores the release.
+    /// Releases the element at the start of a step. Its stored energy counts as dissipated. By default nothing happens.
     fn release(&mut self) {}
 
     /// Marks the element released, before a released state is restored.
@@ -128,6 +129,6 @@ pub trait InternalForce {
 
     fn restore(&mut self, next: &mut dyn FnMut() -> f64);
 
-    /// Contribution of the element to the equations of a step, in words.
+    /// Description of the contribution of the element to the equations of a step.
     fn explain(&self) -> String;
 }

@@ -31,7 +31,7 @@ impl ElementDef for Load {
         }
     }
 
-    /// Forces that rotate with a rigid body couple a point with the rotation of the body.
+    /// If the force rotates with a rigid body, it couples its point with the rotation of the body.
     fn coupled(&self) -> Vec<Station> {
         match &self.kind {
             LoadKind::Force { station, frame: LoadFrame::Follower, .. }
@@ -121,7 +121,7 @@ struct AppliedLoad {
     check: Option<ScheduleCheck>,
     action: Action,
     factors: StageFactors,
-    /// Weighted schedule factors of the start of the step, and of the iterate.
+    /// Weighted schedule factors: of the start of the step, and of the iterate.
     weighted_factors: f64,
     current: f64,
     account: Option<LoadAccount>,
@@ -171,7 +171,7 @@ impl AppliedLoad {
 
     fn calls(&self, methods: &[Method]) -> String {
         let functions = self.schedule.functions();
-        // A controller is sampled once per step by the caller.
+        // A controller is sampled once per step by the caller, not by the load.
         if functions == 0 || self.schedule.is_sampled() {
             return String::new();
         }
@@ -188,7 +188,7 @@ impl ExternalForce for AppliedLoad {
         &self.name
     }
 
-    /// Evaluates the schedule for the stages of the step only, because it may be a script function.
+    /// Evaluates only the stages that the step uses, because the schedule may be a script function.
     fn begin_step(&mut self, interval: Interval, stages: &[Stage]) -> Result<(), LoadError> {
         let Interval { start, end, .. } = interval;
         let found = self.schedule.mean(start, end)?;

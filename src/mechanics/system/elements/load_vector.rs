@@ -44,7 +44,7 @@ impl LoadVector {
         (factor.abs() * self.largest.0, factor.abs() * self.largest.1)
     }
 
-    /// Work and impulse in the step whose movements the bodies gathered last, acting at the mean positions.
+    /// Work and impulse, at the mean positions of the step whose increments the bodies gathered last.
     pub fn exchange(&self, bodies: &[Body], factor: f64, duration: f64) -> WorkAndImpulse {
         let mut sum = WorkAndImpulse::default();
         for (body, point, [fx, fy, moment]) in &self.entries {
@@ -65,7 +65,7 @@ impl LoadVector {
         self.potential_work_on(bodies, |_| true)
     }
 
-    /// Part of the sum on selected bodies [energy].
+    /// Part of the sum `Σ f·x` on selected bodies [energy].
     pub fn potential_work_on(&self, bodies: &[Body], counts: impl Fn(usize) -> bool) -> f64 {
         let work = |(body, point, [fx, fy, _]): &(usize, usize, Movement)| {
             bodies[*body].dynamics.control_points()[*point].dot(&Vec2::new(*fx, *fy))

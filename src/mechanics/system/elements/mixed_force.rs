@@ -21,7 +21,7 @@ struct IterationState {
     at: (f64, f64),
 }
 
-/// Number of linearisations after which the impedance is used. Smooth laws and most others converge earlier.
+/// Number of linearisations after which the impedance is used. Smooth laws usually converge earlier.
 const PLAIN_LINEARISATIONS: u32 = 4;
 
 /// Target force of a configuration, and its derivative with respect to `Δq`.

@@ -3,10 +3,10 @@
 use crate::integrators::Interval;
 use crate::loads::{MotionInStep, PrescribedMotion};
 
-/// Relative rate changes below this value belong to a smooth motion.
+/// Change of the rate, relative to the rate, below which the motion counts as smooth.
 const LARGEST_SMOOTH_CHANGE: f64 = 0.1;
 
-/// Kink of a prescribed motion within a step that treats it as smooth.
+/// Kink of a prescribed motion within a step whose integration assumes a smooth motion.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct MotionCurvature {
     /// Start of the step [time].
@@ -16,8 +16,9 @@ pub struct MotionCurvature {
 }
 
 impl MotionCurvature {
-    /// Detects a kink of a script function at the start of a step or within it. Rates of smooth motions in consecutive steps agree to the fifth power
-    /// of the step length. A jump of the rate, or a motion much faster than the step, does not. Declared breaks of the function are exempt.
+    /// Detects a kink of a script function at the start of a step or within it. The rates of a smooth motion in consecutive steps agree up to the
+    /// fifth power of the step length. They do not agree if the rate jumps or if the motion is much faster than the step. Declared breaks of the
+    /// function are exempt.
     pub fn of(
         motion: &PrescribedMotion,
         interval: Interval,

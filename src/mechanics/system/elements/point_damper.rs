@@ -5,8 +5,8 @@
 //! ```
 //!
 //! The rate of a length, `Δℓ/Δt`, vanishes if the connecting vector reverses through zero within a step, although the ends pass each other at full
-//! speed. The rate along the mean vector is correct there, and agrees to second order elsewhere. The force acts along the mean line, so that angular
-//! momentum is conserved.
+//! speed. The rate along the mean vector is correct in this case, and agrees to second order otherwise. The force acts along the mean line, so that
+//! angular momentum is conserved.
 
 use super::damping_law::DampingLaw;
 use super::elongation::ElongationEnd;
@@ -21,7 +21,7 @@ use crate::integrators::Interval;
 use crate::linalg::BandedMatrix;
 use crate::system::bodies::Body;
 
-/// Damper between two places by the rate of their distance.
+/// Damper between two places, whose force depends on the rate of their distance.
 #[derive(Debug, Clone)]
 pub struct PointDamper {
     name: String,
@@ -36,10 +36,10 @@ pub struct PointDamper {
     rate_history: RateHistory,
     /// `Δd/Δt` in the previous step [length/time].
     last_velocity: Vec2,
-    /// Largest speed of which the rate may be a difference, at the start of the step [length/time].
+    /// Largest speed that enters the rate as a term, at the start of the step [length/time].
     speed: f64,
     force: MixedForce,
-    /// Force on the second terminal, as applied last [force].
+    /// Force on the second terminal in the last evaluation [force].
     applied_force: Vec2,
     linearised: DamperTrial,
     dissipated: f64,
@@ -210,7 +210,7 @@ impl InternalForce for PointDamper {
         self.force.linearise(target);
         let DamperTrial { direction, rate_by_movement, direction_slope: turn, .. } = met;
         self.scatter(at.bodies, direction * target.force, out);
-        // The line rotates with the force of the iterate.
+        // The direction of the force rotates with the connecting line.
         let turning = self.force.force * turn;
         let terminals = || self.terminals.iter().zip([-1.0, 1.0]);
         for (to, sign) in terminals() {
@@ -297,7 +297,7 @@ impl InternalForce for PointDamper {
         self.scatter(bodies, self.force_at_start(velocity), out);
     }
 
-    /// At zero length, small vibrations are damped in every direction.
+    /// At zero length, small vibrations are damped in both directions.
     fn each_damped_rate(&self, bodies: &[Body], rates: &[f64], take: &mut dyn FnMut(f64, f64)) {
         if !self.law.is_active() {
             return;

@@ -57,7 +57,7 @@ impl ElementDef for PointMass {
     }
 }
 
-/// Point mass on a body of a model. It moves with the control points whose basis functions are nonzero there.
+/// Point mass on a body of a model. Its inertia acts on the control points whose basis functions are nonzero at its place.
 #[derive(Debug, Clone, Copy)]
 pub struct NodalMass {
     pub place: BodyPoint,
@@ -83,7 +83,7 @@ impl NodalMass {
         }
     }
 
-    /// Passes the entries of `factor · M` to `add` as row, column and value. Entries of the same place add up.
+    /// Calls `add` with the row, column and value of each entry of `factor · M`. Entries at the same place add up.
     pub fn inertia_entries(
         &self,
         bodies: &[Body],

@@ -1,13 +1,14 @@
-//! Prescribed movements of supports: increments in a step, and work and impulse of the drives.
+//! Prescribed motions of supported degrees of freedom: increments in a step, and work and impulse of the drives.
 //!
-//! Let `v` be the rates, where those of prescribed movements are derivatives of the prescribed functions. Let `ε = Δx - Δt v̄` be the difference
-//! between a prescribed increment and its mean rate (third order in `Δt`; zero for unknowns). By the proofs of the energy–momentum step
+//! Let `v` be the rates; for prescribed degrees of freedom, they are the derivatives of the prescribed functions. Let `ε = Δx - Δt v̄` be the
+//! difference between a prescribed increment and its mean rate times `Δt` (third order in `Δt`; zero for unknowns). By the proofs of the
+//! energy–momentum step
 //!
 //! ```text
 //! ΔE = Σ R·Δx - Σ ε·M Δv/Δt          Δp = Δt Σ R          ΔL = Δt Σ x̄ × R + Σ ε × M v̄          R: what is left of the equations
 //! ```
 //!
-//! over the prescribed movements, exactly. These are work, impulse and angular impulse of a drive.
+//! over the prescribed degrees of freedom, exactly. These are work, impulse and angular impulse of a drive.
 
 mod at_rest;
 
@@ -37,7 +38,7 @@ struct Driven {
 
 #[derive(Debug, Clone, Copy, Default)]
 struct PresentMotion {
-    /// At the end of the last step [length/time², 1/time²].
+    /// Acceleration at the end of the last step [length/time², 1/time²].
     acceleration: f64,
     /// Sharpest kink so far, and the kink of the current step.
     curvature: MotionCurvature,
@@ -48,11 +49,11 @@ struct PresentMotion {
     reaction: f64,
     /// `M Δv` of the step being accepted [force·time, force·length·time].
     impact_momentum: f64,
-    /// Position or angle at rest under the full load [length, rad].
+    /// Static position or angle under the full load [length, rad].
     goal: f64,
-    /// Movement towards it so far [length, rad].
+    /// Part of the displacement to `goal` that has been applied [length, rad].
     placed: f64,
-    /// `M v̄` of its control point in that step [mass·length/time].
+    /// `M v̄` of its control point in the step being accepted [mass·length/time].
     momentum: Vec2,
 }
 
@@ -81,13 +82,13 @@ pub struct DriveState<'a> {
     pub moment: f64,
 }
 
-/// `Δω/Δθ` of a rotation increment: converts moments conjugate to increments into moments conjugate to angles.
+/// `Δω/Δθ` of a rotation increment. It converts moments conjugate to increments into moments conjugate to angles.
 fn per_angle(increment: f64, rotations: RotationIncrement) -> f64 {
     let angle = rotations.angle(increment);
     if angle == 0.0 { 1.0 } else { increment / angle }
 }
 
-/// Prescribed movements of a model, in the order of their degrees of freedom.
+/// Prescribed degrees of freedom of a model, in the order of their numbers.
 #[derive(Default)]
 pub struct PrescribedMovements {
     movements: Vec<PrescribedMovement>,
@@ -102,7 +103,7 @@ pub struct PrescribedMovements {
 }
 
 impl PrescribedMovements {
-    /// Creates the prescribed movements of drives, numbered after the unknown movements and constraint multipliers.
+    /// Creates the prescribed degrees of freedom of drives, numbered after unknowns and constraint multipliers.
     ///
     /// # Errors
     /// Name of the drive whose function has no value at the start, and the reason.
@@ -153,8 +154,8 @@ impl PrescribedMovements {
         Ok(())
     }
 
-    /// Replaces the prescribed movements by the given ones after a release, numbered after `unknowns` movements. States of remaining movements are
-    /// kept.
+    /// Replaces the prescribed degrees of freedom by the given ones after a release, numbered after `unknowns` entries. The states of the remaining
+    /// ones are kept.
     pub fn with(self, movements: Vec<PrescribedMovement>, unknowns: usize) -> Self {
         let known = |wanted: &PrescribedMovement| {
             let mut all = self.movements.iter().zip(&self.present);
@@ -211,7 +212,7 @@ impl PrescribedMovements {
         })
     }
 
-    /// Drives whose motion has a kink within a step, with the sharpest kink of each.
+    /// Drives whose motion has a kink within a step, with the largest kink of each.
     pub fn bends(&self) -> impl Iterator<Item = (&str, MotionCurvature)> {
         let all = self.movements.iter().zip(&self.present);
         let bent = all.filter(|(_, present)| present.curvature.size() > 0.0);
@@ -316,7 +317,8 @@ impl PrescribedMovements {
         }
     }
 
-    /// Work and impulse of the drives in the step whose movements the bodies gathered last. Their works are accumulated.
+    /// Work and impulse of the drives in the step whose increments the bodies gathered last. The work of each drive is accumulated.
+    ///
     ///
     /// `mean` returns the mean rate of a degree of freedom.
     pub fn exchange(

@@ -4,7 +4,7 @@ use super::collocation;
 use crate::beams::RateCollocation;
 use crate::integrators::Stage;
 
-/// Durations of the current step and the previous one [time]. A movement of zero duration has no rates.
+/// Durations of the current step and the previous one [time]. An increment of zero duration has no rates.
 #[derive(Debug, Clone, Copy)]
 pub struct RateHistory {
     duration: f64,
@@ -22,7 +22,7 @@ impl RateHistory {
         self.duration = duration;
     }
 
-    /// Duration of the current step, infinite in a movement of zero duration [time].
+    /// Duration of the current step; infinite for an increment of zero duration [time].
     pub fn duration(&self) -> f64 {
         self.duration
     }
@@ -33,8 +33,8 @@ impl RateHistory {
 
     /// Collocation of rates for a stage with a weight; `None` at the start of a step.
     ///
-    /// Rates are evaluated once per step. A method with forces at both ends balances those at the time `weight` within the step. The rate there is
-    /// extrapolated from the middles of this step and the last one.
+    /// Rates are evaluated once per step. A method with forces at both ends of the step balances forces at the time `weight` within the step. The
+    /// rate at that time is extrapolated from the middles of this step and the last one.
     pub fn at(&self, stage: Stage, weight: f64) -> Option<RateCollocation> {
         let by_change = 1.0 / self.duration;
         let rotations = collocation(stage).rotations;

@@ -12,7 +12,7 @@ const SEGMENTS: usize = 32;
 /// Largest number of points of a sampled function.
 const MOST_POINTS: usize = 20_000;
 
-/// Second test point of a segment besides its middle. An oscillating function may match at the middle by chance [-].
+/// Second test point of a segment, as a fraction of its length [-]. At the middle, an oscillating function may match by chance.
 const SECOND_TEST_POINT: f64 = 0.381_966;
 
 /// Factor of the tolerance at the second test point.
@@ -21,8 +21,8 @@ const OFF_MIDDLE_MARGIN: f64 = 4.0;
 type Polygon = Vec<(f64, f64)>;
 
 impl SpringLaw {
-    /// Samples a force over a range of elongations. Points are added until the polygon matches the function to 1e-7 of its largest value, up to 20
-    /// 000 points.
+    /// Samples a force over a range of elongations. Points are added until the polygon deviates from the function by at most 1e-7 of its largest
+    /// value, up to 20 000 points.
     ///
     /// # Errors
     /// Errors of the function.
@@ -66,7 +66,7 @@ fn largest_force(points: &[(f64, f64)]) -> f64 {
     points.iter().map(|(_, force)| force.abs()).fold(0.0, larger)
 }
 
-/// Polygon with an additional point in every segment that deviates by more than allowed at the given fraction of the segment, and the largest
+/// Polygon with an additional point in every segment that deviates by more than allowed at the fraction `at` of the segment, and the largest
 /// deviation.
 fn refined<E>(
     points: &[(f64, f64)],
@@ -107,7 +107,7 @@ mod tests {
             let missed = (law.force(q) - 100.0 * q - 50.0 * q * q * q).abs();
             assert!(missed < 1.2e-5, "{q}: {missed:e}");
         }
-        // The energy is that of the polygon, close to that of the function.
+        // The polygon defines the energy, which is close to that of the function.
         let (low, high) = (law.energy(-0.2), law.energy(0.7));
         let exact = |q: f64| 50.0 * q * q + 12.5 * q * q * q * q;
         assert!((high - low - exact(0.7) + exact(-0.2)).abs() < 1e-5);

@@ -1,11 +1,11 @@
-//! Stiffness of springs at rest.
+//! Static stiffness of springs.
 
 use super::elongation::Elongation;
 use super::spring_law::SpringLaw;
 use crate::beams::SpanStiffness;
 use crate::system::bodies::Body;
 
-/// Degrees of freedom and stiffness of a spring at rest: material part from the slope of the law, geometric part from its force.
+/// Degrees of freedom and static stiffness of a spring: material part from the slope of the law, geometric part from its force.
 pub fn static_law(
     law: &SpringLaw,
     elongation: &Elongation,

@@ -22,8 +22,8 @@ use crate::integrators::{Interval, Stage};
 use crate::linalg::BandedMatrix;
 use crate::system::bodies::Body;
 
-/// Tolerance of forces of laws with corners, relative to the rounding scale of the elongation. Mismatches of a linear law vanish in the next
-/// iteration; those of a law with corners do not.
+/// Tolerance of forces of laws with corners, relative to the rounding scale of the elongation. A linear law has zero mismatch after the next
+/// iteration; a law with corners does not.
 const CORNER_TOLERANCE: f64 = 2e-4;
 
 #[derive(Debug, Clone)]
@@ -34,30 +34,30 @@ pub struct SpringDamper {
     linearised: [Vec<f64>; 3],
     /// Derivative of the force with respect to the coordinates, row by row.
     tangent: Vec<f64>,
-    /// Places of terminals on the ground [length].
+    /// Positions of terminals on the ground [length]; `None` for terminals on bodies.
     grounds: Vec<Option<Vec2>>,
     /// Law over the growth of the elongation since the scene was built.
     law: Option<SpringLaw>,
     /// True if the law has corners and is monotonically increasing.
     rises: bool,
-    /// Growths at which the stiffness jumps [length, rad].
+    /// Growths of the elongation at which the stiffness jumps [length, rad].
     corners: Vec<f64>,
     /// Elongation of zero growth, in terms of the law as given.
     offset: f64,
     ranges: [Option<LawRange>; 2],
     /// Description of the law in terms of the elongations of the scene.
     law_text: Option<String>,
-    /// `d(q̇)`.
+    /// Damping law `d(q̇)`.
     damping: DampingLaw,
     released: Option<(Option<SpringLaw>, DampingLaw)>,
     spring: MixedForce,
     damper: MixedForce,
-    /// `Δt`; infinite in movements of zero duration [time].
+    /// `Δt`; infinite for increments of zero duration [time].
     duration: f64,
     /// `Δt` and `Δq/Δt` of the last step.
     last: (f64, f64),
     rotations: RotationIncrement,
-    /// Coordinates of its forces at the start of the step, and in the iterate.
+    /// Forces along the coordinates: at the start of the step, and in the iterate.
     force_coordinates: Vec<f64>,
     current: Vec<f64>,
     dissipated: f64,
@@ -112,7 +112,7 @@ impl SpringDamper {
         new
     }
 
-    /// Evaluates an iterate, including the lag of a damper with its own time.
+    /// Evaluates an iterate, including the lag of a damper at the time of its rate.
     fn evaluate(&mut self, at: TrialState<'_>) {
         self.elongation.evaluate(at);
         if self.damping.is_active() {
@@ -128,7 +128,7 @@ impl SpringDamper {
         }
     }
 
-    /// Records a force along the secant, and that of the damper along the lag.
+    /// Records a force along the secant, and the damper force along secant plus lag.
     fn record_force(&mut self, stage: Stage, force: f64, damper: f64) {
         let Self {
             elongation: Elongation { secant, lag, .. },
@@ -257,7 +257,7 @@ impl InternalForce for SpringDamper {
         self.damper.correct(change);
     }
 
-    /// The ground does not move, so it does no work.
+    /// The ground does not move, so the forces on it do no work.
     fn exchange(&self, _bodies: &[Body], duration: f64) -> WorkAndImpulse {
         let given = |at: usize| (self.force_coordinates[at] + self.current[at]) * duration;
         let mut sum = WorkAndImpulse::default();
@@ -341,7 +341,7 @@ impl InternalForce for SpringDamper {
         }
     }
 
-    /// The stored energy of a broken spring is dissipated in the spring.
+    /// The stored energy of a released spring counts as its dissipation.
     fn release(&mut self) {
         self.dissipated += self.stored();
         self.detach();

@@ -1,14 +1,14 @@
-//! Laws of restoring forces over an elongation, with their stored energy.
+//! Force laws over an elongation, with their stored energy.
 
 use serde::{Deserialize, Serialize};
 
 use super::coordinate::Coordinate;
 use crate::geometry::larger;
 
-/// Forces below this fraction of the largest of the law count as zero.
+/// Force, relative to the largest force of the law, below which it counts as zero.
 const ROUNDING: f64 = 1e-12;
 
-/// A corner is sharp if the stiffness changes by more than this fraction of the largest.
+/// Change of the stiffness at a corner, relative to the largest stiffness, above which the corner is sharp.
 const SHARP_CORNER: f64 = 0.5;
 
 /// Restoring force over an elongation `q`, a length or an angle.
@@ -26,7 +26,7 @@ pub enum SpringLaw {
         /// Increasing elongations `q` [length, rad] with forces [force, force·length]; at least two.
         points: Vec<(f64, f64)>,
     },
-    /// Function that was sampled when the scene was described.
+    /// Function that was sampled when the scene was built.
     Sampled {
         /// Increasing elongations with forces, as in a table.
         points: Vec<(f64, f64)>,
@@ -51,7 +51,7 @@ impl SpringLaw {
         match self {
             Self::Linear { stiffness, natural } => stiffness * (q.value - natural),
             Self::Table { points } | Self::Sampled { points, .. } => {
-                // Interpolates from the smaller force. From the larger one, only its rounding would remain.
+                // Interpolates from the end with the smaller force. From the other end, rounding of the larger force would remain.
                 let [first, second] = segment(points, q);
                 let (at, force) = if first.1.abs() <= second.1.abs() { first } else { second };
                 force + self.slope(q) * q.difference(at)
@@ -59,7 +59,7 @@ impl SpringLaw {
         }
     }
 
-    /// Stiffness `U''(q)`; at a corner that of the upper segment [force/length, force·length/rad].
+    /// Stiffness `U''(q)`; at a corner that of the segment above it [force/length, force·length/rad].
     pub fn slope(&self, q: impl Into<Coordinate>) -> f64 {
         match self {
             Self::Linear { stiffness, .. } => *stiffness,
@@ -129,7 +129,7 @@ impl SpringLaw {
         }
     }
 
-    /// Returns true if the force vanishes in a whole segment (slack, or no contact).
+    /// Returns true if the force is zero in a whole segment (slack, or no contact).
     pub fn may_be_slack(&self) -> bool {
         match self {
             Self::Linear { .. } => false,
@@ -139,7 +139,7 @@ impl SpringLaw {
         }
     }
 
-    /// Returns true if the force vanishes at an elongation, within rounding and sampling error.
+    /// Returns true if the force is zero at an elongation, within rounding and sampling error.
     pub fn is_unloaded_at(&self, q: f64) -> bool {
         let off = match self {
             Self::Linear { stiffness, natural } => ROUNDING * (stiffness * natural).abs(),
@@ -149,7 +149,7 @@ impl SpringLaw {
         self.force(q).abs() <= off
     }
 
-    /// Stored energy `U(q)`, zero where the force vanishes, or at the first point of a table without such a place [energy].
+    /// Stored energy `U(q)` [energy]. It is zero where the force is zero, or at the first point of a table whose force has no zero.
     pub fn energy(&self, q: impl Into<Coordinate>) -> f64 {
         let q = q.into();
         match self {
@@ -251,7 +251,7 @@ fn largest(points: &[(f64, f64)]) -> f64 {
     points.iter().map(|(_, force)| force.abs()).fold(0.0, larger)
 }
 
-/// Slope of a segment [force/length, force·length/rad]; zero for an empty segment, which no checked law has.
+/// Slope of a segment [force/length, force·length/rad]; zero for a segment of zero length, which checked laws do not have.
 fn slope([a, b]: [(f64, f64); 2]) -> f64 {
     if b.0 > a.0 { (b.1 - a.1) / (b.0 - a.0) } else { 0.0 }
 }
@@ -260,14 +260,14 @@ fn shifted(points: &[(f64, f64)], by: f64) -> Vec<(f64, f64)> {
     points.iter().map(|(q, force)| (q + by, *force)).collect()
 }
 
-/// Ends of the segment at or nearest to an elongation; at a corner the upper one.
+/// Ends of the segment at or nearest to an elongation; at a corner, of the segment above it.
 fn segment(points: &[(f64, f64)], q: Coordinate) -> [(f64, f64); 2] {
     let beyond = points.partition_point(|(at, _)| q.difference(*at) >= 0.0);
     let beyond = beyond.clamp(1, points.len() - 1);
     [points[beyond - 1], points[beyond]]
 }
 
-/// Zero of the line through two points; the first point of a level line.
+/// Zero of the line through two points; the first point if the line is horizontal.
 fn zero((q0, f0): (f64, f64), (q1, f1): (f64, f64)) -> f64 {
     match (f1 == f0, f1 == 0.0) {
         (true, _) => q0,
@@ -276,7 +276,7 @@ fn zero((q0, f0): (f64, f64), (q1, f1): (f64, f64)) -> f64 {
     }
 }
 
-/// Elongation of least energy, where the force of a table or its extrapolation changes from negative to positive; otherwise the first point.
+/// Elongation of least energy, where the force of a table or its extrapolation changes from negative to positive; if there is none, the first point.
 fn natural_elongation(points: &[(f64, f64)]) -> f64 {
     let passes = |pair: &&[(f64, f64)]| pair[0].1 <= 0.0 && pair[1].1 >= 0.0;
     let last = points.len() - 1;

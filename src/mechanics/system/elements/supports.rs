@@ -62,9 +62,9 @@ impl Supports {
         self.iter().zip(residual[first..].iter().copied())
     }
 
-    /// Impulse of the fixed supports in the step whose movements the bodies gathered last.
+    /// Impulse of the fixed supports in the step whose increments the bodies gathered last.
     ///
-    /// Reactions act at the mean position, as a roller moves in its free direction.
+    /// Reactions act at the mean position, because a roller moves in its free direction.
     pub fn exchange(&self, bodies: &[Body], residual: &[f64], duration: f64) -> WorkAndImpulse {
         self.impulse(residual, duration, |body, point| {
             let [x, y, _] = bodies[body].moved()[point];

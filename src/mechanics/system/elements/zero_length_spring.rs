@@ -1,8 +1,8 @@
 //! Springs of zero natural length, whose ends may coincide.
 //!
-//! A linear spring of zero natural length acts on both components: `U = ½ k (x² + y²)`. Along the connecting vector its force `k ℓ` would have an
-//! unbounded change of direction where the ends meet. Other laws act on the length. The parallel damper uses the rate along the mean vector, because
-//! the rate of a length fails for ends that pass through each other within a step.
+//! A linear spring of zero natural length acts on both components: `U = ½ k (x² + y²)`. With a force `k ℓ` along the connecting vector, the rate of
+//! change of the force direction would be unbounded where the ends meet. Other laws act on the length. The parallel damper uses the rate along the
+//! mean vector, because the rate of the length is wrong if the ends pass through each other within a step.
 
 use super::damping_law::DampingLaw;
 use super::elongation::{Elongation, ElongationEnd};

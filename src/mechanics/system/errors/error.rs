@@ -5,7 +5,7 @@ use crate::beams::BeamError;
 use crate::geometry::GeometryError;
 use crate::loads::LoadError;
 
-/// Scene that cannot be described or built.
+/// Error in the description or assembly of a scene.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum SystemError {
     /// Scene without bodies.
@@ -254,7 +254,7 @@ pub enum SystemError {
         /// Name of the object.
         name: String,
     },
-    /// Scene without free movements.
+    /// Scene in which all degrees of freedom are fixed.
     #[error(
         "the scene '{scene}' has no free degree of freedom: all are fixed by supports or prescribed; remove a support"
     )]
@@ -340,7 +340,7 @@ pub enum SystemError {
     },
 }
 
-/// Cause of a rotation of a particle.
+/// Object that would rotate a particle, which has no rotation.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Turning {
     /// Rigid joint.

@@ -1,4 +1,4 @@
-//! Rules for names, which appear in messages and column heads and are typed by users.
+//! Rules for names. Names appear in messages and column heads, and users type them.
 
 use std::ops::RangeInclusive;
 

@@ -57,7 +57,7 @@ impl Links {
         2 * self.rigid.len() + self.rollers().count()
     }
 
-    /// Force of the rollers on some nodes, given the multiplier of each roller [force]; `None` without a roller there.
+    /// Force of the inclined rollers at the given nodes, for a multiplier of each roller [force]; `None` without a roller there.
     pub fn force_of_rollers(
         &self,
         nodes: &[(usize, usize)],
@@ -146,7 +146,7 @@ impl Links {
         }
     }
 
-    /// Adds the forces among the unknowns to those on bodies, with the arms at the start of a step.
+    /// Adds the constraint forces among the unknowns to the forces on bodies, with the arms at the start of a step.
     pub fn transmit(&self, bodies: &Bodies, unknowns: &[f64], out: &mut [f64]) {
         for link in &self.rigid {
             let force = Vec2::new(unknowns[link.unknowns[0]], unknowns[link.unknowns[1]]);
@@ -173,13 +173,13 @@ impl Links {
         self.rigid.iter_mut().zip(others).for_each(|(link, other)| link.exchange_force(other));
     }
 
-    /// Largest constraint violation in a residual, relative to movements and arm, or to the size of the scene [-].
+    /// Largest constraint violation in a residual [-]. Links are relative to their increments and arm, rollers to the size of the scene.
     pub fn violation(&self, residual: &[f64]) -> f64 {
         let most = self.rigid.iter().fold(0.0, |most, link| larger(most, link.violation(residual)));
         self.rollers.iter().fold(most, |most, roller| larger(most, roller.violation(residual)))
     }
 
-    /// Largest distance of a point from its place or line [length].
+    /// Largest distance of a linked point from its position in the body, or of a roller from its line [length].
     pub fn largest_gap(&self, bodies: &Bodies) -> f64 {
         let most = self.rigid.iter().fold(0.0, |most, link| larger(most, link.gap(bodies)));
         self.rollers.iter().fold(most, |most, roller| larger(most, roller.gap(bodies)))
@@ -192,7 +192,7 @@ impl Links {
         self.rollers.iter_mut().for_each(|roller| roller.advance(self.force_unknowns, values));
     }
 
-    /// Passes the stiffness of all constraints at rest to the callback, for a penalty stiffness [force/length].
+    /// Calls the callback with the static stiffness of all constraints, for a penalty stiffness [force/length].
     pub fn for_each_static_stiffness(
         &self,
         bodies: &Bodies,

@@ -4,8 +4,9 @@
 //! n·Δx = 0          on the point -λ n,   n across the line, of length one
 //! ```
 //!
-//! The equation is linear in the increments, so the work `-λ n·Δx` of the force vanishes for all increments. Its impulse `-Δt λ n` acts at the mean
-//! place of the point, as for other supports. For methods with `v1 = 2 Δx/Δt - v0`, velocities stay along the line if they start so.
+//! The equation is linear in the increments, so the force `-λ n` does no work in any increment that satisfies it. Its impulse `-Δt λ n` acts at the
+//! mean position of the point, as for other supports. For methods with `v1 = 2 Δx/Δt - v0`, velocities stay along the line if the start velocity
+//! does.
 
 use super::rigid_link::ForceUnknowns;
 use crate::beams::{ForceSummary, SpanStiffness};
@@ -26,15 +27,15 @@ pub struct InclinedRoller {
     normal: Vec2,
     /// Place of the point as drawn, on the line [length].
     origin: Vec2,
-    /// Scale of the violation: the size of the scene plus the movements of the iterate [length].
+    /// Scale of the violation: the size of the scene plus the increments of the iterate [length].
     size: f64,
     movement: f64,
-    /// Multiplier `λ` of the last step, or at rest [force].
+    /// Multiplier `λ` of the last step or static solution [force].
     force: f64,
 }
 
 impl InclinedRoller {
-    /// Creates a roller at a control point on its line, in a scene of some size [length]; `across` is a unit vector.
+    /// Creates a roller at a control point on its line; `size` is that of the scene [length], `across` the unit normal of the line.
     pub fn new(
         joint: usize,
         node: (usize, usize),
@@ -57,17 +58,17 @@ impl InclinedRoller {
         self.normal * -unknown
     }
 
-    /// Force on the point in the last step or at rest; zero after a release [force].
+    /// Force on the point in the last step or static solution; zero after a release [force].
     pub fn force(&self) -> Vec2 {
         self.force_of(if self.unknown.is_some() { self.force } else { 0.0 })
     }
 
-    /// Multiplier `λ` of the last step, or at rest [force].
+    /// Multiplier `λ` of the last step or static solution [force].
     pub fn multiplier(&self) -> f64 {
         self.force
     }
 
-    /// Values at the degrees of freedom x and y; zero for supported movements.
+    /// Values at the degrees of freedom x and y; zero at supported degrees of freedom.
     fn values_at(&self, bodies: &Bodies, values: &[f64]) -> Vec2 {
         let [x, y] = self.degrees(bodies).map(|at| values.get(at).copied().unwrap_or(0.0));
         Vec2::new(x, y)
@@ -89,7 +90,7 @@ impl InclinedRoller {
         ForceSummary { force: force.abs(), ..ForceSummary::default() }
     }
 
-    /// Adds the derivatives of [`add`](Self::add), restricted to unknown movements.
+    /// Adds the derivatives of [`add`](Self::add), restricted to unknowns.
     pub fn add_tangent(
         &self,
         bodies: &Bodies,
@@ -121,7 +122,7 @@ impl InclinedRoller {
         out[y] += force * self.normal.y;
     }
 
-    /// Constraint violation in a residual, relative to the scene and the movements [-].
+    /// Constraint violation in a residual, relative to the size of the scene plus the increments [-].
     pub fn violation(&self, residual: &[f64]) -> f64 {
         let off = self.unknown.map_or(0.0, |at| residual[at].abs());
         if off == 0.0 { 0.0 } else { off / (self.size + self.movement) }
@@ -141,7 +142,7 @@ impl InclinedRoller {
         bodies[body].dynamics.control_points()[point]
     }
 
-    /// Mean place of the point in the step whose movements the bodies gathered last [length].
+    /// Mean position of the point in the step whose increments the bodies gathered last [length].
     pub fn mean_place(&self, bodies: &Bodies) -> Vec2 {
         let (body, point) = self.node;
         let [x, y, _] = bodies[body].moved()[point];
@@ -159,7 +160,7 @@ impl InclinedRoller {
         }
     }
 
-    /// Passes the stiffness at rest to the callback, for a penalty stiffness [force/length].
+    /// Calls the callback with the static stiffness of the constraint, for a penalty stiffness [force/length].
     pub fn at_rest(
         &self,
         bodies: &Bodies,
@@ -172,7 +173,7 @@ impl InclinedRoller {
         span.strains.extend([self.normal.x, self.normal.y]);
         span.stiffness.push(stiffness);
         take(&self.degrees(bodies), span);
-        // The force itself is not needed.
+        // The geometric stiffness is zero.
         span.begin(0);
         span.strains.push(1.0);
         span.stiffness.push(stiffness);

@@ -5,8 +5,8 @@
 //! on the point -λ,   on the body λ and aτ × λ        aτ = (1-τ) a0 + τ a1,   τ = ½ but for generalized-α and at rest
 //! ```
 //!
-//! `χ J ā = a1 - a0` holds for every increment, so the point is in its place at the ends of every step. With tangent-scaled increments and `τ = ½`,
-//! the work `λ·Δx_b + (ā × λ) Δω - λ·Δx_p` of the force vanishes, and so do the sums of forces and moments in the mean configuration.
+//! `χ J ā = a1 - a0` holds for every increment, so the point is at its position in the body at the end of every step. With tangent-scaled increments
+//! and `τ = ½`, the work `λ·Δx_b + (ā × λ) Δω - λ·Δx_p` of the force is zero, and so are the sums of forces and of moments in the mean configuration.
 
 use std::ops::{Add, Div};
 
@@ -18,9 +18,9 @@ use crate::system::bodies::Bodies;
 /// Meaning of the force unknowns of a rigid link.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum ForceUnknowns {
-    /// In a step of a duration: the impulse of the force [time].
+    /// In a step: the impulse of the force; the value is the duration [time].
     Step(f64),
-    /// In a movement between two equilibria: the change of the force.
+    /// In a displacement between two equilibria: the change of the force.
     AtRest,
 }
 
@@ -45,7 +45,7 @@ impl ForceUnknowns {
     }
 }
 
-/// Treatment of the arms of rigid links by a method.
+/// Arm of the force of rigid links for a method.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ArmRule {
     pub rotations: RotationIncrement,
@@ -64,9 +64,9 @@ pub struct RigidLink {
     arm: Vec2,
     /// Rotation of the body at the start of the step.
     rotation: Rotation,
-    /// Force `-λ` on the point in the last step, or at rest [force].
+    /// Force `-λ` on the point in the last step or static solution [force].
     force: Vec2,
-    /// Scale of the violation: the movements of the iterate [length].
+    /// Scale of the violation: the increments of the iterate [length].
     size: f64,
 }
 
@@ -99,7 +99,7 @@ impl RigidLink {
         self.rotation.to_space(self.arm)
     }
 
-    /// Force in the last step, or at rest [force].
+    /// Force in the last step or static solution [force].
     pub fn force(&self) -> Vec2 {
         self.force
     }
@@ -166,7 +166,7 @@ impl RigidLink {
         }
     }
 
-    /// Adds the derivatives of [`add`](Self::add), restricted to unknown movements.
+    /// Adds the derivatives of [`add`](Self::add), restricted to unknowns.
     pub fn add_tangent(
         &self,
         bodies: &Bodies,
@@ -226,13 +226,13 @@ impl RigidLink {
         out[rotation] -= cross(arm, force);
     }
 
-    /// Constraint violation in a residual, relative to movements and arm [-].
+    /// Constraint violation in a residual, relative to increments and arm [-].
     pub fn violation(&self, residual: &[f64]) -> f64 {
         let off = larger(residual[self.unknowns[0]].abs(), residual[self.unknowns[1]].abs());
         if off == 0.0 { 0.0 } else { off / self.size }
     }
 
-    /// Distance of the point from its place [length].
+    /// Distance of the point from its position in the body [length].
     pub fn gap(&self, bodies: &Bodies) -> f64 {
         let points = bodies[self.body].dynamics.control_points();
         ((points[self.point] - points[0]) - self.arm()).norm()
@@ -245,8 +245,8 @@ impl RigidLink {
         self.arm() * (-spin * spin)
     }
 
-    /// Velocity of the point relative to its place in the body frame [length/time]. With the velocities at the ends of steps it is of second order
-    /// and alternates. For accelerations, the rotation of the arm is excluded.
+    /// Velocity of the point relative to its position in the body [length/time]. The velocities at the ends of steps give a second-order error that
+    /// alternates. For accelerations, the rotation of the arm is excluded.
     pub fn velocity_violation(&self, bodies: &Bodies, rates: &[f64]) -> Vec2 {
         let body = &bodies[self.body];
         let ([.., rotation], _) = self.degrees(bodies);
@@ -267,8 +267,8 @@ impl RigidLink {
         self.rotation = self.rotation.turned(arms.rotations, now.increment).normalised();
     }
 
-    /// Passes the stiffness at rest to the callback: a penalty stiffness [force/length] at the place of the point, and the geometric stiffness of the
-    /// force.
+    /// Calls the callback with the static stiffness: a penalty stiffness [force/length] at the position of the point, and the geometric stiffness of
+    /// the force.
     pub fn at_rest(
         &self,
         bodies: &Bodies,
@@ -289,7 +289,7 @@ impl RigidLink {
         span.rounding_fractions.clear();
         span.rounding_fractions.push(0.0);
         take(&[point_x, point_y, x, y, rotation], span);
-        // The force itself is not needed.
+        // The penalty term has no geometric stiffness.
         let own = SpanStiffness {
             strains: vec![1.0],
             stiffness: vec![stiffness],

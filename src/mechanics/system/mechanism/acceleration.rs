@@ -9,7 +9,7 @@ impl Accelerated for System {
     }
 
     fn accelerations(&self) -> Option<&[f64]> {
-        // Accelerations before a jump do not hold after it.
+        // Accelerations before a jump are invalid after it.
         self.motion.accelerations.known().filter(|_| !self.step.jumps)
     }
 

@@ -1,4 +1,4 @@
-//! Location of a failed step: the largest residual. Evaluated after a failure only.
+//! Cause of a failed step: the location of the largest residual. It is evaluated only after a failure.
 
 use super::System;
 use crate::integrators::FailureSource;
@@ -14,7 +14,7 @@ fn worst(values: impl Iterator<Item = f64>) -> Option<usize> {
 }
 
 impl System {
-    /// Location of the largest residual of a part; for strain mismatches, the element with the largest one.
+    /// Location of the largest residual of a part; for strain mismatches, the element with the largest mismatch.
     pub(super) fn worst_of(&self, part: ResidualPart, residual: &[f64]) -> Option<FailureSource> {
         match part {
             ResidualPart::Strain => self.worst_strain().or_else(|| self.worst_balance(residual)),
@@ -23,7 +23,7 @@ impl System {
         }
     }
 
-    /// Internal force with a larger mismatch than all section forces.
+    /// Internal force whose mismatch is larger than those of all section forces.
     fn worst_strain(&self) -> Option<FailureSource> {
         let (name, missing) = self.elements.farthest()?;
         let is_worst = missing.is_nan() || missing >= self.step.summary.strain_mismatch;

@@ -1,8 +1,8 @@
 //! Impulses at sliders: consistent start velocities, and impacts at the ends of masters, all simultaneous ones together.
 //!
-//! Impulses `P` at contacts change the velocities by `M (v⁺ - v⁻) = Σ Gᵀ P`, where `G v` is the velocity of a slave relative to its place on the
-//! master. A closed contact conserves linear and angular momentum; a gap of the relaxed rule changes angular momentum. In an impact, `G` is the part
-//! of that velocity that the steps resolve ([`Rigidity`]). The work of a contact on the bodies is `½ P (w⁻ + w⁺)`.
+//! Impulses `P` at contacts change the velocities by `M (v⁺ - v⁻) = Σ Gᵀ P`, where `G v` is the velocity of a slave relative to the contact point of
+//! the master. A closed contact conserves linear and angular momentum; a gap of the relaxed rule changes angular momentum. In an impact, `G` is the
+//! part of that velocity that the steps resolve ([`Rigidity`]). The work of a contact on the bodies is `½ P (w⁻ + w⁺)`.
 
 use super::System;
 use super::rigidity::{Deformation, Rigidity};
@@ -15,10 +15,10 @@ use crate::system::elements::WorkAndImpulse;
 /// Slider, and the direction of its relative velocity on which an impulse acts.
 pub(super) type ImpactDirection = (usize, Vec2);
 
-/// Directions of impulses at contacts, and the deformations that take part.
+/// Directions of contact impulses, and the deformations included in the impact.
 pub(super) type ImpactSelection<'a> = (&'a [ImpactDirection], Deformation);
 
-/// Fraction of the change of relative velocity below which a direction counts as fixed.
+/// Ratio of the velocity response in a direction to the full response, below which the direction counts as fixed.
 pub(super) const GIVES: f64 = 1e-9;
 
 /// Forces of a unit impulse, and the velocity response.
@@ -95,7 +95,7 @@ pub(super) struct ImpactProblem {
     pub(super) response: Vec<Vec<f64>>,
     /// `w⁻` [length/time].
     before: Vec<f64>,
-    /// Velocity change without contact impulses: closure of rigid links and jumps of prescribed rates.
+    /// Velocity change without contact impulses, due to rigid links and jumps of prescribed rates.
     change: Vec<f64>,
     /// Jumps of prescribed rates by degree of freedom; empty without jumps.
     jumps: Vec<f64>,
@@ -177,7 +177,7 @@ impl System {
     }
 
     /// Adjusts the velocities of points of rigid bodies to the initial rates of drives if they differ by more than a tolerance [length/time].
-    /// Incompatible rates would alternate from step to step permanently.
+    /// Otherwise the difference would alternate from step to step permanently.
     pub(in crate::system) fn fit_links_to_drives(&mut self, negligible: f64) {
         if self.links.count() == 0 || !self.supports.prescribed().has_start_rate() {
             return;
@@ -187,7 +187,7 @@ impl System {
         if missed.iter().all(|missed| missed.abs() <= negligible) {
             return;
         }
-        // The impulse that starts the motion precedes the start and is not accumulated. A singular matrix is reported by the first step.
+        // The impulse that starts the motion acts before the start time and is not accumulated. A singular matrix is reported by the first step.
         let before = std::mem::take(&mut self.exchanged);
         let struck = self.apply_transverse_impact();
         self.exchanged = before;
@@ -196,19 +196,19 @@ impl System {
         }
     }
 
-    /// Applies jumps of prescribed rates at the start of a step to rigid links and sliders by an impact. Incompatible rates would alternate from step
-    /// to step permanently. The impact conserves energy except for the work of drives: the constraint violation changes its sign (theory.md 9.5).
-    /// Returns true if there was a jump.
+    /// Transmits jumps of prescribed rates at the start of a step to rigid links and sliders by an impact. Otherwise the violated velocity
+    /// constraints would alternate from step to step permanently. The impact conserves energy except for the work of drives, because it reverses the
+    /// constraint violation (theory.md 9.5). Returns true if there was a jump.
     pub fn apply_drive_jumps(&mut self, interval: Interval) -> bool {
         if self.links.count() == 0 && self.sliders.iter().next().is_none() {
             return false;
         }
-        // Errors of functions are reported by the step that begins.
+        // If a function has no value, the step that follows reports it.
         let prescribed = self.supports.prescribed();
         let Ok(Some(jumps)) = prescribed.jumps(interval, &self.motion.rates) else { return false };
         let directions = self.sliders.directions(&self.bodies);
         let laws = vec![ImpactLaw::Elastic; directions.len()];
-        // So are singular matrices.
+        // If the matrix is singular, the step that follows reports it.
         let Ok(encounter) =
             self.impact_problem_with_jumps(&[(&directions, Deformation::All)], -2.0, jumps)
         else {
@@ -219,7 +219,7 @@ impl System {
         true
     }
 
-    /// Speeds of a slave and of its place on the master in a direction [length/time].
+    /// Speeds of a slave and of the contact point of its master in a direction [length/time].
     pub(super) fn speeds(&self, (slider, unit): ImpactDirection, rates: &[f64]) -> (f64, f64) {
         let slider = &self.sliders[slider];
         let (slave, relative) = (
@@ -263,7 +263,7 @@ impl System {
         directions.iter().map(answer).collect()
     }
 
-    /// Velocity responses to unit impulses with given deformations. All deformations take part where the given ones fix both partners.
+    /// Velocity responses to unit impulses with the given deformations. If these fix both partners in a direction, all deformations are used.
     ///
     /// # Errors
     /// Fails if the matrix is singular.
@@ -291,7 +291,8 @@ impl System {
         Ok(directions.iter().map(&mut answer).collect())
     }
 
-    /// Impact problem for some directions. Violations of rigid links are changed by `links` times themselves; with -2 the links do no work.
+    /// Impact problem for the given directions. The velocity violation `w` of each rigid link changes by `links · w`; with `links = -2` the links do
+    /// no work.
     pub(super) fn impact_problem(
         &mut self,
         met: &[ImpactSelection<'_>],
@@ -300,7 +301,7 @@ impl System {
         self.impact_problem_with_jumps(met, links, Vec::new())
     }
 
-    /// The same with jumps of prescribed rates. Contacts and links use the mean of the rates before and after the jump.
+    /// Impact problem with jumps of prescribed rates. Contacts and links use the mean of the rates before and after the jump.
     fn impact_problem_with_jumps(
         &mut self,
         met: &[ImpactSelection<'_>],
@@ -361,7 +362,7 @@ impl System {
             self.sliders[slider].impulse -= impulse;
         }
         self.add_impact_impulses(&change, &passed_on, on_slaves);
-        // Impulses of rigid links are not continuing forces.
+        // Impulses of rigid links must not be kept as forces of the next step.
         self.links.clear(&mut change);
         self.motion.jump(&change);
         self.elements.clear_rate_history();

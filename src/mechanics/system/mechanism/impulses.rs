@@ -1,13 +1,13 @@
 //! Impulses of joints and supports in the last step, accumulated if their mean is requested.
 //!
-//! The solved balance of a step is evaluated again with separate numbers for the movements of every control point, so that joints tie none of them.
-//! The residual at each control point is the force of joints and supports. Impulses of impacts are added.
+//! The solved balance of a step is evaluated again with separate degrees of freedom for every control point, so that joints tie none of them. The
+//! residual at each control point is then the force of joints and supports. Impulses of impacts are added.
 //!
 //! ```text
 //! M (v1 - v0)/Δt + Σ share · F(stage) + G = r        p1 - p0 = Δt Σ (r + loads)
 //! ```
 //!
-//! Methods that balance accelerations instead of momenta have no such mean.
+//! Methods that balance accelerations instead of momenta have no such mean forces.
 
 use super::rigidity::add_transmitted_impulses;
 use super::{Reactions, System};
@@ -28,11 +28,12 @@ pub struct ExchangeLedger {
 
 /// Impulses on all control points, with preallocated buffers.
 pub struct Impulses {
-    /// Separate degrees of freedom of every control point; the regular ones while these are in use.
+    /// Separate degrees of freedom of every control point. During an evaluation, they are swapped with those of the model.
     numbers: Vec<DegreesOfFreedom>,
-    /// Force unknowns of rigid links, numbered after all movements; the regular ones while these are in use.
+    /// Force unknowns of rigid links, numbered after all separate degrees of freedom. During an evaluation, they are swapped with those of the model.
     links: Vec<[usize; 2]>,
-    /// `None` for each inclined roller, which is treated separately; the regular unknowns while the numbers are in use.
+    /// `None` for each inclined roller, whose force is summed separately. During an evaluation, they are swapped with the force unknowns of the
+    /// model.
     rollers: Vec<Option<usize>>,
     values: Vec<f64>,
     /// Residual of the balance, with additional space for contact equations.

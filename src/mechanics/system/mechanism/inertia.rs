@@ -18,13 +18,13 @@ impl Inertia for System {
 }
 
 impl System {
-    /// Passes the entries of the inertia matrix to `add` as row, column and value. Entries of the same place add up.
+    /// Calls `add` with the row, column and value of each entry of the inertia matrix. Entries at the same place add up.
     pub(super) fn inertia_entries(&self, add: &mut impl FnMut(usize, usize, f64)) {
         self.bodies.iter().for_each(|body| body.inertia_entries(1.0, add));
         self.elements.inertia_entries(&self.bodies, 1.0, self.unknowns.count(), add);
     }
 
-    /// Inertia matrix of small movements in the given order [mass, mass·length, mass·length²].
+    /// Inertia matrix in the given order of unknowns [mass, mass·length, mass·length²].
     pub fn sparse_inertia(&self, order: &OrderAtRest) -> SymmetricSparse {
         SymmetricSparse::new(order.count(), |add| {
             self.inertia_entries(&mut |row, column, value| {
@@ -33,8 +33,8 @@ impl System {
         })
     }
 
-    /// Band matrix of the inertia of unknown movements with the couplings of rigid links, whose solution gives accelerations and link forces [mass,
-    /// mass·length, mass·length²].
+    /// Band matrix of the inertia with the couplings of rigid links [mass, mass·length, mass·length²]. Its solution gives accelerations and link
+    /// forces.
     pub(super) fn banded_inertia(&self) -> BandedMatrix {
         let mut inertia =
             BandedMatrix::zeros(self.unknowns.count(), self.unknowns.half_bandwidth());
@@ -43,7 +43,7 @@ impl System {
         inertia
     }
 
-    /// Diagonal of the inertia matrix of the unknown movements [mass, mass·length²].
+    /// Diagonal of the inertia matrix of the unknown degrees of freedom [mass, mass·length²].
     pub(in crate::system) fn diagonal_of_inertia(&self) -> Vec<f64> {
         let mut diagonal = vec![0.0; self.unknowns.count()];
         self.inertia_entries(&mut |row, column, value| {

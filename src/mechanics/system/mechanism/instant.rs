@@ -4,9 +4,9 @@
 //! M a + F(x) - f(t) - Gᵀ λ = r        G a = 2 ξ̇ u·Σ B_i' v_i + ξ̇² u·Σ B_i'' x_i        r = 0 but where something is held
 //! ```
 //!
-//! If the axis is compliant under a slider, `λ` is known from the kink. Configuration and rates at the end of a step are of second order for every
-//! method, and so are these results. They depend on the present state only, and are the same after a rewind, in a copy and from a file. Unresolved
-//! vibrations appear in them, but not in the mean of two neighbouring steps.
+//! If the axis is compliant under a slider, `λ` follows from the kink. Configuration and rates at the end of a step are of second order for every
+//! method, and so are these results. They depend on the present state only; they are the same after a rewind, in a copy and in a simulation read from
+//! a file. Unresolved vibrations appear in them; the mean of two consecutive steps is free of these vibrations.
 
 use super::{Reactions, System};
 use crate::beams::BodyPoint;
@@ -45,7 +45,7 @@ impl Instant {
 }
 
 impl System {
-    /// Computes the present accelerations and forces, with loads just after the present time. The later motion is not affected.
+    /// Computes the present accelerations and forces, with loads just after the present time. The state of motion is unchanged.
     ///
     /// # Errors
     /// Fails if a load has no value, or contact forces are not determined.
@@ -107,8 +107,8 @@ impl System {
         })
     }
 
-    /// Evaluates a function of the model with the present forces of rigid links in place of those of the last step, which are zero before the first
-    /// one.
+    /// Evaluates a function of the model with the present forces of rigid links instead of the forces of the last step, which are zero before the
+    /// first step.
     ///
     /// # Errors
     /// Errors of [`instant`](Self::instant), for models with rigid links.
@@ -175,7 +175,6 @@ impl System {
         Ok((accelerations, contacts))
     }
 
-    /// Acceleration of a place [length/time²].
     pub fn acceleration(&self, now: &Instant, place: &BodyPoint) -> Vec2 {
         let [x, y, _] = self.bodies[place.body].at(place, &now.accelerations);
         Vec2::new(x, y)

@@ -1,20 +1,20 @@
-//! Order of unknowns in the matrices of small movements.
+//! Order of unknowns in the matrices of small vibrations and static increments.
 
 use super::System;
 use crate::linalg::reverse_cuthill_mckee;
 
-/// Order of the unknowns of small movements: that of steps, unless there are sliders. Then the positions of sliders on their masters are additional
-/// unknowns, and all are reordered for a narrow band.
+/// Order of the unknowns in static and modal matrices. Without sliders it is the order of the time steps. With sliders, the slider positions are
+/// additional unknowns, and all unknowns are reordered for a narrow band.
 #[derive(Debug, Clone)]
 pub struct OrderAtRest {
     count: usize,
     half_bandwidth: usize,
-    /// Place of each unknown, unless the order is that of steps.
+    /// Place of each unknown; `None` if the order is that of the steps.
     position: Option<Vec<usize>>,
 }
 
 impl OrderAtRest {
-    /// Number of unknowns of small movements.
+    /// Number of unknowns, including slider positions.
     pub fn count(&self) -> usize {
         self.count
     }
@@ -24,7 +24,7 @@ impl OrderAtRest {
         self.half_bandwidth
     }
 
-    /// Place of an unknown; supported ones follow all others.
+    /// Place of an unknown. Supported degrees of freedom follow all unknowns.
     pub fn place(&self, unknown: usize) -> usize {
         let position = |position: &Vec<usize>| position.get(unknown).copied();
         match &self.position {
@@ -48,7 +48,7 @@ impl OrderAtRest {
 }
 
 impl System {
-    /// Order of the unknowns of small movements about the present configuration.
+    /// Order of the unknowns for the present configuration.
     pub fn order_at_rest(&self) -> OrderAtRest {
         let movements = self.unknowns.count();
         if self.sliders.is_empty() {

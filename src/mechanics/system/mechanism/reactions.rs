@@ -12,7 +12,7 @@ pub struct Reactions {
     residual: Vec<f64>,
     /// Forces of joints and supports on each control point of each body [force, force·length].
     nodes: Vec<Vec<Movement>>,
-    /// Forces of inclined rollers, which are not included in the others [force].
+    /// Forces of inclined rollers, which `residual` and `nodes` exclude [force].
     roller_forces: Vec<Vec2>,
 }
 

@@ -1,4 +1,4 @@
-//! Releases: joints and drives tie movements by shared numbers, and a release gives them separate numbers.
+//! Releases: joints and drives tie degrees of freedom by common numbers, and a release gives them separate numbers.
 //!
 //! Positions and rates are unchanged. Energy and momenta of the bodies stay the same to the last bit.
 
@@ -10,7 +10,7 @@ use crate::linalg::BlockLayout;
 use crate::system::elements::{PrescribedMovement, Support, Supports};
 use crate::system::state::{StepMeasures, Unknowns};
 
-/// Numbering of all movements of a model, and dependent data.
+/// Numbering of all degrees of freedom of a model, and data that depend on it.
 pub struct DofNumbers {
     /// Degree of freedom of each component of each control point of each body.
     pub degrees_of_freedom: Vec<Vec<[usize; 3]>>,
@@ -23,7 +23,7 @@ pub struct DofNumbers {
     pub held: Vec<Support>,
     pub unknowns: Unknowns,
     pub joined: Vec<(BodyPoint, BodyPoint)>,
-    /// Blocks of the contacts of sliders, if these are eliminated block by block.
+    /// Blocks of the contacts of sliders, if contacts are eliminated block by block.
     pub contacts: Option<BlockLayout>,
 }
 

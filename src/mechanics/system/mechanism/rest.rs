@@ -1,6 +1,6 @@
-//! Statics of the model: balance at rest, and stiffness against small movements.
+//! Statics of the model: static residual and its derivatives.
 //!
-//! Movements are relative to the present configuration. Rotations are increments of the angle itself, for which the stiffness is the Hessian of the
+//! Displacements are relative to the present configuration. Rotations are increments of the angle itself, so that the stiffness is the Hessian of the
 //! potential energy.
 
 use super::System;
@@ -11,33 +11,33 @@ use crate::linalg::BorderedMatrix;
 use crate::system::links::ArmRule;
 use crate::system::sliders::{AtRest, MasterEnd};
 
-/// Largest forces of a model at rest.
+/// Largest forces in a static iterate.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct StaticForces {
     /// Largest force, of a section or a load [force].
     pub force: f64,
     /// Largest moment, of a section or a load [force·length].
     pub moment: f64,
-    /// Largest mismatch between the strains of section force and configuration [-].
+    /// Largest difference between the strains of the section forces and of the configuration [-].
     pub strain_mismatch: f64,
 }
 
 impl System {
-    /// Starts a movement between two equilibria with the section forces of the last one.
+    /// Starts a displacement between two equilibria with the section forces of the last equilibrium.
     pub fn begin_movement(&mut self) {
         self.bodies.begin_step();
         self.elements.begin_movement();
         self.links.begin_movement();
     }
 
-    /// Predicts zero movement between two equilibria; contact unknowns follow movements.
+    /// Predicts zero displacement between two equilibria, with unchanged contacts. Contact unknowns follow the degrees of freedom.
     pub fn predict_unchanged(&self, unknowns: &mut [f64]) {
         unknowns.fill(0.0);
         self.sliders.predict_unchanged(&mut unknowns[self.unknowns.count()..]);
     }
 
-    /// Adds the internal forces at the current section forces minus `load_factor` times the loads, followed by the contact equations. The unknowns
-    /// are movements followed by contact unknowns.
+    /// Adds the internal forces for the current section forces minus `load_factor` times the loads, followed by the contact equations. The unknowns
+    /// are displacements followed by contact unknowns.
     pub fn add_static_forces(
         &mut self,
         unknowns: &[f64],
@@ -57,7 +57,7 @@ impl System {
         }
     }
 
-    /// Adds the condensed internal forces minus `load_factor` times the loads, and their derivatives with respect to the movements.
+    /// Adds the condensed internal forces minus `load_factor` times the loads, and their derivatives with respect to the displacements.
     pub fn add_linearised_static_forces(
         &mut self,
         unknowns: &[f64],
@@ -75,14 +75,15 @@ impl System {
         sliders.add_linearised::<AtRest>(bodies, count, movements, contacts, out, border);
     }
 
-    /// Largest violation of a rigid link or contact equation, relative to a force scale or to the moving lengths [-].
+    /// Largest violation of a rigid link or contact equation in a static iterate, relative to a force scale or to the lengths involved [-].
     pub fn violation_at_rest(&self, residual: &[f64], force: f64) -> f64 {
         let equations = &residual[self.unknowns.count()..];
         let relative = |off: f64| if off == 0.0 { 0.0 } else { off / force };
         larger(self.sliders.violation(equations, relative), self.links.violation(residual))
     }
 
-    /// Holds sliders that a movement takes beyond stops, and frees those with tensile stop forces. Returns true if any changed.
+    /// Holds sliders that the displacement takes beyond stops, and frees sliders with tensile stop forces. Returns true if the state of a slider
+    /// changed.
     ///
     /// # Errors
     /// Slider and end of its master, if a slider would leave its master.
@@ -106,8 +107,8 @@ impl System {
         self.subtract_loads(Stage::End, movements, load_factor, out)
     }
 
-    /// Moves the model by movements [length, rad], followed by contact unknowns, to the prescribed positions under a fraction of the load, and leaves
-    /// it at rest.
+    /// Moves the model by displacements and rotations [length, rad], followed by contact unknowns, to the prescribed positions under a fraction of
+    /// the load. All velocities are then zero.
     pub fn move_by(&mut self, unknowns: &[f64], load_factor: f64) {
         let (movements, contacts) = unknowns.split_at(self.unknowns.count());
         let movements = self.supports.prescribed().at_rest(movements, load_factor);
@@ -121,14 +122,14 @@ impl System {
         self.motion.rates.fill(0.0);
     }
 
-    /// Returns true if prescribed positions have to be applied with the loads.
+    /// Returns true if prescribed positions must be applied together with the loads.
     pub fn has_prescribed_positions(&self) -> bool {
         self.supports.prescribed().has_positions()
     }
 
-    /// Support force at a place at rest: force [force] and moment [force·length]; `None` without a support there.
+    /// Support force at a place in equilibrium: force [force] and moment [force·length]; `None` without a support there.
     ///
-    /// If several bodies are joined there, the supports hold all of them.
+    /// If several bodies are joined at the place, the force acts on all of them together.
     pub fn support_force(&self, place: &BodyPoint, forces: &[f64]) -> Option<(Vec2, f64)> {
         self.held_by(place, forces, |roller| self.links.all_rollers()[roller].force())
     }

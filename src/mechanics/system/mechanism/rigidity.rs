@@ -1,14 +1,14 @@
-//! Response of beams to an impulse, with the deformations that take part in an impact.
+//! Response of beams to an impulse, with a selection of deformations.
 //!
-//! The acceleration impulse `a` that answers a unit impulse `Gᵀ` and the impulses `n` of the section forces satisfy
+//! The response `a = M⁻¹ f` to a unit impulse `Gᵀ` and the impulses `n` of the section forces satisfy
 //!
 //! ```text
 //! M a + Bᵀ n = Gᵀ        B a = n/(s C)        f = Gᵀ - Bᵀ n        a = M⁻¹ f
 //! ```
 //!
-//! with `s = h²/4` for strains that steps of a length `h` resolve, and `1/s = 0` for suppressed strains. `f` is the impulse including the
-//! impulses of section forces. The latter are separate unknowns and `Bᵀ n` has no resultant, so momenta are conserved in spite of rounding.
-//! Springs and dampers take no part: their forces are bounded, so their impulse during an impact is zero.
+//! Here `s = h²/4` for strains that steps of a length `h` resolve, and `1/s = 0` for suppressed strains. `f` is the impulse including the impulses of
+//! section forces. `n` is a separate unknown and `Bᵀ n` has no resultant, so momenta are conserved in spite of rounding. Springs and dampers are
+//! excluded: their forces are bounded, so their impulse during an impact is zero.
 
 use super::System;
 use crate::beams::StrainKind;
@@ -17,19 +17,19 @@ use crate::geometry::larger;
 use crate::integrators::{Inertia, Mechanism};
 use crate::linalg::{BandedLu, BandedMatrix};
 
-/// Largest ratio of stiffness to inertia. Vibrations that are faster than the steps by this ratio are rigid to at least five digits.
+/// Largest ratio of weighted stiffness to inertia. Larger ratios are reduced to it; the deformation is then rigid to at least five digits.
 const MOST: f64 = 1e10;
 
-/// Smallest number of corrections of a solution. Each reduces the error by `MOST` rounding units.
+/// Smallest number of corrections of a solution. Each multiplies the error by `MOST` rounding units.
 const CORRECTIONS: usize = 4;
 
-/// Largest number of corrections until suppressed strains vanish.
+/// Largest number of corrections to remove suppressed strains.
 const MOST_CORRECTIONS: usize = 60;
 
-/// Fraction of the energy below which suppressed strains count as zero [-].
+/// Energy of the suppressed strains, relative to the energy of the impulse, below which they count as zero [-].
 const NO_STRAIN: f64 = 1e-20;
 
-/// Deformations that take part in an impact.
+/// Deformations included in an impact.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Deformation {
     /// All deformations: only inertia resists the impulse.
@@ -100,7 +100,7 @@ impl Rigidity {
         matrix
     }
 
-    /// Converts a unit impulse to the impulse with transmitted section forces, using the factors of the [`matrix`](Self::matrix).
+    /// Adds the transmitted section forces to a unit impulse, with the factors of the [`matrix`](Self::matrix).
     ///
     /// Suppressed strains are brought to zero by the method of multipliers (Hestenes 1969). Returns the impulses `n` of the section forces.
     pub(super) fn transmit_unit_impulse(

@@ -1,16 +1,16 @@
 //! Sliders that pass from beam to beam of a track: effect of a corner at the seam on velocities.
 //!
-//! A corner is the limit of a rounded one. While the tangent rotates, the contact keeps `w`, the velocity of the slave relative to its place, along
-//! it by impulses across, which do no work: `½ w·W⁻¹w` is constant, with `W = G M⁻¹ Gᵀ` as in an impact. So `w` rotates with the tangent in the
-//! metric `W⁻¹`:
+//! The corner is treated as the limit of a rounded corner. Let `w` be the velocity of the slave relative to the contact point of the master. While
+//! the tangent rotates, the contact acts by impulses normal to the tangent, which do no work and conserve the component of `w` along the tangent.
+//! Hence `½ w·W⁻¹w` is constant, with `W = G M⁻¹ Gᵀ` as in an impact, and `w` rotates with the tangent in the metric `W⁻¹`:
 //!
 //! ```text
 //! w⁺ = w⁻ + W P        P = γ J ½ (w⁻ + w⁺)        γ = 2 tan(θ/2)/√det W
 //! ```
 //!
-//! with the angle `θ` between both tangents in that metric. Sections rotate it first, with the part `G` of the velocity that the steps resolve, in
-//! one impact with all simultaneous impacts. The remaining angle, the difference of the shear on both sides, follows with the full velocity. Derived
-//! in docs/theory.md, section 10.3.
+//! Here `θ` is the angle between both tangents in that metric. The section directions give the first rotation, of the part `G` of the velocity that
+//! the steps resolve, in one impact with all simultaneous impacts. The remaining angle is the difference of the shear on both sides; it rotates the
+//! full velocity. Derived in docs/theory.md, section 10.3.
 
 use super::System;
 use super::impact::{ImpactDirection, ImpactImpulses, ImpactLaw, ImpactProblem};
@@ -23,16 +23,16 @@ use crate::system::sliders::{MasterEnd, MasterLimit, Seam};
 /// Angle below which two tangents are equal within rounding [rad].
 const STRAIGHT: f64 = 1e-13;
 
-/// Relative determinant of the response below which it has rank one. A rank-one response is not rotated at corners.
+/// Determinant of the response, relative to its squared size, below which the response has rank one. Such a response is not rotated at corners.
 const ONE_WAY: f64 = 1e-20;
 
-/// Largest number of corrections of the angles of corners that are passed simultaneously by coupled sliders.
+/// Largest number of corrections of the rotation angles, for coupled sliders that pass corners simultaneously.
 const CORRECTIONS: usize = 40;
 
-/// Tolerance of an angle [rad].
+/// Tolerance of a rotation angle [rad].
 const RIGHT: f64 = 1e-12;
 
-/// Plausible derivatives of the rotation angle with respect to the parameter angle.
+/// Range in which an estimated derivative of the rotation angle with respect to the parameter angle is plausible.
 const SLOPES: std::ops::Range<f64> = 0.2..5.0;
 
 /// Corner that a slider passes: its incoming and outgoing directions [-].
@@ -137,8 +137,8 @@ impl System {
         Ok(())
     }
 
-    /// Rotates the velocities of sliders at the ends of kinked axes, where the kink has no energy, onto the smooth axes. The motion of the kink
-    /// becomes motion along the axis.
+    /// Rotates the velocities of sliders at the ends of kinked axes onto the smooth axes. The kink has no energy there, and its motion becomes motion
+    /// along the axis.
     pub(super) fn straighten_kinks(&mut self, limits: &[MasterLimit]) -> Result<(), LinearError> {
         let rates = &self.motion.rates;
         let corner = |&MasterLimit { slider, end }: &MasterLimit| {
@@ -192,12 +192,12 @@ fn turned(direction: Vec2, [from, to]: [Vec2; 2]) -> Vec2 {
     direction * from.dot(&to) + perpendicular(direction) * cross(from, to)
 }
 
-/// Impulses of an impact with sliders rotated at corners, two impulses each, and laws for all other contacts: `P = γ J ½ (w⁻ + w⁺)` at corners, with
-/// `γ` such that each rotates by its own angle, to 1e-12 or as accurately as the last correction. `None` if stops are struck too and the angles are
-/// not reached.
+/// Impulses of an impact in which sliders are rotated at corners, with two impulses each, and laws for all other contacts. At corners `P = γ J ½ (w⁻
+/// + w⁺)`, with `γ` such that each slider rotates by its own angle to 1e-12, or as accurately as the last correction allows. `None` if stops are
+/// struck too and the angles are not reached.
 ///
-/// For any `γ` it is one complementarity problem, with the rows `cos(θ/2) √det W P - sin(θ/2) J W P = sin(θ/2) J 2 w̄` for corners. Theory.md,
-/// section 10.3, shows that its solution is unique.
+/// For any `γ` this is one complementarity problem, with the rows `cos(θ/2) √det W P - sin(θ/2) J W P = sin(θ/2) J 2 w̄` for corners. Its solution is
+/// unique (docs/theory.md, section 10.3).
 pub(super) fn deflect_at_corners(
     encounter: &ImpactProblem,
     corners: &[SeamCorner],
@@ -270,12 +270,12 @@ fn own_responses(
     (0..corners.len()).map(own).collect()
 }
 
-/// Search at a corner for the `γ` that rotates its slider by the required angle.
+/// Search for the `γ` that rotates the slider at a corner by the required angle.
 struct TurnSearch {
     own: Response,
     /// Required angle [rad].
     required_angle: f64,
-    /// Parameter angle of `γ` [rad], and the error of the previous one.
+    /// Parameter angle of `γ` [rad], and the angle error of the previous parameter.
     angle: f64,
     before: Option<(f64, f64)>,
 }
@@ -295,7 +295,7 @@ impl TurnSearch {
         }
     }
 
-    /// Corrects the angle from the velocities before and after the impact. Returns true if they are correct.
+    /// Corrects the angle from the velocities before and after the impact. Returns true if the rotation angle is within the tolerance.
     fn correct(&mut self, before: Vec2, after: Vec2) -> bool {
         if self.own.is_one_way() || before == Vec2::zeros() {
             return true;

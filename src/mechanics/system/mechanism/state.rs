@@ -32,7 +32,7 @@ impl SystemState {
         self.numbers.len() == other.numbers.len() && self.sliders.len() == other.sliders.len()
     }
 
-    /// Sets the state to another one plus `amount` times a change of its values.
+    /// Sets the state to `from` plus `amount` times `change`.
     pub fn displace(&mut self, from: &Self, change: &[f64], amount: f64) {
         let Self { numbers, prediction: trend, knows_accelerations, sliders } = self;
         numbers.clear();
@@ -42,7 +42,7 @@ impl SystemState {
         sliders.extend_from_slice(&from.sliders);
     }
 
-    /// Writes the change of the values from those of another state, divided by a distance.
+    /// Writes the difference of the values from those of `other`, divided by `distance`.
     pub fn change_from(&self, other: &Self, distance: f64, change: &mut Vec<f64>) {
         let per_unit = |(own, other): (&f64, &f64)| match own == other || own.is_nan() {
             true => 0.0,
@@ -118,7 +118,7 @@ impl System {
         if !numbers.iter().all(|number| number.is_finite()) {
             return Err(refused("it has a value that is not finite"));
         }
-        // The numbers of the sliders are last.
+        // The values of the sliders are at the end.
         let of_sliders = &numbers[numbers.len() - self.sliders.saved()..];
         if !self.sliders.fit(of_sliders) {
             return Err(refused("a slider is outside its beam"));

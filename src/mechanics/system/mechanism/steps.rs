@@ -13,7 +13,8 @@ use crate::system::elements::{TrialState, WorkAndImpulse, collocation};
 use crate::system::links::ArmRule;
 use crate::system::sliders::InStep;
 
-/// Arms of rigid links for a method with a stage and a weight, taken at the time of its balance. Otherwise the method would be of first order.
+/// Fraction of the step at which the arms of rigid links are taken, for a method with a stage and a weight: the time at which the method balances
+/// forces. With another fraction the method would be of first order.
 fn arm_rule(stage: Stage, weight: f64) -> ArmRule {
     let Collocation { rotations, configuration, .. } = collocation(stage);
     let share = if stage == Stage::End { weight } else { configuration };

@@ -1,7 +1,7 @@
-//! Stiffness and inertia of the present configuration.
+//! Stiffness, inertia and damping matrices of the present configuration.
 //!
-//! Rotations are increments of the angle itself, for which the stiffness is the Hessian of the strain energy. Loads of fixed direction have no
-//! stiffness; follower loads are ignored.
+//! Rotations are increments of the angle itself, so that the stiffness is the Hessian of the strain energy. Loads of fixed direction have no
+//! stiffness; the stiffness of follower loads is neglected.
 
 use super::{OrderAtRest, System};
 use crate::beams::SpanStiffness;
@@ -11,12 +11,13 @@ use crate::linalg::{PreciseBand, SymmetricSparse};
 use crate::system::links::RigidLink;
 use crate::system::state::UnknownKind;
 
-/// Stiffness of rigid links relative to the stiffest element, for small movements. It lowers frequencies by a smaller relative amount, and with 32
-/// digits hides nothing else.
+/// Penalty stiffness of rigid links relative to the stiffest element. It lowers frequencies by a smaller relative amount, and 32 digits are enough to
+/// resolve all other stiffnesses beside it.
 const RIGID: f64 = 1e8;
 
 impl System {
-    /// Passes every span and spring at rest: places of the unknowns of its components, and its rows. Supported components follow all unknowns.
+    /// Calls the callback with the static stiffness of every span and spring, and the places of the unknowns. Supported degrees of freedom follow all
+    /// unknowns.
     pub fn for_each_static_span(
         &self,
         order: &OrderAtRest,
@@ -30,7 +31,7 @@ impl System {
         self.elements.for_each_static_stiffness(&self.bodies, take);
     }
 
-    /// Calls `take` for the stiffness of every span of every body, with the degrees of freedom of its components.
+    /// Calls `take` with the stiffness of every span of every body and its degrees of freedom.
     pub(super) fn each_span_of_bodies(&self, take: &mut dyn FnMut(&[usize], &SpanStiffness)) {
         for body in self.bodies.iter() {
             let order = body.dynamics.order();
@@ -41,15 +42,15 @@ impl System {
         }
     }
 
-    /// Power dissipated by dampers, damped materials and drag at given rates in the present configuration [energy/time].
+    /// Power dissipated by dampers, damped materials and drag at given rates of the unknowns in the present configuration [energy/time].
     pub fn dissipation(&self, rates: &[f64]) -> f64 {
         let mut power = 0.0;
         self.each_damped_rate(rates, &mut |damping, rate| power += damping * square(rate));
         power
     }
 
-    /// Passes each damped rate with its damping coefficient, in the present configuration at rest. The coefficient times the squared rate is the
-    /// dissipated power [energy/time]. The number and order of calls do not depend on the rates.
+    /// Calls `take` with each damped rate and its damping coefficient for small rates, in the present configuration. Coefficient times squared rate
+    /// is the dissipated power [energy/time]. The number and order of calls do not depend on the rates.
     pub fn each_damped_rate(&self, rates: &[f64], take: &mut dyn FnMut(f64, f64)) {
         self.elements.each_damped_rate(&self.bodies, rates, take);
     }
@@ -70,8 +71,8 @@ impl System {
         reaches.fold(self.unknowns.half_bandwidth(), usize::max)
     }
 
-    /// Passes every rigid link and contact as a penalty stiffness: `RIGID` times the largest `stiffness` of its movements, queried by place
-    /// [force/length, force·length].
+    /// Calls the callback with a penalty stiffness of every rigid link and contact: `RIGID` times the largest `stiffness` at its degrees of freedom,
+    /// queried by place [force/length, force·length].
     pub fn for_each_static_constraint(
         &self,
         order: &OrderAtRest,
@@ -98,7 +99,7 @@ impl System {
         self.sliders.for_each_static_stiffness(&self.bodies, self.unknowns.count(), rigid, take);
     }
 
-    /// Number of movements with inertia that rigid links and contacts remove.
+    /// Number of degrees of freedom with mass that rigid links and contacts remove.
     pub fn constrained_movements(&self, order: &OrderAtRest, inertia: &SymmetricSparse) -> usize {
         self.held_by_links(order, inertia) + self.sliders.movements_held()
     }
@@ -114,8 +115,8 @@ impl System {
         self.links.forces().saturating_sub(kinds.filter(is_light).count())
     }
 
-    /// Approximate square of the lowest bending frequency, as if all beams were one: the smallest `EI` over the largest `ρA` and the fourth power of
-    /// the total length; `None` without a beam [1/time²].
+    /// Estimate of the square of the lowest bending frequency, as if all beams formed one: the smallest `EI` over the largest `ρA` and the fourth
+    /// power of the total length; `None` without a beam [1/time²].
     pub fn slowest_bending(&self) -> Option<f64> {
         let extents = || self.bodies.iter().filter_map(|body| body.dynamics.extent());
         let length: f64 = extents().map(|(_, length)| length).sum();
@@ -130,7 +131,7 @@ impl System {
         self.negative_stiffness_count_with_inertia(0.0)
     }
 
-    /// The same with a multiple of the inertia added to the stiffness [1/time²].
+    /// Number of negative eigenvalues of the stiffness plus `rate` times the inertia [1/time²].
     pub fn negative_stiffness_count_with_inertia(&self, rate: f64) -> usize {
         let order = self.order_at_rest();
         let inertia = match rate > 0.0 {
@@ -149,7 +150,7 @@ impl System {
     }
 }
 
-/// Maps unknowns to their places before they are passed on.
+/// Wraps a callback so that it receives places instead of unknowns.
 fn in_order<'t>(
     order: &'t OrderAtRest,
     take: &'t mut dyn FnMut(&[usize], &SpanStiffness),

@@ -1,7 +1,7 @@
 //! Impacts at the ends of masters: simultaneous impacts, energy stored in stops, and sliders that leave a stop.
 //!
-//! A slider that becomes held at a stop is brought to rest by an impulse. The stop, as an elastic body, stores the lost kinetic energy and returns it
-//! when the slider leaves. With a coefficient of restitution below one the energy is lost.
+//! When a slider becomes held at a stop, an impulse reduces its speed along the master to zero. The stop, as an elastic body, stores the lost kinetic
+//! energy and returns it when the slider leaves. With a coefficient of restitution below one the energy is lost.
 
 use super::System;
 use super::impact::{GIVES, ImpactDirection, ImpactLaw};
@@ -14,16 +14,16 @@ use crate::linalg::LinearError;
 use crate::system::SystemError;
 use crate::system::sliders::{AxialImpact, MasterLimit, SliderState};
 
-/// Relative distance from the end of a master within which sliders arrive simultaneously.
+/// Distance of a slider from the end of its master, relative to the parameter range, below which it arrives simultaneously with another slider.
 const TOGETHER: f64 = 1e-12;
 
-/// Number of steps per period below which a vibration is rigid in an impact.
+/// Number of steps per period below which a vibration counts as rigid in an impact.
 pub(super) const RIGID: f64 = 4.0;
 
-/// Largest ratio of step length to impact duration that resolves an impact [-].
+/// Largest ratio of step length to impact duration at which the steps resolve the impact [-].
 pub const RESOLVED_IMPACT: f64 = 0.125;
 
-/// Smallest approach speed relative to the fastest speed of the model.
+/// Smallest approach speed relative to the speed of the fastest point of the model.
 const APPROACHES: f64 = 1e-12;
 
 /// Direction of a contact impulse, with its law.
@@ -33,12 +33,12 @@ struct ImpactContact {
     law: ImpactLaw,
 }
 
-/// Sliders that strike an end of their master, become held there, or pass it.
+/// Sliders that reach an end of their master at the same time, by their behaviour there.
 #[derive(Debug, Clone, Default)]
 pub struct Arriving {
     /// Limits at which sliders bounce.
     pub strike: Vec<MasterLimit>,
-    /// Limits that sliders strike without leaving: the stop has zero restitution, and the impact is not resolved.
+    /// Limits that sliders strike without rebound: the stop has zero restitution, and the steps do not resolve the impact.
     pub plastic: Vec<MasterLimit>,
     /// Limits at which sliders become held.
     pub held: Vec<MasterLimit>,
@@ -65,7 +65,7 @@ impl Arriving {
 }
 
 impl System {
-    /// Limits reached simultaneously with the given one, in the order of the scene: sliders within rounding of an end that move beyond it.
+    /// Limits reached simultaneously with the given limit, in the order of the scene: sliders that are at an end within rounding and move beyond it.
     pub fn simultaneous_arrivals(&self, limit: MasterLimit) -> Vec<MasterLimit> {
         let limits = (0..self.sliders.len()).flat_map(MasterLimit::both);
         let arrives = |other: &MasterLimit| {
@@ -76,7 +76,8 @@ impl System {
         limits.filter(arrives).collect()
     }
 
-    /// Returns true if a slider at an end approaches it, with the deformations that take part in an impact in steps of length `dt` [time].
+    /// Returns true if the velocity of a slider at an end is directed beyond it, with the deformations included in an impact in steps of length `dt`
+    /// [time].
     ///
     /// # Errors
     /// Fails if the impulse is not determined.
@@ -93,8 +94,8 @@ impl System {
         Ok(speed < -APPROACHES * self.fastest_speed())
     }
 
-    /// Returns true if steps of a length resolve the impact of a slider at a limit, whose duration follows from waves, if one of the bodies is
-    /// deformable and light enough. Records the ratio of step length to impact duration.
+    /// Returns true if steps of length `dt` [time] resolve the impact of a slider at a limit. The impact duration follows from wave speeds, if one of
+    /// the bodies is deformable and light enough. Records the ratio of step length to impact duration.
     ///
     /// # Errors
     /// Fails if the impulse is not determined.
@@ -104,7 +105,7 @@ impl System {
         Ok(lasts.is_finite() && dt <= RESOLVED_IMPACT * lasts)
     }
 
-    /// Duration of the impact of a slider at a limit [time]; infinite if nothing is compliant.
+    /// Duration of the impact of a slider at a limit [time]; infinite if both bodies are rigid.
     fn impact_duration(&self, limit: MasterLimit) -> Result<f64, LinearError> {
         let direction = (limit.slider, self.stop_direction(limit));
         let mut inertia = self.banded_inertia();
@@ -117,8 +118,8 @@ impl System {
         Ok(self.sliders[limit.slider].impact_duration(&self.bodies, AxialImpact { slave, master }))
     }
 
-    /// Deformations that take part in an impact at limits in steps of length `dt` [time]. A coefficient of restitution includes the axial waves and
-    /// everything faster than the impact; an elastic contact has the deformations that steps resolve.
+    /// Deformations included in an impact at limits in steps of length `dt` [time]. With a coefficient of restitution, axial waves and all vibrations
+    /// faster than the impact are suppressed; an elastic contact includes the deformations that the steps resolve.
     fn deformation_at(&self, limits: &[MasterLimit], dt: f64) -> Result<Deformation, LinearError> {
         let mut longest = None;
         for limit in limits.iter().filter(|at| self.end_action(at.slider) != EndAction::Contact) {
@@ -130,12 +131,12 @@ impl System {
         }))
     }
 
-    /// Holds the kinks at contact points constant in the following steps. Returns true if this changes the law of the next step.
+    /// Holds the kinks at all contact points constant in the following steps. Returns true if this changes the equations of the next step.
     pub fn freeze_kinks(&mut self) -> bool {
         self.sliders.freeze_kinks()
     }
 
-    /// Makes the kinks under contact forces follow these again.
+    /// Lets the kinks follow the contact forces again.
     pub fn unfreeze_kinks(&mut self) {
         self.sliders.unfreeze_kinks();
     }
@@ -150,9 +151,9 @@ impl System {
         self.sliders[limit.slider].along_contact(&self.bodies) * -limit.end.outward()
     }
 
-    /// Computes one impact of all sliders that arrive at ends of masters and at seams at the present time, in steps of a length [time]:
-    /// `0 ≤ P ⟂ w⁺ + e w⁻ ≥ 0` at stops, including those that hold sliders, a rotation at the corners of seams, and constraints for all other
-    /// contacts. Sliders that pass a seam are then on its other side.
+    /// Computes one impact of all sliders that arrive at ends of masters and at seams at the present time, in steps of length `dt` [time]. The laws
+    /// are `0 ≤ P ⟂ w⁺ + e w⁻ ≥ 0` at stops, including stops that hold sliders, a rotation at the corners of seams, and constraints at all other
+    /// contacts. Afterwards, sliders that pass a seam are on its other side.
     ///
     /// # Errors
     /// Fails if the impulses are not determined.
@@ -181,7 +182,7 @@ impl System {
             self.apply_impulses(&hits, corners, [Deformation::Resolved(RIGID * dt), at_stops])?;
         }
         if !arriving.plastic.is_empty() {
-            // The impact is that of a rigid body, which includes more than its end. The rest is rounding and must be removed.
+            // The impact acts on a rigid body, not only on its end, so a velocity due to rounding may remain at the end and must be removed.
             let hits = self.impulse_directions(|_, limit| {
                 arriving.plastic.contains(&limit).then_some(ImpactLaw::Ends)
             });
@@ -191,8 +192,8 @@ impl System {
         self.pass_seams(&passages)
     }
 
-    /// Applies simultaneous impulses: sliders that pass corners are deflected, others follow their impact laws. Sliders that come to rest at a stop
-    /// are held with all deformations.
+    /// Applies simultaneous impulses: sliders that pass corners are deflected, all other contacts follow their impact laws. Impulses that hold
+    /// sliders at a stop use all deformations.
     fn apply_impulses(
         &mut self,
         hits: &[ImpactContact],
@@ -211,7 +212,7 @@ impl System {
         let met = [(&turned[..], at_corners), (others, at_stops), (held, Deformation::All)];
         let encounter = self.impact_problem(&met, -2.0)?;
         let Some(impulses) = deflect_at_corners(&encounter, corners, &laws)? else {
-            // Impacts that reverse a slider at a corner come first.
+            // Impacts that reverse the velocity of a slider at a corner are applied first.
             self.apply_impulses(hits, &[], [Deformation::All, at_stops])?;
             return self.deflect(corners, at_corners);
         };
@@ -234,7 +235,7 @@ impl System {
         self.sliders[slider].impulse
     }
 
-    /// Frees all sliders with tensile stop forces, with the energy stored in the stops.
+    /// Frees all sliders with tensile stop forces and returns the energy stored in the stops to them.
     ///
     /// # Errors
     /// Fails if the impulses are not determined.
@@ -258,9 +259,10 @@ impl System {
         Ok(())
     }
 
-    /// Returns the energy stored in stops to the sliders that leave, by speeds proportional to its square roots.
+    /// Returns the energy stored in stops to the sliders that leave. Their speeds are proportional to the square roots of their stored energies.
     ///
-    /// The impulses are linear in a scale `s` of these speeds as long as the same contacts act, and the returned energy is quadratic.
+    /// The impulses are linear in a common factor `s` of these speeds while the same contacts are active, and the returned energy is quadratic in
+    /// `s`.
     fn return_stop_energy(&mut self) -> Result<(), LinearError> {
         let hits = self.impulse_directions(|model, limit| {
             let slider = &model.sliders[limit.slider];
@@ -305,7 +307,8 @@ impl System {
         Ok(())
     }
 
-    /// Directions [-] of all contact impulses: across masters that do not yield, and along them for held sliders and those with a law at a limit.
+    /// Directions [-] of all contact impulses: across masters without a compliant axis, and along masters for held sliders and sliders with an impact
+    /// law at a limit.
     fn impulse_directions(
         &self,
         law: impl Fn(&Self, MasterLimit) -> Option<ImpactLaw>,
@@ -336,7 +339,7 @@ impl System {
 /// Positive root of `a x² + b x + c`, if there is one.
 fn nonnegative_root(a: f64, b: f64, c: f64) -> Option<f64> {
     let root = (square(b) - 4.0 * a * c).sqrt();
-    // Forms of the quotient without cancellation.
+    // These forms of the quotient avoid cancellation.
     let x = if b > 0.0 { -2.0 * c / (b + root) } else { (root - b) / (2.0 * a) };
     (x.is_finite() && x >= 0.0).then_some(x)
 }

@@ -7,7 +7,7 @@ use crate::elementary::atan2;
 use crate::geometry::{Vec2, corresponding};
 use crate::system::{Scene, System, SystemError};
 
-/// Places along a beam, precomputed for repeated sampling: its knots, and a number of places between consecutive knots.
+/// Places along a beam, precomputed for repeated sampling: its knots, and equidistant places between consecutive knots.
 ///
 /// At a joint inside the beam there are two places of the same arc length, at the end of one part and the start of the next.
 #[derive(Debug, Clone, PartialEq)]
@@ -56,7 +56,7 @@ impl BeamPlaces {
 }
 
 impl System {
-    /// Places of a beam for [`sample_along`](Self::sample_along): its knots, and a number of places between consecutive knots.
+    /// Places of a beam for [`sample_along`](Self::sample_along): its knots and `within` places between consecutive knots.
     ///
     /// # Errors
     /// Fails if an axis has a point without a tangent.

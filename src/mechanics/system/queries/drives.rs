@@ -15,7 +15,7 @@ impl System {
         self.supports().prescribed().first_displaced_drive(load_factor, time)
     }
 
-    /// Drives whose motion has a kink within a step, with the sharpest kink of each.
+    /// Drives whose motion has a kink within a step, with the largest kink of each.
     pub fn bends(&self) -> impl Iterator<Item = (&str, MotionCurvature)> {
         self.supports().prescribed().bends()
     }

@@ -30,7 +30,6 @@ pub enum Usage {
 }
 
 impl SystemFeature {
-    /// Returns a feature in use.
     pub fn used(name: impl Into<String>, how: impl Into<String>) -> Self {
         Self { name: name.into(), usage: Usage::Used(how.into()) }
     }
@@ -44,7 +43,6 @@ impl SystemFeature {
         )
     }
 
-    /// Returns an omitted feature.
     pub fn omitted(name: impl Into<String>, saved: impl Into<String>) -> Self {
         Self { name: name.into(), usage: Usage::Omitted(saved.into()) }
     }

@@ -1,8 +1,8 @@
 //! Forces transmitted by joints.
 //!
 //! A joint connects two sets of nodes at one place. The force on one side is the sum of the forces of joints and supports on all nodes of that side,
-//! as joints within the side cancel. If one side is the ground, the force is the opposite of that on the other side. Scenes reject redundant joints,
-//! so no other joint connects both sides.
+//! because the forces of joints within the side cancel. If one side is the ground, its force is the opposite of the force on the other side. Scenes
+//! reject redundant joints, so no other joint connects both sides.
 
 use crate::geometry::Vec2;
 use crate::joints::{Component, Joint, JointKind, Partner, Releasable};
@@ -61,7 +61,7 @@ impl System {
         let has_let_go = |hold: Releasable| unknowns.are_free_of(hold);
         let all = scene.joints.iter().map(|joint| Ok((joint.kind, ends(joint)?)));
         let all = all.collect::<Result<Vec<_>, SystemError>>()?;
-        // A rigid body transmits as a whole.
+        // A rigid body transmits force and moment through all its points together.
         let links = self.links().iter();
         let turning = links.map(|link| (Some((link.body, 0)), Some((link.body, link.point))));
         let turning: Vec<(Node, Node)> = turning.collect();
@@ -100,7 +100,7 @@ impl System {
     }
 }
 
-/// Nodes connected to one by pairs, without passing through the ground.
+/// Nodes connected to `from` by pairs, without a connection through the ground.
 fn connected_nodes(from: Node, pairs: &[(Node, Node)]) -> Vec<Node> {
     let mut found = vec![from];
     let mut next = 0;

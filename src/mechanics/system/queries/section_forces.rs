@@ -43,10 +43,10 @@ impl System {
         Ok(CrossSection { body: beam, place })
     }
 
-    /// Section forces in the present configuration from the material law, in balance with loads and inertia: see [`SectionPlace`].
+    /// Section forces in the present configuration, from the strains by the material law: see [`SectionPlace`].
     ///
-    /// A step of the energy–momentum method balances the section forces at its middle, the mean of those at its ends. In a stiff beam that oscillates
-    /// from step to step, only this mean is free of the oscillation.
+    /// A step of the energy–momentum method balances loads and inertia with the mean of the section forces at both ends of the step. If the section
+    /// forces of a stiff beam oscillate from step to step, this mean does not.
     ///
     /// Material damping contributes at the present rates. Strains do not depend on rates.
     pub fn section_forces(&self, at: &CrossSection) -> SectionForces {

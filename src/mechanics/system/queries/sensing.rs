@@ -83,7 +83,7 @@ impl SensorReader {
         self.needs_mean
     }
 
-    /// Evaluates all sensors; NaN for unavailable values and for those that the caller provides.
+    /// Evaluates all sensors. Unavailable values and values that the caller provides are NaN.
     pub fn read(&mut self, model: &mut System) -> &[f64] {
         self.values.clear();
         let now = if self.needs_instant { model.instant().ok() } else { None };
@@ -117,7 +117,7 @@ fn at_station(
     })
 }
 
-/// Precomputed data for the sensors, as far as needed.
+/// Precomputed data that the sensors need.
 #[derive(Clone, Copy)]
 struct SensorContext<'a> {
     instant: Option<&'a Instant>,

@@ -17,7 +17,7 @@ impl System {
         self.slider(slider).state
     }
 
-    /// Contact that holds a slider: the `start` or `end` of its master or track, or a `seam` of the track.
+    /// Limit at which a slider is held: the `start` or `end` of its master or track, or a `seam` of the track.
     pub fn slider_held_by(&self, slider: usize) -> Option<&'static str> {
         self.slider(slider).held_by(self.bodies())
     }
@@ -27,7 +27,7 @@ impl System {
         self.slider(slider).connection.master
     }
 
-    /// Largest number of spans of its master that a slider passed in a step so far [-].
+    /// Largest number of spans of its master that a slider has passed in one step [-].
     pub fn most_spans(&self, slider: usize) -> f64 {
         self.slider(slider).most_spans
     }
@@ -37,13 +37,12 @@ impl System {
         self.slider(slider).steps_per_impact
     }
 
-    /// Largest speed along the master at which the kink under a slider follows the contact force, for the kinked rule [length/time].
+    /// Largest speed along the master at which the kink under a slider follows the contact force [length/time]; `None` for rules without a kink.
     pub fn kink_speed_limit(&self, slider: usize) -> Option<f64> {
         self.slider(slider).kink_speed_limit()
     }
 
-    /// Force of a slider on its master [force], opposite to that on the slave. It is the mean over the last step; for the kinked rule without a
-    /// stored kink it is instantaneous.
+    /// Force of a slider on its master [force]. It is the mean over the last step; for the kinked rule it is instantaneous, unless the kink is fixed.
     ///
     /// Zero before the first step and after a release.
     pub fn contact_force(&self, slider: usize) -> Vec2 {
@@ -60,9 +59,8 @@ impl System {
         self.slider(slider).arc_length()
     }
 
-    /// Speed of a slider along its master or track as drawn, positive towards the end [length/time].
-    ///
-    /// It follows from the present velocities, and is zero for a slider that is held or released.
+    /// Speed of a slider along its master or track as drawn, positive towards the end [length/time]. It follows from the present velocities, and is
+    /// zero for a slider that is held or released.
     pub fn slider_speed(&self, slider: usize) -> f64 {
         self.slider(slider).speed(self.bodies(), self.rates())
     }

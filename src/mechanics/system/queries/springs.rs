@@ -4,7 +4,7 @@ use crate::integrators::Mechanism;
 use crate::system::System;
 use crate::system::elements::{Branch, InternalForce, OutsideLaw, ShortBounce, SpringTrialState};
 
-/// Relative accuracy of an elongation.
+/// Rounding error of an elongation, relative to the elongation.
 const ROUNDING: f64 = 1e-14;
 
 /// State of a spring or a damper.
@@ -12,8 +12,8 @@ const ROUNDING: f64 = 1e-14;
 pub struct SpringState {
     /// Length [length], or angle of a torsion spring [rad].
     pub elongation: f64,
-    /// Force (positive in tension) or moment. It is the mean over the last step, or the value at its end for methods that take forces at the ends of
-    /// steps [force, force·length].
+    /// Force (positive in tension) or moment [force, force·length]. It is the mean over the last step. For methods that take forces at the ends of
+    /// steps it is the value at the end.
     pub force: f64,
     /// Stored energy [energy].
     pub stored: f64,
@@ -73,7 +73,7 @@ impl System {
         all.filter(|(_, stiffness)| *stiffness > 0.0).max_by(|a, b| a.1.total_cmp(&b.1))
     }
 
-    /// Element with the largest dissipation or work of the wind: its name and that energy [energy].
+    /// Name of the element with the largest dissipation or work of the wind, and that energy [energy].
     pub fn most_damping(&self) -> Option<(&str, f64)> {
         let turned_over =
             |one: &dyn InternalForce| one.dissipated() + one.wind_work().map_or(0.0, f64::abs);

@@ -17,7 +17,7 @@ impl System {
         self.bodies().iter().map(|body| body.dynamics.control_points())
     }
 
-    /// Body, control point and component (x, y or angle) of an unknown; the first one if several share it.
+    /// Body, control point and component (x, y or angle) of an unknown; the first of several that share it.
     pub fn movement(&self, unknown: usize) -> Option<(usize, usize, usize)> {
         self.bodies().iter().enumerate().find_map(|(body, one)| {
             let all = one.degrees_of_freedom.as_flattened();
@@ -32,7 +32,7 @@ impl System {
         Some((link.body, link.point))
     }
 
-    /// Number of movements and link forces among the unknowns, without contact multipliers.
+    /// Number of degrees of freedom and link forces among the unknowns, without contact multipliers.
     pub fn unknown_count(&self) -> usize {
         self.unknown_movements().count()
     }
@@ -90,7 +90,7 @@ impl System {
         self.unknown_movements().kinds()
     }
 
-    /// Displacements of the control points of all bodies in a movement [length].
+    /// Displacements of the control points of all bodies, for values of the unknowns [length].
     pub fn displacements(&self, movements: &[f64]) -> Vec<Vec<Vec2>> {
         let of_body = |body: &Body| {
             (0..body.degrees_of_freedom.len()).map(|at| body.vector_at(at, movements)).collect()

@@ -39,7 +39,7 @@ pub struct BeamDefinition {
 }
 
 impl BeamDefinition {
-    /// Returns a beam at rest.
+    /// Returns a beam with zero start velocity.
     pub fn new(
         name: impl Into<String>,
         axis: Curve,
@@ -118,13 +118,13 @@ impl RigidBodyDefinition {
         std::iter::once(self.position).chain(points).collect()
     }
 
-    /// Control points off the centre of mass, which rigid links connect to it.
+    /// Indices of the control points off the centre of mass, which rigid links connect to it.
     pub fn links(&self) -> impl Iterator<Item = usize> + '_ {
         let points = self.points.iter().enumerate();
         points.filter(|(_, (_, place))| *place != Vec2::zeros()).map(|(at, _)| at + 1)
     }
 
-    /// Reason to reject the outline. A polygon needs three corners, and a point off the centre of mass to show its rotation.
+    /// Reason to reject the outline. A polygon needs at least three corners. To show its rotation, the body needs a point off the centre of mass.
     pub fn outline_refused(&self) -> Option<&'static str> {
         match self.outline.len() {
             0 => None,
@@ -154,6 +154,6 @@ pub struct StationVelocity {
     pub station: Station,
     /// Velocity of the node [length/time].
     pub velocity: Vec2,
-    /// Angular velocity of the node [1/time]; that of the beam if not given.
+    /// Angular velocity of the node [1/time]; if `None`, that of the beam.
     pub spin: Option<f64>,
 }

@@ -1,4 +1,4 @@
-//! Editable description of what is simulated. Nothing is assembled here.
+//! Editable description of a scene, which [`System`](crate::system::System) assembles.
 
 use std::collections::HashSet;
 

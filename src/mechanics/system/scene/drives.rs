@@ -7,10 +7,10 @@ use crate::loads::{LimitSide, PrescribedMotion};
 use crate::system::SystemError;
 use crate::system::elements::{Drive, SceneChecks};
 
-/// Relative tolerance of the initial value of a prescribed displacement.
+/// Tolerance for the initial value of a prescribed displacement, relative to the size of the motion.
 const CLOSED_AT_START: f64 = 1e-12;
 
-/// Relative tolerance of jumps of a prescribed motion at declared breaks.
+/// Tolerance for jumps of a prescribed motion at declared breaks, relative to the size of the motion.
 const LARGEST_JUMP: f64 = 1e-9;
 
 impl Scene {

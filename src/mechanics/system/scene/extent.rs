@@ -7,10 +7,10 @@ use crate::joints::Partner;
 use crate::loads::LoadKind;
 use crate::system::elements::{Anchor, Origin, Spring, SpringKind, SpringLaw};
 
-/// Relative tolerance for equal places.
+/// Tolerance for equal places, relative to their coordinates.
 const ROUNDED: f64 = 1e-9;
 
-/// Particles and rigid bodies connected by springs and joints, with the ground anchors of the springs.
+/// Group of particles and rigid bodies connected by springs and joints, with the ground anchors of the springs.
 #[derive(Default)]
 struct Group {
     points: Vec<Vec2>,
@@ -19,7 +19,8 @@ struct Group {
 }
 
 impl Group {
-    /// Twice the largest distance of a point from the mean of all, unless it is rounding, or a larger natural length [length].
+    /// Twice the largest distance of a point from the mean of all points, or the longest natural length if that is larger. Distances within rounding
+    /// count as zero [length].
     fn extent(&self) -> f64 {
         let count = self.points.len().max(1) as f64;
         let centre = self.points.iter().sum::<Vec2>() / count;
@@ -54,7 +55,8 @@ impl Scene {
         groups.all.iter().map(Group::extent).fold(0.0, larger)
     }
 
-    /// Rounding error of strain energies, `ε Σ (EA L + EI/L)`; without beams the work of the forces as drawn over the rounding of places [energy].
+    /// Rounding error of strain energies, `ε Σ (EA L + EI/L)`. Without beams it is the work of the initial forces over the rounding errors of
+    /// positions [energy].
     pub fn rounding_energy(&self) -> f64 {
         if self.beams.is_empty() {
             return f64::EPSILON * self.rounded_work();
@@ -67,7 +69,7 @@ impl Scene {
         f64::EPSILON * stiffness.sum::<f64>()
     }
 
-    /// Sum of all weights, loads and spring forces as drawn, times the rounding of lengths at their places [energy].
+    /// Sum over all weights, loads and spring forces in the initial configuration of the force times the rounding error of the position [energy].
     fn rounded_work(&self) -> f64 {
         let extent = self.extent();
         let reach = |at: &Station| extent + self.drawn_at(at).map_or(0.0, |place| place.norm());
@@ -82,7 +84,7 @@ impl Scene {
         weights.chain(loads).chain(springs).sum()
     }
 
-    /// Force of a spring as drawn [force].
+    /// Force of a spring in the initial configuration [force].
     fn held_by(&self, spring: &Spring) -> Option<f64> {
         let SpringKind::Length(anchors) = &spring.kind else { return None };
         let places = anchors.iter().map(|anchor| match anchor {
@@ -118,7 +120,7 @@ impl Scene {
     }
 }
 
-/// Natural length of a spring; zero for angles and laws without one [length].
+/// Natural length of a spring; zero for angles and for laws without a natural length [length].
 fn natural_length(spring: &Spring) -> f64 {
     match (&spring.kind, &spring.law) {
         (SpringKind::Torsion(_), _) | (_, None) => 0.0,
@@ -132,7 +134,7 @@ fn natural_length(spring: &Spring) -> f64 {
     }
 }
 
-/// Union of connected members, and the group of each set.
+/// Disjoint sets of connected members, with the group of each set.
 struct Groups {
     ties: Ties,
     all: Vec<Group>,

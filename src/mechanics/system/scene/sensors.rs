@@ -85,7 +85,7 @@ pub enum Value {
 }
 
 impl Value {
-    /// Returns true if the value is an average over the last step, not an instantaneous one.
+    /// Returns true if the value is an average over the last step instead of an instantaneous value.
     pub fn is_of_step(self) -> bool {
         matches!(self, Self::MeanForce | Self::MeanForceX | Self::MeanForceY | Self::MeanCouple)
     }
@@ -130,7 +130,7 @@ pub const OF_JOINTS: &[Quantity] = &[
     quantity("mean_moment", "force·length", Value::MeanCouple),
 ];
 
-/// Quantities of sliders in addition to those of every history: the instantaneous force on the master.
+/// Quantities of sliders in addition to those that every history contains: the instantaneous force on the master.
 pub const OF_SLIDERS: &[Quantity] = &[
     quantity("present_force", "force", Value::Force),
     quantity("present_force_x", "force", Value::ForceX),

@@ -8,8 +8,8 @@ use crate::joints::{Slider, SlidingRule};
 use crate::system::SystemError;
 use crate::system::errors::{Approach, SliderError, SliderParts, written};
 
-/// Largest initial distance of a slave from its master, relative to the length of the master and the distance from the origin. It admits scenes drawn
-/// with six digits. The slave is moved onto its master exactly.
+/// Largest initial distance of a slave from its master, relative to the length of the master and the distance from the origin. It admits coordinates
+/// with six digits. The slave is then moved onto its master exactly.
 const CLOSED: f64 = 1e-6;
 
 /// Reason why a sliding rule is unavailable on tracks, if it is.

@@ -13,7 +13,7 @@ const CLOSED: f64 = 1e-12;
 /// Angle below which two inclined rollers count as parallel [rad].
 const PARALLEL: f64 = 1e-9;
 
-/// Disjoint sets: union–find with path halving (R. E. Tarjan, Efficiency of a good but not linear set union algorithm, J. ACM 22 (1975) 215–225).
+/// Disjoint sets by union–find with path halving (R. E. Tarjan, Efficiency of a good but not linear set union algorithm, J. ACM 22 (1975) 215–225).
 pub struct Ties {
     parent: Vec<usize>,
 }
@@ -178,7 +178,8 @@ impl Scene {
         })
     }
 
-    /// Stations joined to a component of a station, including itself, and whether the ground fixes it. The search ends at the ground.
+    /// Stations joined to a component of a station, including the station itself, and true if the ground fixes the component. The search ends at the
+    /// ground.
     fn held_with(&self, station: &Station, component: Component) -> (Vec<Station>, bool) {
         let mut places = vec![*station];
         let mut next = 0;

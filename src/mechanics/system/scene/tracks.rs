@@ -9,8 +9,8 @@ use crate::system::SystemError;
 use crate::system::errors::{TrackError, written};
 
 impl Scene {
-    /// Adds a track along consecutive beams and returns its index. The direction on each beam follows from the ends that touch. If both directions of
-    /// the first beam are possible, it is passed from start to end.
+    /// Adds a track along consecutive beams and returns its index. The direction of the track on each beam follows from the ends that touch. If both
+    /// directions of the first beam are possible, it is passed from start to end.
     ///
     /// # Errors
     /// Fails if the name is taken, or a beam does not start where the previous one ends or is not joined to it.
@@ -81,7 +81,7 @@ impl Scene {
         }
     }
 
-    /// Largest number of stop and seam contact changes allowed in the search for one equilibrium.
+    /// Largest number of changes of stop and seam contacts in the search for one equilibrium.
     pub fn most_settlings(&self) -> usize {
         let on_tracks = self.sliders.iter().filter(|slider| slider.track.is_some());
         2 * self.sliders.len()
@@ -178,7 +178,7 @@ impl Scene {
         Ok(legs)
     }
 
-    /// Next leg of a track along a beam; if both ends touch, the joined one.
+    /// Next segment of a track, along a beam. If both ends of the beam touch, the track enters at the joined end.
     fn next_segment(&self, before: TrackBeam, beam: usize) -> Option<TrackBeam> {
         let ways = [TrackDirection::Forward, TrackDirection::Backward]
             .map(|heading| TrackBeam { beam, heading });

@@ -65,7 +65,7 @@ impl Sliders {
         self.iter_mut().for_each(|slider| slider.begin_step(bodies, rates, interval));
     }
 
-    /// Fixes the kinks of all masters for the following steps. Returns true if this changes the law of the next step.
+    /// Fixes the kinks of all masters for the following steps. Returns true if this changes the equations of the next step.
     pub fn freeze_kinks(&mut self) -> bool {
         self.iter_mut().fold(false, |any, slider| slider.freeze_kink() | any)
     }
@@ -113,13 +113,13 @@ impl Sliders {
         }
     }
 
-    /// Predicts unchanged contacts for a movement between two equilibria.
+    /// Predicts unchanged contacts for a displacement between two equilibria.
     pub fn predict_unchanged(&self, unknowns: &mut [f64]) {
         self.iter().for_each(|slider| slider.predict_unchanged(unknowns));
     }
 
-    /// Holds sliders that a movement takes beyond stops, and frees those with tensile stop forces. Returns true if any changed, or the slider and end
-    /// as an error if a slider would leave its master.
+    /// Holds sliders that the displacement takes beyond stops, and frees sliders with tensile stop forces. Returns true if the state of a slider
+    /// changed. If a slider would leave its master, slider and end are the error.
     pub fn update_stop_contacts(
         &mut self,
         bodies: &[Body],
@@ -144,7 +144,7 @@ impl Sliders {
         Ok(changed)
     }
 
-    /// Accepts the positions of sliders after a movement between two equilibria. The bodies have been moved already.
+    /// Accepts the positions of sliders after a displacement between two equilibria. The bodies must be moved first.
     pub fn accept_static_positions(&mut self, unknowns: &[f64]) {
         self.iter_mut().for_each(|slider| slider.accept_static_position(unknowns));
     }
@@ -153,8 +153,8 @@ impl Sliders {
         self.iter().map(SliderContact::movements_held).sum()
     }
 
-    /// Passes the stiffness of all contacts at rest, with a penalty stiffness for rigid ones [force/length]. The position unknowns follow the
-    /// movements.
+    /// Calls the callback with the static stiffness of all contacts, with a penalty stiffness for rigid contacts [force/length]. The position
+    /// unknowns of sliders follow the degrees of freedom.
     pub fn for_each_static_stiffness(
         &self,
         bodies: &[Body],
@@ -167,7 +167,7 @@ impl Sliders {
         }
     }
 
-    /// Largest violation of a contact equation: lengths relative to the lengths involved, forces by `relative` [-].
+    /// Largest violation of a contact equation [-]. Length equations are relative to the lengths involved; `relative` scales force equations.
     pub fn violation(&self, equations: &[f64], relative: impl Fn(f64) -> f64) -> f64 {
         self.iter().fold(0.0, |largest, slider| {
             let (length, force) = slider.violation(equations);
@@ -175,11 +175,10 @@ impl Sliders {
         })
     }
 
-    /// Checks that a step with these unknowns may be accepted.
+    /// Checks that a step with these unknowns may be accepted. Tensile stop forces are recorded.
     ///
     /// # Errors
-    /// Fails if a slider passes an end of its master, or misses the limit at which the step has to end, or if a stop force becomes tensile. The
-    /// latter are recorded.
+    /// Fails if a slider passes an end of its master, if it misses the limit at which the step has to end, or if a stop force becomes tensile.
     pub fn check(&mut self, unknowns: &[f64], ending: IntervalEnd) -> Result<(), Overshoot> {
         let mut furthest: Option<Overshoot> = None;
         let aim = self.target_limit.filter(|_| ending == IntervalEnd::Step);
@@ -209,7 +208,7 @@ impl Sliders {
         self.iter().map(SliderContact::chord).fold(f64::INFINITY, f64::min)
     }
 
-    /// Evaluates all contacts at the end of an accepted step, before the bodies are moved.
+    /// Evaluates all contacts at the end of an accepted step. The bodies must not be moved yet.
     pub fn evaluate_end(&mut self, bodies: &[Body], increments: &[f64], unknowns: &[f64]) {
         self.iter_mut().for_each(|slider| slider.evaluate_end(bodies, increments, unknowns));
     }
@@ -218,7 +217,7 @@ impl Sliders {
         self.iter_mut().for_each(|slider| slider.advance(unknowns, ending));
     }
 
-    /// Largest distance of a slave from its place on the master [length].
+    /// Largest distance of a slave from the contact point of its master [length].
     pub fn largest_gap(&self, bodies: &[Body]) -> f64 {
         self.iter().map(|slider| slider.gap(bodies).norm()).fold(0.0, larger)
     }
@@ -237,7 +236,8 @@ impl Sliders {
         self.iter().filter(move |slider| body.is_none_or(|body| slider.connection.master == body))
     }
 
-    /// Directions [-] of the present contact forces with the index of the slider: across masters that do not yield, and along them for held sliders.
+    /// Directions [-] of the present contact forces, with the index of the slider: across masters without a compliant axis, and along masters for
+    /// held sliders.
     pub fn directions(&self, bodies: &[Body]) -> Vec<(usize, Vec2)> {
         let of_slider = |(at, slider): (usize, &SliderContact)| {
             let (across, along) = (slider.across(bodies), slider.along(bodies));

@@ -1,9 +1,9 @@
-//! Impacts at the end of a master, and the waves that they cause in beams: durations of impacts, which bounces have to resolve.
+//! Durations of impacts at the end of a master, from the waves in beams. The steps must resolve them.
 
 use crate::beams::Section;
 use crate::elementary::square;
 
-/// Masses that respond immediately to an impact along a master; `None` if a body is fixed, or too heavy to yield.
+/// Masses that an impact along a master accelerates immediately; `None` if a body is fixed, or too heavy to be accelerated.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct AxialImpact {
     /// Mass of the slave [mass].
@@ -20,10 +20,10 @@ pub struct ImpactBar {
 }
 
 impl ImpactBar {
-    /// Travel time of the wave of an impact through the beam [time], for the cosine of the angle between impact and axis, or the stopping time
-    /// `m/(c ρA)` of a striking mass, if that is shorter.
+    /// Travel time of the wave of an impact through the beam [time], or the stopping time `m/(c ρA)` of a striking mass, if that is shorter. `cosine`
+    /// is that of the angle `α` between impact and axis.
     ///
-    /// The wave is axial along the axis and a shear wave across it: `c² ρA = EA cos²α + GA sin²α`.
+    /// The wave is axial for an impact along the axis, and a shear wave for one across it: `c² ρA = EA cos²α + GA sin²α`.
     pub fn wave_travel_time(&self, cosine: f64, mass: Option<f64>) -> f64 {
         let Self { length, section } = self;
         let along = square(cosine).min(1.0);

@@ -1,11 +1,11 @@
-//! Unknowns of slave, master and contact of a slider, and the assembly of its contact.
+//! Unknowns of slave, master and contact of a slider, and the assembly of the contact.
 
 use crate::geometry::Vec2;
 use crate::joints::{CONTACT_UNKNOWNS, Contact, Equation};
 use crate::linalg::Border;
 use crate::system::bodies::Body;
 
-/// Connection of a slider by the places of its unknowns in the vectors of the model.
+/// Connection of a slider: places of its unknowns in the vectors of the model.
 #[derive(Debug, Clone, Copy)]
 pub struct Connection {
     pub master: usize,
@@ -55,7 +55,7 @@ impl Connection {
         rows.iter_mut().zip(values).for_each(|(row, value)| *row += value);
     }
 
-    /// Adds the derivatives of [`add_values`](Self::add_values), including those of the forces on the master, restricted to unknown movements.
+    /// Adds the derivatives of [`add_values`](Self::add_values), including those of the forces on the master, restricted to unknowns.
     pub fn add_derivatives(
         &self,
         bodies: &[Body],

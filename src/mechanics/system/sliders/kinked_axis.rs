@@ -6,16 +6,16 @@ use crate::beams::Section;
 use crate::geometry::{ContactPath, PiecewisePolynomial, Vec2};
 use crate::joints::{Kink, KinkMotion, KinkState};
 
-/// Kink length, relative to the master, below which a contact force causes no displacement.
+/// Kink length, relative to the length of the master, below which the axis counts as rigid at the slider.
 const RIGID: f64 = 1e-14;
 
-/// Largest speed of a kink that follows its force, relative to shear waves. Beyond it the stiffness `GA - ρA v²` is almost exhausted.
+/// Largest speed at which a kink follows its force, relative to the speed of shear waves. At larger speeds the stiffness `GA - ρA v²` is nearly zero.
 const FASTEST: f64 = 0.8;
 
-/// Largest speed relative to `√(GA/μρA)`, at which that stiffness vanishes on the mesh of the master.
+/// Largest speed at which a kink follows its force, relative to `√(GA/μρA)`, where the stiffness on the mesh of the master vanishes.
 const FASTEST_ON_MESH: f64 = 0.9;
 
-/// Kink length beside an end, relative to that inside a mesh, below which the kink is fixed.
+/// Kink length, relative to the largest in the middle of the master, below which the kink is fixed. This is the case near the ends.
 const BESIDE_END: f64 = 0.1;
 
 /// Kink under a contact force that the mesh of a master misses, shared by all sliders on it.
@@ -29,7 +29,7 @@ pub struct MasterKink {
     pub inertia: f64,
 }
 
-/// Kink of the axis of a master under a contact force, which displaces the axis by `g p/GA` at its place.
+/// Kink of the axis of a master under a contact force `p`, which displaces the axis by `g p/GA` at the slider.
 #[derive(Debug, Clone)]
 pub struct KinkedAxis {
     /// Kink length `g(ξ)` of the mesh of the master [length].
@@ -42,19 +42,19 @@ pub struct KinkedAxis {
     inverse_square_speed: f64,
     /// Speed up to which the kink follows its force [length/time].
     fastest: f64,
-    /// Kink length that counts as zero [length].
+    /// Kink length below which the axis counts as rigid [length].
     none: f64,
-    /// Smallest kink length with a kink that follows its force [length].
+    /// Smallest kink length at which the kink follows its force [length].
     least: f64,
-    /// True if the kink is fixed in the present step for lack of another solution.
+    /// True if the kink is fixed in the present step, because the step has no solution with a moving kink.
     is_frozen: bool,
-    /// `g`, its first and second derivative with respect to `ξ` at the slider [length].
+    /// Kink length `g` and its first and second derivatives with respect to `ξ`, at the slider [length].
     compliance_derivatives: [f64; 3],
     /// Length of the master per unit of ξ at the slider [length].
     stretch: f64,
     /// Duration of the step [time].
     duration: f64,
-    /// Jump of the tangent of the master at the slider, as a force `p = GA a`, which causes it for a kink at rest [force].
+    /// Jump `a` of the tangent of the master at the slider, as the force `p = GA a` that causes it statically [force].
     jump: Vec2,
     /// Speed `v` of the kink along the master [length/time].
     speed: f64,
@@ -81,7 +81,7 @@ impl KinkedAxis {
         }
     }
 
-    /// Starts a step of a duration [time]; a kink without mass gets the rate `dξ/dt` [1/time].
+    /// Starts a step of a duration [time]. A kink without mass gets the rate `dξ/dt` [1/time].
     pub fn begin_step(&mut self, duration: f64, rate: f64) {
         self.duration = duration;
         if !self.is_heavy() {
@@ -101,7 +101,7 @@ impl KinkedAxis {
             || self.speed.abs() > self.fastest
     }
 
-    /// Fixes the kink for the following steps. Returns true if this changes the law of the next step.
+    /// Fixes the kink for the following steps. Returns true if this changes the equations of the next step.
     pub fn freeze(&mut self) -> bool {
         let changes = !self.is_frozen();
         self.is_frozen = true;
@@ -116,7 +116,7 @@ impl KinkedAxis {
         self.is_compliant() && self.jump != Vec2::zeros()
     }
 
-    /// Kink of the master in a step with a path of the slave.
+    /// Kink of the master in a step, for the path of the slave.
     pub fn along(&self, passage: &ContactPath) -> Kink {
         let motion = KinkMotion {
             arc: passage.along(&self.arc),
@@ -133,19 +133,19 @@ impl KinkedAxis {
         self.stretch = passage.at_end(&self.arc)[1];
     }
 
-    /// Accepts jump, as a force [force], and speed [length/time] at the end of a step with a mean contact force `λ` [force], after
+    /// Accepts the jump, as a force [force], and the speed [length/time] at the end of a step with a mean contact force `λ` [force], after
     /// [`accept_end`](Self::accept_end). On a rigid axis the force is the mean of the step.
     pub fn advance(&mut self, mean: Vec2, KinkState { jump, speed }: KinkState) {
         self.jump = if self.is_compliant() { jump } else { mean };
         self.speed = speed;
     }
 
-    /// Accepts jump, as a force [force], and speed [length/time] at the end of a step with a fixed kink.
+    /// Accepts the jump, as a force [force], and the speed [length/time] at the end of a step with a fixed kink.
     pub fn accept_frozen_jump(&mut self, KinkState { jump, speed }: KinkState) {
         (self.jump, self.speed) = (jump, speed);
     }
 
-    /// Sets the kink of a force at rest [force].
+    /// Sets the kink to that of a static contact force [force].
     pub fn set_static_kink(&mut self, force: Vec2) {
         (self.jump, self.speed) = (force, 0.0);
     }
@@ -168,10 +168,10 @@ impl KinkedAxis {
         self.jump * (1.0 - self.inverse_square_speed * self.speed * self.speed)
     }
 
-    /// Removes the part of a stop from the contact force, along the tangent `x'` of the axis [length]. The remaining force satisfies
-    /// `p·x' + ½ g' |p|²/GA = 0` up to the third power of `p`.
+    /// Removes from the contact force the force of a stop, along the tangent `x'` of the axis [length]. The remaining force satisfies `p·x' + ½ g'
+    /// |p|²/GA = 0` up to the third power of `p`.
     ///
-    /// If the axis is compliant there, as within rounding of the end, the force is kept, because it depends on positions.
+    /// If the axis is compliant there, as within rounding of the end, the force is kept, because positions determine it.
     pub fn remove_stop_force(&mut self, tangent: Vec2) {
         if self.is_compliant() {
             return;
@@ -192,15 +192,16 @@ impl KinkedAxis {
         self.jump * (self.compliance_derivatives[0] * self.compliance)
     }
 
-    /// Derivative of [`offset`](Self::offset) with respect to `ξ`, and half its second derivative along itself, `½ g g'' |p|²/GA²`.
+    /// Derivative of [`offset`](Self::offset) with respect to `ξ`, and half of the scalar product of offset and second derivative, `½ g g''
+    /// |p|²/GA²`.
     pub fn slopes(&self) -> (Vec2, f64) {
         let [length, slope, bend] = self.compliance_derivatives;
         let force = self.jump * self.compliance;
         (force * slope, 0.5 * length * bend * force.norm_squared())
     }
 
-    /// Compliance `g/GA` [length/force], derivative of [`offset`](Self::offset) with respect to `ξ` [length], and second derivative of the energy for
-    /// a given force, `½ g'' |p|²/GA` [energy].
+    /// Compliance `g/GA` [length/force], derivative of [`offset`](Self::offset) with respect to `ξ` [length], and second derivative of the energy at
+    /// constant force, `½ g'' |p|²/GA` [energy].
     pub fn static_compliance(&self) -> (f64, Vec2, f64) {
         let [length, slope, bend] = self.compliance_derivatives;
         let force = self.jump * self.compliance;

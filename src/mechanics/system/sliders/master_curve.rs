@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::geometry::{Curve, corresponding};
 
-/// Tolerance for a slider at the end of its master, relative to the parameter range [-].
+/// Distance of a slider from the end of its master, relative to the parameter range, below which it is at the end [-].
 pub const END_TOLERANCE: f64 = 4e-15;
 
 /// End of the master of a slider.
@@ -63,7 +63,7 @@ impl SliderState {
     }
 }
 
-/// End of the master of a slider, where it may arrive.
+/// End of the master of a slider, as a limit of its motion.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub struct MasterLimit {
     /// Index of the slider.
@@ -77,7 +77,7 @@ impl MasterLimit {
         [MasterEnd::Start, MasterEnd::End].map(|end| Self { slider, end })
     }
 
-    /// Index among the limits of all sliders.
+    /// Index of this limit among the limits of all sliders.
     pub fn number(self) -> usize {
         2 * self.slider + self.end as usize
     }

@@ -35,11 +35,11 @@ pub struct SliderContact {
     pub lost_energy: f64,
     /// Impulse on the master in the last impact [mass·length/time].
     pub impulse: Vec2,
-    /// Time at which the slider last left a stop; [`NEVER`] if it has not [time].
+    /// Time at which the slider last left a stop [time]; [`NEVER`] if it has not left one.
     pub stop_left_at: f64,
-    /// True if the stop force may be tensile in the next step: the slider has just left the stop, and every step leads back.
+    /// True if the stop force may be tensile in the next step. The slider has just left the stop, but every step leads it back.
     pub stop_may_pull: bool,
-    /// True if the stop force was tensile in the last tried step.
+    /// True if the stop force was tensile in the last attempted step.
     pub is_pulled: bool,
     /// Parameter `ξ` of the master at the slider [-].
     pub parameter: f64,
@@ -50,7 +50,7 @@ pub struct SliderContact {
     /// Largest ratio of step length to impact duration at a bounce [-].
     pub steps_per_impact: f64,
     master: MasterCurve,
-    /// Path along the track, for a slider on one.
+    /// Path along the track; `None` for a slider on a single beam.
     track: Option<Box<TrackPath>>,
     /// Master and slave as bars with impact waves; `None` if the slave is not a beam.
     bars: (ImpactBar, Option<ImpactBar>),
@@ -62,32 +62,32 @@ pub struct SliderContact {
     /// Path of length zero at the start of the step.
     start_path: ContactPath,
     path: ContactPath,
-    /// Control points of the master in the window of the path, relative to the slave.
+    /// Control points of the master in the window of the path, relative to the slave, at the start of the step.
     before: Vec<Vec2>,
     movements: Vec<Vec2>,
     units: [Unit; CONTACT_UNKNOWNS],
-    /// Length of the master plus path of the slave in the iterate, the scale of rounding [length].
+    /// Scale of rounding errors: length of the master plus path of the slave in the iterate [length].
     size: f64,
-    /// Chord of the path in the mean configuration of the iterate, relative to the path.
+    /// Chord of the path in the mean configuration of the iterate, relative to the length of the path.
     chord: f64,
-    /// Compressive stop force in the iterate times the tangent, for a held slider [force·length].
+    /// Compressive stop force times the length of the tangent, in the iterate of a held slider [force·length].
     push: f64,
-    /// Value of `outward_push` for the beam beyond the seam at which the slider is held [force·length].
+    /// The same product for the beam on the other side of the seam at which the slider is held [force·length].
     push_beyond: f64,
-    /// True if the slider is pulled onto the other beam.
+    /// True if the contact force pulls the slider onto the beam on the other side of the seam.
     pub crosses_seam: bool,
     /// Contact force in the iterate [force].
     contact_force: f64,
 }
 
-/// Time of a stop departure that has not happened: later than any, but finite, because it is saved [time].
+/// Time of a stop departure that has not occurred. It is finite, because states are saved to files [time].
 pub(super) const NEVER: f64 = f64::MAX;
 
 /// Tensile stop force, relative to the contact force, below which it counts as zero.
 const PULL: f64 = 1e-9;
 
-/// Returns true if a stop force is tensile beyond the tolerance, from the push times the tangent [force·length], the contact force [force], and the
-/// length of the master per unit of parameter [length].
+/// Returns true if a stop force is tensile beyond the tolerance. `push` is the compressive force times the length of the tangent [force·length],
+/// `force` the contact force [force], `length` that of the master per unit of parameter [length].
 pub(super) fn is_tensile(push: f64, force: f64, length: f64) -> bool {
     push < -PULL * force * length
 }
@@ -147,7 +147,7 @@ impl SliderContact {
         CONTACT_UNKNOWNS * 2 * (1 + self.most_of_masters(Basis::functions))
     }
 
-    /// The same for steps in which the slider passes at most two spans of its master.
+    /// Number of entries for steps in which the slider passes at most two spans of its master.
     pub fn usual_entries(&self) -> usize {
         let usual = |basis: &Basis| (basis.degree() + 3).min(basis.functions());
         CONTACT_UNKNOWNS * 2 * (1 + self.most_of_masters(usual))
@@ -181,7 +181,7 @@ impl SliderContact {
         self.kinked_axis.iter_mut().for_each(KinkedAxis::straighten);
     }
 
-    /// Contact force on the master: instantaneous with a kink that follows it, otherwise the mean of the last step [force].
+    /// Contact force on the master [force]. With a kink that follows the force it is instantaneous, otherwise the mean of the last step.
     pub fn contact_force(&self) -> Vec2 {
         let axis = self.kinked_axis.as_ref().filter(|_| !self.is_frozen());
         axis.map_or(self.unknowns.force, KinkedAxis::force)
@@ -191,12 +191,12 @@ impl SliderContact {
         self.is_sliding() && self.kinked_axis.as_ref().is_some_and(KinkedAxis::is_frozen)
     }
 
-    /// Speed along the master up to which its kink follows the contact force, if there is one [length/time].
+    /// Speed along the master up to which its kink follows the contact force [length/time]; `None` without a kink.
     pub fn kink_speed_limit(&self) -> Option<f64> {
         self.kinked_axis.as_ref().map(KinkedAxis::fastest)
     }
 
-    /// Fixes the kink of the master for the following steps. Returns true if this changes the law of the next step.
+    /// Fixes the kink of the master for the following steps. Returns true if this changes the equations of the next step.
     pub fn freeze_kink(&mut self) -> bool {
         let sliding = self.is_sliding();
         self.kinked_axis.as_mut().is_some_and(|axis| axis.freeze() && sliding)
@@ -303,7 +303,7 @@ impl SliderContact {
         let (pressing, chord) = (contact.unknowns.force, P::chord(&contact));
         let force = pressing.norm();
         let push = match state {
-            // An infinitely tensile stop releases the slider at once.
+            // With an infinite tensile force, the stop releases the slider at once.
             SliderState::Held(_) if leans_on_nothing => f64::NEG_INFINITY,
             SliderState::Held(end) => contact.outward_push(end.outward()),
             SliderState::Sliding | SliderState::Released => 0.0,
@@ -315,7 +315,7 @@ impl SliderContact {
         force
     }
 
-    /// Adds forces and equations of the contact to a residual, and their derivatives with respect to movements and contact unknowns to the tangent.
+    /// Adds forces and equations of the contact to a residual, and their derivatives with respect to increments and contact unknowns to the tangent.
     pub fn add_linearised<P: Passing>(
         &mut self,
         bodies: &[Body],
@@ -333,7 +333,7 @@ impl SliderContact {
         connection.add_derivatives(bodies, &contact, slopes, &equations, movements, border);
     }
 
-    /// Largest violations of the contact equations: lengths relative to the lengths involved [-], and forces [force].
+    /// Largest violations of the contact equations: of lengths, relative to the lengths involved [-], and of forces [force].
     pub fn violation(&self, equations: &[f64]) -> (f64, f64) {
         let values = equations[self.connection.places()].iter().zip(self.units);
         values.fold((0.0, 0.0), |(length, force), (value, unit)| match unit {
@@ -347,12 +347,12 @@ impl SliderContact {
         if self.is_sliding() { self.chord } else { 1.0 }
     }
 
-    /// Distance beyond an end of the master for given contact unknowns, relative to the parameter range [-].
+    /// Distance of the slider beyond an end of the master for given contact unknowns, relative to the parameter range [-].
     pub fn overshoot(&self, unknowns: &[f64], end: MasterEnd) -> f64 {
         self.master.overshoot(self.parameter + self.read(unknowns).increment, end)
     }
 
-    /// Evaluates the contact at the end of an accepted step, before the bodies are moved.
+    /// Evaluates the contact at the end of an accepted step. The bodies must not be moved yet.
     pub fn evaluate_end(&mut self, bodies: &[Body], increments: &[f64], unknowns: &[f64]) {
         if self.kinked_axis.is_none() {
             return;

@@ -7,7 +7,7 @@ use crate::geometry::{Basis, ContactPath, Vec2};
 use crate::joints::{TrackDirection, TrackEnd};
 use crate::system::bodies::Body;
 
-/// Distance of the ends of two beams below which they coincide, relative to the beam and to their distance from the origin.
+/// Distance between the ends of two beams, relative to the length of the beam and the distance from the origin, below which the ends coincide.
 const SAME: f64 = 1e-9;
 
 /// Beam of a track with the data of its sliders.
@@ -30,7 +30,7 @@ pub struct TrackPath {
     lengths: Arc<[f64]>,
     /// Index of the present beam in the track.
     segment: usize,
-    /// Number of passages from the last beam of a closed track to the first, minus those back.
+    /// Number of passages from the last beam of a closed track to the first, minus the number of reverse passages.
     turns: f64,
     /// Time of the last passage of a seam; [`NEVER`](super::slider_contact::NEVER) before the first [time].
     pub crossed_at: f64,
@@ -75,7 +75,7 @@ impl TrackPath {
         self.lengths[self.segments.len()]
     }
 
-    /// Distance along the track, given the fraction of the present beam behind the slider in beam direction; unwrapped on closed tracks [length].
+    /// Distance along the track, for a fraction `part` of the present beam before the slider in beam direction; unwrapped on closed tracks [length].
     pub fn arc_length(&self, part: f64) -> f64 {
         let leg = self.present();
         let along = leg.heading.along(leg.master.length(), part * leg.master.length());
@@ -92,7 +92,7 @@ impl TrackPath {
         self.seam_at(end).filter(|seam| self.evaluate_seam(bodies, end, *seam))
     }
 
-    /// Returns true if the track as drawn continues beyond an end of the present beam but the beams are separated.
+    /// Returns true if the track as drawn continues beyond an end of the present beam, but the beams are now separated.
     pub fn is_torn(&self, bodies: &[Body], end: MasterEnd) -> bool {
         self.seam_at(end).is_some_and(|seam| !self.evaluate_seam(bodies, end, seam))
     }
@@ -175,7 +175,8 @@ impl TrackPathSegment {
         }
     }
 
-    /// Derivative of the place on the beam with respect to its parameter at an end, after given increments of all bodies; none if empty [length].
+    /// Derivative of the position on the beam with respect to its parameter at an end, after given increments of all bodies [length]. Empty
+    /// `increments` mean the present configuration.
     pub fn end_tangent(&self, bodies: &[Body], increments: &[f64], end: MasterEnd) -> Vec2 {
         let (first, slopes) = &self.slopes[end as usize];
         let body = &bodies[self.beam];

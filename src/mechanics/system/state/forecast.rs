@@ -16,10 +16,10 @@ pub enum Prediction {
     FromMeanRates,
 }
 
-/// Ratio of squared errors below which the mean rates are selected.
+/// Ratio of the squared errors of both predictions, below which the mean rates are selected.
 const SELECTION_RATIO: f64 = 0.8;
 
-/// Mean motion of the last step, with the selected prediction.
+/// Mean rates of the last step, and the selected prediction.
 #[derive(Debug, Clone)]
 pub struct IncrementPrediction {
     mean_rates: Vec<f64>,
@@ -32,7 +32,7 @@ impl IncrementPrediction {
         Self { mean_rates: rates.to_vec(), prediction: Prediction::Unknown, inertia }
     }
 
-    /// Rates that predict the next step, given those at its start [length/time, 1/time].
+    /// Rates that predict the next step, given the rates at its start [length/time, 1/time].
     pub fn rates<'a>(&'a self, at_start: &'a [f64]) -> &'a [f64] {
         match self.prediction {
             Prediction::Unknown | Prediction::Smooth => at_start,
@@ -40,7 +40,7 @@ impl IncrementPrediction {
         }
     }
 
-    /// Selects the better prediction from the increments of a step and the rates at its start, in the norm of the diagonal inertia. Returns the
+    /// Selects the better prediction by comparing the increments of a step with both predictions, in the norm of the diagonal inertia. Returns the
     /// errors of both.
     pub fn update(&mut self, at_start: &[f64], increments: &[f64], duration: f64) -> GuessErrors {
         let inverse = 1.0 / duration;
@@ -52,7 +52,7 @@ impl IncrementPrediction {
             *mean = found;
         }
         self.prediction = match self.prediction {
-            // Start velocities may be those of single nodes, so the mean rates of the first step predict better.
+            // Start velocities may belong to single nodes only, so the mean rates of the first step predict better.
             Prediction::Unknown => Prediction::FromMeanRates,
             _ if missed.by_mean < SELECTION_RATIO * missed.by_start => Prediction::FromMeanRates,
             _ => Prediction::Smooth,
@@ -65,7 +65,7 @@ impl IncrementPrediction {
         self.mean_rates.iter_mut().zip(change).for_each(|(rate, change)| *rate += change);
     }
 
-    /// Prediction errors of selected movements, before the selection is updated.
+    /// Prediction errors of selected degrees of freedom, before the selection is updated.
     pub fn prediction_errors(
         &self,
         movements: &[usize],

@@ -8,7 +8,7 @@ use super::{MonitoredBody, Resolution, StepMeasures};
 pub struct MotionState {
     /// Present time, the end of the last step [time].
     pub time: f64,
-    /// Rates of the unknown movements at the present time [length/time, 1/time].
+    /// Rates of the unknowns at the present time [length/time, 1/time].
     pub rates: Vec<f64>,
     pub accelerations: Accelerations,
     forecast: IncrementPrediction,
@@ -18,7 +18,7 @@ pub struct MotionState {
 }
 
 impl MotionState {
-    /// Starts at t = 0; motions below the energy `noise` are rounding [energy].
+    /// Starts at t = 0. Kinetic energies below `noise` are attributed to rounding [energy].
     pub fn new(rates: Vec<f64>, noise: f64) -> Self {
         Self {
             time: 0.0,
@@ -45,7 +45,7 @@ impl MotionState {
         &self.monitored
     }
 
-    /// Continues the motion with rates of renumbered unknowns and their diagonal inertia. Only accelerations become unknown. `degrees` returns the
+    /// Continues the motion with renumbered unknowns, from their rates and diagonal inertia. Only accelerations are lost. `degrees` returns the
     /// degrees of freedom of a body.
     pub fn renumber(
         &mut self,
@@ -88,7 +88,7 @@ impl MotionState {
         self.accelerations.mark_unknown();
     }
 
-    /// Selected prediction, the non-numeric part of the state.
+    /// Selected prediction, the part of the state that is not numeric.
     pub fn trend(&self) -> Prediction {
         self.forecast.trend()
     }

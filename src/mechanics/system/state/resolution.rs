@@ -1,12 +1,12 @@
-//! Resolution of the motion by time steps, measured from data that each step computes anyway.
+//! Resolution of the motion by time steps, measured from quantities that each step computes.
 
 use crate::beams::RotationIncrement;
 use crate::elementary::square;
 
-/// Squared prediction errors of a step in the norm of the diagonal inertia: each is twice an energy [energy].
+/// Squared prediction errors of a step in the norm of the diagonal inertia. Each is twice an energy [energy].
 #[derive(Debug, Clone, Copy, Default)]
 pub struct GuessErrors {
-    /// Error `Σ m (v̄ - v0)²` of the rates `v0` at the start of the step; `v̄` are the mean rates of the step [energy].
+    /// Error `Σ m (v̄ - v0)²` of the rates `v0` at the start of the step, where `v̄` are the mean rates of the step [energy].
     pub by_start: f64,
     /// Error `Σ m (v̄ - v̄₋)²` of the mean rates `v̄₋` of the previous step [energy].
     pub by_mean: f64,
@@ -22,27 +22,28 @@ impl GuessErrors {
     }
 }
 
-/// Relative difference below which steps count as equally long.
+/// Relative difference of two step lengths below which they count as equal.
 const EQUALLY_LONG: f64 = 1e-3;
 
 /// Resolution of the motion by the steps so far. It is part of the state, so that undone steps do not count.
 ///
-/// A vibration `v = a cos ωt` rotates in steps of the energy–momentum method by `φ` each, `tan(φ/2) = ω h/2`. Averaged over its phases,
-/// `Σ m v̄² = ½ m a² cos²(φ/2)`, `S = Σ m (v̄ - v0)² = ½ m a² sin²(φ/2)` and `M = Σ m (v̄ - v̄₋)² = ½ m a² sin²φ`. So `S - M/4 = ½ m a² sin⁴(φ/2)` is
-/// the energy of unresolved motion, with hardly any of the resolved one. For motions at several frequencies, the sums add up (theory.md, section 13).
+/// A vibration `v = a cos ωt` advances by a phase `φ` in each step of the energy–momentum method, with `tan(φ/2) = ω h/2`. Averaged over the phases,
+/// `Σ m v̄² = ½ m a² cos²(φ/2)`, `S = Σ m (v̄ - v0)² = ½ m a² sin²(φ/2)` and `M = Σ m (v̄ - v̄₋)² = ½ m a² sin²φ`. Hence `S - M/4 = ½ m a² sin⁴(φ/2)`
+/// is the energy of unresolved motion; the contribution of resolved motion is negligible. For motions at several frequencies, the sums add up
+/// (theory.md, section 13).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Resolution {
     /// `Σ (m v̄² + S)` over steps as long as the previous one [energy].
     kinetic: f64,
     /// `Σ (S - M/4)` over these steps [energy].
     unresolved: f64,
-    /// `Σ h² M/16` over these steps; `ω²` is `unresolved / bent` [energy·time²].
+    /// `Σ h² M/16` over these steps [energy·time²]; `ω² = unresolved / bent`.
     bent: f64,
     /// Length of the last step [time].
     last: f64,
     /// Largest rotation of a section in a step [rad].
     rotation: f64,
-    /// Length of the step, or substep, with this rotation; negative for a backward substep [time].
+    /// Length of the step or substep with the largest rotation; negative for a backward substep [time].
     duration: f64,
     /// Energy below which motions are rounding [energy].
     noise: f64,
@@ -74,7 +75,7 @@ impl Resolution {
         increment: f64,
         rotations: RotationIncrement,
     ) {
-        // An increment is at least as large as its angle, which is more expensive.
+        // The increment bounds its angle from above and is cheaper to compare.
         if increment > self.rotation {
             let angle = rotations.angle(increment);
             if angle > self.rotation {
@@ -101,8 +102,8 @@ impl Resolution {
         self.kinetic
     }
 
-    /// Angular frequency `ω`, averaged over accelerations. It is exact for a single vibration, infinite if the period is lost in rounding, and zero
-    /// without vibration [rad/time].
+    /// Angular frequency `ω`, weighted by accelerations [rad/time]. It is exact for a single vibration, infinite if the period is lost in rounding,
+    /// and zero without vibration.
     pub fn angular_frequency(&self) -> f64 {
         if self.unresolved <= 0.0 { 0.0 } else { (self.unresolved / self.bent).sqrt() }
     }

@@ -1,9 +1,9 @@
-//! Force and moment scales of the present step, to which its residual is compared.
+//! Force and moment scales of the present step, with which its residual is compared.
 
 use crate::beams::{ForceSummary, RotationIncrement};
 use crate::integrators::Interval;
 
-/// Interval of the present step, with its largest force and moment of each kind.
+/// Interval of the present step, with the largest force and moment of sections, inertia, loads and contacts.
 pub struct StepMeasures {
     pub interval: Interval,
     /// Force and moment of inertia at the start of the step: twice `M v0` over the duration [force, force·length].
@@ -43,12 +43,12 @@ impl StepMeasures {
         &mut self.scratch
     }
 
-    /// Sum of the largest forces of every kind [force].
+    /// Sum of the largest section, inertia, load and contact forces [force].
     fn force(&self) -> f64 {
         self.summary.force + self.inertia.0 + self.loads.0 + self.contact
     }
 
-    /// Sum of the largest moments of every kind [force·length].
+    /// Sum of the largest section, inertia and load moments [force·length].
     fn moment(&self) -> f64 {
         self.summary.moment + self.inertia.1 + self.loads.1
     }
@@ -64,7 +64,7 @@ impl StepMeasures {
     }
 }
 
-/// A zero residual counts as zero for every scale, including zero.
+/// A zero residual is zero relative to every scale, including a zero scale.
 fn relative(residual: f64, scale: f64) -> f64 {
     if residual == 0.0 { 0.0 } else { residual / scale }
 }

@@ -1,15 +1,15 @@
-//! Unknowns of a model: movements, and forces of rigid links and rollers.
+//! Unknowns of a model: free degrees of freedom, and forces of rigid links and rollers.
 
 use crate::joints::Releasable;
 
 /// Kind of an unknown and of its equation.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum UnknownKind {
-    /// Movement along an axis [length], with a force balance.
+    /// Displacement along an axis [length], with a force balance.
     Position,
     /// Rotation [rad], with a moment balance.
     Rotation,
-    /// Constraint force, in steps its impulse [force, force·time], with a length as equation.
+    /// Constraint force, or its impulse in a time step [force, force·time], with a length as equation.
     Force,
 }
 
@@ -33,7 +33,7 @@ impl Unknowns {
         self.half_bandwidth
     }
 
-    /// Returns true if a joint or a drive is released.
+    /// Returns true if a joint or drive is released in the numbering.
     pub fn are_free_of(&self, hold: Releasable) -> bool {
         self.released.contains(&hold)
     }
@@ -43,7 +43,7 @@ impl Unknowns {
     }
 
     pub fn largest(&self, values: &[f64]) -> (f64, f64) {
-        // Bit patterns of magnitudes have the same order, with NaN as the largest.
+        // As integers, the bit patterns of magnitudes have the same order, with NaN as the largest.
         let magnitude = |value: &f64| value.abs().to_bits();
         let (mut position, mut rotation) = (0, 0);
         for (value, kind) in values.iter().zip(&self.kinds) {

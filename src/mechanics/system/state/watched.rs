@@ -1,4 +1,4 @@
-//! Resolution of single bodies. The unresolved motion of a small body is negligible in the total of a scene with a large one.
+//! Resolution of single bodies. In a scene with a large body, the unresolved motion of a small one is negligible in the total.
 
 use super::Resolution;
 use super::forecast::IncrementPrediction;
@@ -25,7 +25,7 @@ impl MonitoredBody {
         &self.resolution
     }
 
-    /// Records the increments of a step of a duration [time] with the rates at its start, before the prediction is updated.
+    /// Records the increments of a step of a duration [time] and the rates at its start, before the prediction is updated.
     pub(super) fn add(
         &mut self,
         forecast: &IncrementPrediction,

@@ -11,7 +11,7 @@ use crate::script::bindings::call::{body_named, defined, written_within};
 use crate::script::bindings::parameter_variants::VariantValue;
 use crate::script::source::syntax::OWN;
 
-/// Operators, functions and methods with jumps in their arguments.
+/// Operators, functions and methods whose results jump.
 const JUMPS: &[&str] = &[
     "<", ">", "<=", ">=", "==", "!=", "%", "floor", "ceiling", "round", "round_to", "int",
     "to_int", "fraction", "quotient", "sign", "is_zero",
@@ -23,10 +23,10 @@ const JUMPING_SCHEDULES: &[&str] = &["pulse", "hold_for", "table"];
 /// Maximum depth of nested calls that are searched.
 const DEEPEST: usize = 8;
 
-/// Maximum number of functions that are searched; recursive calls would be endless.
+/// Maximum number of functions that are searched, so that the search of recursive functions ends.
 const MOST: usize = 100;
 
-/// Position where a function branches on a variable that depends on a parameter and on its argument.
+/// Position at which a function branches on an expression of its argument and of a variable that depends on a parameter.
 pub(super) struct Decision {
     pub(super) parameter: String,
     pub(super) sign: String,
@@ -116,7 +116,8 @@ impl VariableFacts {
         }
     }
 
-    /// First variable in an expression whose schedule jumps at times that depend on a parameter, or from which such a schedule is made.
+    /// First variable in an expression whose schedule jumps at times that depend on a parameter, or from which the expression creates such a
+    /// schedule.
     fn jumping_in(&self, expression: &Expr) -> Option<String> {
         first_in(expression, |node| match node {
             Expr::Variable(variable, ..) => self.jumping.get(variable.1.as_str()).cloned(),
@@ -127,7 +128,7 @@ impl VariableFacts {
         })
     }
 
-    /// Branch on several expressions that together depend on a parameter and on the argument.
+    /// Branch on several expressions that together depend on a parameter and on the argument of the function.
     fn by<'e>(
         &self,
         expressions: impl Iterator<Item = &'e Expr> + Clone,
@@ -190,7 +191,7 @@ impl BranchSearch<'_, '_> {
         if JUMPS.contains(&sign) {
             return known.by(call.args.iter(), sign, at);
         }
-        // A closure: its first arguments are the captured variables.
+        // The call creates a closure. Its first arguments are the captured variables.
         if let Some((function, captured)) = written_within(call) {
             return self.within(&function, captured, known);
         }
@@ -247,7 +248,7 @@ impl BranchSearch<'_, '_> {
         }
     }
 
-    /// Searches a function held by a variable and called with arguments.
+    /// Searches a function that a variable holds and that is called with arguments.
     fn held(
         &self,
         function: &FnPtr,

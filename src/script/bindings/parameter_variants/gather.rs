@@ -10,8 +10,8 @@ use crate::geometry::Vec2;
 use crate::script::messages::error::ScriptError;
 use crate::script::messages::numbers::as_number;
 
-/// Combines `results`, one per variant, variant 0 first, into one value. Equal results stay plain values; scene objects (`is_thing`)
-/// contain their variants; for booleans, texts and integers the result of variant 0 is used.
+/// Combines `results`, one per variant with variant 0 first, into one value. Equal results stay plain values, and scene objects (`is_thing`) contain
+/// their variants. Booleans, texts and integers keep only the result of variant 0.
 ///
 /// # Errors
 /// Fails if arrays or maps differ in more than numbers.

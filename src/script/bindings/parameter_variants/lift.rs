@@ -14,7 +14,7 @@ use crate::script::bindings::parameter::Parameter;
 use crate::script::bindings::table::{CallSyntax, FunctionBinding};
 use crate::script::messages::error::{CallPart, ScriptError};
 
-/// Hint for an error that occurs only in a side variant.
+/// Hint for an error that occurs only in a perturbed variant.
 const BESIDE: &str = "derivatives are computed from values on both sides of a parameter: choose it inside the \
     allowed range, or use value_of(x) here, which has no derivatives";
 
@@ -75,12 +75,12 @@ pub fn evaluate_variants(
         }
     };
     let mut results = Vec::with_capacity(family.variants());
-    // Variant 0 comes last, because a scene starts its variants from the state before the call.
+    // Variant 0 is evaluated last, because a scene starts its variants from the state before the call.
     for variant in (0..family.variants()).rev() {
         match at(variant) {
             Ok(made) => results.push(made),
             Err(error) if variant == 0 => return Err(error),
-            // If variant 0 fails too, its error is reported.
+            // If variant 0 fails too, the error of variant 0 is reported.
             Err(beside) => {
                 return Err(at(0).err().unwrap_or(beside.with_variant_context(&family, variant)));
             }
@@ -112,7 +112,7 @@ fn evaluate_at(
     }
 }
 
-/// Rejects variant numbers where an integer is required, because integers have no derivative.
+/// Rejects values that depend on parameters where an integer is required, because integers have no derivative.
 fn expect_plain_whole_numbers(
     row: &FunctionBinding,
     parameters: &[Parameter],
@@ -135,7 +135,7 @@ fn expect_plain_whole_numbers(
     }
 }
 
-/// Error of an argument that must not depend on parameters; it points at the option that does.
+/// Error of an argument that must not depend on parameters. Its position is that of the option that does.
 fn refusal(
     row: &FunctionBinding,
     parameter: Option<&Parameter>,
@@ -167,7 +167,7 @@ fn option_in(options: &Dynamic) -> Option<(String, Dynamic)> {
 }
 
 impl ScriptError {
-    /// Adds the variant to the message of an error in a side variant.
+    /// Adds the variant to the message of an error in a perturbed variant.
     fn with_variant_context(self, family: &ParameterSet, variant: usize) -> Self {
         match self {
             Self::Failure(mut failure) => {
@@ -194,7 +194,7 @@ fn families(
 }
 
 impl ParameterSet {
-    /// Common parameter set of some values, if any depends on one.
+    /// Common parameter set of some values; `None` if none of them depends on a parameter.
     ///
     /// # Errors
     /// Fails if they depend on parameters of two scenes.
@@ -223,7 +223,7 @@ impl ParameterSet {
     }
 }
 
-/// Combines the results that were computed from some values in each variant.
+/// Combines the results that were computed from these values in each variant.
 ///
 /// # Errors
 /// Fails if arrays or maps differ in more than numbers.
@@ -237,7 +237,7 @@ pub fn combined(
     combine_variants(family, results, lost.as_ref(), &|_| false)
 }
 
-/// Combines the results of all variants to one value without derivatives, with the reason.
+/// Combines the results of all variants into one value without derivatives, and stores the reason.
 ///
 /// # Errors
 /// Fails if arrays or maps differ in more than numbers.

@@ -1,5 +1,5 @@
-//! Evaluation of calls for variants of the parameters of a scene: a call with an argument that depends on a parameter is evaluated for the
-//! scene and for all side variants.
+//! Evaluation of calls for variants of the parameters of a scene. A call with an argument that depends on a parameter is evaluated at the parameter
+//! values and for all perturbed variants.
 //!
 //! Derivatives thereby propagate through sections, loads, simulations, and functions of their results.
 

@@ -1,4 +1,4 @@
-//! Non-differentiable functions: corners, jumps and infinite slopes at or near the variants of a parameter, where derivatives do not exist.
+//! Functions that are not differentiable at or near their arguments because of kinks, jumps or infinite slopes.
 
 use std::rc::Rc;
 
@@ -11,30 +11,30 @@ use crate::geometry::Vec2;
 use crate::script::bindings::accept::as_point;
 use crate::script::messages::numbers::as_number;
 
-/// Minimum distance from an infinite slope, in steps of the argument. The relative error of the difference quotient is about its inverse
-/// square, 1e-5.
+/// Minimum distance from a point of infinite slope, in units of the perturbation of the argument. The relative error of the difference quotient is
+/// about its inverse square, 1e-5.
 const NEAR: f64 = 300.0;
 
-/// Arguments of a call at the parameter values, and at one of them plus and minus its step.
+/// Arguments of a call at the parameter values, and with a positive and a negative perturbation of one parameter.
 pub struct Sides<'s> {
     pub at: &'s [Dynamic],
     pub plus: &'s [Dynamic],
     pub minus: &'s [Dynamic],
 }
 
-/// Reason why a derivative does not exist.
+/// Reason why the derivative of a function does not exist.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum NoDerivative {
-    /// A corner or jump lies between the variants.
+    /// The function has a kink or a jump between the perturbed arguments.
     Discontinuous,
-    /// A point of infinite slope is too near.
+    /// A point of infinite slope is too close to the arguments.
     InfiniteSlope,
 }
 
-/// Test for a missing derivative between the arguments of the variants.
+/// Check of a function for kinks, jumps and infinite slopes between the perturbed arguments.
 pub type NonsmoothCheck = fn(&Sides) -> Option<NoDerivative>;
 
-/// Message if the result of a function has no derivative although its arguments have.
+/// Error message if the function has no derivative at its arguments; `None` if it has one.
 pub fn corner_of(
     (name, corner): (&str, NonsmoothCheck),
     family: &ParameterSet,
@@ -66,20 +66,20 @@ impl Sides<'_> {
         [self.at, self.plus, self.minus].map(what)
     }
 
-    /// Tests if a quantity of the arguments changes its sign between the sides.
+    /// Reports a jump or kink if a quantity of the arguments changes its sign between the perturbations.
     fn passes_zero(&self, what: impl Fn(&[Dynamic]) -> f64) -> Option<NoDerivative> {
         let [_, plus, minus] = self.each(what);
         (plus * minus < 0.0).then_some(NoDerivative::Discontinuous)
     }
 
-    /// Tests if a quantity of the arguments varies, and is zero or near it.
+    /// Reports an infinite slope if a quantity varies with the parameter and is zero or near zero.
     fn nears_zero(&self, what: impl Fn(&[Dynamic]) -> f64) -> Option<NoDerivative> {
         let [at, plus, minus] = self.each(what);
         let change = (plus - at).abs().max((minus - at).abs());
         (change > 0.0 && at.abs() <= NEAR * change).then_some(NoDerivative::InfiniteSlope)
     }
 
-    /// Tests if a vector made from the arguments varies, and is zero or near it.
+    /// Reports an infinite slope if a vector varies with the parameter and is zero or near zero.
     fn nears_origin(&self, what: impl Fn(&[Dynamic]) -> Option<Vec2>) -> Option<NoDerivative> {
         let (at, plus, minus) = (what(self.at)?, what(self.plus)?, what(self.minus)?);
         let change = (plus - at).norm().max((minus - at).norm());
@@ -87,48 +87,48 @@ impl Sides<'_> {
     }
 }
 
-/// At zero of the argument, as for `abs`.
+/// Kink or jump where the argument is zero, as for `abs`.
 pub fn at_zero(sides: &Sides) -> Option<NoDerivative> {
     sides.passes_zero(|given| number(given, 0))
 }
 
-/// Near zero of the argument, as for `sqrt` and `ln`.
+/// Infinite slope where the argument is zero, as for `sqrt` and `ln`.
 pub fn near_zero(sides: &Sides) -> Option<NoDerivative> {
     sides.nears_zero(|given| number(given, 0))
 }
 
-/// Near one and minus one, as for `acos`.
+/// Infinite slope where the argument is one or minus one, as for `acos`.
 pub fn near_one(sides: &Sides) -> Option<NoDerivative> {
     sides.nears_zero(|given| number(given, 0).abs() - 1.0)
 }
 
-/// Near the poles of `tan`.
+/// Infinite slope at the poles of `tan`.
 pub fn near_quarters(sides: &Sides) -> Option<NoDerivative> {
     sides.nears_zero(|given| cos(number(given, 0)))
 }
 
-/// Near zero of the argument, and near zero and one of the base, of a logarithm.
+/// Infinite slope of a logarithm where the argument is zero, or the base is zero or one.
 pub fn near_ends_of_logarithm(sides: &Sides) -> Option<NoDerivative> {
     let base = || sides.nears_zero(|given| number(given, 1) - 1.0);
     near_zero(sides).or_else(base).or_else(|| sides.nears_zero(|given| number(given, 1)))
 }
 
-/// At equal arguments, as for `max`.
+/// Kink where the arguments are equal, as for `max`.
 pub fn at_equality(sides: &Sides) -> Option<NoDerivative> {
     sides.passes_zero(|given| number(given, 0) - number(given, 1))
 }
 
-/// Near the origin of the vector of both arguments, as for `hypot`.
+/// Infinite slope at the origin of the vector of both arguments, as for `hypot`.
 pub fn at_origin(sides: &Sides) -> Option<NoDerivative> {
     sides.nears_origin(|given| Some(Vec2::new(number(given, 0), number(given, 1))))
 }
 
-/// Near the origin and at the branch cut of the angle of the vector `(second, first)`, as for `atan2`.
+/// Jump or infinite slope of the angle of the vector `(second, first)`, at its branch cut or the origin, as for `atan2`.
 pub fn at_branch_cut(sides: &Sides) -> Option<NoDerivative> {
     cut(sides, |given| Some(Vec2::new(number(given, 1), number(given, 0))))
 }
 
-/// Near the origin and at the branch cut of the angle of a vector argument.
+/// Jump or infinite slope of the angle of a vector argument, at its branch cut or the origin.
 pub fn at_branch_cut_of_vector(sides: &Sides) -> Option<NoDerivative> {
     cut(sides, |given| point(given, 0))
 }
@@ -141,23 +141,23 @@ fn cut(sides: &Sides, what: fn(&[Dynamic]) -> Option<Vec2>) -> Option<NoDerivati
     sides.nears_origin(what).or_else(passes)
 }
 
-/// Near the zero vector, as for `norm`.
+/// Infinite slope where a vector is zero, as for `norm`.
 pub fn at_zero_vector(sides: &Sides) -> Option<NoDerivative> {
     sides.nears_origin(|given| point(given, 0))
 }
 
-/// Near coinciding points, as for `distance`.
+/// Infinite slope where two points coincide, as for `distance`.
 pub fn at_coinciding_points(sides: &Sides) -> Option<NoDerivative> {
     sides.nears_origin(|given| point(given, 1).zip(point(given, 0)).map(|(b, a)| b - a))
 }
 
-/// At integers, as for `fraction`.
+/// Jump where the argument is an integer, as for `fraction`.
 pub fn at_integers(sides: &Sides) -> Option<NoDerivative> {
     let [_, plus, minus] = sides.each(|given| number(given, 0).trunc());
     (plus != minus).then_some(NoDerivative::Discontinuous)
 }
 
-/// At changes of digits, as for `round_to`.
+/// Jump where a digit changes, as for `round_to`.
 pub fn at_digit_changes(sides: &Sides) -> Option<NoDerivative> {
     let [_, plus, minus] = sides.each(|given| {
         let digits = number(given, 1);
@@ -166,7 +166,7 @@ pub fn at_digit_changes(sides: &Sides) -> Option<NoDerivative> {
     (plus != minus).then_some(NoDerivative::Discontinuous)
 }
 
-/// At multiples of the divisor, for a remainder.
+/// Jump of a remainder where the argument is a multiple of the divisor.
 pub fn at_multiples(sides: &Sides) -> Option<NoDerivative> {
     let [at, plus, minus] = sides.each(|given| (number(given, 0) / number(given, 1)).trunc());
     (plus != at || minus != at).then_some(NoDerivative::Discontinuous)
@@ -176,7 +176,7 @@ pub fn near_zero_divisor(sides: &Sides) -> Option<NoDerivative> {
     sides.nears_zero(|given| number(given, 1))
 }
 
-/// Near zero of the base of a power, unless its exponent is a constant non-negative integer.
+/// Infinite slope of a power where the base is zero, unless the exponent is a constant non-negative integer.
 pub fn near_zero_base(sides: &Sides) -> Option<NoDerivative> {
     let exponents = sides.each(|given| number(given, 1));
     let is_smooth = exponents[0] >= 0.0
@@ -185,12 +185,12 @@ pub fn near_zero_base(sides: &Sides) -> Option<NoDerivative> {
     if is_smooth { None } else { sides.nears_zero(|given| number(given, 0)) }
 }
 
-/// At changes of the largest element of an array.
+/// Kink where the largest element of an array changes its index.
 pub fn at_largest_change(sides: &Sides) -> Option<NoDerivative> {
     selection_changes(sides, |x, y| x > y)
 }
 
-/// At changes of the smallest element of an array.
+/// Kink where the smallest element of an array changes its index.
 pub fn at_smallest_change(sides: &Sides) -> Option<NoDerivative> {
     selection_changes(sides, |x, y| x < y)
 }

@@ -1,4 +1,4 @@
-//! Set of the parameters of a scene. Each parameter has two variants, at its value plus and minus a step.
+//! Set of the parameters of a scene. Each parameter has two perturbed variants, at its value plus and minus a perturbation.
 
 use std::any::TypeId;
 use std::cell::{Cell, RefCell};
@@ -11,17 +11,17 @@ use super::variant_value::VariantValue;
 use crate::output::significant;
 use crate::script::messages::error::{CallPart, ScriptError};
 
-/// Default step, relative to the size of the parameter. The error of the difference quotient is of the order of its square, plus rounding
-/// divided by it.
+/// Default perturbation, relative to the size of the parameter. The relative error of the difference quotient is about the square of this number,
+/// plus rounding divided by it.
 pub const RELATIVE_DISTANCE: f64 = 1e-5;
 
-/// Parameters of a scene. Variant 0 is at their values; 1 and 2 are at the first one plus and minus its step, 3 and 4 at the second one.
+/// Parameters of a scene. Variant 0 has their values. Variants 1 and 2 perturb the first parameter positively and negatively, 3 and 4 the second one.
 #[derive(Default)]
 pub struct ParameterSet {
     parameters: RefCell<Vec<DeclaredParameter>>,
-    /// True once variants are in use, when no parameter may be added.
+    /// True once variants are in use. Then no parameter may be added.
     is_in_use: Cell<bool>,
-    /// Script positions, by line and column, where a branch that depends on a parameter was reported.
+    /// Script positions (line and column) at which a branch that depends on a parameter was reported.
     told: RefCell<BTreeSet<(usize, usize)>>,
 }
 
@@ -31,7 +31,7 @@ struct DeclaredParameter {
     distance: f64,
 }
 
-/// Variant that the current call is evaluated for.
+/// Variant for which the current call is evaluated.
 #[derive(Clone)]
 pub struct CurrentVariant {
     pub family: Rc<ParameterSet>,
@@ -41,10 +41,10 @@ pub struct CurrentVariant {
 thread_local! {
     /// True if a parameter set was created in this thread.
     static ANY: Cell<bool> = const { Cell::new(false) };
-    /// Type names, and functions that return the parameter set of scene objects.
+    /// Names of the types of scene objects, and functions that return the parameter sets of these objects.
     static THINGS: RefCell<HashMap<TypeId, (&'static str, SceneParameters)>> = RefCell::default();
     static PRESENT: RefCell<Option<CurrentVariant>> = const { RefCell::new(None) };
-    /// Reason for missing values in a side variant.
+    /// Reason why a perturbed variant has no values.
     static LOST: RefCell<Option<Rc<str>>> = const { RefCell::new(None) };
 }
 
@@ -77,7 +77,7 @@ pub fn present_variant() -> usize {
     present().map_or(0, |present| present.variant)
 }
 
-/// Marks results of side variants as unavailable, with a reason.
+/// Marks the results of perturbed variants as unavailable, with a reason.
 pub fn set_unavailable(reason: &str) {
     LOST.set(Some(reason.into()));
 }
@@ -86,7 +86,7 @@ pub(super) fn take_unavailable() -> Option<Rc<str>> {
     LOST.take()
 }
 
-/// Guard: calls are evaluated for a variant while it lives.
+/// Guard for the evaluation of a call in a variant, which ends when the guard is dropped.
 pub(super) struct VariantGuard;
 
 impl VariantGuard {
@@ -113,7 +113,7 @@ impl ParameterSet {
         ANY.get()
     }
 
-    /// Adds a parameter with its value and a step, or the default step; returns the variant number.
+    /// Adds a parameter with its value and a perturbation, or the default perturbation. Returns its index.
     ///
     /// # Errors
     /// Fails if the name is in use, or variants are in use already.
@@ -139,7 +139,7 @@ impl ParameterSet {
         }
         let size = if value == 0.0 { 1.0 } else { value.abs() };
         let distance = distance.unwrap_or(RELATIVE_DISTANCE * size);
-        // Rounds the step so that the side variants are exact.
+        // Rounds the perturbation so that the perturbed values are exact.
         let distance = 0.5 * ((value + distance) - (value - distance));
         let mut values = vec![Dynamic::from(value); self.variants()];
         values.extend([value + distance, value - distance].map(Dynamic::from));
@@ -166,23 +166,23 @@ impl ParameterSet {
         1 + 2 * self.parameters.borrow().len()
     }
 
-    /// Names of the parameters, with their steps.
+    /// Names of the parameters, with their perturbations.
     pub fn parameters(&self) -> Vec<(String, f64)> {
         let parameters = self.parameters.borrow();
         parameters.iter().map(|of| (of.name.clone(), of.distance)).collect()
     }
 
-    /// Distance of the variants of a parameter from its value.
+    /// Perturbation of a parameter in its variants.
     pub fn distance(&self, parameter: usize) -> Option<f64> {
         self.parameters.borrow().get(parameter).map(|of| of.distance)
     }
 
-    /// Index of a parameter by its name, from 0.
+    /// Index of the parameter with a name, from 0.
     pub fn number_of(&self, name: &str) -> Option<usize> {
         self.parameters.borrow().iter().position(|of| of.name == name)
     }
 
-    /// Parameter index of a side variant, and true for its plus side.
+    /// Index of the parameter of a perturbed variant, and true for a positive perturbation; `None` for variant 0.
     pub fn side_of_variant(variant: usize) -> Option<(usize, bool)> {
         let beside = variant.checked_sub(1)?;
         Some((beside / 2, beside % 2 == 0))

@@ -1,4 +1,4 @@
-//! Policy of each domain for arguments that depend on parameters.
+//! Evaluation of the calls of each domain if arguments depend on parameters.
 
 use crate::script::bindings::table::{BindingTable, CallSyntax, FunctionBinding};
 
@@ -9,7 +9,7 @@ pub enum Lifting {
     Each,
     /// Once, with the values of variant 0.
     AtValues,
-    /// Once, for receivers with their own variants; arguments that depend on parameters are rejected.
+    /// Once, for receivers that contain their variants. Arguments that depend on parameters are rejected.
     Once,
     /// Rejected, because the result would have no derivatives.
     Refused,
@@ -58,7 +58,7 @@ const REFUSED: &[&str] = &["equilibrium", "modes"];
 
 const WHOLE: &[&str] = &["quotient"];
 
-/// Methods that advance a simulation together with its variants, or return values that do not depend on them, such as the time.
+/// Methods that advance a simulation together with its variants, or return values that do not depend on variants, such as the time.
 const ONCE: &[&str] = &["start", "step", "run_to", "at", "t", "dt", "invariants", "parameter"];
 
 pub fn lifting_of(table: &BindingTable, row: &FunctionBinding) -> Lifting {
@@ -78,6 +78,6 @@ pub fn lifting_of(table: &BindingTable, row: &FunctionBinding) -> Lifting {
     }
 }
 
-/// Domains named above.
+/// Domains in the lists above.
 #[cfg(test)]
 pub const NAMED: [&[&str]; 3] = [EACH, AT_VALUES, REFUSED];

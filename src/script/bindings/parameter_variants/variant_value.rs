@@ -18,7 +18,7 @@ const DIGITS: usize = 5;
 #[derive(Clone)]
 pub struct VariantValue {
     family: Rc<ParameterSet>,
-    /// Values per variant; later variants equal the first one.
+    /// Values by variant, from variant 0 on. Variants beyond the end have the value of variant 0.
     values: Rc<[Dynamic]>,
     lost: Option<Rc<str>>,
 }
@@ -56,7 +56,7 @@ impl VariantValue {
     /// Derivative with respect to the parameter with this index.
     ///
     /// # Errors
-    /// Fails if it is unknown, or the value is not differentiable.
+    /// Fails if there is no such parameter, or the value is not differentiable.
     pub fn derivative(&self, parameter: usize) -> Result<Dynamic, ScriptError> {
         if let Some(reason) = &self.lost {
             return Err(ScriptError::new(reason.to_string()));
@@ -75,12 +75,12 @@ impl VariantValue {
     }
 }
 
-/// Parameter set that a value depends on; arrays, maps and captured values are searched.
+/// Set of the parameters on which a value depends. Arrays, maps and captured values are searched.
 pub fn parameter_set_of(value: &Dynamic) -> Option<Rc<ParameterSet>> {
     find(value, &|varied| Some(Rc::clone(&varied.family)))
 }
 
-/// Reason for missing derivatives anywhere in a value.
+/// Reason for missing derivatives of a value, its elements or captured values.
 pub fn unavailable_reason_in(value: &Dynamic) -> Option<Rc<str>> {
     find(value, &|varied| varied.unavailable_reason().cloned())
 }

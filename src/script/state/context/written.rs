@@ -59,7 +59,7 @@ impl Context {
         Ok(self.report_kept(written))
     }
 
-    /// Writes a file that the script may [read](Self::read_file) again, also in a dry build. An existing file is kept as in
+    /// Writes a file that the script may [read](Self::read_file) again, also in a dry run. An existing file is kept as in
     /// [`Self::write_file`].
     ///
     /// # Errors

@@ -293,7 +293,7 @@ impl DesignRequest<'_> {
 }
 
 impl DesignRequest<'_> {
-    /// Result of a dry build: the start values, at which the function is called.
+    /// Result of a dry run: the start values, at which the function is called.
     ///
     /// # Errors
     /// Errors of the function.

@@ -169,7 +169,7 @@ impl FitRequest<'_> {
         Err(at_key(call, self.key, told, hint))
     }
 
-    /// Result of a dry build: the start values, at which the function is called.
+    /// Result of a dry run: the start values, at which the function is called.
     ///
     /// # Errors
     /// Errors of the function.

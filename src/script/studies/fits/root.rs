@@ -32,7 +32,7 @@ pub fn find_root(call: &mut Call) -> Result<Dynamic, ScriptError> {
         })
     };
     if call.context().mode() == RunMode::DryBuild {
-        // Results of a dry build have no meaningful signs.
+        // Results of a dry run have no meaningful signs.
         value(from)?;
         return Ok(from.into());
     }

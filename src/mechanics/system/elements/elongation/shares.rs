@@ -33,7 +33,7 @@ impl Elongation {
         }
     }
 
-    /// Gathers the movements of the terminals from values of the unknowns. Supported degrees of freedom do not move.
+    /// Gathers the increments of the terminals from values of the unknowns; zero at supported degrees of freedom.
     pub(super) fn gather(&mut self, values: &[f64]) {
         combine(&self.shares, values, &mut self.movements);
     }
@@ -69,7 +69,7 @@ impl Elongation {
     }
 }
 
-/// Coordinates of values of the unknowns; supported degrees of freedom contribute nothing.
+/// Coordinates for values of the unknowns; supported degrees of freedom contribute nothing.
 fn combine(shares: &[CoordinateShare], values: &[f64], coordinates: &mut [f64]) {
     coordinates.fill(0.0);
     for CoordinateShare { degree, coordinate, share } in shares {

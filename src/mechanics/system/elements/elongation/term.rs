@@ -4,7 +4,7 @@ use crate::beams::RotationIncrement;
 use crate::elementary::atan;
 use crate::geometry::Vec2;
 
-/// Rotation increments that differ by less are treated as equal, to second order [rad].
+/// Difference of two rotation increments below which they are treated as equal, with an error of second order [rad].
 const SAME_TURN: f64 = 1e-5;
 
 pub(super) struct ElongationTerm {
@@ -24,7 +24,7 @@ impl ElongationTerm {
         let both = before + after;
         let mean = direction(start + end, both);
         let slope = direction(end, after);
-        // Angle increments are used by methods that take forces at the end of a step.
+        // Methods that take forces at the end of a step use increments of the angle itself.
         let (secant, inverse) = match rotations {
             RotationIncrement::TangentScaled => (mean, both),
             RotationIncrement::Angle => (slope, after),
@@ -52,7 +52,7 @@ impl RelativeTurn {
         }
         let (difference, mean) = (b - a, 0.5 * (a + b));
         if difference.abs() < SAME_TURN {
-            // The mean of dθ/dω between both is approximated at the midpoint.
+            // The mean of dθ/dω between both increments is approximated at their midpoint.
             let (rate, slope) = rotations.rates(mean);
             return Self { ratio: rate, derivatives: [0.5 * slope; 2] };
         }

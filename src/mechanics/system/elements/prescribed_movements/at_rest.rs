@@ -1,4 +1,4 @@
-//! Prescribed movements at rest: their positions at a time, applied together with the loads of an equilibrium.
+//! Static prescribed positions at a time, applied together with the loads of an equilibrium.
 
 use std::borrow::Cow;
 
@@ -10,7 +10,7 @@ use crate::loads::{LimitSide, LoadError, PrescribedMotion};
 const SAME_PLACE: f64 = 1e-12;
 
 impl PrescribedMovements {
-    /// Evaluates the prescribed positions at a time. Equilibria apply them together with their loads.
+    /// Evaluates the prescribed positions at a time. Static solutions apply them together with their loads.
     ///
     /// # Errors
     /// Name of the drive whose function has no finite value, and the reason.
@@ -29,7 +29,7 @@ impl PrescribedMovements {
     pub fn first_displaced_drive(&self, load_factor: f64, time: f64) -> Option<(&str, [f64; 2])> {
         self.movements.iter().zip(&self.present).find_map(|(movement, present)| {
             let PrescribedMotion::Position(schedule) = &movement.motion else { return None };
-            // Functions without a value are rejected earlier, while the scene is built or the position is applied.
+            // Functions without a value are rejected earlier, when the scene is built or the position is applied.
             let (rests, wanted) =
                 (load_factor * present.goal, schedule.value(time, LimitSide::After).ok()?);
             let size = larger(wanted.abs(), rests.abs());
@@ -43,7 +43,7 @@ impl PrescribedMovements {
         self.present.iter().any(|present| present.goal != 0.0)
     }
 
-    /// Movements at rest with the prescribed ones appended to the unknowns, up to their positions under a fraction of the load.
+    /// Static increments of the unknowns, with the increments of the prescribed degrees of freedom under a fraction of the load appended.
     pub fn at_rest<'m>(&self, movements: &'m [f64], load_factor: f64) -> Cow<'m, [f64]> {
         if self.movements.is_empty() {
             return Cow::Borrowed(movements);

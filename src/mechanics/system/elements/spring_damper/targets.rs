@@ -14,7 +14,7 @@ impl SpringDamper {
         self.law.as_ref().map_or(0.0, |law| law.force(self.elongation.grown()))
     }
 
-    /// Returns true if the force is zero in a segment of the law. A released spring keeps the answer, so that its state has the same size.
+    /// Returns true if the force is zero in a segment of the law. A release does not change the result, so that the state keeps its size.
     pub(super) fn may_be_slack(&self) -> bool {
         let law = self.released.as_ref().map_or(&self.law, |(law, _)| law);
         law.as_ref().is_some_and(SpringLaw::may_be_slack)
@@ -41,7 +41,8 @@ impl SpringDamper {
             }
             Stage::DampedMidpoint(chi) => {
                 let mean = law.mean(q, change);
-                // A falling law would gain the energy that a rising one loses. A single component would rotate the damped direction.
+                // A law with negative slope would gain the energy that one with positive slope loses. A single component would rotate the damped
+                // direction.
                 let late = match law {
                     _ if self.elongation.is_component() => 0.0,
                     SpringLaw::Linear { stiffness, .. } => 0.5 * chi * stiffness.max(0.0),
@@ -52,16 +53,16 @@ impl SpringDamper {
         }
     }
 
-    /// Target force of the spring for a linearisation. After several iterations, the law is linearised where the line of the impedance of the loaded
-    /// system intersects it. At a corner of a stiff law, Newton's method would otherwise alternate between segments. The intersection is unique if
-    /// the law is increasing.
+    /// Target force of the spring for a linearisation. After several iterations, the linearisation point is the intersection of the law with the line
+    /// of the impedance of the loaded system. At a corner of a stiff law, Newton's method would otherwise alternate between segments. The
+    /// intersection is unique if the law is increasing.
     pub(super) fn spring_target(&mut self, stage: Stage) -> ForceTarget {
         let (asked, change) = (self.restoring(stage), self.elongation.change);
         let impedance = self.spring.impedance(change);
         let Some(impedance) = impedance.filter(|_| self.rises) else { return asked };
         let force = self.spring.force;
         let above = |at: f64, of: ForceTarget| of.force - force + impedance * (at - change);
-        // An increasing law intersects no later than a law of zero slope.
+        // An increasing law intersects the line no later than a law of zero slope.
         let reach = change - above(change, asked) / impedance;
         let (mut low, mut high) = (change.min(reach), change.max(reach));
         let (mut at, mut met) = (change, asked);
@@ -112,10 +113,12 @@ impl SpringDamper {
         }
     }
 
-    /// Extrapolation factor of the rates beyond the middle of the step, in differences between two steps; `None` if rates do not count.
+    /// Extrapolation factor of the rates beyond the middle of the step, in units of the difference between two steps; `None` if the force does not
+    /// depend on rates.
     ///
-    /// A method with forces at both ends balances those at the time `at.weight` within the step. The rate there is extrapolated from the middles of
-    /// this step and the last one.
+    ///
+    /// A method with forces at both ends of the step balances forces at the time `at.weight` within the step. The rate at that time is extrapolated
+    /// from the middles of this step and the last one.
     fn lateness(&self, at: TrialState<'_>) -> Option<f64> {
         match at.stage {
             Stage::Start => None,

@@ -1,4 +1,4 @@
-//! Slider at rest: contact between two equilibria, stops, and stiffness.
+//! Statics of a slider: contact between two equilibria, stops, and stiffness.
 
 use super::passing::{AtRest, Passing};
 use super::{SliderContact, is_tensile};
@@ -38,13 +38,13 @@ impl Passing for AtRest {
 }
 
 impl SliderContact {
-    /// Predicts an unchanged contact for a movement between two equilibria.
+    /// Predicts an unchanged contact for a displacement between two equilibria.
     pub fn predict_unchanged(&self, unknowns: &mut [f64]) {
         let guess = ContactUnknowns { force: self.contact_force(), ..ContactUnknowns::zeros() };
         unknowns[self.connection.places()].copy_from_slice(&guess.to_array());
     }
 
-    /// Contact at the end of an iterate of a movement.
+    /// Contact at the end of a static iterate.
     fn evaluate_static(
         &mut self,
         bodies: &[Body],
@@ -64,7 +64,7 @@ impl SliderContact {
         }
     }
 
-    /// Contact equations at rest for the state of a slider and its path to the stop, if it is held.
+    /// Static contact equations for the state of a slider. A held slider needs its path to the stop.
     fn static_equations(
         state: SliderState,
         way: Option<f64>,
@@ -83,7 +83,7 @@ impl SliderContact {
         if self.is_sliding() { beyond.next() } else { None }
     }
 
-    /// Returns true if the stop force is tensile in an iterate, beyond rounding.
+    /// Returns true if the stop force in an iterate is tensile beyond rounding.
     pub fn is_pulled(&mut self, bodies: &[Body], movements: &[f64], unknowns: &[f64]) -> bool {
         let SliderState::Held(end) = self.state else { return false };
         let contact = self.evaluate_static(bodies, movements, unknowns);
@@ -93,7 +93,7 @@ impl SliderContact {
         self.crosses_seam || is_tensile(push, force.norm(), self.length)
     }
 
-    /// Accepts the position after a movement between two equilibria. The bodies have been moved already.
+    /// Accepts the position after a displacement between two equilibria. The bodies must be moved first.
     pub fn accept_static_position(&mut self, unknowns: &[f64]) {
         let found = self.read(unknowns);
         let place = self.distance_to_stop().map_or(found.increment, |way| way);
@@ -110,7 +110,8 @@ impl SliderContact {
         }
     }
 
-    /// Unknowns that the contact couples at rest: those of the slave, of the nearby master, and the position unknown `own`.
+    /// Unknowns that the static contact couples: those of the slave, of the control points of the master at the slider, and the position unknown
+    /// `own`.
     pub fn static_coupling(&self, bodies: &[Body], own: usize) -> Vec<usize> {
         let (body, point) = self.connection.slave;
         let [x, y, _] = bodies[body].degrees_of_freedom[point];
@@ -120,7 +121,8 @@ impl SliderContact {
         [x, y].into_iter().chain(of_master).chain([own]).collect()
     }
 
-    /// Passes the stiffness of the contact at rest, with a penalty stiffness for a rigid axis [force/length]; `own` is the position unknown.
+    /// Calls the callback with the static stiffness of the contact, with a penalty stiffness for a rigid axis [force/length]. `own` is the position
+    /// unknown.
     ///
     /// ```text
     /// r = x_s - Σ B_i x_i      s = δx_s - Σ B_i δx_i - (x' + g' λ/GA) δξ      k = GA/g
@@ -133,7 +135,7 @@ impl SliderContact {
         rigid: f64,
         take: &mut dyn FnMut(&[usize], &SpanStiffness),
     ) {
-        // A fixed position is not needed.
+        // The position of a held slider has no stiffness.
         let still = SpanStiffness {
             strains: vec![1.0],
             stiffness: vec![rigid],

@@ -11,14 +11,14 @@ impl SliderContact {
         (self.start_path.first()..).zip(self.start_path.end().iter().copied())
     }
 
-    /// Derivative of the place on the master with respect to the parameter, `Σ B_i'(ξ) x_i` [length].
+    /// Derivative of the contact point on the master with respect to the parameter, `Σ B_i'(ξ) x_i` [length].
     pub(super) fn tangent(&self, bodies: &[Body]) -> Vec2 {
         slope_of(self.start_path.slope(), self.window(bodies))
     }
 
-    /// Second derivative of the place on the master with respect to the parameter, `Σ B_i''(ξ) x_i` [length].
+    /// Second derivative of the contact point on the master with respect to the parameter, `Σ B_i''(ξ) x_i` [length].
     pub(super) fn bend(&self, bodies: &[Body]) -> Vec2 {
-        // For a path of length zero, the derivative of divided differences is half the second derivative.
+        // For a path of zero length, the derivative of divided differences is half the second derivative.
         slope_of(self.start_path.change(), self.window(bodies)) * 2.0
     }
 
@@ -49,7 +49,7 @@ impl SliderContact {
         (!is_straight).then(|| [velocity.normalize(), axis])
     }
 
-    /// Removes the kink of the master at an end, where it has no energy.
+    /// Removes the kink of the master at an end, where the kink has no energy.
     pub fn straighten(&mut self) {
         self.kinked_axis.iter_mut().for_each(KinkedAxis::straighten);
     }
@@ -59,13 +59,13 @@ impl SliderContact {
         perpendicular(self.along(bodies))
     }
 
-    /// Adds `Gᵀ P` for an impulse `P`, or a force, of the contact to `out`: on the slave, and its opposite on the master.
+    /// Adds `Gᵀ P` for an impulse or force `P` of the contact to `out`: `P` on the slave, and `-P` on the master.
     pub fn transmit(&self, bodies: &[Body], impulse: Vec2, out: &mut [f64]) {
         let on_master = self.start_path.end().iter().map(|weight| impulse * -*weight);
         self.connection.add_forces(bodies, impulse, self.start_path.first(), on_master, out);
     }
 
-    /// Vector from the slave to its place on the master [length].
+    /// Vector from the slave to the contact point on the master [length].
     pub fn gap(&self, bodies: &[Body]) -> Vec2 {
         if self.state == SliderState::Released {
             return Vec2::zeros();
@@ -78,7 +78,7 @@ impl SliderContact {
         to_axis + self.kinked_axis.as_ref().map_or(Vec2::zeros(), KinkedAxis::offset)
     }
 
-    /// Velocity of the slave relative to its place on the master [length/time].
+    /// Velocity of the slave relative to the contact point on the master [length/time].
     pub fn relative_velocity(&self, bodies: &[Body], rates: &[f64]) -> Vec2 {
         let Connection { master, slave: (body, point), .. } = self.connection;
         let on_master = |(index, weight)| bodies[master].vector_at(index, rates) * weight;
@@ -91,7 +91,7 @@ impl SliderContact {
         bodies[body].vector_at(point, rates)
     }
 
-    /// Acceleration of the place on the master due to sliding: `2 ξ̇ Σ B_i' v_i + ξ̇² Σ B_i'' x_i` [length/time²].
+    /// Acceleration of the contact point on the master due to sliding: `2 ξ̇ Σ B_i' v_i + ξ̇² Σ B_i'' x_i` [length/time²].
     pub fn carried(&self, bodies: &[Body], rates: &[f64]) -> Vec2 {
         let rate = self.rate(bodies, rates);
         let master = &bodies[self.connection.master];
@@ -116,8 +116,8 @@ impl SliderContact {
         }
     }
 
-    /// Rate `dξ/dt` on a kinked axis: the solution of the time derivative of `r·x' + ½ |r|² g'/g = 0`, with the offset `r = g p/GA` of the slave from
-    /// the smooth axis.
+    /// Rate `dξ/dt` on a kinked axis, from the time derivative of `r·x' + ½ |r|² g'/g = 0`, where `r = g p/GA` is the offset of the slave from the
+    /// smooth axis.
     fn rate_on_kinked_axis(&self, axis: &KinkedAxis, bodies: &[Body], rates: &[f64]) -> f64 {
         let (offset, (slope, bend)) = (axis.offset(), axis.slopes());
         let (points, master) = (self.window(bodies), &bodies[self.connection.master]);
@@ -135,6 +135,6 @@ impl SliderContact {
 
 /// `Σ B_i' x_i`
 fn slope_of(slopes: &[f64], points: &[Vec2]) -> Vec2 {
-    // Slopes sum to zero, so a nearby origin only reduces rounding.
+    // The slopes sum to zero, so another origin changes nothing but rounding, which is smallest for a near origin.
     slopes.iter().zip(points).map(|(slope, point)| (point - points[0]) * *slope).sum()
 }

@@ -1,4 +1,4 @@
-//! Sliders at the seams of their tracks: passing them, and being held at them.
+//! Sliders at the seams of their tracks.
 
 use super::{SliderContact, is_tensile};
 use crate::geometry::{Basis, Vec2};
@@ -23,18 +23,18 @@ impl SliderContact {
         self.track.as_ref().map_or(own, |route| route.bases().map(of).fold(own, usize::max))
     }
 
-    /// Seam beyond an end of the present master, for a slider on a track that continues there.
+    /// Seam at an end of the present master; `None` unless the slider is on a track that continues there.
     pub fn seam(&self, bodies: &[Body], end: MasterEnd) -> Option<Seam> {
         self.track.as_ref()?.seam(bodies, end)
     }
 
-    /// Returns true if the slider passed or left a seam at a time. If it is led back at once, it cannot leave.
+    /// Returns true if the slider passed or left a seam at a time. A slider that is led back at once cannot leave again at that time.
     pub fn crossed_seam_at(&self, time: f64) -> bool {
         self.stop_left_at == time
             || self.track.as_ref().is_some_and(|route| route.crossed_at == time)
     }
 
-    /// Returns true if the slider is held at a former seam that is now an open end of the track.
+    /// Returns true if the slider is held at a seam whose beams have separated, so that the track has an open end there.
     pub(super) fn is_held_at_open_end(&self, bodies: &[Body]) -> bool {
         let SliderState::Held(end) = self.state else { return false };
         !self.ends.has_stop() && self.track.as_ref().is_some_and(|route| route.is_torn(bodies, end))
@@ -57,7 +57,7 @@ impl SliderContact {
         self.track.as_ref().map(|route| route.segment(seam.segment).beam)
     }
 
-    /// Moves the slider to the other side of a seam at which it is.
+    /// Moves the slider from its end of the beam to the other side of a seam.
     pub fn cross_seam(&mut self, seam: Seam) {
         let Some(route) = &mut self.track else { return };
         route.cross_seam(seam);
@@ -79,27 +79,27 @@ impl SliderContact {
         (self.path, self.start_path) = (leg.path.clone(), leg.path.clone());
     }
 
-    /// Force with which a seam keeps the slider from the beam on the other side, times the tangent there, after given increments [force·length]; zero
-    /// unless the slider is held at a seam.
+    /// Force by which a seam keeps the slider from the beam on the other side, times the length of the tangent there, after given increments
+    /// [force·length]; zero unless the slider is held at a seam.
     pub(super) fn seam_push(&self, bodies: &[Body], increments: &[f64], force: Vec2) -> f64 {
         let SliderState::Held(end) = self.state else { return 0.0 };
         let Some(route) = &self.track else { return 0.0 };
         route.seam(bodies, end).map_or(0.0, |seam| {
             let leg = route.segment(seam.segment);
             let tangent = leg.end_tangent(bodies, increments, seam.end);
-            // Scaled to the length per unit of parameter of the own side, for comparison.
+            // Scaled to the length per unit of parameter on the present side, for comparison.
             let scale = self.length / leg.length_of_parameter();
             force.dot(&tangent) * seam.end.outward() * scale
         })
     }
 
-    /// Returns true if the seam force is tensile on the other side, and more than on its own side, from the pushes on both sides times tangents
-    /// [force·length] and the contact force [force].
+    /// Returns true if the seam force is tensile on the other side, and more tensile than on the present side. The pushes are compressive forces
+    /// times lengths of tangents [force·length]; `force` is the contact force [force].
     pub(super) fn is_pulled_across(&self, [push, push_beyond]: [f64; 2], force: f64) -> bool {
         push_beyond < push && is_tensile(push_beyond, force, self.length)
     }
 
-    /// Moves a slider that is held at a seam to the other side if it is pulled there.
+    /// Moves a slider that is held at a seam to the other side if the contact force pulls it there.
     pub fn change_sides(&mut self, bodies: &[Body]) {
         let SliderState::Held(end) = self.state else { return };
         if !std::mem::take(&mut self.crosses_seam) {

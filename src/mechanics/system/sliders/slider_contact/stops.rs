@@ -10,8 +10,8 @@ impl SliderContact {
         self.state = SliderState::Held(end);
     }
 
-    /// Subtracts the work of an impact on the bodies from the energy stored in the stop, or adds its loss to the lost energy if restitution is below
-    /// one.
+    /// Subtracts the work of an impact on the bodies from the energy stored in the stop. If restitution is below one, the loss is added to the lost
+    /// energy instead.
     pub fn book_impact_work(&mut self, work: f64) {
         match self.restitution < 1.0 {
             true => self.lost_energy -= work,
@@ -29,7 +29,7 @@ impl SliderContact {
         self.kinked_axis.iter_mut().for_each(|axis| axis.remove_stop_force(tangent));
     }
 
-    /// Records a tensile stop force at the end of a step; not at the end of a substep.
+    /// Records a tensile stop force at the end of a step. Substeps record none.
     pub fn record_tension(&mut self, ending: IntervalEnd) {
         let leans = matches!(self.state, SliderState::Held(_)) && !self.stop_may_pull;
         let is_drawn_off = self.is_pulled_across([self.push, self.push_beyond], self.contact_force);
@@ -45,12 +45,12 @@ impl SliderContact {
 
     /// Duration of an impact at the end of the master [time].
     ///
-    /// An impact on a beam lasts at least until its wave returns, twice the length over `c` (Saint-Venant 1883), or, for a light slave, until that
-    /// stops, after about `m/(c ρA)`. Between rigid bodies there is no wave to resolve, and the duration is infinite.
+    /// An impact on a beam lasts at least until its wave returns, after twice the length over `c` (Saint-Venant 1883). For a light slave it lasts
+    /// until the slave stops, after about `m/(c ρA)`. Between rigid bodies there are no waves to resolve, and the duration is infinite.
     pub fn impact_duration(&self, bodies: &[Body], blow: AxialImpact) -> f64 {
         let (master, slave) = &self.bars;
         let on_master = blow.master.is_some().then(|| {
-            // The immediate mass of a striking beam is limited by its waves.
+            // The mass of a striking beam that is accelerated immediately is limited by its waves.
             master.wave_travel_time(1.0, blow.slave.filter(|_| slave.is_none()))
         });
         let on_slave = slave.filter(|_| blow.slave.is_some()).map(|slave| {
