@@ -13,21 +13,21 @@ use crate::simulation::{
 };
 use crate::system::{Scene, Sensor};
 
-/// A run of a study, as data.
+/// A run of a study, as serialisable data.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub struct Case {
     /// Scene.
     pub scene: Scene,
     /// Integrator, step size and tolerance.
     pub settings: SimulationSettings,
-    /// Times of observation, sorted; the last one ends the run [time].
+    /// Sorted times of observation [time]. The last time ends the run.
     pub stops: Vec<f64>,
 }
 
 /// Approximate maximum number of recorded states, to limit the memory of parallel runs.
 const MOST_ROWS: f64 = 1e5;
 
-/// Relative tolerance for equal step sizes.
+/// Difference of two step sizes, relative to them, below which they are equal.
 const SAME_STEP: f64 = 1e-9;
 
 struct CaseMonitor<'a> {
@@ -46,7 +46,7 @@ impl Monitor for CaseMonitor<'_> {
 }
 
 impl Case {
-    /// Serialised case; `None` if a load depends on a script function. User-defined columns are left out.
+    /// Serialised case; `None` if a load depends on a script function. User-defined columns are omitted.
     pub fn to_bytes(&self) -> Option<Vec<u8>> {
         let is_data = self.scene.schedules().all(|(_, schedule)| schedule.can_be_stored())
             && self.scene.release_times().count() == self.scene.releases.len();
@@ -62,8 +62,8 @@ impl Case {
         postcard::from_bytes(bytes).ok()
     }
 
-    /// Runs the case and calls `look` at every stop. Returns the simulation in its final state too, unless it could not start. If the study
-    /// is stopped meanwhile, the outcome is meaningless.
+    /// Runs the case and calls `look` at every stop. Also returns the simulation in its final state, unless it could not start. If the study is
+    /// stopped during the run, the outcome must be ignored.
     pub fn run(
         &self,
         patience: RunLimits,
@@ -80,8 +80,7 @@ impl Case {
         (outcome, Some(simulation))
     }
 
-    /// Returns true if steps of this size are limited only by stops, schedule breaks and releases, so that larger step sizes give the same
-    /// run.
+    /// Returns true if only stops, schedule breaks and releases limit steps of this size, so that larger step sizes give the same run.
     pub fn is_one_step_from_stop_to_stop(&self, dt: f64) -> bool {
         let end = self.stops.last().copied().unwrap_or(0.0);
         let breaks = self.scene.schedules().flat_map(|(_, schedule)| schedule.breaks());
@@ -102,8 +101,7 @@ impl Case {
         every.map_or_else(Recording::default, Recording::Every)
     }
 
-    /// Simulation of the case at its start, or the reason for failure. It uses one thread, because other cases run in parallel, or the run
-    /// is timed.
+    /// Simulation of the case at its start, or the reason for failure. It uses one thread, because other cases run in parallel or the run is timed.
     pub fn start(&self, patience: RunLimits) -> Result<Simulation, CaseOutcome> {
         let wait = patience.begin();
         let started = Simulation::start(self.scene.clone(), self.settings);
@@ -115,8 +113,8 @@ impl Case {
         Ok(simulation)
     }
 
-    /// Runs a simulation from its start to the last stop, and calls `look` at every stop. `is_wanted` is called after every step; if it
-    /// returns false, the outcome is meaningless.
+    /// Runs a simulation from its start to the last stop, and calls `look` at every stop. `is_wanted` is called after every step. If it returns
+    /// false, the run stops and its outcome must be ignored.
     pub fn run_to_stops(
         &self,
         simulation: &mut Simulation,
@@ -133,7 +131,7 @@ impl Case {
         for stop in &self.stops {
             let run = simulation.run_to(*stop, &mut watch);
             let time = simulation.time();
-            // A run stopped within a step for taking too long has not failed for another reason.
+            // If the time limit was exceeded within a step, this is the reason for the end of the run.
             let exceeded = match run {
                 Ok(()) => watch.exceeded.take(),
                 Err(_) => watch.exceeded.take().or_else(|| watch.timer.exceeded(watch.steps)),

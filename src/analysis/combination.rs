@@ -51,18 +51,18 @@ pub fn all_combinations(
     pairs.map(|(subject, settings)| Combination { subject, settings }).collect()
 }
 
-/// Index of the subject with the most spans; the last of equal ones.
+/// Index of the scene with the most spans; of several, the last.
 pub fn finest_mesh(subjects: &[ObservedScene]) -> Option<usize> {
     (0..subjects.len()).max_by_key(|index| subjects[*index].spans())
 }
 
-/// Method of the highest order; the first of equal ones.
+/// Method of the highest order; of several, the first.
 pub fn highest_order(methods: &[Method]) -> Option<Method> {
     methods.iter().copied().rev().max_by_key(|method| method.entry().claims.order)
 }
 
-/// Step size of the reference run relative to the smallest one of the study. At second order its error is a sixteenth of that of the best
-/// run.
+/// Step size of the reference run, relative to the smallest step size of the study. At second order, the error of the reference is a sixteenth of
+/// that of the best run.
 pub const PART_OF_THE_SMALLEST_STEP: f64 = 0.25;
 
 #[cfg(test)]

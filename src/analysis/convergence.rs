@@ -15,7 +15,7 @@ pub enum RefinedParameter {
     Mesh,
 }
 
-/// An error is significant if it exceeds the uncertainty of the reference by this factor.
+/// Ratio of an error to the uncertainty of the reference above which the error is significant.
 const SIGNIFICANCE: f64 = 2.0;
 
 /// Errors of one quantity with one integrator, from coarse to fine.
@@ -32,12 +32,12 @@ pub struct Refinement {
 }
 
 impl Refinement {
-    /// Error at the rung with this index, if the run completed.
+    /// Error at the refinement level with this index; `None` if the run failed.
     pub fn error(&self, rung: usize) -> Option<f64> {
         self.deviations.get(rung).copied().flatten().map(|of| of.error())
     }
 
-    /// Returns true if the error of a rung is usable for an order: non-zero and significant.
+    /// Returns true if the error at a refinement level can be used for an order: nonzero and significant.
     pub fn tells_an_order(&self, rung: usize) -> bool {
         let deviation = self.deviations.get(rung).copied().flatten();
         deviation.is_some_and(|of| {
@@ -50,14 +50,14 @@ impl Refinement {
         self.tells_an_order(rung).then(|| (self.sizes[rung], deviation.distance))
     }
 
-    /// Order observed between a rung and the previous one, `ln(e₁/e₂) / ln(h₁/h₂)`.
+    /// Order observed between a refinement level and the previous one, `ln(e₁/e₂) / ln(h₁/h₂)`.
     pub fn order(&self, rung: usize) -> Option<f64> {
         let ((coarse, large), (fine, small)) =
             (self.point(rung.checked_sub(1)?)?, self.point(rung)?);
         Some(ln(large / small) / ln(coarse / fine)).filter(|order| order.is_finite())
     }
 
-    /// Fitted order of all rungs: slope of the least-squares line through the logarithms.
+    /// Fitted order of all refinement levels: slope of the least-squares line through the logarithms.
     pub fn fitted_order(&self) -> Option<f64> {
         let points: Vec<(f64, f64)> = (0..self.sizes.len())
             .filter_map(|rung| self.point(rung))
@@ -97,7 +97,7 @@ pub struct Convergence {
 pub const ALL_POSITIONS: &str = "positions";
 
 impl Convergence {
-    /// Ladders of one integrator: all positions together, relative to the length, then each observable.
+    /// Refinements of one integrator: for all positions together (relative to the length), then for each observable.
     pub fn ladders_of(
         method: Method,
         rungs: &[(f64, RunResult)],
@@ -134,7 +134,7 @@ impl Convergence {
         names
     }
 
-    /// Ladders of a quantity, one per integrator.
+    /// Refinements of a quantity, one per integrator.
     pub fn ladders_with<'s>(&'s self, quantity: &'s str) -> impl Iterator<Item = &'s Refinement> {
         self.ladders.iter().filter(move |ladder| ladder.quantity == quantity)
     }
@@ -190,7 +190,7 @@ mod tests {
         let trial = |method: Method, dt: f64| {
             let mut case = spinning(dt, &[0.5, 1.0]);
             case.settings.method = method;
-            // Soft enough that the steps resolve all vibrations.
+            // The stiffness is small enough that the steps resolve all vibrations.
             let mut section = case.scene.beams[0].section.mean();
             (section.axial_stiffness, section.shear_stiffness) = (100.0, 100.0);
             (section.bending_stiffness, section.rotary_inertia) = (10.0, 1.0);

@@ -7,7 +7,7 @@ use super::{Case, CaseOutcome, RunLimits};
 use crate::integrators::Constraints;
 use crate::simulation::{Recording, Simulation};
 
-/// A case whose steps are timed, with settings that affect the cost.
+/// A case whose steps are timed, with settings that affect the time.
 #[derive(Debug, Clone)]
 pub struct CostCase {
     /// Name.
@@ -72,8 +72,8 @@ impl StepCost {
     }
 }
 
-/// Times the steps of cases on this thread, alternating between the cases, so that disturbances of the machine affect all of them. Building
-/// the scene is not counted. Returns `None` if `is_wanted` returns false.
+/// Times the steps of cases on this thread. The cases alternate, so that disturbances of the machine affect all of them. The time to build the scene
+/// is not included. Returns `None` if `is_wanted` returns false.
 pub fn step_costs(
     cases: &[CostCase],
     patience: RunLimits,

@@ -25,7 +25,7 @@ pub enum ParsedCsvError {
         /// Existing names.
         known: String,
     },
-    /// A cell is not a number.
+    /// A cell that is not a number.
     #[error(
         "line {line}, column '{column}', holds '{text}', which is not a finite number below 1e150"
     )]
@@ -37,7 +37,7 @@ pub enum ParsedCsvError {
         /// Text of the cell.
         text: String,
     },
-    /// A negative number where a size is expected.
+    /// A negative number in a column of sizes.
     #[error("line {line}, column '{column}', holds '{text}', but an error must not be negative")]
     Negative {
         /// Name of the column.
@@ -49,7 +49,7 @@ pub enum ParsedCsvError {
     },
 }
 
-/// Largest allowed number of a cell, so that its square is finite.
+/// Largest allowed magnitude of a number, so that its square is finite.
 const LARGEST: f64 = 1e150;
 
 /// A table of texts with named columns.
@@ -57,16 +57,16 @@ const LARGEST: f64 = 1e150;
 pub struct ParsedCsv {
     columns: Vec<String>,
     separator: u8,
-    /// Cells with their line, from 1.
+    /// Cells of each row, with the line of the row, from 1.
     rows: Vec<(u64, Vec<String>)>,
 }
 
 impl ParsedCsv {
-    /// Parses values separated by commas, or by semicolons or tabs if the line of names has no comma. A line of dimensions below the names,
-    /// as withy writes it, is skipped.
+    /// Parses values separated by commas; if the line of names contains no comma, by semicolons or tabs. If a line of dimensions follows the names,
+    /// as in files of withy, it is skipped.
     ///
     /// # Errors
-    /// Fails if two columns have the same name, or a row has another number of cells than there are columns.
+    /// Fails if two columns have the same name, or the number of cells of a row differs from that of the columns.
     pub fn parse(text: &str) -> Result<Self, ParsedCsvError> {
         let separator = separator_of(text);
         let mut reader = csv::ReaderBuilder::new()
@@ -153,10 +153,10 @@ impl ParsedCsv {
     /// Number in a cell.
     ///
     /// # Errors
-    /// Fails when there is no such column, or something else than a finite number whose square is finite.
+    /// Fails if there is no such column, or the cell is not a finite number with a finite square.
     pub fn number(&self, row: usize, column: &str) -> Result<f64, ParsedCsvError> {
         let text = self.text(row, column)?;
-        // With another separator a comma is the decimal sign.
+        // If the separator is not a comma, a comma is the decimal sign.
         let has_decimal_comma = self.separator != b',' && !text.contains('.');
         let parsed = match has_decimal_comma {
             true => text.replace(',', ".").parse(),

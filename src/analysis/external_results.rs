@@ -33,7 +33,7 @@ pub enum ExternalResultError {
     /// The table cannot be compared with the reference.
     #[error(transparent)]
     ReferenceMismatch(#[from] ReferenceError),
-    /// A run was measured at another time than the study uses.
+    /// A run whose positions were measured at another time than the study uses.
     #[error("its row {row} has positions at t = {measured}, but the study needs t = {}", asked.join(", "))]
     Times {
         /// Row below the header, from 1.
@@ -50,8 +50,8 @@ const SETTING: [(&str, &str); 4] =
     [("integrator", ""), ("elements", "elements "), ("dof", "unknowns "), ("dt", "dt = ")];
 
 impl ExternalResult {
-    /// Reads runs from a table with the columns peer, series, run_time_s, t, energy_drift and machine, and station positions named as in a
-    /// reference; integrator, elements, dof and dt are optional.
+    /// Reads runs from a table. Required columns are peer, series, run_time_s, t, energy_drift and machine, and station positions named as in a
+    /// reference. Optional columns are integrator, elements, dof and dt.
     ///
     /// # Errors
     /// Fails if a column is missing, a number is invalid, or the positions belong to another time than that of the study.
@@ -128,7 +128,7 @@ mod tests {
         let rivals =
             ExternalResult::of_sheet(&sheet, &observables, &truth, (&[1.0], 10.0)).unwrap();
         assert_eq!(rivals[0].error, 0.05);
-        // A run that equals the reference has an error of rounding only.
+        // A run that equals the reference has only rounding errors.
         assert!(rivals[1].error < 1e-13, "{}", rivals[1].error);
         assert_eq!(rivals[0].setting, "euler, dt = 0.1");
         assert!(rivals[1].energy_drift.is_nan());

@@ -7,7 +7,7 @@ use crate::joints::{EndAction, JointKind, Partner, Slider, StartVelocities};
 use crate::loads::{LoadFrame, LoadKind, Schedule};
 use crate::system::{ParticleDefinition, PointMass, Scene, SystemError};
 
-/// Magnitude of a feature, relative to the first beam.
+/// Magnitude of a feature, relative to the properties of the first beam.
 const SMALL: f64 = 1e-3;
 
 /// A feature whose cost is measured.
@@ -57,7 +57,7 @@ fn beam_mass(scene: &Scene) -> f64 {
     scene.beams[0].mass()
 }
 
-/// A fraction of the force that would bend the beam by its length [force].
+/// A small fraction of the force that would bend the beam by its length [force].
 fn small_force(scene: &Scene) -> f64 {
     SMALL * scene.beams[0].section.mean().bending_stiffness / square(length(scene))
 }
@@ -81,7 +81,7 @@ fn line_load(scene: &mut Scene, frame: LoadFrame) -> Result<(), SystemError> {
     Ok(())
 }
 
-/// A small point mass that slides from a point off the middle of the beam, because at the middle of a spinning beam it would rest.
+/// A small point mass that slides along the beam. It starts off the middle, because at the middle of a spinning beam it would not move.
 fn bead(scene: &mut Scene) -> Result<(), SystemError> {
     let arc_length = 0.4 * length(scene);
     let place = scene.station(0, arc_length)?;

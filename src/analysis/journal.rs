@@ -1,7 +1,7 @@
 //! Finished cases on disk, so that an interrupted study can be resumed.
 //!
-//! A journal is a file of records with length and checksum; a record cut off by a crash ends it. It is removed after the script of the
-//! study has completed.
+//! A journal is a file of records with length and checksum. A crash may leave an incomplete last record, at which reading ends. When the script of
+//! the study has completed, the journal is removed.
 
 use std::collections::BTreeMap;
 use std::fs::File;
@@ -15,7 +15,7 @@ use serde::de::DeserializeOwned;
 
 use crate::sandbox_fs::{FileChecksum, Folder};
 
-/// Maximum length of a record [bytes]; longer ones are damaged.
+/// Maximum length of a record [bytes]. A longer record is damaged.
 const LONGEST: usize = 1 << 30;
 
 /// Maximum length of a journal [bytes].
@@ -58,7 +58,7 @@ pub struct Journal {
 }
 
 impl Journal {
-    /// Opens a journal; a missing file is created with the first record.
+    /// Opens a journal. If the file does not exist, the first record creates it.
     ///
     /// # Errors
     /// Fails if an existing file cannot be read.
@@ -116,7 +116,7 @@ impl Journal {
         postcard::from_bytes(self.known.get(&fingerprint)?).ok()
     }
 
-    /// Writes the result of a case at once; returns the number of bytes.
+    /// Writes the result of a case to disk immediately. Returns the number of bytes.
     ///
     /// # Errors
     /// Fails if writing fails.
@@ -148,11 +148,11 @@ impl Journal {
     fn begin_file(&mut self) -> io::Result<u64> {
         let mut bytes = 0;
         if self.file.is_none() {
-            // The file is rewritten, because a truncated record would hide later ones.
+            // The file is rewritten, because an incomplete record would make later records unreadable.
             let known = self.known.iter().map(|(other, result)| record(*other, result));
             let known = known.collect::<io::Result<Vec<_>>>()?.concat();
             let (folder, name) = self.place()?;
-            // Written to a temporary file and renamed, so that nothing is lost in between.
+            // The new file gets a temporary name and is then renamed, so that nothing is lost if the program is killed.
             let anew = name.with_extension("journal.new");
             match folder.remove(&anew) {
                 Err(error) if error.kind() != io::ErrorKind::NotFound => return Err(error),
@@ -192,10 +192,9 @@ impl Journal {
         remove(&self.path)
     }
 
-    /// Fingerprint of a case: a hash of everything that its result depends on.
+    /// Fingerprint of a case: a hash of all data on which its result depends.
     ///
-    /// The fingerprint includes the program, because another build may give different results. Another compiler may change the hash, and
-    /// cases are then run again.
+    /// It includes the program, because another build may give different results. Another compiler may change the hash. The cases are then run again.
     pub fn fingerprint(parts: &[&[u8]]) -> u64 {
         let mut hasher = DefaultHasher::new();
         (FORMAT, build()).hash(&mut hasher);
@@ -307,7 +306,7 @@ mod tests {
         let mut journal = Journal::open(&path).unwrap();
         assert!(journal.write(3, &0.0).unwrap_err().to_string().contains("cannot be written"));
         assert_eq!(found_cases(&path), [0, 1, 2]);
-        // An incomplete temporary file of a crash is overwritten.
+        // The incomplete temporary file of a crash is overwritten.
         fs::remove_dir(&anew).unwrap();
         fs::write(&anew, b"half").unwrap();
         written(&path, 3..5);

@@ -45,7 +45,7 @@ pub const SYMBOLS: [(&str, &str); 6] = [
 const OF_THE_COMPUTATION: [&str; 5] = ["t", "gap", "dt", "newton_iterations", "retries"];
 
 impl Observable {
-    /// Observables of a station: position and angle; point masses have no angle.
+    /// Observables of a station: position and angle. Point masses have no angle.
     pub fn of_station(name: &str, station: Station) -> impl Iterator<Item = Self> {
         let angle = station.turns().then_some(ObservableKind::Angle(station));
         let kinds = std::iter::once(ObservableKind::Position(station)).chain(angle);
@@ -79,7 +79,7 @@ impl Observable {
         }
     }
 
-    /// Current value: a vector for a position, otherwise the first component; NaN if undefined.
+    /// Current value. Scalars are in the first component; undefined values are NaN.
     pub fn read(&self, simulation: &Simulation) -> Vec2 {
         let scalar = |value: Option<f64>| Vec2::new(value.unwrap_or(f64::NAN), 0.0);
         match &self.kind {

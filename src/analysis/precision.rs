@@ -43,7 +43,7 @@ impl PrecisionRow {
         Self { mesh, settings, result, timing, error, deviations, is_on_front: false }
     }
 
-    /// Run time [s] and error [-]; infinite if missing.
+    /// Run time [s] and error [-]; infinite if unknown.
     pub fn cost_and_error(&self) -> (f64, f64) {
         let price = self.timing.map_or(f64::INFINITY, |timing| timing.cost());
         (price, self.error.map_or(f64::INFINITY, |error| error.error()))
@@ -63,7 +63,7 @@ impl PrecisionRow {
 pub struct Precision {
     /// Name of the study.
     pub name: String,
-    /// Times of the comparison; the last one ends a run [time].
+    /// Times of the comparison [time]. The last time ends a run.
     pub times: Vec<f64>,
     /// Length scale of position errors [length].
     pub length: f64,
@@ -98,8 +98,8 @@ impl Precision {
         self.front().into_iter().find(|row| row.cost_and_error().1 <= error)
     }
 
-    /// Fastest combination with an error of at most `error` [-], for which there are smaller steps on the same mesh and all of these are as accurate.
-    /// Without such steps, mesh and step errors may cancel by chance.
+    /// Fastest combination with an error of at most `error` [-] that smaller steps confirm. There must be runs with smaller steps on the same mesh,
+    /// and their errors must not exceed `error` either. Otherwise mesh and step errors may cancel by chance.
     pub fn cheapest_confirmed(&self, error: f64) -> Option<&PrecisionRow> {
         let is_right = |row: &&PrecisionRow| row.cost_and_error().1 <= error;
         let is_confirmed = |row: &&PrecisionRow| {

@@ -15,18 +15,18 @@ pub struct Deviation {
     pub distance: f64,
     /// Estimated error of the reference, in the unit of the observable; zero if unknown.
     pub estimated_error: f64,
-    /// True for a reference run. All errors are then reported as bounds, so that no result appears better only because it shares the error
-    /// of the reference.
+    /// True if the reference is a run of this program. All errors are then reported as bounds, so that a result with the same error as the reference
+    /// does not appear to be exact.
     pub is_of_own_run: bool,
 }
 
 impl Deviation {
-    /// Returns true if the distance exceeds the uncertainty.
+    /// Returns true if the distance exceeds the estimated error of the reference.
     pub fn is_resolved(&self) -> bool {
         self.distance > self.estimated_error
     }
 
-    /// Error of the result: a bound for a reference run, or if the distance is below the uncertainty.
+    /// Error of the result. It is a bound if the reference is a run, or if the distance is below the estimated error of the reference.
     pub fn error(&self) -> f64 {
         match self.is_of_own_run || !self.is_resolved() {
             true => self.distance + self.estimated_error,
@@ -34,7 +34,7 @@ impl Deviation {
         }
     }
 
-    /// The larger of two deviations; NaN counts as the largest.
+    /// The larger of two deviations. NaN is larger than any number.
     pub fn larger_deviation(self, other: Self) -> Self {
         if larger(self.distance, other.distance) == self.distance || self.distance.is_nan() {
             Self { estimated_error: self.estimated_error.max(other.estimated_error), ..self }
@@ -62,7 +62,7 @@ pub enum ReferenceError {
     /// The table is empty.
     #[error("it has no rows")]
     Empty,
-    /// The reference has no row at a time of the study.
+    /// A time of the study for which the reference has no row.
     #[error("it has no row at t = {time}; the nearest rows are at t = {}", nearest.join(" and "))]
     Time {
         /// Missing time [time].
@@ -70,7 +70,7 @@ pub enum ReferenceError {
         /// Neighbouring times.
         nearest: Vec<String>,
     },
-    /// The reference has two rows at a time of the study.
+    /// A time of the study for which the reference has two different rows.
     #[error("lines {first} and {second} are both for t = {time}, but have different values")]
     DuplicateTime {
         /// Duplicate time [time].
@@ -80,7 +80,7 @@ pub enum ReferenceError {
         /// Line of the second row.
         second: u64,
     },
-    /// The reference contains no station of the study.
+    /// A reference that contains no station of the study.
     #[error(
         "it has no station of the study: the station '{station}' needs the columns x{station} and y{station}, but its columns are {known}"
     )]
@@ -92,7 +92,7 @@ pub enum ReferenceError {
     },
 }
 
-/// Relative errors below this are not resolved by a reference of rounded numbers.
+/// Relative error below which a reference of rounded numbers does not resolve it.
 const ROUNDING: f64 = 1e-13;
 
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -106,13 +106,13 @@ struct KnownValue {
 pub struct ReferenceSolution {
     /// Source, in one line.
     pub source: String,
-    /// True for a reference run instead of an independent solution.
+    /// True if the reference is a run of this program.
     pub is_own: bool,
     /// Values by time and observable; `None` if unknown.
     known: Vec<Vec<Option<KnownValue>>>,
 }
 
-/// Tolerance for equal times, relative to the larger of the time and one.
+/// Difference of two times, relative to the time or to one, below which they are equal.
 const SAME_TIME: f64 = 1e-9;
 
 fn row_at(sheet: &ParsedCsv, time: f64) -> Result<usize, ReferenceError> {
@@ -140,7 +140,7 @@ fn row_at(sheet: &ParsedCsv, time: f64) -> Result<usize, ReferenceError> {
     }
 }
 
-/// Number in the first existing column; zero if there is none.
+/// Number in the first of these columns that exists; zero if none exists.
 fn estimate(sheet: &ParsedCsv, row: usize, columns: &[String]) -> Result<f64, ParsedCsvError> {
     let found = columns.iter().find(|column| sheet.has(column));
     found.map_or(Ok(0.0), |column| sheet.size(row, column))
@@ -198,8 +198,8 @@ fn known_of(
 }
 
 impl ReferenceSolution {
-    /// Reference from a table of an independent solution: a column t and, for a station A, xA, yA and thA; other columns have the names of
-    /// observables. Estimated errors are in columns d_xA, d_A or d_pos, d_thA or d_th, d_E, ….
+    /// Reference from a table of an independent solution. It has a column t and, for a station A, the columns xA, yA and thA. Other columns have the
+    /// names of observables. Estimated errors are in the columns d_xA, d_A or d_pos, d_thA or d_th, d_E, ….
     ///
     /// # Errors
     /// Fails if a time or all stations are missing, or a cell is not a number.
@@ -237,7 +237,7 @@ impl ReferenceSolution {
         Self { source: source.into(), is_own: true, known }
     }
 
-    /// Sets the uncertainty of each value to its difference from a coarser run.
+    /// Sets the estimated error of each value to its difference from a coarser run.
     pub fn as_far_as(mut self, coarser: &Readings) -> Self {
         for (known, other) in self.known.iter_mut().zip(coarser) {
             for (known, other) in known.iter_mut().zip(other) {

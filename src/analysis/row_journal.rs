@@ -1,4 +1,4 @@
-//! Finished rows of a sweep on disk, appended and read sequentially, so that many rows need little memory.
+//! Finished rows of a sweep on disk. They are appended and read sequentially, so that many rows need little memory.
 
 use std::fs::File;
 use std::io::{self, BufReader, BufWriter, Read, Write};
@@ -9,9 +9,10 @@ use serde::{Deserialize, Serialize};
 
 use crate::sandbox_fs::Folder;
 
-/// Maximum length of an entry [bytes]; longer ones are damaged.
+/// Maximum length of an entry [bytes]. A longer entry is damaged.
 const LONGEST: u32 = 1 << 20;
-/// Flush interval. A kill loses at most the rows of this interval; a power failure those not yet written by the system.
+/// Interval between writes to the file. If the program is killed, at most the rows of this interval are lost; at a power failure, also those that the
+/// system has not written.
 const DELAY: Duration = Duration::from_millis(100);
 
 /// An entry of the journal of a sweep.
@@ -19,14 +20,14 @@ const DELAY: Duration = Duration::from_millis(100);
 pub enum RowEntry {
     /// First entry: identification of the sweep.
     Sweep {
-        /// Hash of everything that the rows depend on.
+        /// Hash of all data on which the rows depend.
         fingerprint: u64,
         /// Number of rows of the whole sweep.
         rows: u64,
-        /// Part of the sweep, from 1, and number of parts; (1, 1) for all.
+        /// Part of the sweep, from 1, and number of parts; (1, 1) for the whole sweep.
         part: (u32, u32),
     },
-    /// Names of the results, before the first completed row.
+    /// Names of the results. The entry precedes that of the first completed row.
     Names(Vec<String>),
     /// Results of a row.
     Computed(u64, Vec<f64>),
@@ -41,8 +42,8 @@ pub struct RowJournal {
     flushed: Instant,
 }
 
-/// Reads the entries of a journal up to the first damaged or incomplete one; returns the length of the valid part [bytes], zero if there is
-/// no file.
+/// Reads the entries of a journal up to the first damaged or incomplete entry. Returns the length of the valid part [bytes], zero if there is no
+/// file.
 ///
 /// # Errors
 /// Fails if an existing file cannot be read, or `heed` returns an error.
@@ -65,7 +66,7 @@ pub fn read_rows<E: From<io::Error>>(
 }
 
 impl RowJournal {
-    /// Opens a journal for appending after the first `whole` bytes; a missing file is created.
+    /// Opens a journal for appending after the first `whole` bytes. A missing file is created.
     ///
     /// # Errors
     /// Fails if writing fails.
@@ -76,7 +77,7 @@ impl RowJournal {
         Ok(Self { file: BufWriter::new(file), flushed: Instant::now() })
     }
 
-    /// Appends an entry; returns its length [bytes].
+    /// Appends an entry. Returns its length [bytes].
     ///
     /// # Errors
     /// Fails if writing fails.

@@ -23,8 +23,8 @@ thread_local! {
     static DEADLINE: Cell<Option<Instant>> = const { Cell::new(None) };
 }
 
-/// Returns true after the deadline of the case on this thread. The case itself checks after every step; this function is for code called
-/// within a step, such as script functions of loads, which may not return.
+/// Returns true after the deadline of the case on this thread. The case itself checks the deadline after every step. Code called within a step, such
+/// as script functions of loads, must call this function, because it may not return.
 pub fn is_past_deadline() -> bool {
     DEADLINE.get().is_some_and(|deadline| Instant::now() > deadline)
 }

@@ -26,9 +26,9 @@ pub struct RunResult {
     pub factorisations: usize,
     /// Number of retried steps.
     pub retries: usize,
-    /// Drifts of the whole run, corrected for loads, in the order of [`Invariant::ALL`].
+    /// Drifts of the whole run, with the work and impulses of loads subtracted, in the order of [`Invariant::ALL`].
     pub drifts: [f64; 4],
-    /// Energy drift after the last work of a load; NaN if loads work until the end.
+    /// Energy drift after loads have ceased to do work; NaN if loads do work until the end.
     pub free_energy_drift: f64,
 }
 

@@ -13,8 +13,8 @@ use crate::system::Scene;
 pub struct StabilityVerdict {
     /// Outcome.
     pub outcome: CaseOutcome,
-    /// Largest rise of `E - W` above an earlier value after the last schedule break, relative to the largest energy; NaN if there was no
-    /// run or the state became NaN.
+    /// Largest increase of `E - W` above an earlier value after the last schedule break, relative to the largest energy; NaN if the run did not start
+    /// or an energy is NaN.
     pub energy_growth: f64,
     /// Number of successful steps.
     pub steps: usize,

@@ -16,7 +16,7 @@ pub struct SweptParameter {
 /// Values of a swept parameter.
 #[derive(Clone, Debug, PartialEq)]
 pub enum SweptValues {
-    /// A few levels, not necessarily numbers.
+    /// A few levels, which need not be numbers.
     Levels {
         /// Labels of the levels.
         labels: Vec<String>,
@@ -32,7 +32,7 @@ pub enum SweptValues {
 /// Assignment of levels to rows.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Choice {
-    /// Full grid: each level for this many rows, repeated cyclically.
+    /// Full grid: each level applies to this number of consecutive rows, and the sequence of levels is repeated.
     Grid(usize),
     /// Level index by row.
     Drawn(Vec<u32>),
@@ -66,7 +66,7 @@ impl SweptValues {
         }
     }
 
-    /// Value of a row as text: the number formatted by `write`, or the label.
+    /// Value of a row as text: a number formatted by `write`, or a label.
     pub fn in_words(&self, row: usize, write: impl Fn(f64) -> String) -> String {
         let label = || self.label(row).unwrap_or_default().to_owned();
         self.number(row).map_or_else(label, write)
@@ -143,7 +143,7 @@ impl SweepColumn<'_> {
 }
 
 impl SweepResults {
-    /// Allocates the columns, once the first run has returned the names.
+    /// Allocates the columns when the first run has returned their names.
     pub fn begin(&mut self, names: Vec<String>, rows: usize) {
         self.columns = vec![vec![f64::NAN; rows]; names.len()];
         self.names = names;
@@ -204,7 +204,7 @@ impl Sweep {
         parameters.chain(self.results.names.iter().map(String::as_str))
     }
 
-    /// Number of rows that contribute to sensitivities: completed rows; for a Saltelli design the rows of complete blocks.
+    /// Number of rows that contribute to sensitivities: completed rows; in a Saltelli design, rows of complete blocks.
     pub fn telling_rows(&self, result: &str) -> usize {
         let results = self.results.column(result).unwrap_or_default();
         let is_whole = |rows: &&[f64]| rows.iter().all(|x| x.is_finite());
@@ -215,8 +215,8 @@ impl Sweep {
         results.chunks_exact(block).filter(is_whole).count() * block
     }
 
-    /// Fraction of the variance of a result explained by each parameter, in the order of the parameters; `None` if the result is constant,
-    /// rows of a grid failed, or there are too few points.
+    /// Fraction of the variance of a result that each parameter explains, in the order of the parameters. `None` if the result is constant, rows of a
+    /// grid failed, or there are too few points.
     pub fn variance_fractions(&self, result: &str) -> Option<Vec<VarianceShare>> {
         let results = self.results.column(result)?;
         let parameters = &self.design.parameters;

@@ -15,7 +15,7 @@ pub struct Timing {
     pub run: Duration,
     /// Shortest wall-clock time of the run.
     pub shortest: Duration,
-    /// Median processor time of the run, if available. On a busy machine this is the time of the run itself.
+    /// Median processor time of the run; `None` if not available. On a busy machine it excludes the time of other processes.
     pub processor: Option<Duration>,
     /// Number of repetitions.
     pub repeats: usize,
@@ -24,7 +24,7 @@ pub struct Timing {
 /// Time after which a case is not repeated.
 pub const LONGEST_REPETITION: Duration = Duration::from_secs(10);
 
-/// Processor time of this thread on Linux; it is exact after a pause, otherwise updated only at scheduler ticks.
+/// Processor time of this thread on Linux. After a pause it is exact; otherwise the system updates it only at ticks of the scheduler.
 fn processor_time() -> Option<Duration> {
     std::thread::sleep(Duration::from_nanos(1));
     let told = std::fs::read_to_string("/proc/thread-self/schedstat").ok()?;
@@ -37,8 +37,8 @@ impl Timing {
         self.processor.unwrap_or(self.run).as_secs_f64()
     }
 
-    /// Runs a case several times on this thread and takes medians. It stops repeating after [`LONGEST_REPETITION`]. `None` if `is_wanted` returns false
-    /// or a run fails.
+    /// Runs a case several times on this thread and takes medians. After [`LONGEST_REPETITION`] it is not repeated. `None` if `is_wanted` returns
+    /// false or a run fails.
     pub fn of(
         case: &Case,
         patience: RunLimits,
@@ -63,7 +63,7 @@ impl Timing {
         }
         let shortest = runs.iter().copied().min()?;
         let repeats = runs.len();
-        // A processor clock that does not advance is ignored.
+        // A processor time of zero means that the clock does not advance, and is ignored.
         let processor = median(works).filter(|time| !time.is_zero());
         Some(Self { setup: median(setups)?, run: median(runs)?, shortest, processor, repeats })
     }

@@ -10,13 +10,13 @@ use super::Case;
 use crate::panics::caught;
 use crate::simulation::cores;
 
-/// Interval of checks for interruption while no case ends.
+/// Interval between checks for interruption while no case ends.
 const PULSE: Duration = Duration::from_millis(50);
 
 /// Runs cases on all cores. Cases with script functions in their loads run last, on the calling thread.
 ///
-/// `heed` is called on the calling thread with the index and result of each finished case, and periodically with `None`. If it returns
-/// `Break`, `stop` is set, and unfinished cases have no result. Results are in the order of the cases; a panic gives its message.
+/// On the calling thread, `heed` is called with the index and result of each finished case, and periodically with `None`. If it returns `Break`,
+/// `stop` is set and unfinished cases have no result. Results are in the order of the cases. The result of a panic is its message.
 pub fn on_all_cores<R: Send>(
     cases: &[Case],
     stop: &AtomicBool,
@@ -74,7 +74,7 @@ pub fn on_all_cores<R: Send>(
     for (number, _) in waiting {
         pulse(None);
         let result = caught(|| work(&cases[number]));
-        // The interrupt may have stopped the case before `heed` was informed.
+        // The interrupt may have stopped the case before `heed` was called.
         pulse(None);
         if is_stopped() {
             break;

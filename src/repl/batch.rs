@@ -1,4 +1,4 @@
-//! Sessions without a terminal: inputs come from a pipe or the command line, and the first error ends the session.
+//! Sessions without a terminal. Inputs come from a pipe or the command line, and the first error ends the session.
 
 use std::io::{self, BufRead, Read};
 
@@ -37,7 +37,7 @@ fn lines_of(mut reader: impl BufRead) -> impl Iterator<Item = io::Result<String>
     })
 }
 
-/// Evaluates inputs from `lines` until they end, one fails, or the user quits.
+/// Evaluates inputs from `lines` until the lines end, an input fails, or the user quits.
 pub fn run(shell: &mut Shell, lines: impl BufRead) -> CommandOutcome {
     let mut input = String::new();
     let mut lines = lines_of(lines).peekable();
@@ -57,8 +57,8 @@ pub fn run(shell: &mut Shell, lines: impl BufRead) -> CommandOutcome {
             return shell
                 .report_error(&told.with_hint("is a bracket or a quotation mark never closed?"));
         }
-        // The next line is read ahead only if the input is complete. Programs that use the pipe interactively end an input with a semicolon
-        // or an empty line.
+        // The next line is read only after a complete input. Programs that use the pipe interactively must end an input with a semicolon or an empty
+        // line.
         let is_complete = is_command(&input)
             || completeness_of_script(&input) == Completeness::Complete
                 && (input.trim_end().ends_with(';')
@@ -72,7 +72,7 @@ pub fn run(shell: &mut Shell, lines: impl BufRead) -> CommandOutcome {
     }
     match input.trim() {
         "" => CommandOutcome::Success,
-        // The input is incomplete; the session reports the error.
+        // The session reports the error of an incomplete input.
         _ => shell.submit(&input),
     }
 }

@@ -112,7 +112,7 @@ fn shape_of_array(array: &Array) -> PlotShape {
 }
 
 fn number(value: &Dynamic) -> Option<f64> {
-    // Variables captured by closures are shared values behind a lock.
+    // Variables that closures capture are shared values with a lock.
     let value = value.flatten_clone();
     value.as_float().ok().or_else(|| value.as_int().ok().map(|whole| whole as f64))
 }
@@ -130,7 +130,7 @@ pub fn parts(operand: &str) -> Vec<&str> {
         match (token.kind, token.of(operand)) {
             (TokenKind::Open(_), _) => depth += 1,
             (TokenKind::Close(_), _) => depth = depth.saturating_sub(1),
-            // Bars enclose the parameters of a closure; after a value a bar is an operator.
+            // Bars enclose the parameters of a closure. After a value, a bar is an operator.
             (TokenKind::Symbol, "|") => {
                 let is_operator =
                     matches!(before, TokenKind::Word | TokenKind::Number | TokenKind::Close(_));
@@ -151,7 +151,7 @@ pub fn parts(operand: &str) -> Vec<&str> {
     parts
 }
 
-/// One-line summary of a curve: first, last, least and largest value.
+/// One-line summary of a curve: first, last, smallest and largest value.
 pub fn summary(curve: &PlotCurve) -> String {
     let values = curve.points.iter().map(|(_, value)| *value);
     let shown = |value: Option<f64>| value.map_or_else(String::new, |x| significant(x, DIGITS));

@@ -1,4 +1,4 @@
-//! Side effects of an input beyond variables, which make repeated evaluation visible.
+//! Side effects of an input other than changes of variables. They show whether repeated evaluation of the input is possible.
 
 use rhai::{Array, Dynamic, FnPtr, Map};
 
@@ -9,7 +9,7 @@ use crate::script::handles::simulation::SimulationHandle;
 /// Maximum depth of nested arrays and maps.
 const DEEPEST: usize = 8;
 
-/// State that an input can change and that restoring variables does not undo.
+/// State that an input can change, but that is not restored with the variables.
 pub struct SideEffects {
     simulations: Vec<(SimulationHandle, SimulationPosition)>,
     scenes: Vec<(SceneHandle, String)>,
@@ -18,7 +18,7 @@ pub struct SideEffects {
     files: usize,
 }
 
-/// Position of a simulation: counters, number of scheduled functions, and snapshot memory.
+/// State of a simulation: counters, number of scheduled functions, and snapshot memory.
 type SimulationPosition = (usize, u64, usize, usize);
 
 impl SideEffects {
@@ -56,7 +56,7 @@ impl SideEffects {
         }
     }
 
-    /// Change since the footprint, as text that follows "it".
+    /// Description of the change since this state was recorded, which follows "it" in messages.
     pub fn change(&self, session: &Session) -> Option<String> {
         let moved = self.simulations.iter().find(|(handle, was)| place(handle) != *was);
         if let Some((handle, _)) = moved {

@@ -11,7 +11,7 @@ use crate::script::handles::simulation::{Revisit, SimulationHandle};
 use crate::script::messages::error::ScriptError;
 use crate::script::state::context::Context;
 
-/// Maximum number of states, more than a terminal has dots.
+/// Maximum number of states. A terminal has fewer dots.
 const MOST_STATES: usize = 1000;
 
 const DIGITS: usize = 6;
@@ -21,10 +21,10 @@ pub struct Followed {
     pub text: String,
 }
 
-/// Evaluates an expression at every earlier state of a simulation that can be reproduced. The simulation itself does not move.
+/// Evaluates an expression at every earlier state of a simulation that can be reproduced. The state of the simulation is unchanged.
 ///
 /// # Errors
-/// Fails if the expression fails at a state, moves the simulation, or is interrupted; the user has been told.
+/// Fails if the expression fails at a state, advances or rewinds the simulation, or is interrupted. The error has then been printed.
 pub fn evaluate_history(
     shell: &mut Shell,
     subject: &SimulationHandle,
@@ -39,7 +39,7 @@ pub fn evaluate_history(
     evaluate_snapshots(shell, subject, text, &kept)
 }
 
-/// Evaluates at the stored snapshots, from last to first, so that the history is correct at each of them.
+/// Evaluates at the stored snapshots, from last to first, so that the history at each snapshot is that of its time.
 fn evaluate_snapshots(
     shell: &mut Shell,
     subject: &SimulationHandle,
@@ -98,7 +98,7 @@ fn evaluate_rerun(
 
 enum PlaybackStep {
     Back(std::vec::IntoIter<usize>),
-    /// To the next row of the history; every `every`-th row is evaluated.
+    /// Evaluation at the rows of the history, of which every `every`-th row is used.
     NextRow {
         next: usize,
         rows: usize,
@@ -108,7 +108,7 @@ enum PlaybackStep {
 
 enum PlaybackError {
     Moves,
-    /// Evaluation was interrupted, or the copy failed to repeat the run.
+    /// Evaluation was interrupted, or the copy could not repeat the run.
     Refused(ScriptError),
     Another(String),
     NoPoint(String),

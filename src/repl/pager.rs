@@ -25,7 +25,7 @@ pub trait Pager {
     /// Sets the size of the terminal.
     fn resize(&mut self, columns: usize, lines: usize);
 
-    /// Shows a text in pages if it is long. `was_interrupted` reports each Ctrl-C once.
+    /// Shows a text in pages if it is long. `was_interrupted` returns true once for each Ctrl-C.
     fn show(&mut self, text: &str, was_interrupted: &dyn Fn() -> bool) -> PagerOutcome;
 }
 
@@ -36,8 +36,8 @@ pub struct TerminalPager {
 }
 
 impl TerminalPager {
-    /// A pager with the program in the variable `PAGER`, if it is set. `cat` and an empty value disable paging, as does a terminal that
-    /// cannot move its cursor.
+    /// A pager with the program in the variable `PAGER`; the built-in pager if it is not set. `None` if the value is `cat` or empty, or if the
+    /// terminal cannot move its cursor.
     pub fn of_environment(variable: impl Fn(&str) -> Option<String>) -> Option<Self> {
         let program = variable("PAGER");
         let is_unwanted = program.as_deref().is_some_and(|name| matches!(name.trim(), "" | "cat"));
@@ -45,7 +45,7 @@ impl TerminalPager {
         (!is_unwanted && !is_dumb).then_some(Self { program, size: (0, 0) })
     }
 
-    /// Returns true if a text does not fit on the terminal together with the next prompt.
+    /// Returns true if the text and the next prompt do not fit on the terminal together.
     fn is_long(&self, text: &str) -> bool {
         let (columns, lines) = self.size;
         columns > 0 && lines > 1 && pages::rows(text, columns) >= lines
@@ -58,7 +58,7 @@ impl Pager for TerminalPager {
     }
 
     fn show(&mut self, text: &str, was_interrupted: &dyn Fn() -> bool) -> PagerOutcome {
-        // Keys typed ahead belong to the prompt.
+        // Keys that were typed ahead belong to the prompt.
         if !self.is_long(text) || keyboard::has_pending_keys() {
             return PagerOutcome::NotPaged;
         }
@@ -72,7 +72,7 @@ impl Pager for TerminalPager {
             return PagerOutcome::NotPaged;
         };
         let walked = show_pages(text, self.size.1, &mut keys, was_interrupted, &mut stdout());
-        // The next prompt reports a lost terminal.
+        // If the terminal was closed, the next prompt reports it.
         walked.unwrap_or(PagerOutcome::Shown)
     }
 }

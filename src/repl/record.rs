@@ -1,4 +1,4 @@
-//! Record of successful inputs as a script that repeats them.
+//! Record of successful inputs, as a script that repeats them.
 
 use std::fmt::Write;
 use std::ops::Range;

@@ -8,11 +8,11 @@ use rhai::Dynamic;
 use super::clock::Clock;
 use super::session::Rounds;
 
-/// Inputs that run longer than this are not repeated.
+/// Duration of an input above which it is not repeated.
 pub const LONGEST: Duration = Duration::from_secs(1);
 /// Maximum total time of the repetitions.
 const TOTAL_TIME_LIMIT: Duration = Duration::from_secs(2);
-/// Minimum total time. Sampling ends earlier if the relative uncertainty of the median is below [`KNOWN`].
+/// Minimum total time. Sampling ends earlier if the relative error of the median is below [`KNOWN`].
 const LEAST_TIME: Duration = Duration::from_millis(200);
 const LEAST_RUNS: usize = 7;
 const MOST_RUNS: usize = 10_000;
@@ -24,14 +24,14 @@ pub struct Sampling {
     start: Option<Duration>,
     round_start: Duration,
     durations: Vec<Duration>,
-    /// Number of runs at which the precision is evaluated next.
+    /// Number of runs after which the error is evaluated next.
     next_evaluation: usize,
 }
 
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Figures {
     pub runs: usize,
-    /// Shortest run, with the least disturbance by other processes.
+    /// Shortest run, which other processes have disturbed least.
     pub least: Duration,
     pub median: Duration,
     /// Lower and upper quartile.
@@ -49,7 +49,7 @@ impl Sampling {
         }
     }
 
-    /// Statistics of the runs so far; `None` before the first.
+    /// Statistics of the runs so far; `None` before the first run.
     pub fn figures(&self) -> Option<Figures> {
         let mut sorted = self.durations.clone();
         sorted.sort_unstable();
@@ -76,7 +76,7 @@ impl Sampling {
 }
 
 impl Figures {
-    /// Relative standard error of the median, for a normal distribution with these quartiles.
+    /// Relative standard error of the median, for a normal distribution with the same quartiles.
     fn error(&self) -> f64 {
         let (low, high) = self.quartiles;
         let deviation = (high - low).as_secs_f64() / 1.349;

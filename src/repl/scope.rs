@@ -4,7 +4,7 @@ use std::collections::HashSet;
 
 use rhai::{Dynamic, ImmutableString, Scope};
 
-/// Variables of a scope without shadowed ones; `None` if none is shadowed.
+/// Variables of a scope without shadowed variables; `None` if no variable is shadowed.
 pub fn visible(scope: &Scope<'static>) -> Option<Scope<'static>> {
     let mut names = HashSet::new();
     // The iteration starts with the newest variables, which shadow older ones.
@@ -22,7 +22,7 @@ pub fn visible(scope: &Scope<'static>) -> Option<Scope<'static>> {
     Some(visible)
 }
 
-/// Constants added to a scope after the first `known` variables, in order.
+/// Constants that were added to a scope after the first `known` variables, in order.
 pub fn constants_after(
     scope: &Scope,
     known: usize,

@@ -1,4 +1,4 @@
-//! Terminal-independent sessions: inputs are evaluated in sequence and share their state.
+//! Sessions without a terminal. Inputs are evaluated in sequence and share their state.
 
 mod preview;
 
@@ -34,10 +34,10 @@ pub enum Reply {
     Done,
     /// Success with the value of an expression.
     Value(Dynamic),
-    /// A statement failed. Earlier statements of the input stay in effect. Of the failed statement only changes of scenes, simulations and
+    /// A statement failed. The effects of earlier statements of the input remain. Of the failed statement, only changes of scenes, simulations and
     /// variables shared by closures remain.
     Failed(Diagnostic),
-    /// A statement was interrupted by Ctrl-C; the effects are those of a failure.
+    /// Ctrl-C interrupted a statement. The effects are those of a failure.
     Interrupted,
     /// The reader of the output has closed the pipe.
     PipeClosed,
@@ -91,7 +91,7 @@ impl Session {
         self.context().clear_simulations();
     }
 
-    /// Clears a Ctrl-C that came between evaluations. A later Ctrl-C stops every evaluation until this is called again.
+    /// Clears a Ctrl-C that was pressed between evaluations. A later Ctrl-C stops every evaluation until this function is called again.
     pub fn clear_interrupt(&mut self) {
         self.context().interrupt_flag().store(false, Ordering::Relaxed);
     }
@@ -115,7 +115,7 @@ impl Session {
             }
         };
         let returns = statements::returns(&ast);
-        // An input with an early return is evaluated as a whole; otherwise statements before an error stay in effect.
+        // An input with an early return is evaluated as a whole. In other inputs, statements before an error remain in effect.
         let pieces = if returns { ast.statements().len().max(1) } else { 1 };
         let mut value = Dynamic::UNIT;
         for (number, piece) in ast.statements().chunks(pieces).enumerate() {
@@ -153,12 +153,12 @@ impl Session {
         self.record.worked(&format!("{before}{functions}"));
     }
 
-    /// Records an input that was evaluated by other means.
+    /// Records an input that was evaluated by other code.
     pub fn record_success(&mut self, text: &str) {
         self.record.worked(text);
     }
 
-    /// Records the movement of simulations by actions that are not recorded themselves; returns true if any moved.
+    /// Records advances and rewinds of simulations by actions that are not recorded themselves. Returns true if there were any.
     pub fn record_movement(&mut self, before: &[SimulationPositions]) -> bool {
         self.record.record_movement(before)
     }
@@ -182,7 +182,7 @@ impl Session {
     fn restore(&mut self, checkpoint: StatementCheckpoint) {
         self.scope = checkpoint.scope;
         self.global = checkpoint.global;
-        // Shared with functions stored by scenes and simulations.
+        // The functions that scenes and simulations store share these constants.
         if let Some(constants) = &self.global.constants {
             *constants.borrow_mut() = checkpoint.constants;
         }
@@ -196,7 +196,7 @@ impl Session {
         let parse = |engine: &Engine| parse_piece(engine, &piece, || transcript.variables());
         let ast = host.run(&guard, || transcript.to_program(), parse).map_err(reply)?;
         self.library = self.library.merge(&ast.clone_functions_only());
-        // Distinguishes errors in session functions from errors in functions of imported files.
+        // The name distinguishes errors in functions of the session from errors in functions of imported files.
         self.library.set_source(PROMPT);
         self.global.source = Some(PROMPT.into());
         self.global.lib.clear();
@@ -208,7 +208,7 @@ impl Session {
         let Self { engine: host, transcript, scope, global, .. } = self;
         let whole = || transcript.to_program();
         let outcome = host.run(guard, whole, |engine| {
-            // Only this deprecated call keeps imports and constants between inputs; there is no replacement.
+            // Only this deprecated call keeps imports and constants between inputs. There is no replacement.
             #[allow(deprecated)]
             engine.eval_statements_raw(global, &mut Caches::new(), scope, statements)
         });
@@ -220,7 +220,7 @@ impl Session {
         if value.is_unit() || text.ends_in_semicolon() {
             return Reply::Done;
         }
-        // A constant of this name belongs to the user.
+        // If the user has defined a constant of this name, it is not changed.
         match (self.scope.is_constant(ANSWER), self.scope.get_mut(ANSWER)) {
             (Some(false), Some(answer)) => *answer = value.clone(),
             (None, _) => _ = self.scope.push_dynamic(ANSWER, value.clone()),
@@ -229,14 +229,13 @@ impl Session {
         Reply::Value(value)
     }
 
-    /// Makes the constants after the first `known` variables visible to functions as `global::NAME`, independent of the order of
-    /// definition.
+    /// Makes the constants after the first `known` variables visible to functions as `global::NAME`, independent of the order of definition.
     fn publish_constants(&mut self, known: usize) {
         let shared = self.global.constants.get_or_insert_with(Default::default);
         shared.borrow_mut().extend(scope::constants_after(&self.scope, known));
     }
 
-    /// Drops shadowed variables, which are unreachable, to save memory in long sessions.
+    /// Drops shadowed variables, which cannot be accessed, to save memory in long sessions.
     fn drop_shadowed(&mut self) {
         if let Some(visible) = scope::visible(&self.scope) {
             self.scope = visible;
@@ -288,7 +287,7 @@ impl Session {
     /// Successful inputs as a script.
     ///
     /// # Errors
-    /// Fails if they cannot be combined to a script, with the reason.
+    /// Fails if the inputs cannot be combined to a script. The error contains the reason.
     pub fn script(&self) -> Result<String, Diagnostic> {
         let script = self.record.script(self.engine());
         let program = Program::named("the saved session", &script);

@@ -1,4 +1,4 @@
-//! Evaluation of input lines: statements or commands. Replies go to the output of the session.
+//! Evaluation of input lines, which contain statements or commands. Replies are written to the output of the session.
 
 mod refusing;
 mod watched_expressions;
@@ -26,7 +26,7 @@ use crate::script::source::program::{LARGEST_SCRIPT, Program};
 pub enum CommandOutcome {
     /// Success.
     Success,
-    /// Failure, already reported.
+    /// Failure that was reported.
     Failed,
     /// Interrupted by Ctrl-C.
     Interrupted,
@@ -52,7 +52,7 @@ pub struct Shell {
     session: Session,
     screen: ReplyTarget,
     watched: Vec<String>,
-    /// Number of written files already reported to the user.
+    /// Number of written files that were reported to the user.
     reported_files: usize,
     /// Scripts saved by this shell, by path.
     saved: HashMap<PathBuf, String>,
@@ -61,7 +61,7 @@ pub struct Shell {
 }
 
 impl Shell {
-    /// A shell around a session, with replies for `screen`.
+    /// Creates a shell for a session, with replies for `screen`.
     pub fn new(session: Session, screen: ReplyTarget) -> Self {
         Self {
             session,
@@ -85,7 +85,7 @@ impl Shell {
         self.pager = Some(pager);
     }
 
-    /// The clock that the shell takes times with.
+    /// Clock with which the shell measures times.
     pub fn clock(&self) -> Rc<dyn Clock> {
         Rc::clone(&self.clock)
     }
@@ -205,14 +205,14 @@ impl Shell {
         self.watched.clear();
     }
 
-    /// Returns true if a file may be written: it does not exist, or is unchanged since this shell wrote it.
+    /// Returns true if a file may be written, that is, if it does not exist or is unchanged since this shell wrote it.
     pub fn may_write(&self, path: &Path) -> bool {
         let ours = || self.saved.get(path).map(String::as_bytes);
         let is_there = path.symlink_metadata().is_ok();
         !is_there || read_file(path, LARGEST_SCRIPT).is_ok_and(|bytes| Some(&*bytes) == ours())
     }
 
-    /// Remembers a script that was saved to a file.
+    /// Records a script that was saved to a file.
     pub fn record_saved(&mut self, path: &Path, script: String) {
         self.saved.insert(path.to_owned(), script);
     }
@@ -273,7 +273,7 @@ impl Shell {
     }
 }
 
-/// Removes the position from an error in an input that a command has generated, because the user has not typed it.
+/// Removes the position of an error in an input that a command has generated, because the user has not typed this input.
 fn without_position_in(input: &str, reply: Reply) -> Reply {
     let is_made = |location: &Location| {
         let line = location.program.text.lines().nth(location.line.saturating_sub(1));
@@ -290,7 +290,7 @@ fn without_position_in(input: &str, reply: Reply) -> Reply {
 const LATEST: &str = "latest_simulation()";
 
 impl Shell {
-    /// The simulation that was started, loaded, forked or stepped last.
+    /// Simulation that was started, loaded, forked or stepped last.
     pub fn latest(&self) -> Option<SimulationHandle> {
         self.session.context().latest_simulation()?.try_cast()
     }
@@ -309,7 +309,7 @@ impl Shell {
         };
         let variables = self.session.variables();
         let held = variables.iter_raw().find(|(name, _, value)| {
-            // The next expression replaces `ans`.
+            // The value of `ans` is lost at the next expression, so it does not count.
             *name != ANSWER && is_it(value)
         });
         Ok(held.map_or_else(|| LATEST.into(), |(name, ..)| name.to_owned()))
@@ -342,8 +342,8 @@ impl Shell {
         }
     }
 
-    /// Calls a method of the last simulation within a command, and shows the watched expressions. The call, or its partial progress, is
-    /// recorded.
+    /// Calls a method of the last simulation for a command, and shows the watched expressions. The call is recorded, or the part of it that
+    /// succeeded.
     pub fn call_latest_and_watch(&mut self, call: &str) -> CommandOutcome {
         let input = match self.input_for_latest(call) {
             Ok(input) => input,
@@ -377,7 +377,7 @@ impl Shell {
         }
     }
 
-    /// End time of the next step of the last simulation, or `None` if it is at `end` already.
+    /// End time of the next step of the last simulation; `None` if the simulation has reached `end`.
     pub fn next_stop(&self, end: f64) -> Option<f64> {
         let latest = self.latest()?;
         let simulation = latest.simulation();

@@ -1,4 +1,4 @@
-//! Statement boundaries of an input. The engine's syntax tree does not contain them, so prefixes are parsed again.
+//! Boundaries of the statements of an input. The engine's syntax tree does not contain them, so parts of the text are parsed again.
 
 use rhai::{AST, ASTFlags, ASTNode, Engine, Scope, Stmt, Token};
 
@@ -11,7 +11,7 @@ pub fn count(engine: &Engine, text: &str) -> Option<usize> {
     read(engine, &Scope::new(), &text.into(), 0).ok().map(|ast| ast.statements().len())
 }
 
-/// Last position that separates the first `first` statements of a valid text from the rest. Works even after an interrupt.
+/// Last position that separates the first `first` statements of a valid text from the rest. It also works after an interrupt.
 pub fn boundary(engine: &Engine, text: &str, first: usize) -> Option<usize> {
     Sources::of(engine).undisturbed(|| boundary_of(engine, text, first))
 }
@@ -27,19 +27,19 @@ fn boundary_of(engine: &Engine, text: &str, first: usize) -> Option<usize> {
         let ends = matches!(lexeme.0, Token::SemiColon | Token::RightBrace);
         ends.then(|| source.offset_of(lexeme) + 1)
     });
-    // Positions from the engine may not be character boundaries; such positions are skipped.
+    // Positions of the engine may lie within a character. Such positions are skipped.
     let ends = ends.filter(|end| text.is_char_boundary(*end));
     let cuts: Vec<usize> = std::iter::once(0).chain(ends).collect();
     cuts.into_iter().rev().find(is_right)
 }
 
-/// Returns true if an input can end early by a `return` outside functions.
+/// Returns true if a `return` outside functions may end an input early.
 pub fn returns(ast: &AST) -> bool {
     let mut found = false;
     for statement in ast.statements() {
         statement.walk(&mut Vec::new(), &mut |path| {
             if let Some(ASTNode::Stmt(Stmt::Return(_, flags, _))) = path.last() {
-                // `throw` is stored as a return with the break flag.
+                // The engine stores `throw` as a return with the break flag.
                 found |= !flags.intersects(ASTFlags::BREAK);
             }
             true

@@ -1,5 +1,5 @@
-//! Transcript of all inputs of a session, which maps error positions back: an error in a function typed at line 3 and called at line 20 is
-//! shown at line 3.
+//! Transcript of all inputs of a session, which relates error positions to inputs. For example, an error in a function typed at line 3 and called at
+//! line 20 is shown at line 3.
 
 use std::sync::Arc;
 
@@ -10,7 +10,7 @@ use crate::script::source::program::Program;
 /// Source name of typed inputs in messages.
 pub const PROMPT: &str = "prompt";
 
-/// Maximum number of lines that the engine can count; longer sessions restart from one.
+/// Maximum number of lines that the engine can count. A longer session starts again from line one.
 const MOST_LINES: usize = 60_000;
 
 struct TranscriptInput {
@@ -19,7 +19,7 @@ struct TranscriptInput {
     is_valid: bool,
 }
 
-/// All inputs of a session. The engine sees each of them at its own lines of one long text.
+/// All inputs of a session. For the engine, each input has its own lines in one long text.
 pub struct Transcript {
     pieces: Vec<TranscriptInput>,
     lines: usize,
@@ -27,7 +27,7 @@ pub struct Transcript {
 }
 
 impl Transcript {
-    /// An empty transcript; imports are found in `folder`.
+    /// Creates an empty transcript. Imports are searched in `folder`.
     pub fn new(folder: std::path::PathBuf) -> Self {
         Self { pieces: Vec::new(), lines: 0, folder }
     }
@@ -54,7 +54,7 @@ impl Transcript {
         Program { folder: self.folder.clone(), ..Program::named(PROMPT, text) }
     }
 
-    /// Marks the last input as failed: its declarations do not exist.
+    /// Marks the last input as failed, so that its declarations do not exist.
     pub fn mark_last_failed(&mut self) {
         if let Some(last) = self.pieces.last_mut() {
             last.is_valid = false;
@@ -104,7 +104,7 @@ impl Transcript {
             .map(|(_, piece)| piece)
     }
 
-    /// The same diagnostic with positions relative to the original inputs: loaded files count their own lines.
+    /// Diagnostic with positions relative to the original inputs. Loaded files have their own line numbers.
     pub fn relocate(&self, mut diagnostic: Diagnostic) -> Diagnostic {
         for step in &mut diagnostic.trace {
             if step.file.is_none()

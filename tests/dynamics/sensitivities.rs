@@ -2,7 +2,9 @@
 #![allow(clippy::unwrap_used)]
 
 use crate::common::steered_scenes::is_steered;
-use crate::common::{at, body_scenes, run, scenes, settings, simulate, sliding_scenes};
+use crate::common::{
+    at, body_scenes, release_scenes, run, scenes, settings, simulate, sliding_scenes,
+};
 use crate::drives::swung_at;
 use withy::beams::{Mesh, SectionVariation};
 use withy::integrators::Method;
@@ -127,7 +129,9 @@ fn derivatives_of_all_scenes_are_those_of_exact_runs() {
     for method in METHODS {
         let bodies = body_scenes::all(&mesh);
         let sliding = sliding_scenes::all(&mesh, SlidingRule::default());
-        for scene in scenes::all(&mesh).into_iter().chain(bodies).chain(sliding) {
+        let releasing = release_scenes::all(&mesh);
+        let all = scenes::all(&mesh).into_iter().chain(bodies).chain(sliding).chain(releasing);
+        for scene in all {
             let of = |what: usize| variation("p", 1e-5, |by| scaled(&scene, what, by));
             let start = || {
                 Simulation::start_with_derivatives(
@@ -158,6 +162,7 @@ fn derivatives_of_all_scenes_are_those_of_exact_runs() {
                     "{}: {reason}",
                     scene.name
                 );
+                assert!(scene.releases.is_empty(), "{}: {reason}", scene.name);
                 println!("{}: {reason}", scene.name);
                 continue;
             }

@@ -20,7 +20,7 @@ spaghetti, decaying       unknowns  51 band 11 steps  75 iterations 150 most 2 c
 spaghetti, order 4        unknowns  51 band 11 steps  75 iterations 736 most 12 corrections 1746 factorised 736 retries 0
 spaghetti, alpha          unknowns  51 band 11 steps  75 iterations 151 most 3 corrections  248 factorised 151 retries 0
 curved pendulum           unknowns  49 band 11 steps 150 iterations 296 most 2 corrections  315 factorised 296 retries 0
-blown cantilever          unknowns  48 band 11 steps 150 iterations 269 most 2 corrections  391 factorised 269 retries 0
+blown cantilever          unknowns  48 band 11 steps 150 iterations 269 most 2 corrections  392 factorised 269 retries 0
 four-bar linkage          unknowns 145 band 11 steps 150 iterations 366 most 3 corrections  477 factorised 366 retries 0
 flying loop               unknowns 196 band 21 steps 150 iterations 300 most 2 corrections  491 factorised 300 retries 0
 hoop                      unknowns  48 band 25 steps 150 iterations 289 most 2 corrections  292 factorised 289 retries 0
@@ -36,7 +36,7 @@ sliding mass, trapezoidal unknowns  41 band 11 steps  29 iterations  67 most 3 c
 sliding mass, decaying    unknowns  41 band 11 steps  34 iterations  69 most 3 corrections  113 factorised  79 retries 0 tries 5
 sliding mass, order 4     unknowns  41 band 11 steps  35 iterations 367 most 13 corrections  776 factorised 409 retries 0 tries 8
 sliding mass, alpha       unknowns  41 band 11 steps  29 iterations  63 most 3 corrections  119 factorised  63 retries 0 tries 0
-pushed mass               unknowns 105 band 11 steps 100 iterations 197 most 2 corrections  201 factorised 197 retries 0 tries 0
+pushed mass               unknowns 105 band 11 steps 100 iterations 197 most 2 corrections  199 factorised 197 retries 0 tries 0
 abacus                    unknowns  72 band 11 steps  50 iterations  50 most 1 corrections  150 factorised  50 retries 0 tries 0
 eyelet                    unknowns  56 band 11 steps  70 iterations  70 most 1 corrections  213 factorised  70 retries 0 tries 0
 pinned cross              unknowns 112 band 11 steps  70 iterations 140 most 2 corrections  159 factorised 140 retries 0 tries 0

@@ -7,7 +7,7 @@ use crate::newton::ResidualPart;
 /// Time within a step at which forces are taken. Increments are relative to the start of the step.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Stage {
-    /// Start of the step, with loads as right limits.
+    /// Start of the step, with loads at the start of a line that has their mean and their change over the step.
     Start,
     /// Middle of the step: mean configuration, averaged section forces, mean loads.
     ///
@@ -18,7 +18,7 @@ pub enum Stage {
     ///
     /// The internal forces then do additional work of `χ/2` times the integral of `ΔΓ·C ΔΓ + EI Δκ²`.
     DampedMidpoint(f64),
-    /// End of the step, with loads as left limits.
+    /// End of the step, with loads at the end of a line that has their mean and their change over the step.
     End,
 }
 

@@ -7,8 +7,8 @@ use crate::newton::{NewtonReport, Tolerance};
 /// Newmark's method with β = 1/4, γ = 1/2, in increments of a step. It conserves linear momentum; for linear problems also energy and angular
 /// momentum.
 ///
-/// `M (v1 - v0)/Δt + ½ F(start) + ½ F(end) = 0`, `(v0 + v1)/2 = Δq/Δt`: the accelerations of Newmark's method follow from the balance at both ends,
-/// with loads as one-sided limits inside the step. Second order.
+/// `M (v1 - v0)/Δt + ½ F(start) + ½ F(end) = 0`, `(v0 + v1)/2 = Δq/Δt`: Newmark's accelerations are those of the balance at both ends, with loads on
+/// a line that has their mean and their change over the step. Second order.
 ///
 /// N. M. Newmark, A method of computation for structural dynamics, J. Eng. Mech. Div. ASCE 85 (1959) 67–94.
 #[derive(Debug, Clone)]

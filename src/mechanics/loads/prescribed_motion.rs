@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::continuity::{jump_at_start, jump_between};
-use super::{LimitSide, LoadError, Schedule};
+use super::{LimitSide, LoadError, Schedule, StepMean, VALUES_OF_A_MEAN};
 use crate::geometry::larger;
 
 /// Prescribed motion, by displacement or rate.
@@ -28,6 +28,8 @@ pub struct MotionInStep {
     pub rate: f64,
     /// One-sided derivatives of the rate at the start and the end, from inside the step [length/time², rad/time²].
     pub accelerations: [f64; 2],
+    /// Mean of a prescribed rate; zero for displacements [length/time, rad/time].
+    pub mean: StepMean,
 }
 
 /// Initial values of a motion.
@@ -71,10 +73,19 @@ impl PrescribedMotion {
         }
     }
 
+    /// Number of calls of script functions by [`over`](Self::over), without those that follow a jump.
+    pub fn calls_in_step(&self) -> usize {
+        let schedule = self.schedule();
+        match self {
+            Self::Position(_) => NODES.len() * schedule.functions(),
+            Self::Rate(_) => (3 + VALUES_OF_A_MEAN) * schedule.functions(),
+        }
+    }
+
     /// Evaluates the motion between two times with the difference `duration`, which may be negative [time].
     ///
-    /// A rate is integrated by three Gauss points, exactly for polynomials of degree five. The rate of a displacement is that of the polynomial of
-    /// degree four through five values inside the step, so that values beyond kinks at its ends have no influence.
+    /// A rate is integrated as in [`Schedule::mean`]. The rate of a displacement is that of the polynomial of
+    /// degree four through five values inside the step, so that it does not depend on values beyond kinks at the ends.
     ///
     /// # Errors
     /// Fails if the function fails, a value is not finite, or a displacement jumps or has an infinite rate.
@@ -94,6 +105,7 @@ impl PrescribedMotion {
                     rate: scale * sum(&RATE_AT_END, &values),
                     accelerations: [backwards, values]
                         .map(|values| scale * scale * sum(&BENT_AT_END, &values)),
+                    mean: StepMean::default(),
                 })
             }
             Self::Rate(schedule) => {
@@ -106,7 +118,8 @@ impl PrescribedMotion {
                     (4.0 * middle - 3.0 * first - last) / duration,
                     (first + 3.0 * last - 4.0 * middle) / duration,
                 ];
-                let moved = duration * schedule.mean(start, end)?;
+                let mean = schedule.mean(start, end)?;
+                let moved = duration * mean.mean;
                 let jump = jump_between(
                     schedule,
                     &[start, 0.5 * (start + end), end],
@@ -121,6 +134,7 @@ impl PrescribedMotion {
                     rounding,
                     rate: last,
                     accelerations,
+                    mean,
                 })
             }
         }

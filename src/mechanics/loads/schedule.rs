@@ -1,6 +1,9 @@
 //! Factors of loads over time.
 
 mod breaks;
+mod means;
+
+pub use means::StepMean;
 
 use serde::{Deserialize, Serialize};
 
@@ -91,8 +94,8 @@ impl std::fmt::Debug for Schedule {
     }
 }
 
-/// Number of evaluations of a nonconstant schedule per [mean](Schedule::mean).
-pub const VALUES_OF_A_MEAN: usize = GAUSS.len();
+/// Number of evaluations of a script function per [mean](Schedule::mean).
+pub const VALUES_OF_A_MEAN: usize = GAUSS.len() + 2;
 
 /// Three-point Gauss rule on [-1, 1].
 const GAUSS: [(f64, f64); 3] =
@@ -279,22 +282,6 @@ impl Schedule {
         if value.is_finite() { Ok(value) } else { Err(LoadError::NotFinite { time, value }) }
     }
 
-    /// Mean factor [-] over an interval without a jump inside, by three Gauss points, exact for polynomials of degree five.
-    ///
-    /// # Errors
-    /// Fails if a function fails or a value is not finite.
-    pub fn mean(&self, start: f64, end: f64) -> Result<f64, LoadError> {
-        if let Self::Constant(factor) = self {
-            return Ok(*factor);
-        }
-        let (middle, half) = (0.5 * (start + end), 0.5 * (end - start));
-        let mut sum = 0.0;
-        for (place, weight) in GAUSS {
-            sum += 0.5 * weight * self.value(middle + half * place, LimitSide::After)?;
-        }
-        Ok(sum)
-    }
-
     /// Description in the syntax of the scripting language.
     pub fn describe(&self) -> String {
         match self {
@@ -344,7 +331,7 @@ mod tests {
         assert_eq!(hold.value(2.5, LimitSide::Before), Ok(1.0));
         assert_eq!(hold.value(2.5, LimitSide::After), Ok(0.0));
         assert_eq!(hold.value(-1.0, LimitSide::After), Ok(1.0));
-        assert_eq!(hold.mean(2.4, 2.5), Ok(1.0));
+        assert_eq!(hold.mean(2.4, 2.5).unwrap().mean, 1.0);
         assert_eq!(hold.breaks(), [2.5, 2.5]);
     }
 
@@ -352,7 +339,7 @@ mod tests {
     fn pieces_have_their_values_and_means() {
         let ramp = Schedule::ramp(1.0, 3.0).unwrap();
         assert_eq!(ramp.value(2.0, LimitSide::After), Ok(0.5));
-        assert!((ramp.mean(1.0, 3.0).unwrap() - 0.5).abs() < 1e-15);
+        assert!((ramp.mean(1.0, 3.0).unwrap().mean - 0.5).abs() < 1e-15);
         let pulse = Schedule::pulse(1.0, 2.0).unwrap();
         let values = [0.5, 1.5, 2.5].map(|time| pulse.value(time, LimitSide::After).unwrap());
         assert_eq!(values, [0.0, 1.0, 0.0]);
@@ -360,7 +347,7 @@ mod tests {
         assert_eq!(twice.value(1.0, LimitSide::After), Ok(2.0));
         let mean = (0..100).map(|i| {
             let pulse = Schedule::smooth_pulse(2.0).unwrap();
-            pulse.mean(0.02 * f64::from(i), 0.02 * f64::from(i + 1)).unwrap()
+            pulse.mean(0.02 * f64::from(i), 0.02 * f64::from(i + 1)).unwrap().mean
         });
         assert!((mean.sum::<f64>() / 100.0 - 1.0).abs() < 1e-12);
     }

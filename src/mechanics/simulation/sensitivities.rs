@@ -8,7 +8,7 @@ use std::fmt;
 pub use error::DerivativeError;
 pub(super) use perturbed_runs::PerturbedRuns;
 
-use super::{NoMonitor, Recording, Simulation, StepSize};
+use super::{NoMonitor, Recording, Simulation, SimulationError, SimulationSettings, StepSize};
 use crate::integrators::{
     Integrator, Interval, Mechanism, SharedFactorStepper, SharedFactorWork, StepError,
 };
@@ -63,7 +63,7 @@ impl Sensitivities {
     pub(super) fn new(
         run: &mut Simulation,
         variations: Vec<Variation>,
-    ) -> Result<Self, super::SimulationError> {
+    ) -> Result<Self, SimulationError> {
         let settings = *run.settings();
         if let StepSize::Adaptive(_) = settings.dt {
             return Err(DerivativeError::Adaptive.into());
@@ -135,6 +135,30 @@ impl Sensitivities {
         }
     }
 
+    /// Follows a release of the run. Positions and rates are continuous and the time does not depend on parameters, so the derivatives are those of the
+    /// renumbered state.
+    ///
+    /// # Errors
+    /// Fails if a perturbed scene cannot be built, which succeeded before.
+    pub(super) fn release(
+        &mut self,
+        release: usize,
+        model: &mut System,
+        settings: &SimulationSettings,
+    ) -> Result<(), SimulationError> {
+        if self.end_reason.is_some() {
+            return Ok(());
+        }
+        self.start = model.state();
+        for twins in &mut self.parameters {
+            twins.release(release, &self.start)?;
+        }
+        if let Some(stepper) = SharedFactorStepper::of(settings.method, model, settings.tolerance) {
+            self.stepper = stepper;
+        }
+        Ok(())
+    }
+
     pub(super) fn count_step(&mut self, interval: Interval, report: NewtonReport) {
         self.each(|twin| twin.count_step(interval, report, 0));
     }
@@ -150,8 +174,8 @@ impl Sensitivities {
     /// Advances the perturbed runs in a dry run.
     pub(super) fn dry_run_to(&mut self, end: f64) {
         self.each(|twin| {
-            // The main run reports the same errors.
-            let _: Result<(), super::SimulationError> = twin.dry_run_to(end, &mut NoMonitor);
+            // Errors would stop the run itself.
+            let _: Result<(), SimulationError> = twin.dry_run_to(end, &mut NoMonitor);
         });
     }
 

@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 use std::fmt;
 
 use super::StepControl;
-use crate::system::{MotionCurvature, RESOLVED_IMPACT, ShortBounce};
+use crate::system::{MissedChange, MotionCurvature, OutsideLaw, RESOLVED_IMPACT, ShortBounce};
 
 /// Largest rotation of a section in a step without a warning: ten steps per revolution [rad].
 pub(super) const LARGEST_ROTATION: f64 = 0.1 * TAU;
@@ -127,6 +127,22 @@ pub enum Warning {
         /// Step of the kink, and the rates before and after it.
         curvature: MotionCurvature,
     },
+    /// Script function of time that changes within a step.
+    Schedule {
+        /// Description of the load or drive.
+        owner: String,
+        /// Step size [time].
+        dt: f64,
+        /// Step with the largest difference between two rules for the mean.
+        change: MissedChange,
+    },
+    /// Spring or damper outside of the range of its law.
+    Range {
+        /// Description of the law with its owner.
+        law: String,
+        /// Range of the law, and the farthest value.
+        outside: OutsideLaw,
+    },
     /// Spring with a contact that lasted too few steps.
     Contact {
         /// Name of the spring.
@@ -161,6 +177,8 @@ impl Warning {
             Self::Drift { drift, .. } => *drift,
             Self::EnergyGain { energy, .. } => *energy,
             Self::Bend { curvature: bend, .. } => bend.size(),
+            // Told once.
+            Self::Schedule { .. } | Self::Range { .. } => 1.0,
             Self::Contact { bounce, .. } => bounce.force,
         }
     }
@@ -178,6 +196,8 @@ impl Warning {
             | Self::Bounce { slider, .. } => Some(slider),
             Self::Beam { beam, .. } => Some(beam),
             Self::Bend { drive, .. } => Some(drive),
+            Self::Schedule { owner, .. } => Some(owner),
+            Self::Range { law, .. } => Some(law),
             Self::Contact { spring, .. } => Some(spring),
         }
     }
@@ -308,6 +328,20 @@ impl fmt::Display for Warning {
                     short(*after)
                 )
             }
+            Self::Schedule { owner, dt, change: MissedChange { time, missed } } => write!(
+                f,
+                "the function of time of {owner} changes faster than the steps (dt = {}) sample it: near t = {} two estimates of its mean over a step differ by {} % of its largest value. Use a smaller dt, declare the times of its jumps and kinks, or use a built-in schedule such as pulse, smooth_pulse, sine or table, which is integrated exactly",
+                short(*dt),
+                short(*time),
+                short(100.0 * missed)
+            ),
+            Self::Range { law, outside: OutsideLaw { range: [from, to], reached, .. } } => write!(
+                f,
+                "{law} is given from {} to {}, but {} was reached: it was extrapolated by a straight line; give it over a larger range",
+                short(*from),
+                short(*to),
+                short(*reached)
+            ),
             Self::Contact { spring, tolerance, bounce: ShortBounce { steps, force, duration } } => {
                 let dt = duration / steps;
                 write!(

@@ -13,8 +13,8 @@ mod state;
 
 pub use elements::{
     Along, Anchor, Branch, DampingLaw, Drag, Dragged, Drive, DriveKind, DriveState, Element,
-    LoadAccount, MaterialDamping, MotionCurvature, Origin, PointMass, ShortBounce, SpeedLaw,
-    Spring, SpringKind, SpringLaw,
+    LoadAccount, MaterialDamping, MissedChange, MotionCurvature, Origin, OutsideLaw, PointMass,
+    ShortBounce, SpeedLaw, Spring, SpringKind, SpringLaw,
 };
 pub(crate) use errors::rounded;
 pub use errors::{

@@ -69,7 +69,7 @@ fn explained(command: &Command) -> HelpPage {
     page
 }
 
-/// Lists the commands and the ways to further help. The list is short so that it does not scroll away.
+/// Lists the commands and the ways to further help. The list is short, so that it fits on the screen.
 fn commands(shell: &mut Shell) -> CommandOutcome {
     let mut page = HelpPage::default();
     page.heading("Commands of the prompt");

@@ -82,7 +82,7 @@ pub fn invariants(shell: &mut Shell, _: &str) -> CommandOutcome {
 
 pub fn view(shell: &mut Shell, operand: &str) -> CommandOutcome {
     let file = if operand.is_empty() { "view.html" } else { operand.trim_matches('"') };
-    // Quotes and backslashes would end the string literal below; no file name needs them.
+    // Quotes and backslashes would end the string literal below, and no file name needs them.
     let name: String = file.chars().filter(|letter| !matches!(letter, '"' | '\\')).collect();
     let outcome = shell.call_latest(&format!("write_viewer(\"{name}\")"));
     if outcome == CommandOutcome::Success {

@@ -13,7 +13,7 @@ use crate::script::presentation::present::present;
 
 const DIGITS: usize = 6;
 
-/// Help on a name of the session: text shown unchanged, and a help page.
+/// Help on a name of the session: text that is shown unchanged, and a help page.
 pub struct NameInfo {
     pub shown: Option<String>,
     pub page: HelpPage,
@@ -51,14 +51,14 @@ pub fn known(shell: &mut Shell, name: &str) -> Option<NameInfo> {
     (!page.parts.is_empty()).then(|| NameInfo { shown: text_of(shell, name), page })
 }
 
-/// Source text of a function of the session, without its doc comments, which are already shown.
+/// Source text of a function of the session, without its doc comments, which the help shows separately.
 fn text_of(shell: &Shell, name: &str) -> Option<String> {
     let text = shell.session().record().definition(name)?;
     let lines = text.lines().skip_while(|line| line.trim_start().starts_with("///"));
     Some(lines.collect::<Vec<_>>().join("\n"))
 }
 
-/// Resolves a name to its help topic: that of a member of a variable's value, or of an imported library function.
+/// Help topic of a name: the member of a variable's value, or the imported library function.
 pub fn in_language(shell: &Shell, name: &str) -> String {
     let surroundings = shell.surroundings();
     if let Some((owner, member)) = name.rsplit_once('.')
@@ -124,7 +124,7 @@ fn extent(value: &Dynamic) -> String {
     }
 }
 
-/// Value of a property of a variable; evaluation has no side effects.
+/// Value of a property of a variable. Its evaluation has no side effects.
 fn member(shell: &mut Shell, path: &str) -> Option<NameInfo> {
     let (first, _) = path.split_once('.')?;
     if !shell.session().variables().contains(first) || path.contains(['(', '[', '/', ':']) {

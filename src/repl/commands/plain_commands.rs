@@ -1,9 +1,9 @@
-//! Bare words for leaving and for help, accepted without the colon of a command.
+//! Words for leaving and for help that are accepted without the colon of a command.
 
 use super::{Command, HELP, QUIT};
 
-/// Command that a bare word stands for, and its operand: `quit`, `exit()`, `help`, `help sine`, `sim?`. Names for which `is_variable` is
-/// true keep their meaning as variables.
+/// Command and operand of an input without a colon: `quit`, `exit()`, `help`, `help sine`, `sim?`. Names of variables, for which `is_variable` is
+/// true, are not commands.
 pub fn meant(text: &str, is_variable: impl Fn(&str) -> bool) -> Option<(&'static Command, &str)> {
     let text = text.trim_end_matches(';').trim_end();
     let asked = text.trim_end_matches('?').trim_end();

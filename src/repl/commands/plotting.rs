@@ -50,7 +50,7 @@ pub fn plot(shell: &mut Shell, operand: &str) -> CommandOutcome {
     }
 }
 
-/// Splits an operand into the curves and the options map after it; a comma between them is optional.
+/// Splits an operand into the curves and the options map after them. The comma between them is optional.
 fn with_options(operand: &str) -> (&str, Option<&str>) {
     let mut depth = 0;
     for token in scan(operand) {
@@ -106,7 +106,7 @@ fn column_summaries(history: &History, columns: &[String]) -> Result<String, Scr
     Ok(columns.iter().map(line).collect::<Result<Vec<_>, _>>()?.join("\n"))
 }
 
-/// Column names may be quoted. Unquoted words count as columns if they cannot mean anything else.
+/// Reads a part of the operand. Column names may be quoted. Unquoted words are columns unless they can have another meaning.
 fn read(shell: &Shell, part: &str) -> PlotPart {
     let words: Vec<String> =
         part.split_whitespace().map(|word| word.trim_matches('"').to_owned()).collect();
@@ -115,7 +115,7 @@ fn read(shell: &Shell, part: &str) -> PlotPart {
         shell.session().variables().contains(name)
             || shell.session().catalog().constants().any(|constant| constant == name.as_str())
     };
-    // Without a simulation, the standard columns of every history are known too.
+    // Without a simulation, only the standard columns of every history are known.
     let is_column = |name: &String| match &latest {
         Some(latest) => name == "drift" || latest.simulation().history().dimension(name).is_some(),
         None => History::COLUMNS.iter().any(|column| column.name == name) && !is_known(name),
@@ -204,14 +204,14 @@ fn columns(shell: &mut Shell, names: &[String]) -> PlotData {
     Ok((curves, None))
 }
 
-/// An expression is evaluated at the present time first. If its value is a point of a curve, it is then evaluated at all earlier states.
+/// Evaluates an expression at the present time. If its value is a point of a curve, it is then evaluated at all earlier states.
 fn expression(shell: &mut Shell, text: &str) -> PlotData {
     let subject = match subject(shell, text) {
         Ok(subject) => subject,
         Err(refusal) => return Err(shell.report_error(&refusal)),
     };
     let before = shell.session().simulation_positions();
-    // Expressions are evaluated on a copy, so that a mistaken step does not move the simulation.
+    // Expressions are evaluated on a copy, so that an unintended step does not change the simulation.
     let present = subject.as_ref().map(Revisit::at_present).transpose();
     let present = present.map_err(|error| shell.report_native_error(error))?;
     let place = present.as_ref().map(Revisit::place);
@@ -306,7 +306,7 @@ fn mentions<'s>(shell: &'s Shell, text: &str) -> impl Iterator<Item = Simulation
     named.into_iter()
 }
 
-/// Simulation that an expression refers to: the one that it names, or the last one.
+/// Simulation to which an expression refers: the simulation that it names, or the last one.
 fn subject(shell: &Shell, text: &str) -> Result<Option<SimulationHandle>, Diagnostic> {
     let mut named = mentions(shell, text);
     match (named.next(), named.next()) {

@@ -14,7 +14,7 @@ pub fn save(shell: &mut Shell, operand: &str) -> CommandOutcome {
         return shell.report_error(&told.with_hint("write :save FILE.rhai"));
     }
     let path = Path::new(operand);
-    // Files that this session did not write, or that were edited since, are not overwritten.
+    // Files are not overwritten if this session did not write them, or if they were edited since.
     if !shell.may_write(path) {
         let told = format!("'{operand}' exists and was not written by this session");
         return shell.report_error(&Diagnostic::general(told).with_hint("choose another name"));

@@ -16,7 +16,7 @@ pub struct Command {
     pub summary: &'static str,
     /// Further help text; may be empty.
     pub doc: &'static str,
-    /// Function that executes the command, given the text after its name.
+    /// Function that executes the command. Its argument is the text after the name.
     pub body: fn(&mut Shell, &str) -> CommandOutcome,
 }
 

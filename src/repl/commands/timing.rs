@@ -19,7 +19,7 @@ pub fn time(shell: &mut Shell, operand: &str) -> CommandOutcome {
     let begun = clock.now();
     let outcome = shell.submit(operand);
     let took = clock.now().saturating_sub(begun);
-    // A simulation created only for timing, which no variable holds, must not become the last simulation.
+    // A simulation that the timed input created and no variable holds must not become the last simulation.
     if let Some(earlier) = earlier.filter(|_| !shell.has_latest_simulation()) {
         shell.session().context().set_latest_simulation(earlier);
     }

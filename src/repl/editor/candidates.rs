@@ -9,7 +9,7 @@ use crate::script::bindings::table::{CallSyntax, FunctionBinding};
 pub struct Candidate {
     /// Text shown in the list.
     pub display: String,
-    /// Text that replaces what is typed.
+    /// Text that replaces the typed text.
     pub replacement: String,
     /// One-line summary; may be empty.
     pub summary: String,
@@ -21,8 +21,8 @@ impl Candidate {
         Self { display: word.to_owned(), replacement: word.to_owned(), summary: summary.to_owned() }
     }
 
-    /// Candidate of a function with its arguments in parentheses, `(from, to)`. The opening parenthesis is inserted too, and both if there
-    /// are no arguments.
+    /// Candidate of a function with its arguments in parentheses, `(from, to)`. Accepting it inserts the opening parenthesis, or both if there are no
+    /// arguments.
     pub fn call(name: &str, arguments: &str, summary: &str) -> Self {
         let brackets = if arguments == "()" { "()" } else { "(" };
         Self {
@@ -85,8 +85,8 @@ pub fn arguments(parameters: &[Parameter]) -> String {
     format!("({})", names.collect::<Vec<_>>().join(", "))
 }
 
-/// Candidates that match `typed`, sorted and without duplicates: those with this prefix; if there are none, those with the prefix ignoring
-/// case, or with the typed letters in this order.
+/// Candidates that match `typed`, sorted and without duplicates. They are those with this prefix. If there are none, they are those with the prefix
+/// in other case or with the typed letters in this order.
 pub fn fitting(typed: &str, candidates: impl IntoIterator<Item = Candidate>) -> Vec<Candidate> {
     let mut all: Vec<Candidate> = candidates.into_iter().collect();
     all.sort_by_key(|candidate| (candidate.name().to_lowercase(), candidate.clone()));
@@ -99,7 +99,7 @@ pub fn fitting(typed: &str, candidates: impl IntoIterator<Item = Candidate>) -> 
     all
 }
 
-/// Returns true if the letters of `typed` occur in `name` in this order, the first one at the beginning.
+/// Returns true if the letters of `typed` occur in `name` in this order, with the first letter at the beginning.
 fn is_subsequence(name: &str, typed: &str) -> bool {
     let mut letters = name.chars().flat_map(char::to_lowercase);
     let mut wanted = typed.chars().flat_map(char::to_lowercase);

@@ -37,7 +37,7 @@ pub fn complete_command(text: &str, surroundings: &CompletionContext) -> (usize,
             let columns = fitting(&operand[last..], columns);
             let (offset, found) = complete(operand, operand.len(), surroundings);
             match columns.is_empty() {
-                // Columns and variables are offered, but no functions, which would hide them.
+                // Only columns and variables are suggested, because functions would be too many.
                 false => {
                     let variables = surroundings.variables.iter();
                     let variables = variables.map(|known| Candidate::word(&known.name, ""));
@@ -63,7 +63,7 @@ fn options_at(operand: &str) -> Option<usize> {
     (at == 0 || operand[..at].ends_with([' ', ','])).then_some(at)
 }
 
-/// Completes a map of options as an argument of `call`, whose text ends before the map; otherwise completes an expression.
+/// Completes a map of options as an argument of the unfinished call `call`. Other text is completed as an expression.
 fn in_call(
     call: &str,
     operand: &str,

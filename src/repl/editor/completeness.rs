@@ -5,15 +5,15 @@ use crate::script::source::scanner::{Bracket, Token, TokenKind, scan};
 /// State of an input.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Completeness {
-    /// The input can be evaluated, even if only to report an error.
+    /// The input can be evaluated, or its evaluation reports an error.
     Complete,
-    /// The input continues; the next line is indented by this many levels.
+    /// The input is incomplete. The next line is indented by this number of levels.
     Open(usize),
 }
 
 use Completeness::{Complete, Open};
 
-/// Number of trailing empty lines that submit any input.
+/// Number of empty lines at the end that submit any input.
 const EMPTY_LINES: usize = 2;
 
 /// Completeness of `text` typed at a prompt. Commands and inputs that end in two empty lines are always complete.
@@ -31,13 +31,13 @@ pub fn is_command(text: &str) -> bool {
     text.trim_start().starts_with([':', '?'])
 }
 
-/// Completeness of `text` read from a file or a pipe, where empty lines have no meaning.
+/// Completeness of `text` from a file or a pipe, where empty lines have no meaning.
 ///
-/// An error that no further line can fix makes the input complete, so that the error is reported: a wrong closing bracket, or an
-/// unterminated string literal.
+/// A wrong closing bracket or an unterminated string literal cannot be corrected by further lines. The input is then complete, so that the error is
+/// reported.
 pub fn completeness_of_script(text: &str) -> Completeness {
     let tokens = scan(text);
-    // A doc comment belongs to the function after it.
+    // A doc comment belongs to the function that follows.
     let last = tokens.iter().rev().find(|token| token.kind != TokenKind::Space);
     let last = last.filter(|token| token.kind == TokenKind::Comment).map(|token| token.of(text));
     if last.is_some_and(|comment| comment.starts_with("///") && !comment.starts_with("////")) {
@@ -59,7 +59,7 @@ const GO_ON: &[&str] = &[
     ",", ".", "?.", "..", "..=", ":", "::", "=>",
 ];
 
-/// Keywords that must be followed by something other than a block.
+/// Keywords after which a block is not allowed.
 const INTRODUCE: &[&str] = &["let", "const", "in", "import", "as", "private", "export"];
 
 /// Keywords that must be followed by a block, possibly after a condition.
@@ -75,9 +75,9 @@ enum ParseOutcome {
 struct BracketLevel<'t> {
     bracket: Option<Bracket>,
     line: usize,
-    /// Keyword whose block this level is.
+    /// Keyword to which the block of this level belongs.
     owner: Option<&'t str>,
-    /// Keyword that still needs its block.
+    /// Keyword whose block has not begun.
     keyword: Option<&'t str>,
     /// Keyword whose block was closed last.
     closed: Option<&'t str>,
@@ -94,7 +94,7 @@ struct InputReader<'t> {
     is_incomplete: bool,
     /// True if the last token ends a value, so that a bar after it is an operator.
     is_value: bool,
-    /// True inside a string literal or comment, where indentation must not be added.
+    /// True in a string literal or comment, where indentation must not be added.
     is_literal: bool,
 }
 
@@ -127,7 +127,7 @@ impl<'t> InputReader<'t> {
                 if written == "|" {
                     self.level.is_between_bars = !self.level.is_between_bars && !self.is_value;
                 }
-                // Blocks of other languages begin with a colon; in this language it occurs in maps only.
+                // In other languages, a colon begins a block. In this language it occurs in maps only.
                 if written == ":" && self.level.bracket != Some(Bracket::Map) {
                     return ParseOutcome::Final(Complete);
                 }
@@ -194,10 +194,10 @@ impl<'t> InputReader<'t> {
             || self.level.is_between_bars
             || self.level.keyword.is_some();
         if self.level.bracket.is_none() {
-            // The continuation of `fn f()` or `try { }` is not indented; that of an expression is.
+            // The continuation of `fn f()` or `try { }` is not indented. The continuation of an expression is.
             return if waits { Open(usize::from(self.is_incomplete)) } else { Complete };
         }
-        // Brackets opened in the same line indent once.
+        // Brackets opened on the same line indent by one level together.
         let levels = self.outer.iter().skip(1).chain(std::iter::once(&self.level));
         let mut lines: Vec<usize> = levels.map(|level| level.line).collect();
         lines.dedup();

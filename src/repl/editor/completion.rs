@@ -25,7 +25,7 @@ pub fn complete(
         true => complete_command(&line[..position], surroundings),
         false => complete_language(line, position, surroundings),
     };
-    // Text that already follows the cursor is not inserted again.
+    // Text that follows the cursor already is not inserted again.
     for candidate in &mut candidates {
         for mark in ["(", "\"", "\"]", "::", ": "] {
             if after.starts_with(mark.trim_end()) && candidate.replacement.ends_with(mark) {

@@ -15,7 +15,7 @@ pub struct Expected<'a, 't> {
     levels: Vec<OpenBracket<'t>>,
 }
 
-/// Called function; the second number is 1 if the receiver of a method call is its first parameter.
+/// Called function, and the number of its parameters before the dot.
 #[derive(Clone, Copy)]
 pub struct ActiveCall {
     pub row: &'static FunctionBinding,
@@ -33,7 +33,7 @@ impl<'a, 't> Expected<'a, 't> {
         self.levels.last()
     }
 
-    /// Parameters that the value at the cursor may be for.
+    /// Parameters to which the value at the cursor may belong.
     pub fn here(&self) -> Vec<&'static Parameter> {
         self.levels.len().checked_sub(1).map_or_else(Vec::new, |depth| self.at(depth))
     }
@@ -61,7 +61,7 @@ impl<'a, 't> Expected<'a, 't> {
         of.map(|function| function.keys.as_slice()).unwrap_or_default()
     }
 
-    /// Innermost call whose arguments are being written, skipping arrays, maps and parentheses in between.
+    /// Innermost call whose arguments contain the cursor. Arrays, maps and parentheses in between are skipped.
     pub fn call(&self) -> Option<(OpenBracket<'t>, CalleeName<'t>)> {
         let transparent = |level: &&OpenBracket| {
             matches!(level.bracket, Bracket::Round | Bracket::Square | Bracket::Map)
@@ -70,7 +70,7 @@ impl<'a, 't> Expected<'a, 't> {
         levels.filter_map(|level| Some((*level, self.types.input.callee(level.opener)?))).next()
     }
 
-    /// Functions that a call may refer to.
+    /// Functions to which a call may refer.
     pub fn rows(&self, callee: &CalleeName) -> Vec<ActiveCall> {
         if callee.module.is_some() {
             return Vec::new();
@@ -89,7 +89,7 @@ impl<'a, 't> Expected<'a, 't> {
         fitting.collect()
     }
 
-    /// Built-in functions of Rhai that a call may refer to, with their notation.
+    /// Built-in functions of Rhai to which a call may refer, with their notations.
     pub fn built_ins(&self, callee: &CalleeName) -> Vec<(&'static BuiltIn, FunctionForm)> {
         if callee.module.is_some() {
             return Vec::new();

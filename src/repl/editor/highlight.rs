@@ -30,7 +30,7 @@ impl SessionNames {
         Self { language, context }
     }
 
-    /// Session that the names belong to.
+    /// Session to which the names belong.
     pub fn surroundings(&self) -> &CompletionContext {
         &self.context
     }

@@ -26,15 +26,14 @@ impl Hint {
         (!text.is_empty()).then(|| Self { shown: format!("  {text}"), insertable: None })
     }
 
-    /// A hint of text that can be inserted.
+    /// Hint whose text can be inserted.
     pub fn insertable(text: &str) -> Option<Self> {
         (!text.is_empty())
             .then(|| Self { shown: text.to_owned(), insertable: Some(text.to_owned()) })
     }
 }
 
-/// Hint for the cursor at the end of `line`: the rest of the only matching name, the signature of the current call, or the keys of its
-/// options.
+/// Hint for the cursor at the end of `line`: the rest of the only matching name, the signature of the current call, or the keys of its options.
 pub fn hint(line: &str, position: usize, surroundings: &CompletionContext) -> Option<Hint> {
     if position != line.len() || line.trim().is_empty() {
         return None;

@@ -3,7 +3,7 @@
 use std::ffi::OsString;
 use std::path::PathBuf;
 
-/// Environment variable that names the history file; empty for none.
+/// Environment variable with the name of the history file. If it is empty, no history is stored.
 pub const VARIABLE: &str = "WITHY_HISTORY";
 
 /// Maximum number of history entries.
@@ -12,7 +12,7 @@ pub const MOST_ENTRIES: usize = 5000;
 /// Maximum length of a stored entry [bytes]. Longer inputs are usually pasted.
 pub const LONGEST_ENTRY: usize = 64 << 10;
 
-/// History file: the path in `setting`, `None` if it is empty; if unset, a file in the user's state folder.
+/// History file: the path in `setting`, or `None` if `setting` is empty. If the variable is not set, it is a file in the user's state folder.
 pub fn file(setting: Option<OsString>) -> Option<PathBuf> {
     match setting {
         Some(name) if name.is_empty() => None,

@@ -2,7 +2,7 @@
 
 use crate::script::source::scanner::{Bracket, Token, TokenKind, pair, scan};
 
-/// Maximum number of open brackets considered; outer ones do not matter at the cursor.
+/// Maximum number of open brackets that are searched. Outer brackets have no influence at the cursor.
 const MOST_LEVELS: usize = 64;
 
 pub struct Input<'t> {
@@ -78,7 +78,7 @@ impl<'t> Input<'t> {
         self.tokens.len() - usize::from(!self.name().1.is_empty())
     }
 
-    /// Brackets open at the cursor, innermost last; limited to the innermost ones.
+    /// Brackets open at the cursor, from the outside to the inside. Only the innermost ones are returned.
     pub fn levels(&self) -> Vec<OpenBracket<'t>> {
         let first = self.open.len().saturating_sub(MOST_LEVELS);
         self.open[first..].iter().map(|opener| self.level(*opener)).collect()
@@ -109,7 +109,7 @@ impl<'t> Input<'t> {
         level
     }
 
-    /// Function called by the bracket at token `opener`, if it opens the arguments of a call.
+    /// Function that is called by the bracket at token `opener`; `None` if the bracket does not open the arguments of a call.
     pub fn callee(&self, opener: usize) -> Option<CalleeName<'t>> {
         let at = opener.checked_sub(1)?;
         let is_call = self.kind(opener) == Some(TokenKind::Open(Bracket::Round))

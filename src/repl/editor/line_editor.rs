@@ -82,7 +82,7 @@ pub struct Editor {
 }
 
 impl Editor {
-    /// A line editor on this terminal. An unreadable history is reported by [`Self::take_history_problem`] and not used.
+    /// A line editor on this terminal. If the history is unreadable, it is not used, and [`Self::take_history_problem`] returns the problem.
     ///
     /// # Errors
     /// Fails if the terminal cannot be used.
@@ -130,20 +130,20 @@ impl Editor {
         }
     }
 
-    /// Columns and lines of the terminal, if it reports them.
+    /// Columns and lines of the terminal; `None` if the terminal does not report them.
     pub fn size(&mut self) -> Option<(usize, usize)> {
         let (columns, lines) = self.lines.dimensions()?;
         Some((usize::from(columns), usize::from(lines)))
     }
 
-    /// Returns a problem with the history, once.
+    /// Problem with the history. It is returned only once.
     pub fn take_history_problem(&mut self) -> Option<String> {
         self.history_problem.take()
     }
 
     fn recall(&mut self) {
         let Some(file) = self.history.clone().filter(|file| file.exists()) else { return };
-        // Reading a pipe or a device would block the session.
+        // Reading from a pipe or a device would block the session.
         if !file.is_file() {
             let error = ReadlineError::from(io::Error::other("it is not a regular file"));
             return self.disable_history("read", &file, &error);
@@ -158,7 +158,7 @@ impl Editor {
         }
     }
 
-    /// Adds an entry to the history and writes it to the file at once, so that a killed session loses nothing.
+    /// Adds an entry to the history and writes it to the file immediately, so that nothing is lost if the session is killed.
     fn add_to_history(&mut self, line: &str) {
         if !history::should_store(line) || !self.lines.add_history_entry(line).unwrap_or(false) {
             return;

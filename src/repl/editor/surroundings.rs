@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use crate::script::bindings::catalog::Catalog;
 
-/// Names of a session for completion and hints, captured before each prompt. Only names are stored, so it stays small for large values.
+/// Names of a session for completion and hints, collected before each prompt. Values are not stored, so it is small.
 #[derive(Clone)]
 pub struct CompletionContext {
     /// Catalog of the language.
@@ -19,7 +19,7 @@ pub struct CompletionContext {
     pub commands: Vec<CommandWord>,
     /// History columns of the last simulation.
     pub columns: Vec<String>,
-    /// Folder that relative file names refer to.
+    /// Folder to which relative file names refer.
     pub folder: PathBuf,
 }
 
@@ -84,12 +84,12 @@ pub enum CommandOperand {
     Number,
     /// One of these words.
     OneOf(&'static [&'static str]),
-    /// An expression, or a map of options, which is completed as the next argument of this unfinished call.
+    /// An expression or a map of options. A map is completed as the next argument of this unfinished call.
     OptionsOf(&'static str),
 }
 
 impl CompletionContext {
-    /// Surroundings of an empty session.
+    /// Context of an empty session.
     pub fn of_language(catalog: Catalog) -> Self {
         Self {
             catalog,

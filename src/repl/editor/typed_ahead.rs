@@ -1,13 +1,13 @@
 //! Type-ahead: keys typed while an input is evaluated are kept for the next prompt.
 //!
-//! Between two prompts a terminal would be in line mode and act on keys such as Ctrl-D or Ctrl-R itself. Therefore raw input is set for the
-//! whole session. Ctrl-C and Ctrl-Z keep their meaning.
+//! Between two prompts, a terminal in line mode would itself react to keys such as Ctrl-D or Ctrl-R. Therefore raw input mode is set for the whole
+//! session. Ctrl-C and Ctrl-Z keep their meaning.
 
 /// Guard that keeps the terminal in raw input mode, and restores its mode when dropped.
 pub struct TypedAhead(());
 
 impl TypedAhead {
-    /// Sets the mode of the terminal; a terminal that refuses is left unchanged.
+    /// Sets the mode of the terminal. If this fails, the terminal is unchanged.
     pub fn set_mode() -> Self {
         terminal::set_raw_mode();
         Self(())
@@ -36,7 +36,7 @@ impl Drop for TypedAhead {
     }
 }
 
-/// Restores the terminal mode; for code that ends the process without unwinding.
+/// Restores the terminal mode, for code that ends the process without unwinding.
 pub fn restore() {
     terminal::restore();
 }
@@ -55,7 +55,7 @@ mod terminal {
     pub fn set_raw_mode() {
         let Ok(original) = tcgetattr(stdin()) else { return };
         let mut held = original.clone();
-        // Without echo, waiting keys are shown once, at the prompt that reads them.
+        // Without echo, waiting keys are shown only once, at the prompt that reads them.
         held.local_flags -= LocalFlags::ICANON | LocalFlags::IEXTEN | LocalFlags::ECHO;
         held.control_chars[SpecialCharacterIndices::VMIN as usize] = 1;
         held.control_chars[SpecialCharacterIndices::VTIME as usize] = 0;
@@ -64,11 +64,11 @@ mod terminal {
         }
     }
 
-    /// Restores the terminal mode; returns true if it was changed before.
+    /// Restores the terminal mode. Returns true if the mode had been changed.
     pub fn restore() -> bool {
         let original = AS_IT_WAS.lock().unwrap_or_else(PoisonError::into_inner).take();
         if let Some(original) = &original {
-            // An error means that the terminal is gone.
+            // An error means that the terminal was closed.
             let _ = tcsetattr(stdin(), SetArg::TCSANOW, original);
         }
         original.is_some()
@@ -77,7 +77,7 @@ mod terminal {
 
 #[cfg(not(unix))]
 mod terminal {
-    //! On this system keys are events, and none is lost.
+    //! On this system keys are events, and no key is lost.
 
     pub fn set_raw_mode() {}
 

@@ -70,7 +70,7 @@ mod of_system {
         }
     }
 
-    /// Bypasses the buffer of the standard library, which would keep keys from the prompt.
+    /// Reads without the buffer of the standard library, which would withhold keys from the prompt.
     fn next() -> io::Result<Pressed> {
         let mut byte = [0];
         match read(stdin(), &mut byte) {
@@ -99,7 +99,7 @@ mod of_system {
                     Pressed::Byte(byte) => rest.push(byte),
                     _ => break,
                 }
-                // A letter or a tilde ends an escape sequence, except as its first byte.
+                // A letter or a tilde ends an escape sequence, unless it is the first byte.
                 let is_end = rest.len() > 1
                     && rest.last().is_some_and(|last| last.is_ascii_alphabetic() || *last == b'~');
                 if is_end {
@@ -113,7 +113,7 @@ mod of_system {
 
 #[cfg(not(unix))]
 mod of_system {
-    //! Single keys are not supported on this system: texts are printed normally, unless a pager program is set.
+    //! This system does not support single keys. Texts are printed without paging, unless a pager program is set.
 
     use std::io;
 

@@ -5,7 +5,7 @@ use std::ops::Range;
 
 use super::{Keyboard, PagerOutcome, Pressed};
 
-/// Returns to the beginning of the line and clears it.
+/// Control sequence that moves to the beginning of the line and clears it.
 const CLEAR: &str = "\r\x1b[K";
 const KEYS: &str = "space: next page, b: back, /: search, q: exit";
 
@@ -80,7 +80,7 @@ impl Pages<'_> {
     }
 }
 
-/// Shows a text page by page on a terminal with `lines` lines until the user leaves or the text ends.
+/// Shows a text page by page on a terminal with `lines` lines, until the user quits or the text ends.
 ///
 /// # Errors
 /// Fails if the terminal fails.
@@ -202,7 +202,7 @@ mod tests {
 
     use super::*;
 
-    /// Predefined keys; `^` is Ctrl-C.
+    /// Predefined keys, where `^` is Ctrl-C.
     struct Decided(VecDeque<u8>);
 
     impl Keyboard for Decided {

@@ -10,10 +10,10 @@ use crate::repl::editor::typed_ahead::TypedAhead;
 /// Polling interval for the end of the program.
 const POLLING_INTERVAL: Duration = Duration::from_millis(10);
 
-/// Default options of less: quit if one screen, show colours, keep the text on the screen.
+/// Default options of less: quit if the text fits on one screen, show colours, keep the text on the screen.
 const LESS: (&str, &str) = ("LESS", "FRX");
 
-/// Shows a text with a pager program and waits for its end. Ctrl-C is left to that program.
+/// Shows a text with a pager program, and waits for its end. The program handles Ctrl-C itself.
 ///
 /// # Errors
 /// Fails if the program does not start.
@@ -28,7 +28,7 @@ pub fn show(program: &str, text: &str, was_interrupted: &dyn Fn() -> bool) -> io
     let mut child = command.spawn()?;
     if let Some(mut input) = child.stdin.take() {
         let text = format!("{text}\n");
-        // The program may quit before it has read everything.
+        // The program may quit before it has read the whole text.
         thread::spawn(move || input.write_all(text.as_bytes()));
     }
     while child.try_wait()?.is_none() {

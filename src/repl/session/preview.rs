@@ -30,7 +30,7 @@ impl Rounds for Once {
 }
 
 impl Session {
-    /// Evaluates an expression without lasting effects, apart from changes of scenes and simulations.
+    /// Evaluates an expression without lasting effects, except changes of scenes and simulations.
     pub fn evaluate_preview(&mut self, text: &str) -> Reply {
         let mut once = Once::default();
         match self.evaluate_repeatedly(text, &mut once) {
@@ -40,7 +40,7 @@ impl Session {
         }
     }
 
-    /// Evaluates an expression repeatedly. The text is parsed once, and variables are reset before each evaluation.
+    /// Evaluates an expression repeatedly. The text is parsed once. Variables are restored before each evaluation.
     ///
     /// # Errors
     /// The reply to the first evaluation that fails.
@@ -67,7 +67,7 @@ impl Session {
         ast: &AST,
         rounds: &mut dyn Rounds,
     ) -> Result<(), Reply> {
-        // Includes the functions of the input, such as its closures.
+        // The checkpoint includes the functions of the input, such as its closures.
         let start = self.checkpoint();
         while rounds.begin() {
             let value = self.run(guard, ast.statements())?;

@@ -1,4 +1,4 @@
-//! Errors of native code called by commands.
+//! Errors of native code that commands call.
 
 use rhai::EvalAltResult;
 

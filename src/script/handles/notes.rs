@@ -41,4 +41,14 @@ impl Notes {
             }
         }
     }
+
+    /// Reports that the scene has changed since the simulation was started.
+    pub fn report_changed_scene(&self, name: &str, scene: &str, context: &Context) {
+        if self.printing != Printing::Never {
+            context.print_message(&format!(
+                "note: scene '{scene}' was changed after the start of simulation '{name}', which keeps the earlier scene; \
+                 call scene.start again to simulate the changed one"
+            ));
+        }
+    }
 }

@@ -1,6 +1,6 @@
 //! Handle of a scene in a script.
 
-use std::cell::{Cell, OnceCell, RefCell};
+use std::cell::{Cell, OnceCell, RefCell, RefMut};
 use std::rc::Rc;
 
 use super::station::StationHandle;
@@ -30,6 +30,8 @@ pub struct SceneHandle {
     controllers: Rc<RefCell<Vec<Rc<Controller>>>>,
     /// Release conditions, with the index of the release.
     conditions: Rc<RefCell<Vec<Condition>>>,
+    /// True after the note on what modes of the scene leave out.
+    is_told_of_modes: Rc<Cell<bool>>,
 }
 
 struct Variants {
@@ -37,6 +39,8 @@ struct Variants {
     declared: RefCell<Option<Rc<ParameterSet>>>,
     /// Created by the first call with an argument that depends on a parameter.
     beside: OnceCell<PerturbedBuilds>,
+    /// True if the scene has changed since the last start of a simulation.
+    is_changed: Cell<bool>,
 }
 
 /// Perturbed variants of a scene, with parameters plus and minus a perturbation.
@@ -66,22 +70,45 @@ pub struct Controller {
 impl SceneHandle {
     pub fn new(scene: Scene) -> Self {
         let scene = Rc::new(RefCell::new(scene));
-        let variants =
-            Variants { scene, declared: RefCell::default(), beside: OnceCell::default() };
+        let variants = Variants {
+            scene,
+            declared: RefCell::default(),
+            beside: OnceCell::default(),
+            is_changed: Cell::default(),
+        };
         Self {
             variants: Rc::new(variants),
             functions: Rc::default(),
             controllers: Rc::default(),
             conditions: Rc::default(),
+            is_told_of_modes: Rc::default(),
         }
+    }
+
+    /// Returns true the first time it is called, for a note on modes that is printed once.
+    pub fn begins_to_tell_of_modes(&self) -> bool {
+        !self.is_told_of_modes.replace(true)
     }
 
     pub fn scene(&self) -> &RefCell<Scene> {
         self.of_present()
     }
 
+    /// Write access to the scene. Simulations that have been started keep the earlier scene.
+    pub fn change(&self) -> RefMut<'_, Scene> {
+        self.variants.is_changed.set(true);
+        self.of_present().borrow_mut()
+    }
+
+    /// Like [`change`](Self::change), with shared ownership.
     pub fn shared(&self) -> Rc<RefCell<Scene>> {
+        self.variants.is_changed.set(true);
         Rc::clone(self.of_present())
+    }
+
+    /// Returns true on the first call after a change of the scene.
+    pub fn take_change(&self) -> bool {
+        self.variants.is_changed.replace(false)
     }
 
     fn of_present(&self) -> &Rc<RefCell<Scene>> {

@@ -226,6 +226,13 @@ impl SimulationHandle {
             RunTarget::Time(time) => *time,
         };
         self.is_latest(context);
+        if self.0.scene.take_change() {
+            self.0.notes.report_changed_scene(
+                self.name(),
+                &self.simulation().scene().name,
+                context,
+            );
+        }
         context.progress().begin(&self.0.name, now, end);
         let outcome = match (context.mode(), goal) {
             (RunMode::DryBuild, _) => self.dry_run(call, end),

@@ -6,7 +6,7 @@ pub fn with_article(noun: &str) -> String {
     let head =
         [" of ", " with "].iter().fold(noun, |head, of| head.split(of).next().unwrap_or(head));
     match noun.chars().next() {
-        _ if head.ends_with('s') => noun.to_owned(),
+        _ if head.ends_with('s') || head == "nothing" => noun.to_owned(),
         Some('a' | 'e' | 'i' | 'o' | 'A' | 'E' | 'I' | 'O') => format!("an {noun}"),
         _ => format!("a {noun}"),
     }

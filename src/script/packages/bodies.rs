@@ -115,7 +115,7 @@ fn body(call: &mut Call) -> Result<Dynamic, ScriptError> {
         motion: start_motion(&options)?,
     };
     let (mass, inertia) = (options.number("mass")?, options.number("inertia")?);
-    let added = scene.scene().borrow_mut().add_rigid_body(definition, mass, inertia);
+    let added = scene.change().add_rigid_body(definition, mass, inertia);
     let index = added.map_err(|error| {
         let key = match &error {
             SystemError::Value { name: "rotary inertia", .. } => "inertia",

@@ -37,8 +37,8 @@ pub const TABLE: BindingTable = BindingTable {
             energy_momentum() or fourth_order() are allowed. Positions of particles, of points \
             of the ground and of sliders, and whole beams may depend on a parameter; lengths \
             of beams, places on them and times of jumps of loads may not, and functions |t, q| \
-            … are not allowed. Derivatives end where a slider arrives, an object is released, \
-            or the script goes back; derivative_by then gives this reason.",
+            … are not allowed. Derivatives end where a slider arrives, a condition releases an \
+            object, or the script goes back; derivative_by then gives this reason.",
         )
         .example(
             "let scene = new_scene(\"rod\");\nlet EI = scene.parameter(\"EI\", 100);\n\
@@ -60,8 +60,8 @@ pub const TABLE: BindingTable = BindingTable {
                 numbers, vectors and arrays of them; an unknown parameter; a value at a kink \
                 or a jump of a function (abs(x) at 0, max(x, y) where both are equal, x % y) \
                 or where its slope is infinite (sqrt(x) and 1 / x at 0); and a simulation \
-                after a slider has arrived, an object was released, or the script has gone \
-                back (sim.history.before(t) has the earlier rows). A note is printed if a \
+                after a slider has arrived, a condition has released an object, or the script has \
+                gone back (sim.history.before(t) has the earlier rows). A note is printed if a \
                 function |t| … compares its argument with a parameter, such as if t < a: if \
                 the function jumps there, derivatives are wrong.")
             .example(

@@ -87,7 +87,7 @@ fn drag(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let name = options.optional_text("name")?;
     let name = name.unwrap_or_else(|| scene.scene().borrow().free_name("drag"));
     let wind = if options.has("wind") { options.point("wind")? } else { Vec2::zeros() };
-    let added = scene.scene().borrow_mut().add_drag(Drag { name, on, wind });
+    let added = scene.change().add_drag(Drag { name, on, wind });
     added.map_err(|error| {
         let place = match &error {
             SystemError::Unnamed { .. } | SystemError::DuplicateName { .. } => {

@@ -72,8 +72,9 @@ pub const TABLE: BindingTable = BindingTable {
             .summary("Rotates a section relative to the ground: by a prescribed angle, at a \
                 prescribed speed, or with a torque.")
             .doc("angle is the rotation since the start, a function of time; it is exact at the \
-                end of every step. speed is a rate: it is integrated over a step by three \
-                Gauss points, exact for polynomials up to degree five. torque is a moment, \
+                end of every step. speed is a rate: a built-in schedule is integrated exactly, \
+                a function of time at three Gauss points of each step, and a note tells when \
+                it changes faster than that. torque is a moment, \
                 positive counter-clockwise. speed and torque may also be sampled controllers \
                 |t, q| …; see scene.force for the times of the calls and for sample and delay. \
                 The section can still move in x and y: add a hinge to fix it.")

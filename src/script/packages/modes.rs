@@ -20,7 +20,7 @@ use crate::script::handles::scene::SceneHandle;
 use crate::script::handles::simulation::SimulationHandle;
 use crate::script::handles::station::StationHandle;
 use crate::script::messages::error::{CallPart, ScriptError};
-use crate::system::{Scene, System};
+use crate::system::{DriveKind, Scene, StartMotion, System};
 use crate::vibration::{DampedMode, Mode, Modes, VibrationError};
 
 pub const TABLE: BindingTable = BindingTable {
@@ -36,6 +36,7 @@ pub const TABLE: BindingTable = BindingTable {
             let scene = handle.scene().borrow().clone();
             let model = System::assemble(&scene)?;
             expect_room(call, &model)?;
+            warn_about_omissions(call, &handle, &scene);
             let modes = undamped_modes(call, |count, goes_on| Modes::of(&model, count, goes_on))?;
             Ok(Dynamic::from(ModesHandle::drawn(handle, &scene, modes)))
         })
@@ -46,7 +47,8 @@ pub const TABLE: BindingTable = BindingTable {
             error. With up to 240 unknowns all modes are computed at once, with more only the \
             lowest, by the block Lanczos method (Grimes, Lewis & Simon 1994); a count of the \
             negative pivots verifies that none is missing. Sliders can move along their beams, \
-            under their present contact forces. Loads and gravity are ignored, because the \
+            under their present contact forces. Controllers and spins are left out, and a note \
+            names them: modes are those at rest. Loads and gravity are ignored, because the \
             scene is not deformed by them: for their effect, as on an inverted pendulum, use \
             scene.equilibrium().modes(n). For other configurations use rest.modes(n) of an \
             equilibrium or sim.modes(n) of a simulation.",
@@ -69,8 +71,9 @@ pub const TABLE: BindingTable = BindingTable {
         .example("let sim = scene.start(#{ dt: 0.1 });\nlet drawn = scene.modes(1).angular_frequencies;\ncheck(sim.modes(1).angular_frequencies == drawn);"),
         method(SCENE, "damped_modes", &[COUNT], |call| {
             let handle = call.receiver::<SceneHandle>()?;
-            let model = System::assemble(&handle.scene().borrow())?;
-            damped_modes(call, &model)
+            let scene = handle.scene().borrow().clone();
+            warn_about_omissions(call, &handle, &scene);
+            damped_modes(call, &System::assemble(&scene)?)
         })
         .returns(Returns::ARRAY)
         .summary("Computes the lowest damped vibrations of the undeformed scene: maps of decay_rate, \
@@ -231,6 +234,40 @@ impl Scripted for ModesHandle {
                 loads and gravity, as on a pendulum";
         }
         shown
+    }
+}
+
+/// Notes once which controllers and spins of a scene its modes leave out.
+fn warn_about_omissions(call: &Call, handle: &SceneHandle, scene: &Scene) {
+    let steered = scene.schedules().filter(|(_, schedule)| schedule.is_sampled());
+    let controllers: Vec<String> = steered
+        .map(|(name, _)| scene.source_of_schedule(name).trim_end_matches(',').to_owned())
+        .collect();
+    let spinning = |motion: &StartMotion| motion.spin != 0.0;
+    let beams = scene.beams.iter().filter(|beam| spinning(&beam.motion));
+    let bodies = scene.rigid_bodies.iter().filter(|body| spinning(&body.motion));
+    let motors = scene.drives.iter().filter(|drive| drive.kind == DriveKind::Motor);
+    let spins: Vec<String> = beams
+        .map(|beam| format!("beam '{}'", beam.name))
+        .chain(bodies.map(|body| format!("body '{}'", body.name)))
+        .chain(motors.map(|drive| format!("motor '{}'", drive.name)))
+        .collect();
+    if (controllers.is_empty() && spins.is_empty()) || !handle.begins_to_tell_of_modes() {
+        return;
+    }
+    if !controllers.is_empty() {
+        let names = controllers.join(", ");
+        call.context().print_message(&format!(
+            "note: modes leave out controllers, here of {names}; to see their effect, let the \
+            simulation vibrate"
+        ));
+    }
+    if !spins.is_empty() {
+        let names = spins.join(", ");
+        call.context().print_message(&format!(
+            "note: modes are those at rest: the spin of {names}, with its centrifugal and \
+            gyroscopic forces, is left out"
+        ));
     }
 }
 

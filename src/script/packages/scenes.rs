@@ -148,7 +148,7 @@ pub const TABLE: BindingTable = BindingTable {
         method(SCENE, "gravity", &[point("acceleration").unit("length/time²")], |call| {
             let gravity = call.point("acceleration")?;
             let handle = call.receiver::<SceneHandle>()?;
-            let earlier = std::mem::replace(&mut handle.scene().borrow_mut().gravity, gravity);
+            let earlier = std::mem::replace(&mut handle.change().gravity, gravity);
             if earlier != Vec2::zeros() && earlier != gravity {
                 let name = handle.scene().borrow().name.clone();
                 report_replaced(call, &format!("the gravity of '{name}'"), (earlier, gravity));
@@ -178,6 +178,9 @@ pub const STATION: Type = Type::of::<StationHandle>();
 pub const JOINT: Type = Type::of::<JointHandle>();
 
 const SPANS: usize = 16;
+
+/// Difference of the lengths of a beam on its mesh and as drawn, relative to the length, above which a warning is given.
+const MISSED_LENGTH: f64 = 0.01;
 
 /// Relative error of integrals of a varying section, on the mesh of the beam, above which a warning is given.
 const TAPER_TOLERANCE: f64 = 5e-3;
@@ -237,12 +240,13 @@ fn beam(call: &mut Call) -> Result<Dynamic, ScriptError> {
         section: variation,
         motion,
     };
-    let added = scene.scene().borrow_mut().add_beam(definition);
+    let added = scene.change().add_beam(definition);
     let index = added.map_err(|error| ScriptError::from(error).at(CallPart::Key("name".into())))?;
     if let Some(relaxation) = relaxation {
-        scene.scene().borrow_mut().add_damping(index, relaxation)?;
+        scene.change().add_damping(index, relaxation)?;
     }
     warn_about_taper(call, &scene, index)?;
+    warn_about_length(call, &scene, index)?;
     // Variant 0 is evaluated last, when the beams of the perturbed variants exist.
     scene.expect_constant_length(index).map_err(|error| error.at(CallPart::Key("axis".into())))?;
     Ok(Dynamic::from(BeamHandle { scene, index }))
@@ -273,6 +277,23 @@ fn warn_about_taper(call: &Call, scene: &SceneHandle, index: usize) -> Result<()
     Ok(())
 }
 
+/// Warns if a beam on its mesh is longer or shorter than its axis.
+fn warn_about_length(call: &Call, scene: &SceneHandle, index: usize) -> Result<(), ScriptError> {
+    let scene = scene.scene().borrow();
+    let beam = &scene.beams[index];
+    let share = beam.meshed_length()? / beam.axis.length();
+    if (share - 1.0).abs() <= MISSED_LENGTH {
+        return Ok(());
+    }
+    call.context().print_message(&format!(
+        "note: the mesh of beam '{}' is too coarse for its curved axis: its length and mass are \
+        {} of those of the axis; use more spans or a higher degree",
+        beam.name,
+        significant(share, 3)
+    ));
+    Ok(())
+}
+
 fn particle(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let scene = call.receiver::<SceneHandle>()?;
     let options = call.options_or_defaults("options")?;
@@ -281,7 +302,7 @@ fn particle(call: &mut Call) -> Result<Dynamic, ScriptError> {
         name: name.unwrap_or_else(|| scene.scene().borrow().free_name("particle")),
         position: call.point("position")?,
     };
-    let added = scene.scene().borrow_mut().add_particle(definition, call.number("mass")?);
+    let added = scene.change().add_particle(definition, call.number("mass")?);
     let station = added.map_err(|error| match error {
         SystemError::Value { .. } => ScriptError::from(error).at(CallPart::Argument(1)),
         _ => ScriptError::from(error).at(CallPart::Key("name".into())),
@@ -289,7 +310,7 @@ fn particle(call: &mut Call) -> Result<Dynamic, ScriptError> {
     if options.has("velocity") {
         let velocity = options.point("velocity")?;
         let moving = StationVelocity { station, velocity, spin: None };
-        scene.scene().borrow_mut().velocities.push(moving);
+        scene.change().velocities.push(moving);
     }
     Ok(Dynamic::from(StationHandle { scene, station }))
 }

@@ -84,8 +84,12 @@ pub const TABLE: BindingTable = BindingTable {
             .returns(Returns::object(SCHEDULE))
             .summary("Creates a schedule from a function of time, with optional times of its jumps \
                 and kinks.")
-            .doc("The function is called two or three times per step, never inside the Newton \
-                iteration. A jump that is not declared reduces the accuracy.")
+            .doc("The function is called five times per step or substep (seven times with \
+                trapezoidal() and generalized_alpha()), never inside the Newton iteration. A \
+                note tells when it changes faster than these calls can see: declare jumps and \
+                kinks, use a smaller dt, or a built-in schedule. Built-in schedules, their sums \
+                and their products are integrated exactly over a step, so that their impulse \
+                does not depend on dt.")
             .example("let load = schedule(|t| exp(-t) * sin(3 * t));\ncheck(load.at(0) == 0);"),
         method(SCHEDULE, "at", &[number("t").unit("time")], |call| {
             Ok(call.receiver::<Schedule>()?.value(call.number("t")?, LimitSide::After)?.into())

@@ -282,11 +282,11 @@ fn record(call: &mut Call) -> Result<Dynamic, ScriptError> {
     if let Some(function) = call.get_if::<FnPtr>("function") {
         call.expect_arguments(&function, 1, "|q| …, a function of the simulation")?;
         let function = call.store(function, &format!("the function of the column '{column}'"));
-        scene.scene().borrow_mut().record_outside(&column)?;
+        scene.change().record_outside(&column)?;
         scene.store_function(function);
         return Ok(Dynamic::UNIT);
     }
-    let recorded = scene.scene().borrow_mut().record(&column);
+    let recorded = scene.change().record(&column);
     recorded.map_err(|error| {
         let names = scene.scene().borrow().sensor_names();
         let meant = nearest(&column, names.iter().map(String::as_str));

@@ -289,6 +289,7 @@ pub(super) fn begin(
     let printing =
         options.optional_text("notes")?.map(|word| meant(&PRINTING, &word)).unwrap_or_default();
     let notes = Notes::new(printing);
+    of.take_change();
     let started = SimulationHandle::new(simulation, of, name, notes, call.context());
     started.evaluate_columns()?;
     Ok(Dynamic::from(started))

@@ -147,7 +147,7 @@ const RATES: Parameter = point("rates")
     .unit("length/time")
     .doc(
         "range of rates in which a function is sampled, such as [-1, 1]; linear extrapolation \
-        beyond it",
+        beyond it, with a note",
     )
     .requires_key("damping")
     .optional();
@@ -163,7 +163,7 @@ const SPRING_KEYS: &[Parameter] = &[
     points("table")
         .doc(
             "points [length, force] in place of a stiffness; piecewise linear, extrapolated by \
-            the last segments",
+            the last segments, with a note unless they are level",
         )
         .optional(),
     callback("law")
@@ -171,7 +171,7 @@ const SPRING_KEYS: &[Parameter] = &[
         .optional(),
     point("range")
         .unit("length")
-        .doc("range of elongations in which the law is sampled; linear extrapolation beyond it")
+        .doc("range of elongations in which the law is sampled; linear extrapolation beyond it, with a note")
         .requires_key("law")
         .optional(),
     DAMPING,
@@ -358,6 +358,7 @@ fn spring_error(error: SystemError) -> ScriptError {
             CallPart::Key("name".into())
         }
         SystemError::ActiveDamper { .. } => CallPart::Key("damping".into()),
+        SystemError::FewPoints { name, .. } => CallPart::Key((*name).into()),
         SystemError::Value { name, .. }
             if ["length", "damping", "stiffness", "table"].contains(name) =>
         {

@@ -145,7 +145,7 @@ fn track(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let course = if is_closed { TrackEnd::Closed } else { TrackEnd::Open };
     let name = options.optional_text("name")?;
     let name = name.unwrap_or_else(|| scene.scene().borrow().free_name("track"));
-    let added = scene.scene().borrow_mut().add_track(name, &beams, course);
+    let added = scene.change().add_track(name, &beams, course);
     let index = added.map_err(|error| {
         let place = match &error {
             SystemError::Track(error) if matches!(**error, TrackError::Open { .. }) => {

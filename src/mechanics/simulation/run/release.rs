@@ -31,13 +31,16 @@ impl Simulation {
     /// # Errors
     /// Fails if the scene cannot be built, which succeeded before.
     pub fn release(&mut self, release: usize) -> Result<(), SimulationError> {
-        let Some(Release { object: hold, .. }) = self.scene.releases.get(release).copied() else {
+        let Some(Release { object: hold, trigger }) = self.scene.releases.get(release).copied()
+        else {
             return Ok(());
         };
         if self.is_released(release) {
             return Ok(());
         }
-        self.disable_derivatives("a joint, spring or support is released");
+        if !matches!(trigger, Trigger::Time(_)) {
+            self.disable_derivatives("a joint, spring or support is released");
+        }
         let before = self.released_objects(&self.progress.releases);
         self.model.release(&self.scene, &before, hold)?;
         let gone = ReleaseEvent { release, time: self.time() };
@@ -46,7 +49,11 @@ impl Simulation {
         if let (Some(adaptive), Some(pace)) = (&self.adaptive, &mut self.clock.step_size) {
             adaptive.controller.restart(pace);
         }
-        Ok(())
+        let Self { settings, model, stepper, .. } = self;
+        match &mut stepper.sensitivities {
+            Some(sensitivities) => sensitivities.release(release, model, settings),
+            None => Ok(()),
+        }
     }
 
     /// Executes the releases due at the present time, before the next step.

@@ -107,6 +107,16 @@ impl Simulation {
         notes.extend(
             bends.map(|(drive, bend)| Warning::Bend { drive: drive.to_owned(), curvature: bend }),
         );
+        let told = |(name, change)| {
+            let owner = self.scene.source_of_schedule(name);
+            Warning::Schedule { owner: owner.trim_end_matches(',').to_owned(), dt, change }
+        };
+        notes.extend(self.model.missed_changes().map(told));
+        notes.extend(self.model.outside_laws().into_iter().filter_map(|(index, outside)| {
+            let spring = self.scene.springs().nth(index)?.object();
+            let kind = if outside.is_rate { "damping law" } else { "law" };
+            Some(Warning::Range { law: format!("the {kind} of {spring}"), outside })
+        }));
         let bounces = self.model.short_bounces();
         let tolerance = self.adaptive.as_ref().map(|adaptive| adaptive.tolerance);
         let told = |(spring, bounce): (&str, _)| Warning::Contact {

@@ -37,6 +37,20 @@ impl PerturbedRuns {
         Ok(twins)
     }
 
+    /// Executes a release of both runs, after which states are shaped like the given one.
+    pub(super) fn release(
+        &mut self,
+        release: usize,
+        state: &SystemState,
+    ) -> Result<(), SimulationError> {
+        for run in &mut self.runs {
+            run.release(release)?;
+        }
+        self.states = [state.blank(), state.blank()];
+        self.differentiate();
+        Ok(())
+    }
+
     /// Computes the derivative of the state from the states of both runs.
     pub(super) fn differentiate(&mut self) {
         let Self { runs, states, derivative, distance, .. } = self;

@@ -57,7 +57,8 @@ impl ContactWatch {
             *self = Self { steps: 0.0, entry, force: 0.0, duration: 0.0, ..*self };
         }
         self.steps += 1.0;
-        self.duration += duration;
+        // Substeps may run back.
+        self.duration += duration.abs();
         self.force = self.force.max(force.abs());
         if !is_slack {
             return;
@@ -107,5 +108,14 @@ mod tests {
             Some(ShortBounce { steps: 2.0, force: 3e-8, duration: 0.4 })
         );
         assert_eq!(bounced(1e-8).short_bounce(), None);
+    }
+
+    #[test]
+    fn substeps_that_run_back_make_no_negative_step() {
+        let mut watch = ContactWatch::new(1e4, 2.0);
+        watch.add([true, false], [1.0, 1.0], (3.0, 0.1));
+        watch.add([false, true], [1.0, -1.0], (3.0, -0.3));
+        let duration = watch.short_bounce().map(|bounce| bounce.duration);
+        assert_eq!(duration, Some(0.4));
     }
 }

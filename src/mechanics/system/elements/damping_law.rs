@@ -4,6 +4,7 @@ use std::fmt;
 
 use serde::{Deserialize, Serialize};
 
+use super::law_range::LawRange;
 use super::spring_law::SpringLaw;
 use crate::geometry::larger;
 
@@ -83,6 +84,14 @@ impl DampingLaw {
         match self {
             Self::Curve(SpringLaw::Table { points } | SpringLaw::Sampled { points, .. }) => points,
             Self::Curve(SpringLaw::Linear { .. }) | Self::Linear(_) => &[],
+        }
+    }
+
+    /// Watch of the rates for which the law is given; `None` if it is defined everywhere.
+    pub fn watch(&self) -> Option<LawRange> {
+        match self {
+            Self::Linear(_) => None,
+            Self::Curve(curve) => LawRange::of_rates(curve),
         }
     }
 

@@ -83,6 +83,7 @@ pub trait ElementDef {
         None
     }
 
+    /// Builds the element for a model.
     ///
     /// # Errors
     /// Fails if the element cannot be applied at its place.

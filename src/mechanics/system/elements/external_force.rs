@@ -1,6 +1,6 @@
 //! Interface of elements that apply forces to bodies.
 
-use super::WorkAndImpulse;
+use super::{MissedChange, WorkAndImpulse};
 use crate::beams::{Collocation, RotationIncrement};
 use crate::integrators::{Interval, Method, Stage};
 use crate::linalg::BandedMatrix;
@@ -69,7 +69,12 @@ pub trait ExternalForce {
         false
     }
 
-    /// Subtracts the forces on bodies in an iterate from `out`. Returns the largest force and the largest moment on a control point.
+    /// Largest change of a schedule that the steps so far have missed.
+    fn missed_change(&self) -> Option<MissedChange> {
+        None
+    }
+
+    /// Subtracts the forces on bodies in an iterate. Returns the largest force and the largest moment on a control point.
     fn subtract_from(&mut self, at: TrialState<'_>, out: &mut [f64]) -> (f64, f64);
 
     /// Adds the negative derivative of the forces with respect to the increments to the tangent.

@@ -1,6 +1,6 @@
 //! Interface of elements that resist motion: springs, dampers, drag.
 
-use super::{Branch, ShortBounce, TrialState, WorkAndImpulse};
+use super::{Branch, OutsideLaw, ShortBounce, TrialState, WorkAndImpulse};
 use crate::beams::{ForceSummary, Movement, SectionPlace, SpanStiffness};
 use crate::geometry::Vec2;
 use crate::integrators::Interval;
@@ -82,7 +82,10 @@ pub trait InternalForce {
         None
     }
 
-    /// Unresolved bounce with the largest force.
+    /// Passes each value outside of the range of a law to `take`.
+    fn each_outside_law(&self, _take: &mut dyn FnMut(OutsideLaw)) {}
+
+    /// Hardest bounce that the steps did not resolve.
     fn short_bounce(&self) -> Option<ShortBounce> {
         None
     }

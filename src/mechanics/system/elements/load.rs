@@ -3,7 +3,7 @@
 use super::element::{AssemblyContext, BuiltElement, ElementDef, SceneChecks};
 use super::follower::Follower;
 use super::load_vector::LoadVector;
-use super::{ExternalForce, LoadAccount, TrialState, WorkAndImpulse};
+use super::{ExternalForce, LoadAccount, MissedChange, ScheduleCheck, TrialState, WorkAndImpulse};
 use crate::beams::{BodyIndex, RotationIncrement, Station};
 use crate::geometry::{GaussRule, Vec2};
 use crate::integrators::{Interval, Method, Stage};
@@ -79,6 +79,7 @@ impl ElementDef for Load {
         Ok(BuiltElement::Force(Box::new(AppliedLoad {
             name: self.name.clone(),
             schedule: self.schedule.clone(),
+            check: ScheduleCheck::of(&self.schedule),
             action,
             factors: StageFactors::default(),
             weighted_factors: 0.0,
@@ -117,6 +118,7 @@ enum Action {
 struct AppliedLoad {
     name: String,
     schedule: Schedule,
+    check: Option<ScheduleCheck>,
     action: Action,
     factors: StageFactors,
     /// Weighted schedule factors: of the start of the step, and of the iterate.
@@ -127,7 +129,8 @@ struct AppliedLoad {
     size: f64,
 }
 
-/// Schedule factors by stage; NaN at stages that the step does not use.
+/// Schedule factors by stage. The ends of a step are those of a line with the mean of the step and the change of the schedule, so that every method
+/// has the exact impulse of a load. They are NaN if the step does not use them.
 #[derive(Debug, Clone, Copy)]
 struct StageFactors {
     start: f64,
@@ -173,7 +176,7 @@ impl AppliedLoad {
             return String::new();
         }
         let of_method = |method: &Method| {
-            let calls: usize = method.stages().iter().map(values_at).sum();
+            let calls = calls_in_step(method.stages());
             format!("{} calls per step with {}", functions * calls, method.entry().name)
         };
         format!(": {}", methods.iter().map(of_method).collect::<Vec<_>>().join(", "))
@@ -187,19 +190,15 @@ impl ExternalForce for AppliedLoad {
 
     /// Evaluates only the stages that the step uses, because the schedule may be a script function.
     fn begin_step(&mut self, interval: Interval, stages: &[Stage]) -> Result<(), LoadError> {
-        self.factors = StageFactors::default();
-        for stage in stages {
-            match stage {
-                Stage::Start => {
-                    self.factors.start = self.schedule.value(interval.start, LimitSide::After)?
-                }
-                Stage::Midpoint | Stage::DampedMidpoint(_) => {
-                    self.factors.mean = self.schedule.mean(interval.start, interval.end)?
-                }
-                Stage::End => {
-                    self.factors.end = self.schedule.value(interval.end, LimitSide::Before)?
-                }
-            }
+        let Interval { start, end, .. } = interval;
+        let found = self.schedule.mean(start, end)?;
+        let mean = found.mean;
+        self.check.iter_mut().for_each(|check| check.begin_step(interval, found));
+        self.factors = StageFactors { mean, ..StageFactors::default() };
+        if stages.contains(&Stage::End) {
+            let before = self.schedule.value(start, LimitSide::After)?;
+            let half = 0.5 * (self.schedule.value(end, LimitSide::Before)? - before);
+            self.factors = StageFactors { start: mean - half, mean, end: mean + half };
         }
         (self.weighted_factors, self.current) = (0.0, 0.0);
         self.followers_mut().iter_mut().for_each(Follower::begin_step);
@@ -273,16 +272,20 @@ impl ExternalForce for AppliedLoad {
     fn advance(&mut self, bodies: &[Body], rotations: RotationIncrement) {
         if let Some(mut account) = self.account {
             account.work += self.exchange(bodies, 1.0).work;
-            let StageFactors { start, mean, end } = self.factors;
-            let factor = if mean.is_nan() { 0.5 * (start + end) } else { mean };
-            account.value = self.size * factor;
+            account.value = self.size * self.factors.mean;
             self.account = Some(account);
         }
+        self.check.iter_mut().for_each(ScheduleCheck::advance);
         self.followers_mut().iter_mut().for_each(|each| each.advance(bodies, rotations));
+    }
+
+    fn missed_change(&self) -> Option<MissedChange> {
+        self.check.as_ref()?.missed()
     }
 
     fn save(&self, state: &mut Vec<f64>) {
         state.extend(self.account.iter().flat_map(|account| [account.work, account.value]));
+        self.check.iter().for_each(|check| check.save(state));
         self.followers().iter().for_each(|each| each.save(state));
     }
 
@@ -290,6 +293,7 @@ impl ExternalForce for AppliedLoad {
         if let Some(account) = &mut self.account {
             *account = LoadAccount { work: next(), value: next() };
         }
+        self.check.iter_mut().for_each(|check| check.restore(next));
         self.followers_mut().iter_mut().for_each(|each| each.restore(next));
     }
 
@@ -319,9 +323,10 @@ fn cuts(schedule: &Schedule) -> Vec<f64> {
     times
 }
 
-fn values_at(stage: &Stage) -> usize {
-    match stage {
-        Stage::Start | Stage::End => 1,
-        Stage::Midpoint | Stage::DampedMidpoint(_) => VALUES_OF_A_MEAN,
+/// Number of evaluations of a schedule in a step with forces at the given stages, all in the middle of substeps or both at the ends of the step.
+fn calls_in_step(stages: &[Stage]) -> usize {
+    match stages.contains(&Stage::End) {
+        true => VALUES_OF_A_MEAN + stages.len(),
+        false => VALUES_OF_A_MEAN * stages.len(),
     }
 }

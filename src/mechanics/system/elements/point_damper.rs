@@ -11,9 +11,10 @@
 use super::damping_law::DampingLaw;
 use super::elongation::ElongationEnd;
 use super::internal_force::{InternalForce, SpringTrialState};
+use super::law_range::LawRange;
 use super::mixed_force::{ForceTarget, MixedForce};
 use super::rate_history::RateHistory;
-use super::{TrialState, WorkAndImpulse};
+use super::{OutsideLaw, TrialState, WorkAndImpulse};
 use crate::beams::{ForceSummary, Movement, RateCollocation};
 use crate::geometry::{Vec2, cross};
 use crate::integrators::Interval;
@@ -30,6 +31,7 @@ pub struct PointDamper {
     /// Vector `d₀` from the first to the second terminal [length].
     distance: Vec2,
     law: DampingLaw,
+    range: Option<LawRange>,
     released: Option<DampingLaw>,
     rate_history: RateHistory,
     /// `Δd/Δt` in the previous step [length/time].
@@ -77,6 +79,7 @@ impl PointDamper {
             terminals,
             grounds: [0, 1].map(|at: usize| grounds[at]),
             distance: to - from,
+            range: law.watch(),
             law,
             released: None,
             rate_history: RateHistory::default(),
@@ -262,10 +265,21 @@ impl InternalForce for PointDamper {
     fn advance(&mut self, bodies: &[Body]) {
         let (movement, duration) = (self.movement(bodies), self.rate_history.duration());
         self.dissipated += self.applied_force.dot(&movement);
+        let mean = self.distance + movement * 0.5;
         self.distance += movement;
         self.last_velocity = movement / duration;
+        if let Some(range) = &mut self.range
+            && duration.is_finite()
+            && self.released.is_none()
+        {
+            range.add(direction(mean, movement).dot(&self.last_velocity));
+        }
         self.force.last = self.force.force;
         self.rate_history.end();
+    }
+
+    fn each_outside_law(&self, take: &mut dyn FnMut(OutsideLaw)) {
+        self.range.iter().filter_map(LawRange::outside).for_each(take);
     }
 
     fn dissipated(&self) -> f64 {
@@ -317,6 +331,7 @@ impl InternalForce for PointDamper {
         self.rate_history.save(state);
         let Self { distance: way, last_velocity: v, .. } = self;
         state.extend([way.x, way.y, v.x, v.y, self.force.last, self.dissipated]);
+        self.range.iter().for_each(|range| range.save(state));
     }
 
     fn restore(&mut self, next: &mut dyn FnMut() -> f64) {
@@ -325,6 +340,7 @@ impl InternalForce for PointDamper {
         self.last_velocity = Vec2::new(next(), next());
         self.force.last = next();
         self.dissipated = next();
+        self.range.iter_mut().for_each(|range| range.restore(next));
     }
 
     fn explain(&self) -> String {

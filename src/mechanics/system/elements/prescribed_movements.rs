@@ -14,7 +14,7 @@ mod at_rest;
 
 use super::motion_curvature::MotionCurvature;
 use super::supports::Support;
-use super::{Drive, WorkAndImpulse};
+use super::{Drive, MissedChange, ScheduleCheck, WorkAndImpulse};
 use crate::beams::RotationIncrement;
 use crate::geometry::{Vec2, cross, larger};
 use crate::integrators::{Interval, PrescribedKinematics};
@@ -43,6 +43,8 @@ struct PresentMotion {
     /// Sharpest kink so far, and the kink of the current step.
     curvature: MotionCurvature,
     step_curvature: MotionCurvature,
+    /// For rates that are sampled.
+    check: Option<ScheduleCheck>,
     /// Reaction, averaged over the last step; moments are conjugate to the angle [force, force·length].
     reaction: f64,
     /// `M Δv` of the step being accepted [force·time, force·length·time].
@@ -53,6 +55,16 @@ struct PresentMotion {
     placed: f64,
     /// `M v̄` of its control point in the step being accepted [mass·length/time].
     momentum: Vec2,
+}
+
+impl PresentMotion {
+    fn of(movement: &PrescribedMovement) -> Self {
+        let check = match &movement.motion {
+            PrescribedMotion::Position(_) => None,
+            PrescribedMotion::Rate(schedule) => ScheduleCheck::of(schedule),
+        };
+        Self { check, ..Self::default() }
+    }
 }
 
 /// Work and reactions of a drive.
@@ -108,7 +120,7 @@ impl PrescribedMovements {
         };
         let drives: Vec<Driven> = drives.map(driven).collect();
         let prescribed = PrescribedKinematics::new(constraints, movements.len());
-        let present = vec![PresentMotion::default(); movements.len()];
+        let present = movements.iter().map(PresentMotion::of).collect();
         let room = vec![0.0; if movements.is_empty() { 0 } else { unknowns + prescribed.width() }];
         let first = unknowns + constraints;
         let mut all = Self {
@@ -150,7 +162,8 @@ impl PrescribedMovements {
             let is_wanted = |own: &PrescribedMovement| {
                 own.drive == wanted.drive && own.support.component == wanted.support.component
             };
-            all.find(|(own, _)| is_wanted(own)).map_or_else(PresentMotion::default, |(_, now)| *now)
+            all.find(|(own, _)| is_wanted(own))
+                .map_or_else(|| PresentMotion::of(wanted), |(_, now)| *now)
         };
         let present = movements.iter().map(known).collect();
         let prescribed = PrescribedKinematics::new(self.constraints, movements.len());
@@ -208,7 +221,16 @@ impl PrescribedMovements {
         })
     }
 
-    /// Evaluates prescribed increments in a step, and the rates at its start.
+    /// Drives by a rate that changes within steps unseen, with the largest change of each.
+    pub fn missed_changes(&self) -> impl Iterator<Item = (&str, MissedChange)> {
+        let all = self.movements.iter().zip(&self.present);
+        all.filter_map(|(movement, present)| {
+            let missed = present.check.as_ref()?.missed()?;
+            Some((self.drives[movement.drive].name.as_str(), missed))
+        })
+    }
+
+    /// Evaluates prescribed movements in a step, including the rates at its start.
     ///
     /// # Errors
     /// Name of the drive whose function has no finite value, and the reason.
@@ -234,6 +256,10 @@ impl PrescribedMovements {
             }
             let before = rates[self.first + at];
             self.prescribed.rates[entry] = step.rate;
+            self.present[at]
+                .check
+                .iter_mut()
+                .for_each(|check| check.begin_step(interval, step.mean));
             self.present[at].step_curvature =
                 MotionCurvature::of(&movement.motion, interval, before, &step);
             self.prescribed.mean_accelerations[entry] = (step.rate - before) / duration;
@@ -330,6 +356,7 @@ impl PrescribedMovements {
             if present.step_curvature.size() > present.curvature.size() {
                 present.curvature = present.step_curvature;
             }
+            present.check.iter_mut().for_each(ScheduleCheck::advance);
             present.acceleration = self.prescribed.accelerations[1][self.constraints + at];
         }
         sum
@@ -361,6 +388,7 @@ impl PrescribedMovements {
         );
         let bends = self.present.iter().map(|now| now.curvature);
         state.extend(bends.flat_map(|MotionCurvature { time, rates }| [time, rates[0], rates[1]]));
+        self.present.iter().flat_map(|now| &now.check).for_each(|check| check.save(state));
         state.extend(self.drives.iter().map(|drive| drive.work));
     }
 
@@ -372,6 +400,8 @@ impl PrescribedMovements {
         for present in &mut self.present {
             present.curvature = MotionCurvature { time: next(), rates: [next(), next()] };
         }
+        let checks = self.present.iter_mut().flat_map(|now| &mut now.check);
+        checks.for_each(|check| check.restore(next));
         self.drives.iter_mut().for_each(|drive| drive.work = next());
     }
 }

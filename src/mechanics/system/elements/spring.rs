@@ -117,9 +117,7 @@ impl ElementDef for Spring {
                 }
             }
             Some(SpringLaw::Table { points } | SpringLaw::Sampled { points, .. }) => {
-                if points.len() < 2 {
-                    return refused("table", points.len() as f64, "at least two points");
-                }
+                self.expect_points("table", points)?;
                 if let Some(index) = first_non_increasing(points) {
                     let (elongation, before) = (points[index].0, points[index - 1].0);
                     let object = self.object();
@@ -232,13 +230,16 @@ impl Spring {
         let refused =
             |value, allowed| SystemError::Value { object: self.object(), name, value, allowed };
         self.check_finite(name, points)?;
-        if points.len() < 2 {
-            return Err(refused(points.len() as f64, "at least two points"));
-        }
+        self.expect_points(name, points)?;
         match first_non_increasing(points) {
             Some(index) => Err(refused(points[index].0, "rates that increase from point to point")),
             None => Ok(()),
         }
+    }
+
+    fn expect_points(&self, name: &'static str, points: &[(f64, f64)]) -> Result<(), SystemError> {
+        let (object, points) = (self.object(), points.len());
+        if points < 2 { Err(SystemError::FewPoints { object, name, points }) } else { Ok(()) }
     }
 
     fn check_finite(&self, name: &'static str, points: &[(f64, f64)]) -> Result<(), SystemError> {

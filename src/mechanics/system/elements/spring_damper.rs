@@ -11,10 +11,11 @@ use super::contact_watch::{ContactWatch, ShortBounce};
 use super::damping_law::DampingLaw;
 use super::elongation::Elongation;
 use super::internal_force::{InternalForce, SpringTrialState};
+use super::law_range::LawRange;
 use super::mixed_force::MixedForce;
 use super::spring_at_rest::static_law;
 use super::spring_law::SpringLaw;
-use super::{Along, Branch, TrialState, WorkAndImpulse, collocation};
+use super::{Along, Branch, OutsideLaw, TrialState, WorkAndImpulse, collocation};
 use crate::beams::{ForceSummary, Movement, RotationIncrement, SpanStiffness};
 use crate::geometry::{Vec2, cross, larger};
 use crate::integrators::{Interval, Stage};
@@ -41,6 +42,9 @@ pub struct SpringDamper {
     rises: bool,
     /// Growths of the elongation at which the stiffness jumps [length, rad].
     corners: Vec<f64>,
+    /// Elongation of zero growth, in terms of the law as given.
+    offset: f64,
+    ranges: [Option<LawRange>; 2],
     /// Description of the law in terms of the elongations of the scene.
     law_text: Option<String>,
     /// Damping law `d(q̇)`.
@@ -71,6 +75,9 @@ impl SpringDamper {
     ) -> Self {
         let coordinates = elongation.secant.len();
         let words = law.as_ref().map(|(law, origin)| law.shifted(*origin).describe());
+        let offset = law.as_ref().map_or(0.0, |(_, origin)| elongation.drawn() - origin);
+        let of_law = law.as_ref().and_then(|(law, _)| LawRange::of_elongations(law));
+        let ranges = [of_law, damping.watch()];
         let law = law
             .map(|(law, origin)| law.shifted(origin - elongation.drawn()).with_corners_at_zeros());
         let stiffness = law.as_ref().map_or(0.0, SpringLaw::largest_slope);
@@ -86,6 +93,8 @@ impl SpringDamper {
             law,
             rises,
             corners,
+            offset,
+            ranges,
             law_text: words,
             damping,
             released: None,
@@ -273,6 +282,12 @@ impl InternalForce for SpringDamper {
             false => (0.0, 0.0),
         };
         self.elongation.advance(bodies, self.rotations);
+        if self.released.is_none() {
+            let [of_law, of_damping] = &mut self.ranges;
+            let elongation = self.offset + self.elongation.grown().value;
+            of_law.iter_mut().for_each(|range| range.add(elongation));
+            of_damping.iter_mut().for_each(|range| range.add(self.last.1));
+        }
         if self.duration.is_finite() && self.may_be_slack() {
             let is_slack = self.restoring_at_start() == 0.0;
             self.contact.add(
@@ -283,6 +298,10 @@ impl InternalForce for SpringDamper {
         }
         self.spring.last = self.spring.force;
         self.damper.last = self.damper.force;
+    }
+
+    fn each_outside_law(&self, take: &mut dyn FnMut(OutsideLaw)) {
+        self.ranges.iter().flatten().filter_map(LawRange::outside).for_each(take);
     }
 
     fn stored(&self) -> f64 {
@@ -348,6 +367,7 @@ impl InternalForce for SpringDamper {
         if self.may_be_slack() {
             self.contact.save(state);
         }
+        self.ranges.iter().flatten().for_each(|range| range.save(state));
     }
 
     fn restore(&mut self, next: &mut dyn FnMut() -> f64) {
@@ -358,6 +378,7 @@ impl InternalForce for SpringDamper {
         if self.may_be_slack() {
             self.contact.restore(next);
         }
+        self.ranges.iter_mut().flatten().for_each(|range| range.restore(next));
     }
 
     fn branch(&self, bodies: &[Body], rates: &[f64]) -> Option<Branch> {

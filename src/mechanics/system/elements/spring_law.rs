@@ -90,6 +90,29 @@ impl SpringLaw {
         }
     }
 
+    /// Range in which the law is given, beyond which it goes on straight. An end where it is level is infinite. `None` for a law that is defined
+    /// everywhere: a straight line, or a corner between slack and a line.
+    pub fn range(&self) -> Option<[f64; 2]> {
+        match self {
+            Self::Linear { .. } => None,
+            Self::Sampled { points, .. } => Some([points[0].0, points[points.len() - 1].0]),
+            Self::Table { points } => {
+                let last = points.len() - 1;
+                let levels = [points[0].1 == points[1].1, points[last - 1].1 == points[last].1];
+                if points.len() == 2 || (points.len() == 3 && self.may_be_slack()) {
+                    return None;
+                }
+                let [from, to] = [points[0].0, points[last].0];
+                match levels {
+                    [true, true] => None,
+                    [true, false] => Some([f64::NEG_INFINITY, to]),
+                    [false, true] => Some([from, f64::INFINITY]),
+                    [false, false] => Some([from, to]),
+                }
+            }
+        }
+    }
+
     /// Elongations at which the stiffness jumps by more than half of its largest value [length, rad].
     pub fn sharp_corners(&self) -> Vec<f64> {
         match self {

@@ -10,7 +10,7 @@ use super::internal_force::{InternalForce, SpringTrialState};
 use super::point_damper::PointDamper;
 use super::spring_damper::SpringDamper;
 use super::spring_law::SpringLaw;
-use super::{Branch, ShortBounce, TrialState, WorkAndImpulse};
+use super::{Branch, OutsideLaw, ShortBounce, TrialState, WorkAndImpulse};
 use crate::beams::{ForceSummary, Movement, SpanStiffness};
 use crate::geometry::Vec2;
 use crate::integrators::Interval;
@@ -135,6 +135,10 @@ impl InternalForce for ZeroLengthSpring {
 
     fn advance(&mut self, bodies: &[Body]) {
         self.parts_mut().for_each(|part| part.advance(bodies));
+    }
+
+    fn each_outside_law(&self, take: &mut dyn FnMut(OutsideLaw)) {
+        self.parts().for_each(|part| part.each_outside_law(take));
     }
 
     fn stored(&self) -> f64 {

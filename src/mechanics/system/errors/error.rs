@@ -1,6 +1,6 @@
 //! Errors of the description of a scene.
 
-use super::{SliderError, TrackError, rounded};
+use super::{SliderError, TrackError, plural, rounded};
 use crate::beams::BeamError;
 use crate::geometry::GeometryError;
 use crate::loads::LoadError;
@@ -301,6 +301,16 @@ pub enum SystemError {
         value: f64,
         /// Allowed values.
         allowed: &'static str,
+    },
+    /// Law with too few points.
+    #[error("{object}: {name} has {}, but must have at least two points", plural(*points, "point"))]
+    FewPoints {
+        /// Description of the object.
+        object: String,
+        /// Name of the property.
+        name: &'static str,
+        /// Number of points.
+        points: usize,
     },
     /// Stored part of a scene that refers to a missing object.
     #[error("{object} refers to {kind} number {index} (from 0), but the scene has only {count}")]

@@ -1,7 +1,7 @@
 //! Queries of drives and named loads: work, forces and moments.
 
 use crate::system::System;
-use crate::system::elements::{DriveState, LoadAccount, MotionCurvature};
+use crate::system::elements::{DriveState, LoadAccount, MissedChange, MotionCurvature};
 
 impl System {
     /// States of the drives, in the order of the scene.
@@ -18,6 +18,13 @@ impl System {
     /// Drives whose motion has a kink within a step, with the largest kink of each.
     pub fn bends(&self) -> impl Iterator<Item = (&str, MotionCurvature)> {
         self.supports().prescribed().bends()
+    }
+
+    /// Names of loads and drives whose schedule changes within steps unseen, with the largest change of each.
+    pub fn missed_changes(&self) -> impl Iterator<Item = (&str, MissedChange)> {
+        let loads = self.elements().forces();
+        let loads = loads.filter_map(|load| Some((load.name(), load.missed_change()?)));
+        loads.chain(self.supports().prescribed().missed_changes())
     }
 
     /// Accounts of the named loads, in the order of the scene.

@@ -30,6 +30,7 @@ pub enum Usage {
 }
 
 impl SystemFeature {
+    /// Returns a feature in use.
     pub fn used(name: impl Into<String>, how: impl Into<String>) -> Self {
         Self { name: name.into(), usage: Usage::Used(how.into()) }
     }
@@ -43,6 +44,7 @@ impl SystemFeature {
         )
     }
 
+    /// Returns an omitted feature.
     pub fn omitted(name: impl Into<String>, saved: impl Into<String>) -> Self {
         Self { name: name.into(), usage: Usage::Omitted(saved.into()) }
     }
@@ -305,10 +307,10 @@ impl System {
 fn explain_drive(scene: &Scene, drive: &Drive) -> SystemFeature {
     let names: Vec<&str> = drive.motions().map(|(component, _)| component.name()).collect();
     let place = scene.describe(&drive.station);
-    let functions: usize = drive.schedules().map(|schedule| schedule.functions()).sum();
-    let calls = match functions {
+    let calls: usize = drive.motions().map(|(_, motion)| motion.calls_in_step()).sum();
+    let calls = match calls {
         0 => String::new(),
-        count => format!("; {} function calls per step or substep", 5 * count),
+        count => format!("; {count} function calls per step or substep"),
     };
     let beats = drive.schedules().filter_map(|schedule| schedule.sample_clock());
     let asked: String = beats.map(|beat| format!(", sampled {beat}")).collect();

@@ -2,7 +2,7 @@
 
 use crate::integrators::Mechanism;
 use crate::system::System;
-use crate::system::elements::{Branch, InternalForce, ShortBounce, SpringTrialState};
+use crate::system::elements::{Branch, InternalForce, OutsideLaw, ShortBounce, SpringTrialState};
 
 /// Rounding error of an elongation, relative to the elongation.
 const ROUNDING: f64 = 1e-14;
@@ -54,6 +54,16 @@ impl System {
     /// Springs with a bounce that the steps did not resolve, by name.
     pub fn short_bounces(&self) -> impl Iterator<Item = (&str, ShortBounce)> {
         self.elements().resistances().filter_map(|one| Some((one.name(), one.short_bounce()?)))
+    }
+
+    /// Values of springs and dampers outside of the range of their laws, with the indices of the springs in the scene.
+    pub fn outside_laws(&self) -> Vec<(usize, OutsideLaw)> {
+        let mut found = Vec::new();
+        let all = self.elements().resistances().filter(|one| one.stretched().is_some());
+        for (index, spring) in all.enumerate() {
+            spring.each_outside_law(&mut |outside| found.push((index, outside)));
+        }
+        found
     }
 
     /// Name and present stiffness of the stiffest spring [force/length, force·length/rad].

@@ -3,7 +3,8 @@
 use serde::{Deserialize, Serialize};
 
 use crate::beams::{Mesh, Rotation, SectionVariation, Station};
-use crate::geometry::{Curve, Vec2};
+use crate::geometry::{Curve, GaussRule, Span, Vec2, interpolate};
+use crate::system::SystemError;
 
 /// Rigid motion of a body at the start of the scene.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -47,6 +48,23 @@ impl BeamDefinition {
     ) -> Self {
         let motion = StartMotion::default();
         Self { name: name.into(), axis, mesh, section: section.into(), motion }
+    }
+
+    /// Length of the axis on the mesh, which weighs in a run [length].
+    ///
+    /// # Errors
+    /// Fails if the mesh cannot interpolate the axis.
+    pub fn meshed_length(&self) -> Result<f64, SystemError> {
+        let basis = self.mesh.basis();
+        let points = interpolate(&self.axis, basis).map_err(SystemError::geometry(&self.name))?;
+        let rule = GaussRule::new(basis.degree() + 1).map_err(SystemError::geometry(&self.name))?;
+        let of_span = |span: &Span| {
+            let at = |(xi, weight): (f64, f64)| {
+                weight * basis.evaluate_in(span, xi).combine(1, &points).norm()
+            };
+            rule.iter_on(span.start, span.end).map(at).sum::<f64>()
+        };
+        Ok(basis.spans().iter().map(of_span).sum())
     }
 
     /// Mass of the beam without attached masses [mass].

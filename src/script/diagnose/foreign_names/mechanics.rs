@@ -41,6 +41,19 @@ pub const WORDS: &[ForeignName] = &[
         &["damper", "energy_decaying", "generalized_alpha"],
     ),
     entry(
+        &["friction", "coulomb", "stick-slip", "stiction", "brake"],
+        "friction of sliders, joints and contacts is not supported yet; a damper with \
+        #{ damping: |rate| 5 * tanh(rate / 0.01), rates: [-1, 1] } between two stations \
+        approximates dry friction along their distance",
+        &["damper", "slider"],
+    ),
+    entry(
+        &["plasticity", "plastic", "yielding", "creep", "fatigue", "fracture", "hysteresis"],
+        "plastic deformation and damage are not supported: materials are elastic, with or \
+        without damping",
+        &["section", "damping_ratios"],
+    ),
+    entry(
         &["springs", "elastic", "bushing"],
         "scene.spring(from, to, #{ stiffness: k }) connects stations or points of the ground, \
         scene.torsion_spring sections",

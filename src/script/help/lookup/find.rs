@@ -144,7 +144,7 @@ fn is_member(subject: HelpSubject) -> bool {
     matches!(subject, HelpSubject::Row(..) | HelpSubject::BuiltIn(_))
 }
 
-/// Returns true for methods and properties of the type, and for functions, which can follow any value.
+/// Returns true for methods and properties of the type. Functions belong to no type, because they can follow any value.
 fn belongs_to(subject: HelpSubject, owner: &str) -> bool {
     match subject {
         HelpSubject::Row(_, row) => match row.form {

@@ -1,0 +1,67 @@
+//! Watch of tabulated laws for values outside of their range.
+
+use super::spring_law::SpringLaw;
+
+/// Distance beyond a range that is attributed to rounding, relative to the range.
+const ROUNDING: f64 = 1e-9;
+
+/// Value outside of the range in which a law is given.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct OutsideLaw {
+    /// True for the rate of a damping law, false for an elongation.
+    pub is_rate: bool,
+    /// Ends of the range; an end that goes on level is infinite [length, rad; of rates per time].
+    pub range: [f64; 2],
+    /// Farthest value outside of it.
+    pub reached: f64,
+}
+
+/// Farthest value outside of the range of a law.
+#[derive(Debug, Clone, Copy)]
+pub struct LawRange {
+    farthest: OutsideLaw,
+    /// Distance of that value from the range.
+    beyond: f64,
+}
+
+impl LawRange {
+    /// Watch of the elongations of a law; `None` for laws that are defined everywhere.
+    pub fn of_elongations(law: &SpringLaw) -> Option<Self> {
+        Self::of(law, false)
+    }
+
+    /// Watch of the rates of a damping law; `None` for laws that are defined everywhere.
+    pub fn of_rates(law: &SpringLaw) -> Option<Self> {
+        Self::of(law, true)
+    }
+
+    fn of(law: &SpringLaw, is_rate: bool) -> Option<Self> {
+        let range = law.range()?;
+        let farthest = OutsideLaw { is_rate, range, reached: 0.0 };
+        Some(Self { farthest, beyond: 0.0 })
+    }
+
+    pub fn add(&mut self, value: f64) {
+        let [from, to] = self.farthest.range;
+        let beyond = (from - value).max(value - to);
+        if beyond > self.beyond {
+            (self.beyond, self.farthest.reached) = (beyond, value);
+        }
+    }
+
+    /// Farthest value beyond rounding.
+    pub fn outside(&self) -> Option<OutsideLaw> {
+        let [from, to] = self.farthest.range;
+        let ends = [from, to].into_iter().filter(|end| end.is_finite());
+        let size = ends.map(f64::abs).fold(0.0, f64::max);
+        (self.beyond > ROUNDING * size).then_some(self.farthest)
+    }
+
+    pub fn save(&self, state: &mut Vec<f64>) {
+        state.extend([self.farthest.reached, self.beyond]);
+    }
+
+    pub fn restore(&mut self, next: &mut dyn FnMut() -> f64) {
+        (self.farthest.reached, self.beyond) = (next(), next());
+    }
+}

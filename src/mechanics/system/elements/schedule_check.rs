@@ -1,0 +1,66 @@
+//! Check of sampled schedules: changes within a step that its samples miss.
+
+use crate::integrators::Interval;
+use crate::loads::{Schedule, StepMean};
+
+/// Difference between two rules for the mean over a step, relative to the largest value, above which a schedule is unresolved. Jumps differ by at least
+/// a tenth of their size, a sine by this value with 2.7 steps per period.
+const LARGEST_MISS: f64 = 0.01;
+
+/// Largest difference between two rules for the mean of a schedule over a step.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct MissedChange {
+    /// Middle of the step [time].
+    pub time: f64,
+    /// Difference, relative to the largest value of the schedule [-].
+    pub missed: f64,
+}
+
+/// Largest difference so far. Schedules with exact means have no entry in the state.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct ScheduleCheck {
+    time: f64,
+    missed: f64,
+    largest: f64,
+    in_step: MissedInStep,
+}
+
+#[derive(Debug, Clone, Copy, Default)]
+struct MissedInStep {
+    time: f64,
+    mean: StepMean,
+}
+
+impl ScheduleCheck {
+    /// Check of a schedule; `None` if its means are exact.
+    pub fn of(schedule: &Schedule) -> Option<Self> {
+        schedule.is_sampled_in_steps().then(Self::default)
+    }
+
+    pub fn begin_step(&mut self, interval: Interval, mean: StepMean) {
+        self.in_step = MissedInStep { time: 0.5 * (interval.start + interval.end), mean };
+    }
+
+    /// Accepts the step.
+    pub fn advance(&mut self) {
+        let MissedInStep { time, mean: StepMean { missed, largest, .. } } = self.in_step;
+        if missed > self.missed {
+            (self.time, self.missed) = (time, missed);
+        }
+        self.largest = self.largest.max(largest);
+    }
+
+    /// Largest change that the steps so far have missed; `None` if they resolve the schedule.
+    pub fn missed(&self) -> Option<MissedChange> {
+        let is_missed = self.missed > LARGEST_MISS * self.largest;
+        is_missed.then(|| MissedChange { time: self.time, missed: self.missed / self.largest })
+    }
+
+    pub fn save(&self, state: &mut Vec<f64>) {
+        state.extend([self.time, self.missed, self.largest]);
+    }
+
+    pub fn restore(&mut self, next: &mut dyn FnMut() -> f64) {
+        (self.time, self.missed, self.largest) = (next(), next(), next());
+    }
+}
