@@ -1,7 +1,7 @@
-//! Grading in a separate process per attempt, so that an attempt cannot affect the next one or the marks.
+//! Grading in a separate process per attempt, so that an attempt cannot affect the next attempt or the marks.
 //!
-//! The program starts itself in a new folder with an unpredictable name, with system limits on time, memory and output. The process prints
-//! its verdict as a line of JSON; a process that dies receives a mark too.
+//! The program starts itself in a new folder with an unpredictable name, with system limits on time, memory and output. The process prints its
+//! verdict as a line of JSON. An attempt whose process dies receives a mark too.
 
 use std::io::Read;
 use std::path::Path;
@@ -42,7 +42,7 @@ pub(super) struct JudgeLimits<'a> {
 /// Mark of an attempt from a separate process; `None` if grading was stopped before.
 ///
 /// # Errors
-/// Fails if no process can be started, which is not the student's fault.
+/// Fails if no process can be started. The student is not responsible for this.
 pub(super) fn mark_in_process(
     submission: &Submission,
     file: &Path,
@@ -165,7 +165,7 @@ fn kill_reason(status: ExitStatus) -> KillReason {
     match status.signal().and_then(|number| Signal::try_from(number).ok()) {
         Some(Signal::SIGXCPU) => KillReason::Time,
         Some(Signal::SIGXFSZ) => KillReason::Written,
-        // A failed allocation aborts; the system kills processes that use too much memory.
+        // A failed allocation aborts the process. The system kills processes that use too much memory.
         Some(Signal::SIGABRT | Signal::SIGKILL) => KillReason::Memory,
         _ => KillReason::Other,
     }
@@ -176,7 +176,7 @@ fn kill_reason(_: ExitStatus) -> KillReason {
     KillReason::Other
 }
 
-/// Shields the process from Ctrl-C at the terminal, which the grading process handles.
+/// Protects the process from Ctrl-C at the terminal, which the grading process handles.
 fn shield_from_interrupt(command: &mut Command) -> &mut Command {
     #[cfg(unix)]
     std::os::unix::process::CommandExt::process_group(command, 0);
@@ -213,11 +213,11 @@ pub(super) fn judge_one(
         Some(mark) => print_line(&write(&mark)),
         None => return Exit::Interrupted,
     }
-    // Data of the attempt is not dropped, because that may take long.
+    // Data of the attempt are not dropped, because this may take long.
     process::exit(0)
 }
 
-/// System limits of this process, as a fallback for the limits checked by the program.
+/// System limits of this process, in addition to the limits that the program checks.
 #[cfg(unix)]
 fn confine(limits: &Limits) -> nix::Result<()> {
     use nix::sys::resource::{Resource, getrlimit, setrlimit};

@@ -8,7 +8,7 @@ use crate::output::{printable, printable_in_colours};
 /// True if some output could not be written.
 static LOST: AtomicBool = AtomicBool::new(false);
 
-/// Prints a line of output and flushes; a closed pipe is no error.
+/// Prints a line of output and flushes. A closed pipe is not an error.
 pub(super) fn print_line(text: &str) {
     let mut out = stdout();
     let line = format!("{}\n", printable_in_colours(text));
@@ -19,7 +19,7 @@ pub(super) fn print_error(text: &str) {
     print_error_styled(&printable(text));
 }
 
-/// Prints to standard error; the colour sequences of this program are kept.
+/// Prints to standard error. The colour sequences of this program are kept.
 pub(super) fn print_error_styled(text: &str) {
     record_write_error(stderr().write_all(printable_in_colours(text).as_bytes()));
 }

@@ -35,7 +35,7 @@ pub struct GradeOptions<'a> {
     pub limits: &'a LimitOptions,
 }
 
-/// Grades all submissions of a folder and prints the marks as they are known. Files written by attempts are discarded.
+/// Grades all submissions of a folder, and prints each mark when it is known. Files that attempts write are discarded.
 pub fn grade(wishes: &GradeOptions) -> Result<Exit, ExerciseError> {
     let submissions = Submission::all_in(wishes.folder)?;
     let refused = |path: &Path, source| ExerciseError::Marks { path: path.into(), source };

@@ -1,4 +1,4 @@
-//! Handling of Ctrl-C and termination: the run stops after its current step; if it does not react, the program ends.
+//! Handling of Ctrl-C and termination. The run stops after its current step. If it does not react, the program ends.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -11,18 +11,18 @@ use super::tui::terminal;
 use crate::repl::editor::typed_ahead;
 use crate::script::state::limits::INTERRUPT_HEARD;
 
-/// Time for a run to react.
+/// Time in which a run must react.
 const REACTION_TIME: Duration = Duration::from_millis(900);
 
-/// Time for a run that reacted to save its results.
+/// Time for a run that has reacted to save its results.
 const TO_WRITE: Duration = Duration::from_secs(20);
 
-/// Work lost when Ctrl-C ends the program.
+/// Work that is lost when Ctrl-C ends the program.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum InterruptLoss {
-    /// A run: the program ends after a grace period, or with a second Ctrl-C.
+    /// A run. The program ends after a grace period, or at a second Ctrl-C.
     Run,
-    /// A session with all its data: the program ends only with another Ctrl-C some time after an unnoticed first one.
+    /// A session with all its data. The program ends only if a first Ctrl-C is not noticed and another one follows some time later.
     Session,
 }
 
@@ -38,7 +38,7 @@ pub fn flag(at_stake: InterruptLoss) -> Arc<AtomicBool> {
         if !set.swap(true, Ordering::Relaxed) {
             asked = Instant::now();
             if at_stake == InterruptLoss::Run {
-                // A separate thread, because this one waits for the second Ctrl-C.
+                // A separate thread is used, because this one waits for the second Ctrl-C.
                 thread::spawn(|| {
                     thread::sleep(REACTION_TIME);
                     if INTERRUPT_HEARD.load(Ordering::Relaxed) {
@@ -52,13 +52,14 @@ pub fn flag(at_stake: InterruptLoss) -> Arc<AtomicBool> {
         }
     });
     if let Err(error) = installed {
-        // Without a handler Ctrl-C ends the process as usual; a warning suffices.
+        // Without a handler, Ctrl-C ends the process as usual, so a warning is sufficient.
         print_error(&format!("warning: Ctrl-C ends the program without saving results: {error}\n"));
     }
     flag
 }
 
-/// Ends a session within a second on SIGTERM and SIGHUP, such as when its window is closed; Ctrl-C is reserved for its inputs. Must be
+/// Ends a session within a second on SIGTERM and SIGHUP, as when its window is closed. Ctrl-C applies to the inputs of the session only. It must be
+/// called before other threads start.
 /// called before other threads start.
 #[cfg(unix)]
 pub fn end_on_signal() {

@@ -23,7 +23,7 @@ pub fn progress(wish: ProgressPreference) -> Box<dyn Progress + Send> {
     }
 }
 
-/// A bar over the time of a simulation or the cases of a study. Short runs show none.
+/// A bar over the time of a simulation or the cases of a study. Short runs have no bar.
 #[derive(Default)]
 struct ProgressDisplay {
     start: Cell<Option<Instant>>,
@@ -34,13 +34,13 @@ struct ProgressDisplay {
 }
 
 const PARTS: u64 = 1000;
-/// No bar for runs shorter than this.
+/// Duration of a run below which no bar is shown.
 const SHORTEST_SHOWN: Duration = Duration::from_millis(300);
 
 impl ProgressDisplay {
     fn create_bar(&self) -> ProgressBar {
         let bar = ProgressBar::new(PARTS);
-        // An invalid template falls back to the default bar.
+        // If the template is invalid, the default bar is used.
         let style = ProgressStyle::with_template("{prefix} {wide_bar} {msg} {eta}");
         bar.set_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()));
         bar.set_prefix(self.name.borrow().clone());

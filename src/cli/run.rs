@@ -142,7 +142,7 @@ fn exit_for_study(outcome: &RunOutcome, out: &Path) -> Exit {
             Exit::Interrupted
         }
         Ending::Failed(diagnostic) => {
-            // For long studies a time limit does not suggest an endless loop.
+            // In a long study, an exceeded time limit does not indicate an endless loop.
             let hint = match outcome.stopped_by {
                 Some(Stop::Time(_)) => Some("--max-time SECONDS allows more".to_owned()),
                 _ => diagnostic.hint.clone(),
@@ -155,7 +155,7 @@ fn exit_for_study(outcome: &RunOutcome, out: &Path) -> Exit {
     }
 }
 
-/// Exit code of a run that computes a part of studies; errors after the studies are irrelevant, because their results are incomplete.
+/// Exit code of a run that computes a part of studies. Errors after the studies are ignored, because the results of the studies are incomplete.
 fn exit_for_part(outcome: &RunOutcome, options: &StudyOptions) -> Exit {
     let cases = match outcome.kept_cases {
         1 => "1 finished case is".to_owned(),

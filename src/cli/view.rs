@@ -1,6 +1,6 @@
-//! `withy view`: viewer page of a saved simulation, or of the simulations left in the variables of a script.
+//! `withy view`: viewer page of a saved simulation, or of the simulations in the variables of a script.
 //!
-//! Runs the script with an additional line that writes the page.
+//! It runs the script with an additional line that writes the page.
 
 use std::fs;
 use std::io::stdout;
@@ -29,7 +29,7 @@ struct ViewRun {
     program: Program,
     out: PathBuf,
     page: String,
-    /// Temporary folder of the page, if the user chose another location.
+    /// Temporary folder of the page; `None` if the user chose a location.
     _scratch: Option<Scratch>,
 }
 
@@ -60,7 +60,8 @@ fn prepare(options: &ViewOptions) -> Result<ViewRun, Diagnostic> {
     Ok(ViewRun { program, out, page, _scratch: scratch })
 }
 
-/// Script lines that show all simulations in top-level variables, including arrays, without duplicates; if there are none, the last one.
+/// Script lines that show all simulations in top-level variables, including arrays, without duplicates. If there are none, they show the last
+/// simulation.
 fn showing_all(program: &Program, page: &str) -> String {
     let mut names: Vec<String> = Vec::new();
     for (name, _) in ScriptOutline::of(&Source::from(&*program.text)).top_level {

@@ -8,12 +8,12 @@ use super::design::{PENALTY, Scaled};
 use super::gradient_check::{REJECTED_DERIVATIVES, matches_derivatives, test_points};
 use super::{Design, Designed, Rating};
 
-/// Number of restarts; each tightens the constraints if the last solution violated one slightly.
+/// Number of restarts. If the last solution slightly violated a constraint, the constraint is tightened.
 const RESTARTS: usize = 4;
-/// Final step size relative to the tolerance; convergence is fast near the end.
+/// Final step size, relative to the tolerance. It can be small, because convergence is fast near the end.
 const SHORTER: f64 = 0.1;
 
-/// Objective and constraints with derivatives by all parameters.
+/// Objective and constraints, with derivatives with respect to all parameters.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SlopedRating {
     pub rating: Rating,
@@ -35,7 +35,7 @@ struct Descent<'d, 'f, E> {
     rate_with_slopes: &'d mut RateWithSlopes<'f, E>,
     rate: &'d mut Rate<'f, E>,
     best: Option<(Vec<f64>, Rating)>,
-    /// Last evaluated design in scaled parameters.
+    /// Last evaluated design, in scaled parameters.
     last: Option<(Vec<f64>, SlopedRating)>,
     worst: f64,
     runs: usize,
@@ -69,7 +69,7 @@ impl<E> Descent<'_, '_, E> {
 
     fn evaluate(&mut self, scaled: &[f64]) -> Result<Option<SlopedRating>, Ended<E>> {
         let x = self.design.unscaled(scaled);
-        // Counted once, although a missing derivative needs a second call.
+        // The run is counted once, although a missing derivative needs a second call.
         self.runs += 1;
         match (self.rate_with_slopes)(&x).map_err(Ended::Error)? {
             Ok(mut found) => {
@@ -97,7 +97,7 @@ impl<E> Descent<'_, '_, E> {
         }
     }
 
-    /// Checks derivatives of objective and constraints against values for plain numbers.
+    /// Checks the derivatives of objective and constraints against values for plain numbers.
     fn are_true(&mut self, x: &[f64], found: &SlopedRating) -> Result<bool, Ended<E>> {
         let [low, high] = test_points(&self.design.ranges, x);
         self.runs += 2;
@@ -138,9 +138,9 @@ impl<E> Descent<'_, '_, E> {
 }
 
 impl Design {
-    /// Minimises like [`solve`](Self::solve), with derivatives: D. Kraft's SLSQP (1988), which solves quadratic models of the objective,
-    /// with BFGS updates of second derivatives, under linearised constraints. If derivatives are missing or the method fails, `solve`
-    /// continues from the best design.
+    /// Minimises as [`solve`](Self::solve), with derivatives, by D. Kraft's SLSQP (1988). It solves quadratic models of the objective, whose second
+    /// derivatives are BFGS updates, under linearised constraints. If derivatives are missing or the method fails, `solve` continues from the best
+    /// design.
     ///
     /// # Errors
     /// First error of `rate_with_slopes` and `rate`.
@@ -183,7 +183,7 @@ impl Design {
         if without.is_none() || runs >= self.most_runs {
             return Ok(found);
         }
-        // Starts at the result of the descent, whose values are known.
+        // Starts at the result of the descent, where the values are known.
         let mut known = found.as_ref().map(|found| found.rating.clone());
         let asked_again = usize::from(known.is_some());
         let mut rest = Self { most_runs: self.most_runs - runs + asked_again, ..self.clone() };
@@ -242,7 +242,7 @@ impl Design {
             if missed.rating.is_feasible() {
                 return true;
             }
-            // The solution may lie slightly on either side of the boundary.
+            // The solution may be slightly on either side of the boundary.
             margin += 2.0 * missed.rating.largest_violation();
             start = at;
         }

@@ -6,11 +6,11 @@ use cobyla::{RhoBeg, StopTols, minimize};
 
 use super::SearchRange;
 
-/// Initial step relative to the size of the parameters.
+/// Initial step, relative to the size of the parameters.
 const FIRST_STEP: f64 = 0.1;
-/// Tolerance of constraints, relative to their size.
+/// Violation of a constraint, relative to its size, below which the constraint is met.
 const MET: f64 = 1e-6;
-/// Distance from zero, in sizes of a parameter, beyond which an unbounded parameter counts as diverged.
+/// Distance from zero, relative to the size of a parameter, above which an unbounded parameter counts as diverged.
 const FARTHEST: f64 = 1e15;
 /// Penalty of a failed run, added to the worst objective.
 pub(super) const PENALTY: f64 = 10.0;
@@ -29,7 +29,7 @@ pub struct Design {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Rating {
     pub objective: f64,
-    /// Constraints, met if non-negative, scaled to order one.
+    /// Constraints, scaled to order one. They are met if not negative.
     pub constraints: Vec<f64>,
 }
 
@@ -41,7 +41,7 @@ pub struct Designed {
     pub rating: Rating,
     /// True if all constraints are met.
     pub is_feasible: bool,
-    /// True if the search converged within the number of runs and no parameter diverged.
+    /// True if the search converged within the allowed number of runs and no parameter diverged.
     pub is_settled: bool,
     /// Index of an unbounded parameter that diverged, because the objective decreases without limit.
     pub runaway: Option<usize>,
@@ -75,7 +75,7 @@ impl Rating {
         self.largest_violation() <= MET
     }
 
-    /// Returns true if this result is better: feasible with a lower objective, or closer to feasible.
+    /// Returns true if this result is better: feasible with a lower objective, or with a smaller violation.
     pub(super) fn is_better_than(&self, other: &Self) -> bool {
         match (self.is_feasible(), other.is_feasible()) {
             (true, true) => self.objective < other.objective,
@@ -86,9 +86,9 @@ impl Rating {
 }
 
 impl Design {
-    /// Finds the feasible design with the lowest objective: M. J. D. Powell's COBYLA (1994), which uses linear models of objective and
-    /// constraints on a simplex. The best of all evaluated designs is returned. `rate` returns `None` for a failed run, which the search
-    /// then avoids. `None` if all runs fail.
+    /// Finds the feasible design with the lowest objective, by M. J. D. Powell's COBYLA (1994), which uses linear models of objective and constraints
+    /// on a simplex. The best of all evaluated designs is returned. If a run fails, `rate` returns `None`, and the search avoids the design. Returns
+    /// `None` if all runs fail.
     ///
     /// # Errors
     /// First error of `rate`.
@@ -101,7 +101,7 @@ impl Design {
         let rate = RefCell::new(rate);
         let search =
             RefCell::new(DesignSearch { best: None, last: None, worst: 0.0, runs: 0, error: None });
-        // Objective and constraints are requested separately at the same design.
+        // Objective and constraints are requested separately for the same design.
         let rated = |u: &[f64]| -> Rating {
             let mut search = search.borrow_mut();
             if let Some((at, rating)) = &search.last

@@ -4,9 +4,8 @@ use nalgebra::{DMatrix, DVector};
 
 use super::{Evaluate, Evaluation, SearchRange};
 
-/// Default step, relative to the size of a parameter. Central differences have an error of `h² f‴/6`, plus the noise of a run divided by
-/// `h`. Runs are reproducible to about 1e-12 of their results (the tolerance of Newton's method), so that 1e-4 makes both errors about
-/// 1e-8.
+/// Default perturbation, relative to the size of a parameter. Central differences have an error of `h² f‴/6`, plus the noise of a run divided by `h`.
+/// Runs are reproducible to about 1e-12 of their results (the tolerance of Newton's method). With 1e-4, both errors are about 1e-8.
 pub const RELATIVE_STEP: f64 = 1e-4;
 
 enum Stencil {
@@ -17,7 +16,7 @@ enum Stencil {
 
 impl Stencil {
     fn of(range: SearchRange, x: f64, relative: f64) -> Self {
-        // A one-sided stencil reaches two steps inwards.
+        // A one-sided difference uses points up to two perturbations from the bound.
         let step = (relative * range.size(x)).min(0.25 * (range.high - range.low));
         match (x - step >= range.low, x + step <= range.high) {
             (true, true) => Self::Central(step),
@@ -41,11 +40,11 @@ impl Stencil {
     }
 }
 
-/// Derivatives of all values by all parameters, one column per parameter: second order, two runs per parameter, all requested at once.
-/// `here` are the values at the point.
+/// Derivatives of all values with respect to all parameters, one column per parameter. They are of second order and need two runs per parameter,
+/// which are requested together. `here` are the values at the point.
 ///
 /// # Errors
-/// The inner error names the run that failed.
+/// The inner error contains the reason of the failed run.
 pub fn derivatives<E>(
     ranges: &[SearchRange],
     (x, here): (&[f64], &DVector<f64>),

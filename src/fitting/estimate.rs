@@ -4,7 +4,7 @@ use nalgebra::DMatrix;
 
 use super::student_quantile;
 
-/// Uncertainty of fitted parameters from the scatter of the residuals.
+/// Uncertainty of fitted parameters, from the scatter of the residuals.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Estimate {
     /// Standard deviation of a weighted residual: root of the sum of squares over the degrees of freedom.
@@ -16,9 +16,8 @@ pub struct Estimate {
 }
 
 impl Estimate {
-    /// Estimate from the derivatives of weighted residuals at the minimum, `C = s² (JᵀJ)⁻¹`; `None` without degrees of freedom, or if the
-    /// derivatives are linearly dependent. Parameters at bounds, which are not `free`, count as known; those that no residual depends on
-    /// have NaN covariances.
+    /// Estimate from the derivatives of weighted residuals at the minimum, `C = s² (JᵀJ)⁻¹`; `None` without degrees of freedom, or if the derivatives
+    /// are linearly dependent. Parameters at bounds are not `free` and count as known. Parameters on which no residual depends have NaN covariances.
     pub fn of(derivatives: &DMatrix<f64>, squares: f64, free: &[bool]) -> Option<Self> {
         let columns: Vec<usize> = (0..free.len()).filter(|at| free[*at]).collect();
         let freedom = derivatives.nrows().checked_sub(columns.len()).filter(|left| *left > 0)?;

@@ -1,4 +1,4 @@
-//! Evaluation of a function and its derivatives, with a count of the calls.
+//! Evaluation of a function and its derivatives, with the number of calls.
 
 use nalgebra::{DMatrix, DVector};
 
@@ -13,7 +13,7 @@ pub struct CountedEvaluator<'a, 'e, E> {
     pub runs: usize,
     /// Number of calls with derivatives.
     pub gradient_runs: usize,
-    /// Reason why derivatives are no longer requested.
+    /// Reason why derivatives are no longer requested from the function.
     pub differences: Option<String>,
 }
 
@@ -56,7 +56,7 @@ impl<'a, 'e, E> CountedEvaluator<'a, 'e, E> {
         }
         self.runs += 1;
         let values = only((self.evaluate)(&[x.to_vec()])?);
-        // A failed evaluation says nothing about the derivatives.
+        // A failed evaluation is no evidence against the derivatives.
         if values.is_ok() && self.differences.is_none() {
             self.differences = unknown;
         }
@@ -76,7 +76,7 @@ impl<'a, 'e, E> CountedEvaluator<'a, 'e, E> {
     /// Derivatives at a point by finite differences; `here` are the values there.
     ///
     /// # Errors
-    /// Errors of the function; the inner one names the call that failed.
+    /// Errors of the function. The inner error names the call that failed.
     pub fn differences(
         &mut self,
         ranges: &[SearchRange],

@@ -1,25 +1,25 @@
-//! Check of supplied derivatives against finite differences; a function that branches on or rounds its argument has wrong derivatives.
+//! Check of supplied derivatives against finite differences. A function that branches on its argument or rounds it has wrong derivatives.
 
 use super::SearchRange;
 
-/// Step of the check, relative to the sizes of the parameters.
+/// Perturbation of the check, relative to the sizes of the parameters.
 const DISTANCE: f64 = 1e-4;
 
-/// Relative tolerance, far above the error of the differences and far below that of wrong derivatives.
+/// Relative tolerance. It is far above the error of the differences and far below that of wrong derivatives.
 const OFF: f64 = 0.02;
 
-/// Differences below this fraction of the values are ignored.
+/// Difference, relative to the values, below which it is ignored.
 const ROUNDING: f64 = 1e-7;
 
 pub const REJECTED_DERIVATIVES: &str =
     "the derivatives of the runs differ from finite differences of their results";
 
-/// Two points on both sides of `x`, or on one side at a bound; each parameter is moved by a different fraction of its size.
+/// Two points on both sides of `x`, or on one side at a bound. Each parameter is changed by a different fraction of its size.
 pub fn test_points(ranges: &[SearchRange], x: &[f64]) -> [Vec<f64>; 2] {
     let moved = |sign: f64| {
         let parameters = x.iter().zip(ranges).enumerate();
         let moved = parameters.map(|(at, (x, range))| {
-            // All different, so that errors cannot cancel.
+            // The fractions are all different, so that errors cannot cancel.
             let part = 0.5 + 0.5 * (1.0 + at as f64).recip();
             range.clip(x + sign * part * DISTANCE * range.size(*x))
         });
@@ -28,7 +28,7 @@ pub fn test_points(ranges: &[SearchRange], x: &[f64]) -> [Vec<f64>; 2] {
     [moved(-1.0), moved(1.0)]
 }
 
-/// Returns true if values at two points differ as predicted by the derivatives, and their mean is close to the values between them.
+/// Returns true if the values at two points differ as the derivatives predict, and their mean is close to the values at the point between them.
 pub fn matches_derivatives(
     values: [&[f64]; 2],
     here: &[f64],
@@ -45,7 +45,7 @@ pub fn matches_derivatives(
     let off = norm(&|at| high[at] - low[at] - change(at));
     let aside = norm(&|at| 0.5 * (low[at] + high[at]) - here[at]);
     let floor = ROUNDING * norm(&|at| here[at]);
-    // Values that are not finite say nothing about the derivatives.
+    // Values that are not finite are no evidence against the derivatives.
     !(off > OFF * difference.max(promised) + floor || aside > difference.max(promised) + floor)
 }
 

@@ -6,18 +6,18 @@ use super::evaluator::{CountedEvaluator, EvaluatedPoint};
 use super::{Estimate, Evaluate, RELATIVE_STEP, SearchRange, Slopes};
 
 const MOST_ITERATIONS: usize = 30;
-/// Maximum number of steps per round with updated derivatives, besides one per parameter.
+/// Maximum number of steps per round with updated derivatives, in addition to one per parameter.
 const MORE_STEPS: usize = 6;
-/// Convergence tolerance of a parameter, relative to its size.
+/// Change of a parameter, relative to its size, below which the search has converged.
 const SETTLED: f64 = 1e-7;
-/// Relative change of the parameters up to which derivatives count as fresh.
+/// Relative change of the parameters up to which derivatives count as current.
 const NEAR: f64 = 0.02;
-/// Convergence tolerance: cosine of the angle between the residuals and the columns of the Jacobian.
+/// Cosine of the angle between the residuals and the columns of the Jacobian below which the search has converged.
 const ORTHOGONAL: f64 = 1e-7;
-/// Minimum relative reduction of the squares that a step must predict. A smaller one changes parameters by less than `1e-3 √(n - p)` of
-/// their standard errors, for `n` residuals and `p` parameters.
+/// Smallest predicted reduction of the sum of squares, relative to it, for which a step is taken. A smaller reduction changes parameters by less than
+/// `1e-3 √(n - p)` of their standard errors, for `n` residuals and `p` parameters.
 const NOTHING: f64 = 1e-6;
-/// Fraction of the initial squares that counts as rounding.
+/// Sum of squares, relative to the initial one, below which it is due to rounding.
 const ROUNDING: f64 = 1e-26;
 /// Initial, minimum and maximum damping.
 const DAMPING: (f64, f64, f64) = (1e-3, 1e-14, 1e12);
@@ -25,7 +25,7 @@ const DAMPING: (f64, f64, f64) = (1e-3, 1e-14, 1e12);
 #[derive(Clone, Debug, PartialEq)]
 pub struct LeastSquares {
     pub ranges: Vec<SearchRange>,
-    /// Step of finite differences, relative to the size of a parameter.
+    /// Perturbation for finite differences, relative to the size of a parameter.
     pub relative_step: f64,
 }
 
@@ -33,9 +33,9 @@ pub struct LeastSquares {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum TerminationReason {
     Settled,
-    /// No step reduces the squares although the derivatives predict it: the noise of the runs or a discontinuity prevents further progress.
+    /// No step reduces the sum of squares, although the derivatives predict it. The cause is the noise of the runs or a discontinuity.
     Stalled,
-    /// Maximum number of rounds.
+    /// The maximum number of rounds was reached.
     Unfinished,
 }
 
@@ -59,7 +59,7 @@ struct LeastSquaresState {
     x: Vec<f64>,
     residuals: DVector<f64>,
     derivatives: DMatrix<f64>,
-    /// Largest column norms of the derivatives so far, used for scaling.
+    /// Largest column norms of the derivatives so far, for scaling.
     sizes: Vec<f64>,
     damping: f64,
 }
@@ -69,7 +69,7 @@ impl LeastSquaresState {
         self.residuals.norm_squared()
     }
 
-    /// Marks parameters that are not held by a bound and that some residual depends on.
+    /// Marks parameters that no bound holds and on which some residual depends.
     fn free(&self, ranges: &[SearchRange]) -> Vec<bool> {
         let gradient = self.derivatives.tr_mul(&self.residuals);
         let is_free = |at: usize| {
@@ -91,8 +91,8 @@ impl LeastSquaresState {
         cosines.fold(0.0, f64::max)
     }
 
-    /// Step of the free parameters that minimises `|r + J δ|² + λ |D δ|²`; parameters that would exceed a bound are fixed there, and the
-    /// others are recomputed.
+    /// Step of the free parameters that minimises `|r + J δ|² + λ |D δ|²`. Parameters that would exceed a bound are fixed at the bound, and the step
+    /// of the others is recomputed.
     fn step(&self, ranges: &[SearchRange]) -> DVector<f64> {
         let mut free = self.free(ranges);
         let mut step = DVector::zeros(self.x.len());
@@ -162,10 +162,10 @@ impl LeastSquaresState {
 }
 
 enum Round {
-    /// Converged, or no further reduction is predicted.
+    /// The search has converged, or no further reduction is predicted.
     Converged,
     NeedsDerivatives(Option<DMatrix<f64>>),
-    /// Fresh derivatives predict a reduction that no step achieves.
+    /// No step achieves the reduction that current derivatives predict.
     Stalled,
 }
 
@@ -175,16 +175,16 @@ impl LeastSquares {
         Self { ranges, relative_step: RELATIVE_STEP }
     }
 
-    /// Minimises the sum of squares. Derivatives are central differences at the start, are then updated after each step, and are recomputed
-    /// when that no longer helps and at the end. Steps that fail are shortened.
+    /// Minimises the sum of squares. Derivatives are central differences at the start and are updated after each step. They are recomputed when the
+    /// updated ones no longer help, and at the end. Steps that fail are shortened.
     ///
     /// # Errors
-    /// Errors of the function; the inner one is the reason of a failure at a required point.
+    /// Errors of the function. The inner error is the reason of a failure at a required point.
     pub fn solve<E>(&self, evaluate: &mut Evaluate<'_, E>) -> Result<Result<Fitted, String>, E> {
         self.solve_with(evaluate, &mut |_| Ok(Err("differences are wanted".into())))
     }
 
-    /// Minimises like [`solve`](Self::solve), with derivatives provided by the function, or finite differences if they are missing.
+    /// Minimises as [`solve`](Self::solve), with derivatives of the function, or finite differences if they are missing.
     ///
     /// # Errors
     /// See [`solve`](Self::solve); also errors of the derivatives.
@@ -280,7 +280,7 @@ impl LeastSquares {
                 return Ok(if is_near { Round::Converged } else { Round::NeedsDerivatives(None) });
             }
             let x: Vec<f64> = state.x.iter().zip(step.iter()).map(|(x, step)| x + step).collect();
-            // A bound may prevent the predicted reduction; a shorter step may not reach it.
+            // A bound may prevent the predicted reduction, and a shorter step may not achieve it.
             let nothing =
                 || EvaluatedPoint { values: Err("nothing is promised".into()), derivatives: None };
             let EvaluatedPoint { values: found, derivatives } =
@@ -317,7 +317,7 @@ impl LeastSquares {
             *steps += 1;
             taken += 1;
             is_fresh = false;
-            // Exact derivatives replace updated ones.
+            // The exact derivatives replace the updated ones.
             if state.squares() <= least || derivatives.is_some() {
                 return Ok(Round::NeedsDerivatives(derivatives));
             }

@@ -1,4 +1,5 @@
-//! Parameter estimation from runs: least squares, constrained minimisation, root finding. The functions are opaque and return numbers.
+//! Parameter estimation from runs: least squares, constrained minimisation, root finding. The functions are treated as black boxes that return
+//! numbers.
 //!
 //! ```text
 //! least_squares → asking → differences
@@ -32,11 +33,11 @@ pub use student::student_quantile;
 /// Values of a function at a point, or the reason of failure.
 pub type Evaluation = Result<Vec<f64>, String>;
 
-/// Values with derivatives by all parameters, or the reason for missing derivatives.
+/// Values with derivatives with respect to all parameters, or the reason for missing derivatives.
 pub type Sloped = Result<Vec<(f64, Vec<f64>)>, String>;
 
-/// A function with optional derivatives; an error ends the whole search.
+/// A function with optional derivatives. An error ends the whole search.
 pub type Slopes<'s, E> = dyn FnMut(&[f64]) -> Result<Sloped, E> + 's;
 
-/// A function evaluated at several points at once, for parallel execution; an error ends the whole search.
+/// A function that is evaluated at several points together, for parallel execution. An error ends the whole search.
 pub type Evaluate<'e, E> = dyn FnMut(&[Vec<f64>]) -> Result<Vec<Evaluation>, E> + 'e;

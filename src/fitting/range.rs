@@ -11,7 +11,7 @@ pub struct SearchRange {
 }
 
 impl SearchRange {
-    /// Start value, moved into the bounds.
+    /// Start value, or the nearest bound if it is outside the bounds.
     pub fn first(self) -> f64 {
         self.clip(self.start)
     }
@@ -21,7 +21,7 @@ impl SearchRange {
         x.max(self.low).min(self.high)
     }
 
-    /// Scale of the values: the width of the range if bounded, otherwise the size of the start value.
+    /// Scale of the values: the width of the range; if it is unbounded, the size of the start value.
     pub fn width(self) -> f64 {
         let range = self.high - self.low;
         if range.is_finite() && range > 0.0 { range } else { self.size(self.start) }

@@ -12,13 +12,13 @@ pub struct Root {
 
 #[derive(Clone, Debug, PartialEq)]
 pub enum RootError<E> {
-    /// The function has the same sign at both ends; the values there.
+    /// The function has the same sign at both ends, where it has these values.
     SameSign(f64, f64),
-    /// The function is not finite; argument and value.
+    /// The function is not finite, for this argument with this value.
     NotFinite(f64, f64),
-    /// The sign changes at a pole, where values exceed those at both ends; argument and value.
+    /// The sign changes at a pole, where values exceed those at both ends. Argument and value.
     Pole(f64, f64),
-    /// The search did not converge within the number of calls; best argument and its value.
+    /// The search did not converge within the maximum number of calls. Best argument and its value.
     Unfinished(f64, f64),
     Function(E),
 }
@@ -51,7 +51,7 @@ pub fn root<E>(
     let (mut c, mut fc) = (a, fa);
     let (mut last, mut step) = (b - a, b - a);
     for _ in 0..MOST_CALLS {
-        // b is the best estimate, and c lies on the other side of the root.
+        // `b` is the best estimate, and `c` is on the other side of the root.
         if fb.signum() == fc.signum() {
             (c, fc) = (a, fa);
             step = b - a;

@@ -1,7 +1,7 @@
 //! Animated PNG files, which browsers and Markdown viewers play.
 //!
-//! All frames share a palette of the 256 most frequent colours; other colours map to the nearest of them. Of each frame only the bounding
-//! box of its changes is stored.
+//! All frames share a palette of the 256 most frequent colours. Other colours are replaced by the nearest one of them. Of each frame, only the
+//! bounding box of its changes is stored.
 
 use std::collections::BTreeMap;
 
@@ -15,13 +15,13 @@ const MOST_PIXELS: f64 = 2e9;
 type Rgb = [u8; 3];
 type Pixels = Vec<u8>;
 
-/// Sequence of equally sized pictures, drawn on demand.
+/// Sequence of pictures of equal size, drawn on demand.
 pub struct Animation<'a> {
     /// Number of frames.
     pub frames: usize,
     /// Frames per second.
     pub frames_per_second: u16,
-    /// Draws the frame of the given index. Called twice per frame; the first pass collects the colours.
+    /// Draws the frame with an index. It is called twice per frame; the first pass collects the colours.
     pub draw: &'a dyn Fn(usize) -> Result<Figure, OutputError>,
 }
 
@@ -34,7 +34,7 @@ struct Region {
 }
 
 impl Animation<'_> {
-    /// Returns the file. It loops without end; programs that do not support animations show the first frame.
+    /// Returns the file. The animation loops without end. Programs that do not support animations show the first frame.
     ///
     /// # Errors
     /// Fails if a frame cannot be painted, there are too many pixels, or there is no frame at all.
@@ -50,7 +50,7 @@ impl Animation<'_> {
         encoder.set_color(ColorType::Indexed);
         encoder.set_depth(BitDepth::Eight);
         encoder.set_compression(Compression::Best);
-        // Palette indices have no order, so differencing filters do not help.
+        // Palette indices have no order, so difference filters do not help.
         encoder.set_filter(FilterType::NoFilter);
         encoder.set_palette(palette.colours.concat());
         encoder.set_animated(self.frames as u32, 0).map_err(refused)?;
@@ -66,7 +66,7 @@ impl Animation<'_> {
                 Some(before) => changed(before, &now, width),
             };
             if before.is_some() {
-                // The frame box must fit at the previous offset. At the corner any size fits.
+                // The box of the frame must fit at the previous offset. At the corner any size fits.
                 writer.set_frame_position(0, 0).map_err(refused)?;
                 writer.set_frame_dimension(region.width, region.height).map_err(refused)?;
                 writer.set_frame_position(region.left, region.top).map_err(refused)?;
@@ -117,7 +117,7 @@ impl Palette {
     }
 }
 
-/// Box in which two frames differ. Equal frames give one pixel, because a frame cannot be empty.
+/// Box in which two frames differ. For equal frames it is one pixel, because a frame cannot be empty.
 fn changed(before: &[u8], now: &[u8], width: u32) -> Region {
     let columns = width as usize;
     let (mut left, mut right) = (columns, 0);

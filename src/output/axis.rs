@@ -9,17 +9,17 @@ pub enum AxisScale {
     /// Equal differences of numbers are equally long on the axis.
     #[default]
     Linear,
-    /// Equal ratios of numbers are equally long on the axis. Numbers at or below the floor, so also zero, are shown at the bottom.
+    /// Equal ratios of numbers are equally long on the axis. Numbers at or below the floor, including zero, are shown at the bottom.
     Logarithmic,
 }
 
-/// The floor of a logarithmic axis unless a chart sets another: well below the rounding of any double near one.
+/// Floor of a logarithmic axis unless a chart sets another. It is well below the rounding error of a number near one.
 pub const DEFAULT_FLOOR: f64 = 1e-18;
 
-/// Numbers are clamped to this magnitude, so that the length of any range is finite.
+/// Magnitude to which numbers are limited, so that the length of any range is finite.
 const LARGEST: f64 = 1e300;
 
-/// A range narrower than this fraction of its numbers is rounding and is shown as a constant.
+/// Width of a range, relative to its numbers, below which it is due to rounding and shown as a constant.
 const ROUNDING: f64 = 1e-10;
 
 #[derive(Clone, Debug, PartialEq)]
@@ -51,7 +51,7 @@ impl Default for Axis {
 }
 
 impl Axis {
-    /// A linear axis from the least to the greatest finite value, with `margin` times its length to spare at each end.
+    /// A linear axis from the smallest to the largest finite value, extended at each end by `margin` times its length.
     pub fn linear(values: impl IntoIterator<Item = f64>, margin: f64) -> Self {
         let (low, high) = extent(values).unwrap_or((0.0, 1.0));
         let size = low.abs().max(high.abs());
@@ -74,8 +74,8 @@ impl Axis {
         Self::linear([low, high], 0.0)
     }
 
-    /// A logarithmic axis over whole powers of ten. Values at or below `floor` are shown at the bottom, one power of ten below the least
-    /// value above `floor`.
+    /// A logarithmic axis over whole powers of ten. Values at or below `floor` are shown at the bottom, one power of ten below the smallest value
+    /// above `floor`.
     pub fn logarithmic(values: impl IntoIterator<Item = f64>, floor: f64) -> Self {
         let floor = if floor > 0.0 && floor.is_finite() { floor } else { DEFAULT_FLOOR };
         let mut cut = AxisCut::Nothing;
@@ -99,8 +99,8 @@ impl Axis {
         Self { scale: AxisScale::Logarithmic, low, high, cut: AxisCut::Nothing }
     }
 
-    /// Position of `x` on the axis, from 0 at the low end to 1 at the high end. Values outside the range lie beyond 0 or 1; `nan` gives
-    /// `nan`.
+    /// Position of `x` on the axis, from 0 at the low end to 1 at the high end. Values outside the range have positions below 0 or above 1. For NaN
+    /// it is NaN.
     pub fn place(&self, x: f64) -> f64 {
         match self.scale {
             AxisScale::Linear => (x.clamp(-LARGEST, LARGEST) - self.low) / (self.high - self.low),
@@ -131,7 +131,7 @@ impl Axis {
             other => other,
         };
         let decimals = (factor - power).max(0) as usize;
-        // Rounding may have moved the ends of the range; the tolerance keeps their ticks.
+        // Rounding may have moved the ends of the range. The tolerance keeps the ticks at the ends.
         let (first, last) = ((self.low / step - 1e-6).ceil(), (self.high / step + 1e-6).floor());
         let ticks = (0..=(last - first).clamp(0.0, 100.0) as usize).map(|index| {
             let multiple = first + index as f64;
@@ -179,7 +179,7 @@ impl Axis {
 pub struct Factor(i32);
 
 impl Factor {
-    /// The label of an axis with the factor behind it, if there is one: `energy [J] (×10⁻⁷)`.
+    /// The label of an axis followed by the factor, if there is one: `energy [J] (×10⁻⁷)`.
     pub fn after(&self, label: &str) -> String {
         match self.0 {
             0 => label.into(),
@@ -188,7 +188,7 @@ impl Factor {
     }
 }
 
-/// The least and the greatest finite number of some values; none where there is none.
+/// Smallest and largest finite number of some values; `None` if there is none.
 pub fn extent(values: impl IntoIterator<Item = f64>) -> Option<(f64, f64)> {
     values.into_iter().filter(|x| x.is_finite()).map(|x| x.clamp(-LARGEST, LARGEST)).fold(
         None,
@@ -199,7 +199,7 @@ pub fn extent(values: impl IntoIterator<Item = f64>) -> Option<(f64, f64)> {
     )
 }
 
-/// The step of the form 1, 2 or 5 times a power of ten that is next to `step`, or the next greater one.
+/// Smallest number of at least `step` that is 1, 2 or 5 times a power of ten.
 fn round_step(step: f64) -> (u8, i32) {
     let power = log10(step).floor() as i32;
     match step / ten_to(power) {

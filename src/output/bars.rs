@@ -1,4 +1,4 @@
-//! Bar charts: horizontal bars from zero, each with a name before and a number after it.
+//! Bar charts: horizontal bars from zero, each with a name before it and a number after it.
 
 use super::{
     canvas::{Align, Area, Canvas},

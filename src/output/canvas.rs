@@ -1,6 +1,6 @@
 //! Shapes that make up a picture: lines, discs, filled boxes and texts, in pixels from the top left corner.
 //!
-//! Charts draw on a canvas; painters turn the canvas into a file. Charts and painters are independent, so that the drawing library can be
+//! Charts draw on a canvas, and painters write the canvas to a file. Charts and painters are independent, so that the drawing library can be
 //! replaced.
 
 use super::{colour::Colour, fonts};
@@ -8,7 +8,7 @@ use super::{colour::Colour, fonts};
 /// A point: pixels on a canvas, data units in a chart.
 pub type Point = (f64, f64);
 
-/// Coordinates are clamped to this many pixels, far outside every picture, to keep the arithmetic safe.
+/// Magnitude to which coordinates are limited [pixels]. It is far outside every picture, and prevents overflow.
 const FAR: f64 = 20_000.0;
 
 /// A box with sides along the axes; `top` is less than `bottom`.
@@ -130,7 +130,7 @@ impl Canvas {
         &self.shapes
     }
 
-    /// Draws a line on the canvas; points that are not finite are left out, a single point becomes a dot.
+    /// Draws a line. Points that are not finite are omitted. A single point becomes a dot.
     pub fn line(&mut self, points: impl IntoIterator<Item = Point>, width: f64, colour: Colour) {
         let points: Vec<Point> = points.into_iter().filter_map(reachable).collect();
         if !points.is_empty() {

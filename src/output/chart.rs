@@ -52,18 +52,18 @@ pub struct Series {
     pub name: String,
     /// The points of the series, in the order in which they are joined.
     pub points: Vec<Point>,
-    /// Line style of the series; with `None` the chart chooses, which draws unbroken lines while colours last.
+    /// Line style of the series. If `None`, the chart draws unbroken lines until all colours are used.
     pub stroke: Option<Stroke>,
     /// Shape of the markers, if the stroke has any.
     pub marker: Marker,
     /// The colour of the series.
     pub ink: SeriesColour,
-    /// Visual weight of the series.
+    /// Line width and paleness of the series.
     pub weight: SeriesEmphasis,
 }
 
 impl Series {
-    /// A series through `points`; a series with an empty name is not in the legend.
+    /// A series through `points`. A series with an empty name is not in the legend.
     pub fn new(name: impl Into<String>, points: Vec<Point>) -> Self {
         Self { name: name.into(), points, ..Self::default() }
     }
@@ -163,14 +163,13 @@ impl LineChart {
         self
     }
 
-    /// Sets the bottom of logarithmic axes: values at or below `floor` are shown there. A `floor` that is not positive selects
-    /// [`DEFAULT_FLOOR`].
+    /// Sets the bottom of logarithmic axes. Values at or below `floor` are shown there. If `floor` is not positive, it is [`DEFAULT_FLOOR`].
     pub fn floor(mut self, floor: f64) -> Self {
         self.floor = floor;
         self
     }
 
-    /// Fixes the ends of the axes and clips the data to them. An axis without limits fits the visible part of the series.
+    /// Fixes the ends of the axes and clips the data to them. An axis without limits is fitted to the visible part of the series.
     pub fn limits(mut self, limits: AxisLimits) -> Self {
         self.limits = limits;
         self
@@ -188,8 +187,8 @@ impl LineChart {
         self
     }
 
-    /// Combines the series of several charts in the axes of the first. Each series takes the name of its chart, followed by its own name if
-    /// its chart has several. Lines of the second chart are dashed, those of the third dotted.
+    /// Combines the series of several charts in the axes of the first chart. Each series gets the name of its chart, followed by its own name if the
+    /// chart has several series. Lines of the second chart are dashed, lines of the third chart dotted.
     pub fn shared(
         title: impl Into<String>,
         charts: impl IntoIterator<Item = (String, Self)>,
@@ -202,7 +201,7 @@ impl LineChart {
             chart.series.into_iter().fold(shared, |shared, series| {
                 let name =
                     if is_alone { whose.clone() } else { format!("{whose}: {}", series.name) };
-                // Dashes leave an equal curve below visible.
+                // Dashes leave gaps through which an equal curve below is visible.
                 let stroke = series.stroke.or((which > 0).then(|| Stroke::of_palette_pass(which)));
                 shared.series(Series { name, stroke, ..series })
             })

@@ -1,4 +1,4 @@
-//! Colours that colour-blind readers and black-and-white prints can distinguish, on white paper.
+//! Colours for white paper that colour-blind readers and black-and-white prints can distinguish.
 
 /// An opaque colour: red, green and blue from 0 to 255.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -21,8 +21,8 @@ const HUES: [Colour; 7] = [
     Colour(60, 60, 60),
 ];
 
-/// Nine equidistant samples of the viridis colour map (Smith and van der Walt, matplotlib), from pale to dark. The palest tenth is left
-/// out, because it is invisible on white paper.
+/// Nine equidistant samples of the viridis colour map (Smith and van der Walt, matplotlib), from pale to dark. The palest tenth is omitted, because
+/// it is invisible on white paper.
 const RAMP: [Colour; 9] = [
     Colour(189, 223, 38),
     Colour(128, 211, 75),
@@ -38,7 +38,7 @@ const RAMP: [Colour; 9] = [
 /// The number of hues for series before they repeat.
 pub const HUE_COUNT: usize = HUES.len();
 
-/// The hue of the series or beam number `index`; they repeat after [`HUE_COUNT`].
+/// Hue of the series or beam with an index. The hues repeat after [`HUE_COUNT`].
 pub fn hue(index: usize) -> Colour {
     HUES[index % HUES.len()]
 }

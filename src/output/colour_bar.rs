@@ -9,7 +9,7 @@ use super::{
 
 const TEXT: f64 = 12.0;
 const LABEL: f64 = 13.0;
-/// Distance of the bar from the plot, width of the bar, and distance of the numbers from it.
+/// Distance of the bar from the plot, width of the bar, and distance of the numbers from the bar.
 const GAP: f64 = 22.0;
 const BREADTH: f64 = 12.0;
 const NUMBERS: f64 = 8.0;
@@ -31,7 +31,7 @@ pub struct ColourBar {
 }
 
 impl ColourBar {
-    /// A colour bar over all finite `numbers`; `shade` maps 0 (least) to 1 (largest) to a colour.
+    /// A colour bar over all finite `numbers`. `shade` gives the colours of 0 (smallest) to 1 (largest).
     pub fn new(
         label: &str,
         numbers: impl IntoIterator<Item = f64>,
@@ -49,7 +49,7 @@ impl ColourBar {
         self
     }
 
-    /// Position of a number between the least (0) and the largest (1); 1 if there is only one number.
+    /// Position of a number between the smallest (0) and the largest (1); 1 if all numbers are equal.
     pub fn part(&self, number: f64) -> f64 {
         self.axis.map_or(1.0, |axis| axis.place(number))
     }
@@ -69,7 +69,7 @@ impl ColourBar {
         let height = plot.bottom - top;
         for piece in 0..PIECES {
             let (low, high) = (piece as f64 / PIECES as f64, (piece + 1) as f64 / PIECES as f64);
-            // Pieces overlap the ones below, to avoid visible seams.
+            // Pieces overlap the pieces below them, to avoid visible seams.
             let (piece_top, bottom) = (plot.bottom - height * high, plot.bottom - height * low);
             let under = if piece == 0 { 0.0 } else { 0.5 };
             let right = left

@@ -1,11 +1,11 @@
-//! CSV tables of numbers: columns of equal length below `#` comment lines.
+//! CSV tables of numbers: columns of equal length, after `#` comment lines.
 
 use std::borrow::Cow;
 use std::path::Path;
 
 use super::{OutputError, files::write_atomic};
 
-/// A table of named columns of numbers. Every number reads back bit for bit.
+/// A table of named columns of numbers. Reading gives every number bit for bit.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct CsvTable {
     /// Lines written above the table, each after a `#`: title, units, origin.
@@ -32,7 +32,7 @@ impl CsvTable {
         self
     }
 
-    /// Keeps every n-th row and the last one so that about `numbers` numbers remain. A comment line states n.
+    /// Keeps every n-th row and the last row, so that about `numbers` values remain. A comment line states n.
     #[must_use]
     pub fn thinned(mut self, numbers: usize) -> Self {
         let rows = self.columns.iter().map(|(_, values)| values.len()).max().unwrap_or(0);
@@ -88,7 +88,7 @@ impl CsvTable {
     }
 }
 
-/// Text of a cell. An apostrophe precedes texts that spreadsheets would evaluate as formulas; numbers do not change.
+/// Text of a cell. An apostrophe precedes texts that spreadsheets would evaluate as formulas. Numbers are unchanged.
 pub fn csv_cell(text: &str) -> Cow<'_, str> {
     let is_formula = text.starts_with(['=', '+', '-', '@', '\t', '\r']);
     if is_formula && text.parse::<f64>().is_err() {
@@ -98,7 +98,7 @@ pub fn csv_cell(text: &str) -> Cow<'_, str> {
     }
 }
 
-/// Comment line above a table. Spreadsheets split it into cells like a row, so each part is made safe.
+/// Comment line above a table. Spreadsheets split it into cells like a row, so each cell is escaped.
 pub(super) fn comment_line(text: &str) -> String {
     const CUTS: [char; 3] = [',', ';', '\t'];
     let mut line = "#".to_owned();

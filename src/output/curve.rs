@@ -6,10 +6,10 @@ use crate::elementary::hypot;
 /// Width of the strips in which a long curve is thinned [pixels].
 const STRIP: f64 = 0.5;
 
-/// Number of points from which on curves are thinned.
+/// Number of points above which curves are thinned.
 const LONG: usize = 2000;
 
-/// Splits a curve, given in pixels, at its gaps and at the sides of `window`, and thins it when it is long.
+/// Splits a curve, in pixels, at its gaps and at the sides of `window`. A long curve is thinned.
 pub fn pieces(points: impl IntoIterator<Item = Point>, window: &Area) -> Vec<Vec<Point>> {
     let runs = runs(points);
     let length: usize = runs.iter().map(Vec::len).sum();
@@ -31,7 +31,7 @@ fn runs(points: impl IntoIterator<Item = Point>) -> Vec<Vec<Point>> {
     runs
 }
 
-/// Keeps the first, lowest, highest and last point of each vertical strip, which cover the same pixels as all.
+/// Keeps the first, lowest, highest and last point of each vertical strip. They cover the same pixels as all points of the strip.
 fn thinned(run: &[Point]) -> Vec<Point> {
     let strip = |point: &Point| (point.0 / STRIP).floor();
     let mut kept = Vec::new();

@@ -66,7 +66,7 @@ impl DataValues {
 }
 
 impl DataTable {
-    /// Text of the CSV file; numbers have 17 digits, which determine a double.
+    /// Text of the CSV file. Numbers have 17 digits, which determine a float uniquely.
     ///
     /// # Errors
     /// Fails if the columns differ in length.

@@ -144,7 +144,7 @@ impl FieldPicture {
     }
 }
 
-/// Directions from a mark to its number, in order of preference.
+/// Directions from a mark to its number, in the order of preference.
 const AROUND: [(f64, f64); 8] = [
     (1.0, -1.0),
     (-1.0, -1.0),
@@ -208,7 +208,7 @@ impl Panel for FieldPicture {
             (plot.left..=plot.right).contains(&at.0) && (plot.top..=plot.bottom).contains(&at.1)
         };
         for beam in &beams {
-            // If limits clip a beam, the spans that are partly visible are drawn in full.
+            // If limits clip a beam, the parts between samples that are partly visible are drawn completely.
             for seen in beam.chunk_by(|(a, _), (b, _)| is_inside(*a) && is_inside(*b)) {
                 Self::draw_beam(canvas, piece, seen);
             }

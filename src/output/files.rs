@@ -1,15 +1,14 @@
 //! Atomic writing of files.
 //!
-//! The bytes go to a hidden file next to the target, which is renamed to the target when it is complete and synced. A reader never sees
-//! half a file, and a failure leaves an older file unchanged.
+//! The bytes are written to a hidden file next to the target. When the hidden file is complete and written to disk, it is renamed to the target. A
+//! reader never sees an incomplete file, and after a failure an older file is unchanged.
 
 use std::{fs, path::Path};
 
 use super::OutputError;
 use crate::sandbox_fs::Folder;
 
-/// Writes `bytes` to the path `path` given by the user, and creates missing folders. An existing file or link is replaced; links are not
-/// followed.
+/// Writes `bytes` to the path `path` of the user, and creates missing folders. An existing file or link is replaced. Links are not followed.
 ///
 /// # Errors
 /// Fails if the folder cannot be created, the file cannot be written, or the path names a folder, a pipe or a device.

@@ -1,6 +1,6 @@
 //! Text rendering with the embedded DejaVu Sans, so that pictures do not depend on installed fonts.
 //!
-//! Sizes are in pixels per em, lengths in pixels, `x` to the right and `y` downwards from the start of the baseline.
+//! Sizes are in pixels per em, and lengths in pixels. From the start of the baseline, `x` points to the right and `y` downwards.
 
 use std::sync::LazyLock;
 
@@ -9,13 +9,13 @@ use ab_glyph::{Font, FontRef, GlyphId, Outline, OutlineCurve, OutlinedGlyph, PxS
 use super::canvas::Point;
 use crate::elementary::{hypot, square};
 
-/// Maximum number of characters of a text; the rest is dropped.
+/// Maximum number of characters of a text. Further characters are dropped.
 const LONGEST: usize = 400;
 
 /// Maximum deviation of a flattened curve [pixels].
 const FLATNESS: f64 = 0.03;
 
-/// The embedded font always loads; if it were damaged, pictures would lack their text.
+/// The embedded font can always be loaded. Without it, pictures would have no text.
 static FACE: LazyLock<Option<FontRef<'static>>> =
     LazyLock::new(|| FontRef::try_from_slice(dejavu::sans::regular()).ok());
 
@@ -27,13 +27,13 @@ pub fn width(text: &str, size: f64) -> f64 {
 /// Largest size up to `size` at which `text` fits into `room` [pixels], at least 60 % of `size`.
 pub fn shrunk(text: &str, size: f64, room: f64) -> f64 {
     const SMALLEST: f64 = 0.6;
-    // Rounding must not make a fitting text slightly too long.
+    // Rounding must not make a text that fits slightly too long.
     const ROUNDING: f64 = 1.0 - 1e-9;
     let wanted = width(text, size);
     if wanted <= room { size } else { size * (ROUNDING * room / wanted).max(SMALLEST) }
 }
 
-/// The text, shortened with an ellipsis when it is longer than `room` pixels.
+/// The text; if it is longer than `room` pixels, it is shortened with an ellipsis.
 pub fn fit(text: &str, size: f64, room: f64) -> String {
     if text.chars().count() <= LONGEST && width(text, size) <= room {
         return text.into();

@@ -13,12 +13,12 @@ const CAPTION: f64 = 12.0;
 const LABEL: f64 = 13.0;
 const NUMBER: f64 = 12.0;
 const EDGE: f64 = 14.0;
-/// A text is broken into lines before it is set smaller than this fraction of its size.
+/// Smallest reduction of the size of a text. Below it, the text is broken into lines instead.
 const SMALLEST: f64 = 0.8;
 const MOST_LINES: usize = 4;
-/// With more points, only those of the thinned curve are marked.
+/// Number of points above which only the points of the thinned curve are marked.
 const MOST_MARKS: usize = 2000;
-/// Pixels per tick along the horizontal and the vertical axis.
+/// Distance of ticks along the horizontal and the vertical axis [pixels].
 const TICK_EVERY: (f64, f64) = (85.0, 50.0);
 
 /// Space between the border of a panel and its plot [pixels].
@@ -45,7 +45,7 @@ impl Margins {
         }
     }
 
-    /// The box that remains inside the margins of `area`; never empty.
+    /// The box inside the margins of `area`, which is never empty.
     pub fn inside(&self, area: &Area) -> Area {
         let (left, top) = (area.left + self.left, area.top + self.top);
         let (right, bottom) = (area.right - self.right, area.bottom - self.bottom);
@@ -89,7 +89,7 @@ impl Frame {
         }
     }
 
-    /// The margins with a colour bar of width `bar` at the right, which narrows the plot and the legend.
+    /// The margins with a colour bar of width `bar` on the right, which reduces the width of the plot and the legend.
     pub fn margins_beside(&self, bar: f64, width: f64, height: f64) -> Margins {
         let alone = self.margins(width, height).right;
         let right = alone.max(bar);
@@ -129,14 +129,14 @@ impl Frame {
 
     /// Visible runs of a data curve, as points on the canvas [pixels].
     pub fn curve(&self, plot: &Area, points: &[Point]) -> Vec<Vec<Point>> {
-        // The window is slightly wider than the plot, because rounding must not clip a line along its side.
+        // The window is slightly wider than the plot, so that rounding does not clip a line along its side.
         let window = Area {
             left: plot.left - 0.01,
             top: plot.top - 0.01,
             right: plot.right + 0.01,
             bottom: plot.bottom + 0.01,
         };
-        // Axes clamp infinite values to their ends, but a curve must have a gap there.
+        // Axes limit infinite values to their ends, but a curve must have a gap there.
         let place = |&(x, y): &Point| {
             let is_somewhere = x.is_finite() && y.is_finite();
             if is_somewhere { self.place(plot, (x, y)) } else { (f64::NAN, f64::NAN) }
@@ -144,7 +144,7 @@ impl Frame {
         curve::pieces(points.iter().map(place), &window)
     }
 
-    /// Positions of the markers of a curve: the data points, without the points where the curve is clipped.
+    /// Positions of the markers of a curve: its data points, without the points at which the curve is clipped.
     pub fn marks(&self, plot: &Area, points: &[Point]) -> Vec<Point> {
         if points.len() > MOST_MARKS {
             return self.curve(plot, points).concat();
@@ -203,10 +203,10 @@ impl Frame {
     }
 }
 
-/// A title or label: set smaller if it is too long for a line, then broken into several lines.
+/// A title or label. If it is too long for a line, it is set smaller, and then broken into several lines.
 struct FittedText {
     lines: Vec<String>,
-    /// Size of the letters, and the size without shrinking.
+    /// Size of the letters, and size before a reduction.
     size: f64,
     full: f64,
 }
@@ -232,7 +232,7 @@ impl FittedText {
         1.25 * self.size
     }
 
-    /// Height with some paper below; zero if there is no text.
+    /// Height including some white space below; zero if there is no text.
     fn height(&self, paper: f64) -> f64 {
         match self.lines.len() {
             0 => 0.0,

@@ -1,4 +1,4 @@
-//! Heat maps: cells in rows and columns, each coloured by a number on a logarithmic scale; cells without a number are hatched.
+//! Heat maps: cells in rows and columns, each coloured by a number on a logarithmic scale. Cells without a number are hatched.
 
 use super::{
     axis::power_of_ten,
@@ -22,7 +22,7 @@ const GAP: (f64, f64) = (7.0, 10.0);
 const CELL: (f64, f64) = (104.0, 52.0);
 const CELL_IN_COLUMNS: (f64, f64) = (76.0, 50.0);
 const WIDEST_CELL: f64 = 200.0;
-/// White space around a text in a cell, and around the name of a column.
+/// White space around a text in a cell and around the name of a column.
 const AROUND_TEXT: f64 = 8.0;
 const AROUND_NAME: f64 = 5.0;
 const LINE: f64 = 14.0;
@@ -30,7 +30,7 @@ const LINE: f64 = 14.0;
 /// A cell of a heat map.
 #[derive(Clone, Debug, PartialEq)]
 pub struct HeatCell {
-    /// Number that sets the colour; a cell without a number is hatched.
+    /// Number that determines the colour; `None` for a hatched cell.
     pub value: Option<f64>,
     /// Text in the cell; line breaks are kept.
     pub text: String,
@@ -48,7 +48,7 @@ pub struct HeatMap {
 }
 
 impl HeatMap {
-    /// An empty heat map. Numbers at or below the first power of ten are palest, those at or above the second darkest.
+    /// An empty heat map. Numbers at or below the first power of ten are palest, numbers at or above the second are darkest.
     pub fn new(title: impl Into<String>, shows: impl Into<String>, powers: (i32, i32)) -> Self {
         Self {
             title: title.into(),
@@ -78,7 +78,7 @@ impl HeatMap {
         self
     }
 
-    /// Adds a row below the others; missing cells stay white, surplus cells are not shown.
+    /// Adds a row below the others. Missing cells are white; superfluous cells are not shown.
     pub fn row(mut self, name: impl Into<String>, cells: Vec<HeatCell>) -> Self {
         self.rows.1.push(name.into());
         self.cells.push(cells);
@@ -125,7 +125,7 @@ impl HeatMap {
     }
 
     fn colour(&self, part: f64) -> Colour {
-        // Cells are large, so they may be paler than lines; their texts stay readable.
+        // Cells are large, so they may be paler than lines. Their texts must be readable.
         if part < 0.06 { mix(WHITE, ramp(0.0), 0.35) } else { ramp(part) }
     }
 
@@ -140,7 +140,7 @@ impl HeatMap {
             *x += fonts::width(&text, TEXT) + GAP.0;
         };
         let shows = fonts::width(&self.scale.0, TEXT);
-        // One extra pixel, so that rounding does not cut off a letter.
+        // One additional pixel, so that rounding does not cut off a letter.
         write(canvas, &self.scale.0, &mut x, room - (self.key_width() - shows) + 1.0);
         write(canvas, &low, &mut x, f64::INFINITY);
         let steps = 22;

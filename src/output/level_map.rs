@@ -1,4 +1,4 @@
-//! Level maps: cells over two numeric axes, each coloured by a number on a linear scale; cells without a number are hatched.
+//! Level maps: cells over two numeric axes, each coloured by a number on a linear scale. Cells without a number are hatched.
 
 use super::{
     axis::{Axis, AxisScale},
@@ -11,9 +11,9 @@ use super::{
 };
 use crate::elementary::ln;
 
-/// Relative tolerance for equal ratios of neighbours.
+/// Difference of the ratios of neighbouring numbers, relative to them, below which they are equal.
 const EQUAL_RATIOS: f64 = 1e-6;
-/// Maximum number of cells drawn along an axis. Smaller cells are not visible, and a picture of millions takes many megabytes.
+/// Maximum number of cells along an axis. Smaller cells would not be visible, and a picture of millions of cells would have many megabytes.
 const MOST_CELLS: usize = 160;
 
 /// Axis of a level map: its label and the ascending midpoints of its cells.
@@ -36,7 +36,7 @@ pub struct LevelMap {
     values: Vec<Vec<f64>>,
 }
 
-/// Means of the finite values of blocks of `across` by `up` cells; NaN if a block has none.
+/// Means of the finite values of blocks of `across` by `up` cells; NaN if a block has no finite value.
 fn means(values: &[Vec<f64>], (across, up): (usize, usize)) -> Vec<Vec<f64>> {
     let row = |rows: &[Vec<f64>]| {
         let columns = rows.iter().map(Vec::len).max().unwrap_or(0);
@@ -81,7 +81,7 @@ impl LevelAxis {
             AxisScale::Logarithmic => (a * b).sqrt(),
         };
         let beyond = |a: f64, end: f64| match scale {
-            // Twice the largest double would be infinite.
+            // Twice the largest float would be infinite.
             AxisScale::Linear => Some(2.0 * a - end).filter(|far| far.is_finite()).unwrap_or(a),
             AxisScale::Logarithmic => a * a / end,
         };
@@ -116,7 +116,7 @@ impl LevelAxis {
         let ends = self.ends();
         let (low, high) = (ends[0], ends[ends.len() - 1]);
         match self.scale() {
-            // A narrower range than this is no usable axis.
+            // A narrower range is not suitable for an axis.
             AxisScale::Logarithmic if ln(high / low) > 1e-3 => Axis::powers_between(low, high),
             _ => Axis::between(low, high),
         }
@@ -124,9 +124,9 @@ impl LevelAxis {
 }
 
 impl LevelMap {
-    /// A map over two axes: `values` by rows of the vertical axis, from the bottom; `label` names their quantity. Values that are not
-    /// finite are hatched. On axes with more than 160 numbers neighbouring cells are merged into one cell with the mean value, and a
-    /// caption states this.
+    /// A map over two axes. `values` are by rows of the vertical axis, from the bottom; `label` names their quantity. Cells with values that are not
+    /// finite are hatched. On axes with more than 160 numbers, neighbouring cells are merged into one cell with the mean value, and a caption states
+    /// this.
     pub fn new(
         title: impl Into<String>,
         label: impl Into<String>,
@@ -202,7 +202,7 @@ impl Panel for LevelMap {
                         };
                         canvas.fill(cell, ramp(bar.part(*value)));
                     }
-                    // Cells at the largest numbers reach far beyond the plot.
+                    // Cells at the largest numbers extend far beyond the plot.
                     false => hatch(canvas, &cell.within(plot)),
                 }
             }

@@ -4,14 +4,14 @@ use super::canvas::Point;
 use crate::elementary::hypot;
 
 pub const LINK: f64 = 1.2;
-/// Length of the straight lead at either end of a spring: maximum, and fraction of its length.
+/// Length of the straight end pieces of a spring: maximum [pixels], and fraction of its length.
 const LEAD: (f64, f64) = (8.0, 0.15);
-/// Length of a turn of a spring, and the range of the number of turns.
+/// Length of a coil of a spring, and the range of the number of coils.
 const TURN: f64 = 12.0;
 const TURNS: (f64, f64) = (3.0, 12.0);
 /// Half width of a spring and of the cylinder of a damper.
 const BREADTH: f64 = 5.0;
-/// Half length of a cylinder: maximum, and fraction of the length of the damper.
+/// Half length of a cylinder: maximum [pixels], and fraction of the length of the damper.
 const CYLINDER: (f64, f64) = (9.0, 0.2);
 
 /// Directed line between two points.
@@ -39,7 +39,7 @@ impl Link {
         vec![self.from, self.at((self.length, 0.0))]
     }
 
-    /// A zigzag, with as many turns as fit.
+    /// A zigzag with as many coils as fit.
     pub fn spring(&self) -> Vec<Vec<Point>> {
         let lead = LEAD.0.min(LEAD.1 * self.length);
         let teeth = 2.0 * (self.length / TURN).round().clamp(TURNS.0, TURNS.1);

@@ -1,4 +1,4 @@
-//! Pictures of motion: snapshots at several times in one plot, early ones pale and late ones dark.
+//! Pictures of motion: snapshots at several times in one plot, early snapshots pale and late ones dark.
 
 use super::{
     canvas::{Area, Canvas, Point},
@@ -86,7 +86,7 @@ impl MotionPicture {
         self
     }
 
-    /// Adds a snapshot. Later snapshots are drawn over earlier ones, whatever the order of the calls.
+    /// Adds a snapshot. Later snapshots are drawn over earlier ones, independent of the order of the calls.
     pub fn snapshot(mut self, snapshot: MotionFrame) -> Self {
         self.snapshots.push(snapshot);
         self
@@ -124,7 +124,7 @@ impl MotionPicture {
         framed.fold(Page::row(), Page::panel)
     }
 
-    /// Common axis limits that show everything in all pictures; limits set on the first one take precedence.
+    /// Common axis limits that contain everything in all pictures. Limits of the first picture take precedence.
     pub fn shared_limits(pictures: &[Self]) -> AxisLimits {
         let given = pictures.first().map_or_else(AxisLimits::default, |first| first.limits);
         let points = pictures.iter().flat_map(Self::points);
@@ -189,7 +189,7 @@ impl MotionPicture {
         if self.beam_count() > 1 { tint(hue(index), part) } else { ramp(part) }
     }
 
-    /// Beams beyond the number of hues differ by their stroke.
+    /// Beams beyond the number of hues differ by the line style.
     fn stroke(&self, index: usize) -> Stroke {
         if self.beam_count() > 1 {
             Stroke::of_palette_pass(index / HUE_COUNT)

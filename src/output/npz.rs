@@ -90,7 +90,7 @@ mod tests {
         let array = NpzArray { name: "a".into(), shape: vec![2, 3], values: vec![0.5; 6] };
         let bytes = array.to_npy();
         assert_eq!(bytes.len(), 128 + 48);
-        // Header that numpy.save writes for np.full((2, 3), 0.5), apart from the trailing comma of the tuple.
+        // Header that numpy.save writes for np.full((2, 3), 0.5), except for the trailing comma of the tuple.
         let header = "\u{93}NUMPY\u{1}\u{0}v\u{0}{'descr': '<f8', 'fortran_order': False, 'shape': (2, 3,), }";
         let header: Vec<u8> = header.chars().map(|letter| letter as u8).collect();
         assert!(bytes.starts_with(&header), "{:?}", String::from_utf8_lossy(&bytes[..80]));

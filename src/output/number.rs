@@ -1,8 +1,8 @@
-//! Number formatting for people: short, without artefacts of binary arithmetic.
+//! Number formats for readers: short, without artefacts of binary arithmetic.
 //!
-//! Decimal notation for `1e-4 ≤ |x| < 1e7`, otherwise powers of ten, with just enough digits to read back the same number.
+//! Decimal notation for `1e-4 ≤ |x| < 1e7`, otherwise powers of ten. The number of digits is the smallest from which the number can be read back.
 
-/// The shortest text of a number that reads back as `x`: `0.05`, `374.28285`, `3`, `1e-12`, `1.5e10`, `inf`, `nan`.
+/// Shortest text from which `x` can be read back: `0.05`, `374.28285`, `3`, `1e-12`, `1.5e10`, `inf`, `nan`.
 pub fn format_number(x: f64) -> String {
     if x.is_nan() {
         "nan".into()
@@ -22,8 +22,7 @@ pub fn significant(x: f64, digits: usize) -> String {
     format_number(rounded.unwrap_or(x))
 }
 
-/// Text of `x` as a power of ten with exactly `digits` significant digits (at least one): `scientific(3.14e-15, 2)` is `3.1e-15`. Zero is
-/// just `0`.
+/// Text of `x` as a power of ten with exactly `digits` significant digits (at least one): `scientific(3.14e-15, 2)` is `3.1e-15`. Zero is `0`.
 pub fn scientific(x: f64, digits: usize) -> String {
     if x == 0.0 || !x.is_finite() {
         format_number(x)
@@ -32,7 +31,7 @@ pub fn scientific(x: f64, digits: usize) -> String {
     }
 }
 
-/// Digits after the decimal point for `digits` significant digits; a double has at most 17.
+/// Number of digits after the decimal point for `digits` significant digits. A float has at most 17.
 fn decimals(digits: usize) -> usize {
     digits.clamp(1, 17) - 1
 }

@@ -16,7 +16,7 @@ pub trait Panel {
     /// Preferred size as a stand-alone picture [pixels].
     fn size(&self) -> (f64, f64);
 
-    /// Preferred size on a page with so many rows and columns [pixels]; smaller than alone.
+    /// Preferred size on a page with this number of rows and columns, smaller than that of a single picture [pixels].
     fn size_among(&self, rows: usize, columns: usize) -> (f64, f64) {
         let (width, height) = self.size();
         let width = if columns > 1 { width * SIZE_IN_COLUMNS.0 } else { width };
@@ -62,7 +62,7 @@ const HEIGHT_IN_ROWS: f64 = 0.6;
 const SIZE_IN_COLUMNS: (f64, f64) = (0.72, 0.85);
 const TITLE: f64 = 18.0;
 
-/// Panels in a grid. The plots of a column have equal widths, those of a row equal heights.
+/// Panels in a grid. The plots of a column have equal widths, the plots of a row equal heights.
 #[derive(Default)]
 pub struct Page {
     title: String,

@@ -13,7 +13,7 @@ use parquet::schema::types::{Type, TypePtr};
 use super::{DataColumn, DataTable, DataValues, OutputError};
 
 impl DataTable {
-    /// Bytes of an uncompressed `.parquet` file; the metadata `dimension.NAME` holds the dimension of a column.
+    /// Bytes of an uncompressed `.parquet` file. The metadata `dimension.NAME` contains the dimension of a column.
     ///
     /// # Errors
     /// Fails if the columns differ in length, or two have the same name.

@@ -15,13 +15,13 @@ const MARGIN: f64 = 0.05;
 /// User-defined ends of the axes.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct AxisLimits {
-    /// The least and the largest value of the horizontal axis.
+    /// Smallest and largest value of the horizontal axis.
     pub x: Option<(f64, f64)>,
-    /// The least and the largest value of the vertical axis.
+    /// Smallest and largest value of the vertical axis.
     pub y: Option<(f64, f64)>,
 }
 
-/// A box in the plane: centre, width and height, both non-zero.
+/// A box in the plane: centre, width and height. Width and height are nonzero.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct View {
     centre: Point,
@@ -29,8 +29,7 @@ pub struct View {
 }
 
 impl View {
-    /// A box that contains the points with some margin, or the box of the limits. An axis without limits fits the points inside the limits
-    /// of the other axis.
+    /// The box of the limits. An axis without limits is fitted, with some margin, to the points inside the limits of the other axis.
     pub fn of(points: impl Iterator<Item = Point> + Clone, limits: &AxisLimits) -> Self {
         let within = |value: f64, ends: Option<(f64, f64)>| {
             ends.is_none_or(|(low, high)| (low..=high).contains(&value))
@@ -49,13 +48,13 @@ impl View {
         };
         let (x, width) = side(|point| point.0, limits.x);
         let (y, height) = side(|point| point.1, limits.y);
-        // A straight line has no height and a point no size; the box is enlarged to keep the axes readable.
+        // A straight line has no height and a point has no size. The box is enlarged, so that the axes are readable.
         let size = width.max(height).max(1e-6 * x.abs().max(y.abs()));
         let size = if size > 1e-280 { size } else { 1.0 };
         Self { centre: (x, y), needs: (width.max(0.05 * size), height.max(0.05 * size)) }
     }
 
-    /// Enlarges the box so that symbols drawn around points, in pixels, are not cut off. Limits still take precedence.
+    /// Enlarges the box, so that symbols around points, whose size is in pixels, are not cut off. Limits take precedence.
     pub fn with_room(
         self,
         about: impl Iterator<Item = Point> + Clone,

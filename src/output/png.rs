@@ -1,8 +1,8 @@
 //! PNG painter with anti-aliasing: each pixel is blended by the fraction that a shape covers.
 //!
-//! plotters fills boxes and blends pixels, but its thick lines and polygons have ragged edges. Therefore lines are covered by distance: a
-//! pixel at distance `d` from the centre line of half width `r` is covered by `r + ½ − d`, and a pixel near several segments by the nearest
-//! one.
+//! The boxes and pixels of plotters are correct, but its thick lines and polygons have ragged edges. Therefore this module computes the coverage of
+//! lines from distances. A pixel at distance `d` from the centre line of half width `r` is covered by `r + ½ − d`. A pixel near several segments is
+//! covered by the nearest one.
 
 use plotters::prelude::{BitMapBackend, DrawingBackend, RGBColor};
 use plotters::style::Color;
@@ -97,7 +97,7 @@ impl PngPage<'_> {
                 covered.push((corner.x as i32 + x as i32, corner.y as i32 + y as i32, amount))
             });
             for (x, y, amount) in covered {
-                // A pixel is a box: after the turn, the box to the right of the start lies above it.
+                // A pixel is a box. After the rotation, the box to the right of the start is above it.
                 let (x, y) = match text.direction {
                     TextDirection::Level => (start.0 + x, start.1 + y),
                     TextDirection::Upwards => (start.0 + y, start.1 - x - 1),
@@ -151,7 +151,7 @@ impl PixelCoverage {
         let rows = clip(a.1.min(b.1) - reach, a.1.max(b.1) + reach, self.top, self.rows);
         for row in rows {
             let y = (self.top + row) as f64 + 0.5;
-            // Pixels of this row within reach of the segment: around the crossing with the centre line, between the ends.
+            // Pixels of this row near the segment: around the intersection with the centre line, between the ends.
             let (mut low, mut high) = (a.0.min(b.0), a.0.max(b.0));
             if dy != 0.0 {
                 let crossing = a.0 + (y - a.1) * dx / dy;

@@ -1,8 +1,8 @@
-//! Replacement of characters of untrusted text that control a terminal or are invisible.
+//! Replacement of characters in untrusted text that control a terminal or are invisible.
 
 use std::borrow::Cow;
 
-/// Replacement for characters that must not reach a terminal.
+/// Replacement for characters that must not be written to a terminal.
 const REPLACEMENT: char = '\u{fffd}';
 
 /// Replaces control characters (such as the start of an escape sequence), bidirectional and zero-width characters.
@@ -16,7 +16,7 @@ pub fn printable(text: &str) -> Cow<'_, str> {
     Cow::Owned(text.char_indices().map(safe).collect())
 }
 
-/// Like [`printable`], but keeps colour sequences of the form `ESC[1;31m`.
+/// Replaces the same characters as [`printable`], but keeps colour sequences of the form `ESC[1;31m`.
 pub fn printable_in_colours(text: &str) -> Cow<'_, str> {
     let mut pieces = text.split("\x1b[");
     let Some(first) = pieces.next().filter(|first| first.len() < text.len()) else {
@@ -33,7 +33,7 @@ pub fn printable_in_colours(text: &str) -> Cow<'_, str> {
     Cow::Owned(safe)
 }
 
-/// Like [`printable`], on one line: line breaks and tabs become blanks.
+/// Replaces the same characters as [`printable`], and replaces line breaks and tabs by blanks.
 pub fn printable_line(text: &str) -> String {
     printable(&text.replace(['\n', '\r', '\t'], " ")).into_owned()
 }

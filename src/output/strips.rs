@@ -1,4 +1,4 @@
-//! Diagrams of section forces: values as strips perpendicular to the beams, in the plane with equal scales.
+//! Diagrams of section forces: values as strips normal to the beams, with equal scales of both axes.
 
 use super::{
     axis::typeset_number,
@@ -20,7 +20,7 @@ const APART: f64 = 7.0;
 const NUMBER: f64 = 12.0;
 /// Largest ordinate, as a fraction of the size of all beams.
 const LARGEST: f64 = 0.2;
-/// Extremes below this fraction of the largest one are not labelled.
+/// Extreme value, relative to the largest, below which it is not labelled.
 const SMALLEST_LABELLED: f64 = 0.03;
 const DIGITS: usize = 4;
 
@@ -39,7 +39,7 @@ pub enum BeamSide {
 pub struct BeamStrip {
     /// The centre line.
     pub line: Vec<Point>,
-    /// Points along the beam with their values; two entries at a point where the value jumps.
+    /// Points along the beam with their values. A point at which the value jumps has two entries.
     pub values: Vec<(Point, f64)>,
 }
 
@@ -125,7 +125,7 @@ impl StripPicture {
         runs.map(run).collect()
     }
 
-    /// Size of all beams, or of the longest one if there are many small ones: diagrams of neighbours must not overlap.
+    /// Size of all beams together; if there are many small beams, of the longest one, so that diagrams of neighbouring beams do not overlap.
     fn beam_size(&self) -> f64 {
         let points = || self.strips.iter().flat_map(|strip| strip.line.iter().copied());
         let side = |pick: fn(Point) -> f64| {

@@ -1,6 +1,6 @@
-//! SVG painter based on plotters. Text becomes outlines, so that no fonts are needed; the texts are kept in the description of the picture.
+//! SVG painter, based on plotters. Text is converted to outlines, so that no fonts are needed. The description of the picture contains the texts.
 //!
-//! plotters' coordinates are integers: the picture is drawn on a grid of [`GRID`] steps per pixel.
+//! The coordinates of plotters are integers, so the picture is drawn on a grid of [`GRID`] steps per pixel.
 
 use plotters::prelude::{DrawingBackend, RGBColor, SVGBackend, ShapeStyle};
 
@@ -28,12 +28,11 @@ pub fn paint(canvas: &Canvas, width: u32, height: u32) -> Result<String, OutputE
     let opening = opening(size);
     let drawn =
         body.strip_prefix(&opening).ok_or_else(|| refused("the document begins otherwise"))?;
-    // Everything is opaque and texts are outlines, so this string can only be the attribute.
+    // All shapes are opaque and texts are outlines, so this string can only be the attribute.
     Ok(head(canvas, width, height, size) + drawn.replace(" opacity=\"1\"", "").as_str())
 }
 
-/// The opening that plotters writes for a grid of this size. It has the wrong size and neither title nor description, so [`head`] replaces
-/// it.
+/// Start of the document as plotters writes it for a grid of this size. It has a wrong size, no title and no description, so [`head`] replaces it.
 fn opening(grid: (u32, u32)) -> String {
     let mut empty = String::new();
     drop(SVGBackend::with_string(&mut empty, grid));
@@ -43,7 +42,7 @@ fn opening(grid: (u32, u32)) -> String {
 
 const END: &str = "</svg>";
 
-/// Opening of the document: size in pixels, round line joins, and all texts as description.
+/// Start of the document: size in pixels, round line joins, and all texts as description.
 fn head(canvas: &Canvas, width: u32, height: u32, grid: (u32, u32)) -> String {
     let texts: Vec<String> = canvas.shapes().iter().filter_map(text_of).collect();
     let title = texts.first().cloned().unwrap_or_default();

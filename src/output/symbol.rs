@@ -23,9 +23,9 @@ const ROOM: f64 = 20.0;
 pub enum Symbol {
     /// A support that fixes the position.
     Hinge,
-    /// A support that fixes position and angle; its direction is that of the beam that leaves it.
+    /// A support that fixes position and angle. Its direction is that of the beam at the support, away from the support.
     Clamp,
-    /// A support that fixes one component of the position, along its direction, which points away from the ground.
+    /// A support that fixes the position component along its direction, which points away from the ground.
     Roller,
     /// A support that fixes one component of the position and the angle.
     Guided,
@@ -33,7 +33,7 @@ pub enum Symbol {
     HeldAngle,
     /// A prescribed rotation of a section as a function of time.
     Motor,
-    /// A prescribed movement along a direction as a function of time.
+    /// A prescribed displacement along a direction as a function of time.
     Carriage,
     /// A revolute joint between beams.
     Joint,
@@ -45,7 +45,7 @@ pub enum Symbol {
     Force,
     /// A part of a force that is distributed along a beam.
     LineForce,
-    /// A moment: counter-clockwise if its direction points to the right, clockwise if to the left.
+    /// A moment. It is counter-clockwise if its direction points to the right, clockwise if to the left.
     Moment,
     /// A spring from its point to the end of its direction vector.
     Spring,
@@ -95,7 +95,7 @@ pub struct PlacedSymbol {
     pub symbol: Symbol,
     /// The place of the symbol.
     pub at: Point,
-    /// Direction of the symbol, of any length; zero if it has none. Springs, dampers and tendons end at `at + direction`.
+    /// Direction of the symbol, of any length; zero if the symbol has none. Springs, dampers and tendons end at `at + direction`.
     pub direction: Point,
 }
 

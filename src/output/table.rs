@@ -73,7 +73,7 @@ impl TextTable {
         self
     }
 
-    /// Adds a row. A row shorter than the header is padded with blanks; a longer one widens the table.
+    /// Adds a row. A row shorter than the header is padded with blanks. A longer row widens the table.
     pub fn row<C: Into<Cell>>(&mut self, cells: impl IntoIterator<Item = C>) -> &mut Self {
         self.rows.push(cells.into_iter().map(Into::into).collect());
         self
@@ -90,7 +90,7 @@ impl TextTable {
         cells.chain(heads).max().unwrap_or(0)
     }
 
-    /// A column with a number in it is numeric; its head is then flush right too.
+    /// Returns true if a column contains a number. The head of such a column is also flush right.
     fn is_numeric(&self, column: usize) -> bool {
         self.rows.iter().any(|row| matches!(row.get(column), Some(Cell::Number(_))))
     }

@@ -1,21 +1,21 @@
 //! VTK files for ParaView and other programs: one grid per frame, and a collection with the times of the frames.
 //!
-//! The files are XML with inline base64 data after a byte count, which keeps every bit, including denormal numbers and NaN, on which
-//! readers of the text format fail. (VTK User's Guide, "VTK File Formats": XML file formats; uncompressed, `header_type="UInt64"`.)
+//! The files are XML with base64 data after a byte count. This format keeps every bit, including denormal numbers and NaN, which readers of the text
+//! format reject. (VTK User's Guide, "VTK File Formats": XML file formats; uncompressed, `header_type="UInt64"`.)
 
 use std::fmt::Write;
 
 use super::base64::base64;
 use super::{OutputError, Point};
 
-/// VTK cell types of a point and of a line segment. A body is several such cells, because not all readers support polylines.
+/// VTK cell types of a point and of a line segment. A body consists of several such cells, because not all readers support polylines.
 const VERTEX: u8 = 1;
 const LINE: u8 = 3;
 
 /// Bodies of one frame, and fields on their points.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct VtkGrid {
-    /// Bodies; the cell field `body` holds the index of the body for each of its pieces.
+    /// Bodies. The cell field `body` contains the index of the body for each of its cells.
     pub cells: Vec<VtkCell>,
     /// Fields over the points of all cells, in order.
     pub fields: Vec<VtkField>,
@@ -175,7 +175,7 @@ fn push<const N: usize>(
     let length = (bytes.len() - 8) as u64;
     bytes[..8].copy_from_slice(&length.to_le_bytes());
     let (name, letters) = (escaped(name), base64(&bytes));
-    // Some readers turn an array with one component into a table with one column.
+    // Some readers convert an array with one component to a table with one column.
     let many = match components {
         1 => String::new(),
         many => format!(" NumberOfComponents=\"{many}\""),

@@ -4,12 +4,12 @@
 
 use unicode_width::UnicodeWidthChar;
 
-/// Columns that a character takes; control characters, such as a tab, take none.
+/// Number of columns of a character. Control characters, such as a tab, have none.
 pub fn columns_of(letter: char) -> usize {
     letter.width().unwrap_or(0)
 }
 
-/// Columns that a text of one line takes.
+/// Number of columns of a text of one line.
 pub fn columns(text: &str) -> usize {
     text.chars().map(columns_of).sum()
 }
@@ -35,7 +35,7 @@ pub fn cut(text: &str, most: usize, mark: char) -> String {
 
 /// A text padded with blanks to `width` columns.
 pub fn padded(text: &str, width: usize) -> String {
-    // Rust's own padding counts characters and is limited to 65 535.
+    // The padding of Rust counts characters and is limited to 65 535.
     format!("{text}{}", " ".repeat(width.saturating_sub(columns(text))))
 }
 

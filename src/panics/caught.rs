@@ -8,7 +8,7 @@ thread_local! {
     static PLACE: RefCell<String> = const { RefCell::new(String::new()) };
 }
 
-/// Silences panics and stores their location; whoever [catches](caught) a panic reports it.
+/// Silences panics and stores their location. The code that [catches](caught) a panic must report it.
 pub fn silence() {
     panic::set_hook(Box::new(|panic| {
         let place = panic.location().map(|place| format!(" ({place})")).unwrap_or_default();
@@ -18,7 +18,7 @@ pub fn silence() {
 
 /// Calls `work` and catches a panic.
 ///
-/// Data modified by `work` is left as the panic left it; the caller must discard it or know that it is valid.
+/// After a panic, data that `work` modifies may be inconsistent. The caller must discard the data or know that it is valid.
 ///
 /// # Errors
 /// Panic message, with the location if panics are [silenced](silence).

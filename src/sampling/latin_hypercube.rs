@@ -2,9 +2,9 @@
 
 use super::Random;
 
-/// Points of the unit cube such that each coordinate, divided into as many equal intervals as there are points, has one point in each
-/// interval (M. D. McKay, R. J. Beckman, W. J. Conover, Technometrics 21 (1979) 239-245). Returns the values of all points for each
-/// coordinate.
+/// Points of the unit cube for Latin hypercube sampling (M. D. McKay, R. J. Beckman, W. J. Conover, Technometrics 21 (1979) 239-245). If each
+/// coordinate is divided into as many equal intervals as there are points, each interval contains one point. Returns the values of all points for
+/// each coordinate.
 pub fn latin_hypercube(count: usize, dimensions: usize, seed: u64) -> Vec<Vec<f64>> {
     let mut random = Random::seeded(seed);
     let coordinate = |_| {

@@ -1,6 +1,6 @@
-//! Sobol' indices: fractions of the variance of a result explained by each parameter.
+//! Sobol' indices: fractions of the variance of a result that each parameter explains.
 
-/// Minimum number of blocks or points for an estimate, whose uncertainty is about one over the root of their number.
+/// Minimum number of blocks or points for an estimate. Its uncertainty is about the inverse square root of their number.
 const FEWEST: usize = 30;
 
 /// Fractions of the variance of a result explained by a parameter.
@@ -8,7 +8,7 @@ const FEWEST: usize = 30;
 pub struct VarianceShare {
     /// First-order index (main effect): variance of the mean of the result over all other parameters.
     pub first: f64,
-    /// Total index: remaining variance when all other parameters are known; `None` if it cannot be estimated.
+    /// Total index: remaining variance if all other parameters are known; `None` if it cannot be estimated.
     pub total: Option<f64>,
 }
 
@@ -22,8 +22,8 @@ fn variance(values: &[f64]) -> f64 {
     mean(values.iter().map(|x| (x - middle) * (x - middle)))
 }
 
-/// Indices of the parameters of a full grid, with the last parameter varying fastest. All levels are equally likely; the indices are exact.
-/// `None` if the result is constant.
+/// Indices of the parameters of a full grid, on which the last parameter varies fastest. All levels have the same probability, so the indices are
+/// exact. `None` if the result is constant.
 pub fn grid_indices(lengths: &[usize], results: &[f64]) -> Option<Vec<VarianceShare>> {
     let whole = variance(results);
     (whole > 0.0).then(|| {
@@ -61,9 +61,9 @@ pub fn saltelli_indices(parameters: usize, results: &[f64]) -> Option<Vec<Varian
     (whole > 0.0 && blocks.len() >= FEWEST).then(|| (0..parameters).map(of).collect())
 }
 
-/// First-order index of a parameter for arbitrary independent points: variance of the means over groups of points that are consecutive in
-/// the parameter, minus the contribution of the scatter within groups. The number of groups is the cube root of the number of points.
-/// Results that are not finite are left out. `None` if there are fewer than 30 points, or the result is constant.
+/// First-order index of a parameter for arbitrary independent points. It is the variance of the means over groups of points that are consecutive in
+/// the parameter, minus the contribution of the scatter within groups. The number of groups is the cube root of the number of points. Results that
+/// are not finite are omitted. `None` if there are fewer than 30 points, or the result is constant.
 pub fn rank_indices(values: &[f64], results: &[f64]) -> Option<VarianceShare> {
     let pairs = values.iter().copied().zip(results.iter().copied());
     let mut pairs: Vec<(f64, f64)> = pairs.filter(|(_, result)| result.is_finite()).collect();

@@ -23,10 +23,10 @@ use crate::panics::caught;
 
 const POLLING_INTERVAL: Duration = Duration::from_millis(50);
 
-/// Watches the attempts of a student and judges each saved one, until the user leaves or `stop` is set.
+/// Watches the attempts of a student, and judges each attempt when it is saved, until the user quits or `stop` is set.
 ///
 /// # Errors
-/// Fails if the folder or the terminal cannot be used; the terminal is restored.
+/// Fails if the folder or the terminal cannot be used. The terminal is then restored.
 pub(in crate::cli) fn watch(
     workbook: &Workbook,
     limits: &LimitOptions,
@@ -140,7 +140,7 @@ impl<'a> EventLoop<'a> {
     }
 
     fn select_exercise(&mut self, exercise: &'static Exercise) {
-        // An unreadable progress file is reported when it is written next.
+        // If the progress file is unreadable, the next write reports it.
         let progress = self.workbook.progress().unwrap_or_else(|_| self.state.progress.clone());
         self.state = TuiState::open(exercise, shown(&self.workbook.file(exercise)), progress);
         self.solution = self.painter.solution(exercise);

@@ -1,4 +1,4 @@
-//! Judging of an attempt in a separate process, so that keys are handled meanwhile and the attempt can be killed.
+//! Judging of an attempt in a separate process, so that keys are handled in the meantime and the attempt can be killed.
 
 use std::io::{self, Read};
 use std::process::{self, Child, Command, ExitStatus, Stdio};
@@ -42,7 +42,7 @@ impl JudgeProcess {
         let mut command = Command::new(env::current_exe()?);
         command.args(["learn", "try"]).args(options.to_arguments()).args(["--", &exercise.id()]);
         command.stdin(Stdio::null()).stdout(Stdio::piped()).stderr(Stdio::null());
-        // Key signals such as Ctrl-C go to the watching process only.
+        // Signals of keys, such as Ctrl-C, are sent to the watching process only.
         #[cfg(unix)]
         std::os::unix::process::CommandExt::process_group(&mut command, 0);
         let mut process = command.spawn()?;
@@ -116,7 +116,7 @@ fn killed_report(status: ExitStatus, limits: &Limits) -> AttemptReport {
     }
 }
 
-/// A failed allocation aborts; the system kills processes that use too much memory.
+/// A failed allocation aborts the process. The system kills processes that use too much memory.
 #[cfg(unix)]
 fn is_out_of_memory(status: ExitStatus) -> bool {
     use nix::libc::{SIGABRT, SIGKILL};
@@ -135,12 +135,12 @@ fn stopped(stop: Stop, printed: CapturedOutput) -> AttemptReport {
     AttemptReport { outcome: AttemptOutcome::Stopped(why), printed }
 }
 
-/// Judges an attempt in this dedicated process, and prints the report.
+/// Judges an attempt in this process, which runs nothing else, and prints the report.
 pub fn try_here(workbook: &Workbook, exercise: &Exercise, options: &LimitOptions) -> Exit {
     exit_with_parent();
     let ear = CaptureWriter::default();
     let heard = ear.clone();
-    // Only one report is printed.
+    // Only one report may be printed.
     let turn = Arc::new(Mutex::new(()));
     let last_turn = Arc::clone(&turn);
     let resort = move |stop: Stop| {
@@ -162,7 +162,7 @@ pub fn try_here(workbook: &Workbook, exercise: &Exercise, options: &LimitOptions
     };
     let _turn = turn.lock().unwrap_or_else(PoisonError::into_inner);
     send_report(&AttemptReport { outcome: verdict.into(), printed: ear.captured() });
-    // Data of the attempt is not dropped, because that may take long.
+    // Data of the attempt are not dropped, because this may take long.
     process::exit(0)
 }
 
@@ -173,7 +173,7 @@ fn send_report(report: &AttemptReport) {
     }
 }
 
-/// Ends this process with its parent, which reads the output.
+/// Ends this process when its parent, which reads the output, ends.
 #[cfg(target_os = "linux")]
 fn exit_with_parent() {
     use nix::sys::signal::Signal;

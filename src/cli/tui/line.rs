@@ -1,4 +1,4 @@
-//! A line of styled text on the screen. Long lines are wrapped or cut.
+//! A line of styled text on the screen. A long line is wrapped or cut.
 
 use std::borrow::Cow;
 use std::fmt::Write;
@@ -124,7 +124,7 @@ fn push(lines: &mut [ScreenLine], piece: String, style: &LineStyle) {
     }
 }
 
-/// Wraps a text at a width between words; further lines begin with `indent`.
+/// Wraps a text at a width between words. Further lines begin with `indent`.
 pub fn wrapped(text: &str, indent: &str, columns: usize) -> Vec<String> {
     let options = Options::new(columns.max(1))
         .subsequent_indent(if crate::output::columns(indent) * 2 < columns { indent } else { "" })
@@ -157,7 +157,7 @@ pub fn labelled(
     lines
 }
 
-/// Lines of text with ANSI colours; other escape sequences are removed.
+/// Lines of text with ANSI colours. Other escape sequences are removed.
 pub fn coloured(text: &str) -> Vec<ScreenLine> {
     let mut style = PLAIN;
     let mut lines = vec![ScreenLine::default()];

@@ -8,7 +8,7 @@ use crate::exercises::report::{AttemptError, AttemptOutcome, AttemptReport, Scri
 use crate::output::columns_of;
 
 const PRINTED: usize = 12;
-/// Shorter runs are not shown as running [s].
+/// Duration of a run below which it is not shown as running [s].
 const SHORTEST_SHOWN: u64 = 1;
 
 pub fn outcome(state: &TuiState, columns: usize) -> Vec<ScreenLine> {
@@ -81,7 +81,7 @@ fn trouble(state: &TuiState, why: &AttemptError, columns: usize) -> Vec<ScreenLi
 
 const TAB: usize = 4;
 
-/// Source line with a mark below the location, cut to the visible part around it.
+/// Source line with a mark below the location. The line is cut to the part around the location.
 fn excerpt(place: &ScriptPosition, columns: usize) -> Vec<ScreenLine> {
     let mut text = String::new();
     let (mut at, mut length) = (0, 0);
@@ -94,7 +94,7 @@ fn excerpt(place: &ScriptPosition, columns: usize) -> Vec<ScreenLine> {
     }
     let number = format!("{:>5} │ ", place.line);
     let room = columns.saturating_sub(crate::output::columns(&number) + 1).max(8);
-    // The beginning of the line is cut if the location would not be visible.
+    // If the location would not be visible, the beginning of the line is cut.
     let skipped = if at + length.max(1) <= room { 0 } else { at.saturating_sub(room / 3) };
     let (before, seen) =
         if skipped > 0 { ("…", text_from_column(&text, skipped + 1)) } else { ("", text) };
@@ -104,7 +104,7 @@ fn excerpt(place: &ScriptPosition, columns: usize) -> Vec<ScreenLine> {
     vec![line, ScreenLine::of("      │ ", FAINT).and(&mark, BAD).cut(columns)]
 }
 
-/// Text after the first columns; a wide character across the cut becomes a blank.
+/// Text after the first columns. A wide character across the cut is replaced by a blank.
 fn text_from_column(text: &str, columns: usize) -> String {
     let (mut left_out, mut rest) = (0, text.chars());
     while left_out < columns {

@@ -1,4 +1,4 @@
-//! Rendering of the state as lines: a pure function.
+//! Conversion of the state to lines, without side effects.
 //!
 //! ```text
 //! Exercise 2 of 23: title                 the header is fixed
@@ -39,16 +39,16 @@ impl PageLayout {
     }
 }
 
-/// Maximum text width; wider text is harder to read.
+/// Maximum text width. Wider text is harder to read.
 const WIDEST: usize = 100;
 
-/// Renders the state for a screen of the given columns and rows; `solution` contains the lines of the model solution.
+/// Lines of the state for a screen of the given columns and rows. `solution` contains the lines of the model solution.
 pub fn screen(
     state: &TuiState,
     (columns, rows): (usize, usize),
     solution: &[ScreenLine],
 ) -> Screen {
-    // The last column stays empty, because some terminals wrap there.
+    // The last column is left empty, because some terminals wrap there.
     let columns = columns.saturating_sub(1).max(10);
     let mut head = head(state, columns);
     let mut body = body(state, columns, solution);
@@ -159,7 +159,7 @@ fn progress(state: &TuiState, columns: usize) -> ScreenLine {
     let (passed, count) = (state.passed(), EXERCISES.len());
     let word = format!(" {passed} of {count} passed");
     let room = columns.saturating_sub(word.len() + 2).clamp(4, BAR);
-    // The bar is full only when all exercises have passed.
+    // The bar is full only if all exercises were passed.
     let full = room * passed / count;
     let bar = ScreenLine::of("[", PLAIN)
         .and(&"#".repeat(full), GOOD)

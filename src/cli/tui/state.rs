@@ -22,9 +22,9 @@ pub struct TuiState {
     pub page: ScreenPage,
     pub top: ScrollPosition,
     pub notice: Option<String>,
-    /// Pending question: pressing the same key again confirms.
+    /// Open question. The same key confirms it.
     pub confirmation: Option<Confirmation>,
-    /// Exercise number being typed in the list; 0 if none.
+    /// Number of the exercise that is being typed in the list; 0 if none.
     pub typed: usize,
 }
 
@@ -51,9 +51,9 @@ pub enum TaskSection {
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Confirmation {
-    /// Confirms leaving an exercise that has not passed.
+    /// Leave an exercise that was not passed.
     Skip,
-    /// Confirms showing a solution after all hints.
+    /// Show a solution after all hints.
     Solution,
 }
 
@@ -108,7 +108,7 @@ impl TuiState {
         }
     }
 
-    /// Next exercise: the first one after the current one that has not passed, or else the first of all.
+    /// Next exercise: the first after the current one that was not passed; if there is none, the first of all that was not passed.
     pub fn next(&self) -> Option<&'static Exercise> {
         let (before, from) = EXERCISES.split_at(index(self.exercise));
         let others = from.iter().skip(1).chain(before);

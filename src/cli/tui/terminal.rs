@@ -28,7 +28,7 @@ pub fn is_there() -> bool {
     stdin().is_terminal() && stdout().is_terminal() && can_draw
 }
 
-/// Terminal in raw mode; restored on drop.
+/// Terminal in raw mode. The mode is restored on drop.
 pub struct RawTerminal {
     colours: Colours,
     drawn: Vec<u8>,
@@ -52,7 +52,7 @@ impl RawTerminal {
         (usize::from(columns), usize::from(rows))
     }
 
-    /// Draws lines, in one write; unchanged screens are not redrawn.
+    /// Draws lines in one write. An unchanged screen is not drawn again.
     ///
     /// # Errors
     /// Fails if writing fails.
@@ -60,7 +60,7 @@ impl RawTerminal {
         let mut drawing = Vec::new();
         queue!(drawing, BeginSynchronizedUpdate)?;
         for (row, line) in (0..).zip(lines) {
-            // Lines are overwritten instead of cleared first, to avoid flicker.
+            // Lines are overwritten without clearing them first, to avoid flicker.
             let drawn = line.drawn(self.colours);
             queue!(drawing, MoveTo(0, row), Print(drawn), Clear(ClearType::UntilNewLine))?;
         }
@@ -121,10 +121,10 @@ fn enter_raw_mode() -> io::Result<()> {
     execute!(stdout(), EnterAlternateScreen, Hide)
 }
 
-/// Restores the terminal if necessary; also for code that ends the process without unwinding.
+/// Restores the terminal if necessary. Code that ends the process without unwinding must call it, too.
 pub fn restore() {
     if HELD.swap(false, Ordering::Relaxed) {
-        // An error means that the terminal is gone.
+        // An error means that the terminal was closed.
         let _ = execute!(stdout(), Show, LeaveAlternateScreen);
         let _ = terminal::disable_raw_mode();
     }

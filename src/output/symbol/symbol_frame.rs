@@ -38,7 +38,7 @@ pub(super) struct SymbolFrame<'a> {
 }
 
 impl SymbolFrame<'_> {
-    /// Draws a symbol; springs, dampers and tendons have two points and are not drawn here.
+    /// Draws a symbol. Springs, dampers and tendons have two points and are not drawn here.
     pub(super) fn draw(mut self, symbol: Symbol) {
         match symbol {
             Symbol::Hinge => self.hinge(),
@@ -106,7 +106,7 @@ impl SymbolFrame<'_> {
     }
 
     fn hinge(&mut self) {
-        // Always upright.
+        // This symbol is always upright.
         self.ahead = (0.0, -1.0);
         self.triangle();
         self.ground_behind(TRIANGLE);
@@ -188,7 +188,7 @@ impl SymbolFrame<'_> {
 
     fn turn(&mut self) {
         let side = if self.ahead.0 < 0.0 { -1.0 } else { 1.0 };
-        // From below the point to its upper side; mirrored if clockwise.
+        // Angles from below the point to its upper side, mirrored if clockwise.
         let angle = |index: f64| -2.0 + 4.4 * index / 24.0;
         let around =
             |angle: f64| (self.at.0 + side * TURN * cos(angle), self.at.1 - TURN * sin(angle));

@@ -1,4 +1,4 @@
-//! A sheet of coloured characters and its rendering as lines of text.
+//! A grid of coloured characters, and its conversion to lines of text.
 
 use super::{Colours, TerminalStyle};
 use crate::output::width::columns_of;
@@ -20,7 +20,7 @@ const HUES: [u8; 6] = [36, 33, 35, 32, 34, 31];
 /// Placeholder after a character of two columns.
 const WIDE_PLACEHOLDER: char = '\0';
 
-/// Characters in lines and columns; writing outside is ignored.
+/// Characters in lines and columns. Characters written outside are ignored.
 #[derive(Clone, Debug)]
 pub struct CharacterGrid {
     style: TerminalStyle,
@@ -46,7 +46,7 @@ impl CharacterGrid {
         let mut column = column;
         for letter in self.style.glyphs.typeset(text).chars() {
             match columns_of(letter) {
-                // A cell holds one character, so combining accents are dropped.
+                // A cell contains one character, so combining accents are dropped.
                 0 => continue,
                 // A wide character needs both columns.
                 wide if column + wide > self.style.width => return,
@@ -60,7 +60,7 @@ impl CharacterGrid {
         }
     }
 
-    /// Lines of the sheet, joined by line breaks, without trailing blanks.
+    /// Lines of the grid, joined by line breaks, without trailing blanks.
     pub fn render(&self) -> String {
         if self.style.width == 0 {
             return String::new();

@@ -8,19 +8,19 @@ use crate::output::chart::LineChart;
 use crate::output::frame::Frame;
 use crate::output::width::columns;
 
-/// Characters per tick along the horizontal axis, lines along the vertical axis.
+/// Distance of ticks along the horizontal axis [characters] and along the vertical axis [lines].
 const TICK_EVERY: (usize, usize) = (9, 4);
-/// Smallest plot with axes and a legend, in characters.
+/// Size of the smallest plot with axes and a legend [characters].
 const LEAST: (usize, usize) = (8, 3);
 const MOST_ROWS: usize = 3;
 const BETWEEN: usize = 3;
-/// Spacing of the letters that identify a curve if the terminal has no colours, in characters.
+/// Distance of the letters that identify a curve, if the terminal has no colours [characters].
 const LETTER_SPACING: usize = 16;
 
 impl LineChart {
     /// Text of the chart for a terminal, of at most the width and the height of `style`.
     ///
-    /// Without colours several curves are distinguished by letters: on the curves in Braille, instead of dots in ASCII.
+    /// Without colours, letters distinguish several curves. In Braille they are placed on the curves; in ASCII they replace the dots.
     pub fn text(&self, style: &TerminalStyle) -> String {
         let layout = Layout::new(self, style);
         let mut sheet = CharacterGrid::new(style);
@@ -187,7 +187,7 @@ impl Layout {
         let mut dots = Dots::new(self.columns, self.rows);
         let (right, bottom) = dots.last();
         for index in series {
-            // Axes clamp infinite values to their ends, but a curve must have a gap there.
+            // Axes limit infinite values to their ends, but a curve must have a gap there.
             let seen = |&(a, b): &(f64, f64)| match a.is_finite() && b.is_finite() {
                 true => (x.place(a) * right, (1.0 - y.place(b)) * bottom),
                 false => (f64::NAN, f64::NAN),

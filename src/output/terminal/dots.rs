@@ -1,4 +1,4 @@
-//! A raster of two by four dots per character. The dots are square, as terminal characters are about twice as high as wide.
+//! A raster of two by four dots per character. The dots are approximately square, because terminal characters are about twice as high as wide.
 
 use super::Glyphs;
 use super::character_grid::TerminalColour;
@@ -32,14 +32,14 @@ impl Dots {
         Self { columns, rows, cells: vec![(0, TerminalColour::Plain); columns * rows] }
     }
 
-    /// The coordinates of the last dot of the raster: the number of dots less one across and down.
+    /// Coordinates of the last dot of the raster, counted from zero.
     pub fn last(&self) -> Point {
         let last = |dots: usize| dots.saturating_sub(1) as f64;
         (last(ACROSS * self.columns), last(DOWN * self.rows))
     }
 
-    /// Draws a curve through points given in dots from the upper left one. Points that are not finite leave a gap; what lies outside the
-    /// raster is clipped.
+    /// Draws a curve through points in units of dots, from the upper left dot. Points that are not finite leave a gap. Parts outside the raster are
+    /// clipped.
     pub fn curve(
         &mut self,
         points: impl IntoIterator<Item = Point>,
@@ -86,7 +86,7 @@ impl Dots {
 fn line_dots(from: (i64, i64), to: (i64, i64)) -> impl Iterator<Item = (i64, i64)> {
     let (dx, dy) = (to.0 - from.0, to.1 - from.1);
     let steps = dx.abs().max(dy.abs());
-    // Integer division with rounding; ties are rounded away from the start point of the line.
+    // Integer division with rounding. Halves are rounded away from the start point of the line.
     let part = move |whole: i64, step: i64| {
         (2 * whole.abs() * step + steps) / (2 * steps).max(1) * whole.signum()
     };
@@ -122,7 +122,7 @@ fn ascii_of_dots(mask: u8) -> char {
             _ => '_',
         },
         _ if left == 0 || right == 0 => '|',
-        // Compares the mean rows of both columns without dividing; rows count downwards.
+        // Compares the mean rows of both columns without a division. Rows count downwards.
         _ => match (sum(0) * right).cmp(&(sum(1) * left)) {
             std::cmp::Ordering::Less => '\\',
             std::cmp::Ordering::Greater => '/',

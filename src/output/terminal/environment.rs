@@ -2,21 +2,21 @@
 
 use super::{Colours, Glyphs, TerminalStyle};
 
-/// Size of a terminal that does not report its own.
+/// Size of a terminal that does not report its size.
 const USUAL: (usize, usize) = (80, 24);
 
 const WIDTHS: (usize, usize) = (20, 240);
 const HEIGHTS: (usize, usize) = (8, 60);
 
-/// Lines left free below a picture, so that it is visible together with the prompt.
+/// Number of lines left free below a picture, so that the picture and the prompt are visible together.
 const FREE_LINES: usize = 3;
 
 impl TerminalStyle {
-    /// Style for the terminal described by environment variables; `variable` returns the value of one.
+    /// Style for the terminal that environment variables describe. `variable` returns the value of a variable.
     ///
-    /// No colours where `NO_COLOR` is set and not empty, or `TERM` is `dumb` or not known. Braille where the character set of `LC_ALL`,
-    /// else `LC_CTYPE`, else `LANG` is UTF-8 and `TERM` is neither `dumb` nor `linux`, the console without such a font. The size is that of
-    /// `COLUMNS` and `LINES`, or 80 by 24; a picture is a few lines less high.
+    /// Colours are disabled if `NO_COLOR` is set and not empty, or if `TERM` is `dumb` or unknown. Braille is used if the character set of `LC_ALL`,
+    /// or else of `LC_CTYPE`, or else of `LANG` is UTF-8, unless `TERM` is `dumb` or `linux` (the console, which has no such font). The size is that
+    /// of `COLUMNS` and `LINES`, or 80 by 24; the height of a picture is a few lines less.
     pub fn of_environment(variable: impl Fn(&str) -> Option<String>) -> Self {
         let given = |name: &str| variable(name).filter(|value| !value.is_empty());
         let terminal = given("TERM").unwrap_or_default();

@@ -9,7 +9,7 @@ const BETWEEN: usize = 2;
 const BLOCK: usize = 3;
 
 impl HeatMap {
-    /// Text of the heat map for a terminal. No line is wider than `style`; the height is not limited.
+    /// Text of the heat map for a terminal. No line is wider than the width of `style`; the height is not limited.
     pub fn text(&self, style: &TerminalStyle) -> String {
         let glyphs = style.glyphs;
         let cells: Vec<Vec<(char, TerminalColour, String)>> = self

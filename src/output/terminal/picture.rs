@@ -1,4 +1,4 @@
-//! Configurations as text: beams as lines; point masses, sliders and supports as characters; equal scales of both axes.
+//! Configurations as text with equal scales of both axes. Beams are lines; point masses, sliders and supports are characters.
 
 use super::TerminalStyle;
 use super::character_grid::{CharacterGrid, TerminalColour};
@@ -38,7 +38,7 @@ impl PictureMark {
     }
 }
 
-/// Extents below this fraction of the coordinates, or below this length, count as zero.
+/// Sizes below this fraction of the coordinates, or below this length, count as zero.
 const ROUNDING: (f64, f64) = (1e-10, 1e-290);
 /// Size of the smallest picture with a frame, in columns and lines.
 const LEAST: (usize, usize) = (12, 5);
@@ -93,7 +93,7 @@ impl ConfigurationPicture {
         self
     }
 
-    /// Sets limits that are visible at least; both axes keep the same scale.
+    /// Sets limits that must be visible. Both axes keep the same scale.
     pub fn limits(mut self, limits: AxisLimits) -> Self {
         self.limits = limits;
         self
@@ -198,7 +198,7 @@ impl ConfigurationPicture {
         self.write_into(sheet, style, last_row, &edges, &self.signs(style));
     }
 
-    /// Writes two texts into a line of the frame; the second one only if the first keeps its width or half a line.
+    /// Writes two texts into a line of the frame. The second text is written only if the first keeps its width or half a line.
     fn write_into(
         &self,
         sheet: &mut CharacterGrid,
@@ -247,7 +247,7 @@ impl PlaneWindow {
         let ends = |middle: f64, dots: f64| {
             [-1.0, 1.0].map(|side| {
                 let end = middle + side * 0.5 * dots * self.dot;
-                // Rounding around zero.
+                // A value near zero is due to rounding.
                 if end.abs() < 1e-9 * dots * self.dot { 0.0 } else { end }
             })
         };

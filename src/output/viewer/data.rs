@@ -55,8 +55,8 @@ pub struct BodyShape {
     pub points: Vec<(String, PointCombination)>,
     /// Outline of the body: closed if it ends at its start, otherwise a line; empty without points.
     pub outline: Vec<PointCombination>,
-    /// Corners of the body's own polygon, if it has one; `outline` is then the line from its centre to one of its points. The corners are
-    /// given along that line and to its left, as multiples of its length; the last one repeats the first.
+    /// Corners of the polygon of the body, if it has one. `outline` is then the line from the centre to one of its points. The corners are given
+    /// along that line and to its left, in units of its length. The last corner repeats the first.
     pub corners: Vec<(f64, f64)>,
 }
 
@@ -100,7 +100,7 @@ pub struct SpringShape {
 /// A load over time.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Arrow {
-    /// Kind of symbol. Of a moment only the first component of the value is used, positive counter-clockwise.
+    /// Kind of symbol. For a moment, only the first component of the value is used, positive counter-clockwise.
     pub symbol: Symbol,
     /// Name of the load.
     pub name: String,
@@ -126,7 +126,7 @@ pub struct ColourField {
     pub name: String,
     /// Unit or dimension of the field; empty for a pure number.
     pub unit: String,
-    /// Values in each frame: at the stations of the first beam, then of the next one. Values that are not finite are not coloured.
+    /// Values in each frame: at the stations of the first beam, then of the next one. Places whose values are not finite are not coloured.
     pub values: Vec<Vec<f64>>,
 }
 
@@ -135,7 +135,7 @@ pub struct ColourField {
 pub struct TimeCurve {
     /// The name of the column.
     pub name: String,
-    /// Unit or dimension of the column; columns with the same unit share a plot.
+    /// Unit or dimension of the column. Columns with the same unit share a plot.
     pub unit: String,
     /// Value in each row.
     pub values: Vec<f64>,

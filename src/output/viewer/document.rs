@@ -15,7 +15,7 @@ use crate::output::symbol::Symbol;
 
 const TEMPLATE: &str = include_str!("page/template.html");
 const STYLE: &str = include_str!("page/style.css");
-/// In order of dependencies.
+/// In the order of their dependencies.
 const PROGRAMS: [&str; 9] = [
     include_str!("page/reading.js"),
     include_str!("page/film.js"),
@@ -28,11 +28,11 @@ const PROGRAMS: [&str; 9] = [
     include_str!("page/controls.js"),
 ];
 
-/// Steps between the least and the greatest value of a field: more shades than a screen shows.
+/// Number of steps between the smallest and the largest value of a field. A screen shows fewer shades.
 const SHADES: u16 = 255;
-/// Steps between the least and the greatest value of a load.
+/// Number of steps between the smallest and the largest value of a load.
 const LOAD_STEPS: u16 = 4095;
-/// Weights are rounded to this fraction of one, far below the resolution of the points.
+/// Number of steps between 0 and 1 to which weights are rounded. The rounding error is far below the resolution of the points.
 const WEIGHT_PARTS: f64 = 1e7;
 
 /// An HTML page with one or several motions side by side.
@@ -58,7 +58,7 @@ impl Viewer {
             })
             .collect();
         let data = json!({ "title": self.title, "hues": hues, "films": films });
-        // Inside a script element only a `<` could end the data.
+        // In a script element, only a `<` could end the data.
         let data = data.to_string().replace('<', "\\u003c");
         let title = escaped(&self.title);
         Ok(filled(
@@ -141,7 +141,7 @@ fn packed_sign(sign: &SymbolMark) -> Value {
     })
 }
 
-/// Anchors on the ground are points without weights.
+/// An anchor on the ground is a point without weights.
 fn packed_spring(spring: &SpringShape) -> Value {
     let anchor = |anchor: &SpringEnd| match anchor {
         SpringEnd::Moving(at) => place(at, 0),
@@ -151,7 +151,7 @@ fn packed_spring(spring: &SpringShape) -> Value {
     json!({ "kind": spring.symbol.name(), "name": spring.name, "anchors": anchors, "until": spring.until })
 }
 
-/// A beam as its first point index and its shape, which beams with the same mesh share.
+/// A beam as the index of its first point and its shape. Beams with the same mesh share a shape.
 fn packed_beam(beam: &BeamShape, shapes: &mut Vec<Value>) -> Value {
     let first = beam.line.iter().map(|place| place.first).min().unwrap_or(0);
     let shape = json!({

@@ -4,8 +4,8 @@
 //! film → thinning, packing → document → HTML with page/template.html, page/style.css and the programs of page/
 //! ```
 //!
-//! Bodies are stored as their control points or nodes, in 16 bits, and evaluated in the browser. Curves are exact at every drawn point, and
-//! take less space than polylines.
+//! Bodies are stored as their control points or nodes, with 16 bits per coordinate, and evaluated in the browser. Curves are exact at every drawn
+//! point, and need less space than polylines.
 
 mod data;
 mod document;

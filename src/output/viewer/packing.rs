@@ -17,14 +17,14 @@ pub const FINEST: u16 = MISSING - 1;
 /// Quantisation: `number = origin + step · code`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Quantisation {
-    /// Number of code 0.
+    /// Number for code 0.
     pub origin: f64,
-    /// Difference of neighbouring codes; zero if all numbers are equal.
+    /// Difference of the numbers of neighbouring codes; zero if all numbers are equal.
     pub step: f64,
 }
 
 impl Quantisation {
-    /// Scale from the least to the greatest finite number in the given number of steps.
+    /// Scale from the smallest to the largest finite number in the given number of steps.
     pub fn over(numbers: impl Iterator<Item = f64>, steps: u16) -> Self {
         let finite = numbers.filter(|number| number.is_finite());
         let (least, greatest) = finite
@@ -32,7 +32,7 @@ impl Quantisation {
                 (a.min(number), b.max(number))
             });
         match least <= greatest {
-            // Halved, so that the difference of any two numbers is finite.
+            // The numbers are halved, so that the difference of any two is finite.
             true => Self {
                 origin: least,
                 step: (greatest / 2.0 - least / 2.0) / f64::from(steps) * 2.0,
@@ -52,10 +52,10 @@ impl Quantisation {
     }
 }
 
-/// Packs `numbers` time series of `frames` values each in the format of the page; `value` takes the series and the frame.
+/// Packs `numbers` time series of `frames` values each in the format of the page. `value` is called with the series and the frame.
 ///
 /// # Errors
-/// Fails if compression fails, which would be an internal error.
+/// Fails if the compression fails, which would be an internal error.
 pub fn pack(
     scale: Quantisation,
     (numbers, frames): (usize, usize),

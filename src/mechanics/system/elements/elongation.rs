@@ -59,7 +59,6 @@ enum Measure {
 
 /// Length or angle between terminals at the start of a step, and its change in an iterate.
 ///
-///
 /// Its coordinates are the increments of the terminals in their order: x and y for a length, the rotation for an angle.
 #[derive(Debug, Clone)]
 pub struct Elongation {

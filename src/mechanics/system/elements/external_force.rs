@@ -41,7 +41,6 @@ pub struct LoadAccount {
 
 /// Element that applies forces to bodies: a load or the weight.
 ///
-///
 /// Forces are evaluated in every iterate, work and impulse at the end of a step. If an element has a potential, the work of its forces is exactly the
 /// negative change of the potential (a discrete gradient). All methods with a default are optional. Dispatch is dynamic, once per element and
 /// iterate.

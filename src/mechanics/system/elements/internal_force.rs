@@ -19,7 +19,6 @@ pub struct SpringTrialState {
 
 /// Element that resists the motion of bodies and stores or dissipates energy.
 ///
-///
 /// The force is an independent unknown, as the section forces of beams are. Residuals use the current force. Linearisations condense it, and
 /// corrections update it together with the increments. Hence the rounding error of the configuration is not multiplied by the stiffness, and the
 /// number of iterations does not grow with stiffness. Dispatch is dynamic, once per element and iterate.

@@ -319,7 +319,6 @@ impl PrescribedMovements {
 
     /// Work and impulse of the drives in the step whose increments the bodies gathered last. The work of each drive is accumulated.
     ///
-    ///
     /// `mean` returns the mean rate of a degree of freedom.
     pub fn exchange(
         &mut self,

@@ -116,7 +116,6 @@ impl SpringDamper {
     /// Extrapolation factor of the rates beyond the middle of the step, in units of the difference between two steps; `None` if the force does not
     /// depend on rates.
     ///
-    ///
     /// A method with forces at both ends of the step balances forces at the time `at.weight` within the step. The rate at that time is extrapolated
     /// from the middles of this step and the last one.
     fn lateness(&self, at: TrialState<'_>) -> Option<f64> {
