@@ -29,7 +29,7 @@ struct ViewRun {
     program: Program,
     out: PathBuf,
     page: String,
-    /// Temporary folder of the page; `None` if the user chose a location.
+    /// Temporary folder for the page; `None` unless the user chose the location of the page.
     _scratch: Option<Scratch>,
 }
 

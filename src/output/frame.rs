@@ -13,7 +13,7 @@ const CAPTION: f64 = 12.0;
 const LABEL: f64 = 13.0;
 const NUMBER: f64 = 12.0;
 const EDGE: f64 = 14.0;
-/// Smallest reduction of the size of a text. Below it, the text is broken into lines instead.
+/// Smallest size of a text, as a fraction of its normal size. A longer text is broken into lines.
 const SMALLEST: f64 = 0.8;
 const MOST_LINES: usize = 4;
 /// Number of points above which only the points of the thinned curve are marked.

@@ -76,7 +76,7 @@ impl SessionRecord {
             self.sources().map(|source| source.map(written).unwrap_or_default()).collect();
         let mut script = format!("{HEADER}\n\n");
         for (index, entry) in self.entries.iter().enumerate() {
-            // The value of `ans` matters until the next expression replaces it.
+            // The value of `ans` is needed until the next expression replaces it.
             let later = || self.entries[index + 1..].iter().zip(&asked[index + 1..]);
             let next = later().position(|(entry, _)| matches!(entry, RecordedInput::Expression(_)));
             let is_asked = || {
@@ -198,9 +198,9 @@ pub fn functions_of(source: &Source) -> impl Iterator<Item = &str> {
 }
 
 struct FunctionText {
-    /// Name, with the type before a method's name, and number of parameters.
+    /// Name (for a method, preceded by its type) and number of parameters.
     name: (String, usize),
-    /// From `private` or the doc comments to the closing brace.
+    /// Range of the text from `private` or the doc comments to the closing brace.
     bytes: Range<usize>,
 }
 

@@ -18,7 +18,7 @@ pub struct FolderEntry {
 }
 
 impl Folder {
-    /// Entries of this folder, sorted by name. Links are not followed. Entries that cannot be inspected are left out.
+    /// Entries of this folder, sorted by name. Links are not followed. Entries that cannot be inspected are omitted.
     ///
     /// # Errors
     /// Fails if the folder cannot be read.
@@ -34,10 +34,10 @@ impl Folder {
         Ok(all)
     }
 
-    /// Opens a subfolder by its name; links are not followed.
+    /// Opens a subfolder by its name. Links are not followed.
     ///
     /// # Errors
-    /// Fails if there is no folder of this name, or it is a link.
+    /// Fails if there is no folder of this name, or if it is a link.
     pub fn below(&self, name: &OsStr) -> io::Result<Self> {
         match is_plain(Path::new(name)) {
             true => self.enter(name),

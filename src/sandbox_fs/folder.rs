@@ -11,18 +11,18 @@ use cap_std::fs::{Dir, OpenOptions};
 
 use super::reading;
 
-/// An open folder. Renaming it or replacing it by a link does not affect holders of this value.
+/// An open folder. If the folder is renamed or replaced by a link, this value still refers to the same folder.
 #[derive(Debug)]
 pub struct Folder(pub(super) Dir);
 
-/// Returns true if a file name only descends: no root, no `..`.
+/// Returns true if a path has no root and no `..`, so that it leads to the folder or below.
 pub fn is_plain(name: &Path) -> bool {
     let mut parts = name.components();
     name.components().next().is_some() && parts.all(|part| matches!(part, Component::Normal(_)))
 }
 
 impl Folder {
-    /// Opens a folder given by the user; links are followed.
+    /// Opens a folder that the user has given. Links are followed.
     ///
     /// # Errors
     /// Fails if there is no folder at `path`.
@@ -31,8 +31,8 @@ impl Folder {
         Dir::open_ambient_dir(path, ambient_authority()).map(Self)
     }
 
-    /// Opens a folder for writing, and creates it and its parents if necessary. The folder itself may not be a link, which could lead
-    /// elsewhere.
+    /// Opens a folder for writing, and creates it and its parents if necessary. The folder itself must not be a link, which could lead to another
+    /// place.
     ///
     /// # Errors
     /// Fails if the folder cannot be created, or is a link.
@@ -48,7 +48,7 @@ impl Folder {
         }
     }
 
-    /// Opens a folder like [`open_or_create`](Self::open_or_create), without creating it.
+    /// Opens a folder as [`open_or_create`](Self::open_or_create), without creating it.
     ///
     /// # Errors
     /// Fails if there is no folder at `path`, or it is a link.
@@ -103,10 +103,10 @@ impl Folder {
         Ok((folder, name.file_name().ok_or_else(refused)?))
     }
 
-    /// Reads a regular file below this folder of at most `most` bytes. Links are not followed.
+    /// Reads a regular file of at most `most` bytes below this folder. Links are not followed.
     ///
     /// # Errors
-    /// Fails if there is none, it is too long, or a link, a pipe, a device or a folder.
+    /// Fails if the file does not exist, is longer, or is a link, a pipe, a device or a folder.
     pub fn read(&self, name: &Path, most: u64) -> io::Result<Vec<u8>> {
         reading::read(self.open_file(name)?, most)
     }
@@ -114,7 +114,7 @@ impl Folder {
     /// Opens a regular file below this folder for reading. Links are not followed.
     ///
     /// # Errors
-    /// Fails if there is none, or it is a link, a pipe, a device or a folder.
+    /// Fails if the file does not exist, or is a link, a pipe, a device or a folder.
     pub fn open_file(&self, name: &Path) -> io::Result<fs::File> {
         let (folder, name) = self.parent_of(name, Self::enter)?;
         let about = folder.0.symlink_metadata(name)?;
@@ -136,12 +136,12 @@ impl Folder {
     /// Returns true if a regular file below this folder is not locked.
     ///
     /// # Errors
-    /// Fails if there is none, or it cannot be opened.
+    /// Fails if the file does not exist or cannot be opened.
     pub fn is_unlocked(&self, name: &Path) -> io::Result<bool> {
         Ok(self.open_file(name)?.try_lock().is_ok())
     }
 
-    /// Creates a new file for writing; missing parent folders are created.
+    /// Creates a new file for writing, and missing parent folders.
     ///
     /// # Errors
     /// Fails if the name exists.
@@ -186,7 +186,7 @@ impl Folder {
         self.0.remove_file_or_symlink(name)
     }
 
-    /// Makes renamed files durable. Systems that cannot sync folders are accepted.
+    /// Makes renamed files durable. On systems that cannot write folders to disk, nothing happens.
     pub(super) fn sync(&self) -> io::Result<()> {
         #[cfg(unix)]
         {

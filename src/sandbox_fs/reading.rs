@@ -13,19 +13,19 @@ pub(super) fn options(follow: FollowSymlinks) -> OpenOptions {
     options
 }
 
-/// Content of a file given by the user, of at most `most` bytes; links are followed.
+/// Content of a file that the user has given, of at most `most` bytes. Links are followed.
 ///
 /// # Errors
 /// Fails if it is not a regular file, too long, or unreadable.
 pub fn read_file(path: &Path, most: u64) -> io::Result<Vec<u8>> {
-    // Checked before opening, because opening some devices has side effects.
+    // The kind is checked before opening, because opening some devices has side effects.
     expect_ordinary(std::fs::metadata(path)?.is_file())?;
     let options = options(FollowSymlinks::Yes);
     let file = File::open_ambient_with(path, &options, ambient_authority())?;
     read(file.into_std(), most)
 }
 
-/// Text of a UTF-8 file given by the user, of at most `most` bytes; links are followed.
+/// Text of a UTF-8 file that the user has given, of at most `most` bytes. Links are followed.
 ///
 /// # Errors
 /// Fails if it is not a regular file, too long, not UTF-8, or unreadable.

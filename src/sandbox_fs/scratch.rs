@@ -1,4 +1,4 @@
-//! Temporary folders with unpredictable names. Folders left by killed processes are removed later.
+//! Temporary folders with unpredictable names. Folders of killed processes are removed later.
 
 use std::fs::{self, File};
 use std::io;
@@ -10,9 +10,9 @@ use tempfile::TempDir;
 use super::Folder;
 
 const PREFIX: &str = "withy-scratch-";
-/// File in each folder that is locked while its process lives.
+/// File in each folder that is locked until its process ends.
 const HELD: &str = ".held";
-/// Age from which a folder without that file is stale; a younger one may belong to a starting process.
+/// Age above which a folder without that file is abandoned. A younger folder may belong to a starting process.
 const BEGINNING: Duration = Duration::from_secs(3600);
 
 /// A new folder in the system's temporary folder, removed on drop.
@@ -24,7 +24,7 @@ pub struct Scratch {
 }
 
 impl Scratch {
-    /// Creates a scratch folder, and removes those of killed processes.
+    /// Creates a temporary folder, and removes the folders of killed processes.
     ///
     /// # Errors
     /// Fails if it cannot be created.
@@ -34,7 +34,7 @@ impl Scratch {
 
     fn within(home: &Path) -> io::Result<Self> {
         let folder = tempfile::Builder::new().prefix(PREFIX).tempdir_in(home)?;
-        // Renamed only after locking, because other processes may inspect it at any time.
+        // The file is renamed after it is locked, because other processes may inspect it at any time.
         let open = Folder::open(folder.path())?;
         let (begun, held) = (Path::new(".begun"), Path::new(HELD));
         let file = open.create(begun)?;
@@ -57,7 +57,7 @@ impl Scratch {
         tempfile::Builder::new().prefix("part-").tempdir_in(self.path())
     }
 
-    /// Removes stale folders; failures are ignored, because the folders may belong to other users.
+    /// Removes abandoned folders. Failures are ignored, because the folders may belong to other users.
     fn remove_stale(&self, home: &Path) {
         for path in stale(home, self.path()).unwrap_or_default() {
             let _ = fs::remove_dir_all(path);

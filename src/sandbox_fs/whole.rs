@@ -1,4 +1,4 @@
-//! Atomic and durable writing of files, and renaming of foreign files before they would be replaced.
+//! Atomic and durable writing of files, and renaming of foreign files that would be replaced.
 
 use std::ffi::{OsStr, OsString};
 use std::fs;
@@ -13,10 +13,10 @@ use super::reading;
 /// Number of names that are tried for a temporary file.
 pub(super) const TRIES: usize = 100;
 
-/// Age from which an unlocked temporary file counts as abandoned. A new file is unlocked for a moment.
+/// Age above which an unlocked temporary file is abandoned. A new file is unlocked for a moment.
 const ABANDONED: Duration = Duration::from_secs(60);
 
-/// Complete file under a temporary name. Dropping it removes the file unless it was [placed](Self::rename_to_final).
+/// Complete file under a temporary name. Dropping it removes the file, unless the file was [renamed](Self::rename_to_final).
 #[derive(Debug)]
 pub struct Prepared {
     folder: Folder,
@@ -28,7 +28,7 @@ impl Prepared {
     /// Renames the file to its final name, durably. An existing file of that name is replaced.
     ///
     /// # Errors
-    /// Fails when it cannot be renamed; nothing has changed then.
+    /// Fails if the file cannot be renamed. Nothing is then changed.
     pub fn rename_to_final(self) -> io::Result<()> {
         self.folder.0.rename(&self.partial, &self.folder.0, &self.name)?;
         self.folder.sync()
@@ -43,11 +43,11 @@ impl Drop for Prepared {
 }
 
 impl Folder {
-    /// Writes a file below this folder atomically and durably. An existing file or link is replaced, not followed; missing parent
-    /// folders are created.
+    /// Writes a file below this folder atomically and durably. An existing file or link is replaced; links are not followed. Missing parent folders
+    /// are created.
     ///
     /// # Errors
-    /// Fails if writing fails, or the name is that of a folder, a pipe or a device; nothing has changed then.
+    /// Fails if writing fails, or the name is that of a folder, a pipe or a device. Nothing is then changed.
     pub fn write_atomic(&self, name: &Path, bytes: &[u8]) -> io::Result<()> {
         self.prepare(name, |file| file.write_all(bytes))?.rename_to_final()
     }
@@ -55,7 +55,7 @@ impl Folder {
     /// Writes the content of `write` to a temporary file. [`Prepared::rename_to_final`] then replaces an existing file of that name.
     ///
     /// # Errors
-    /// Fails like [`write_atomic`](Self::write_atomic), or with an error of `write`.
+    /// Fails as [`write_atomic`](Self::write_atomic), or with an error of `write`.
     pub fn prepare(
         &self,
         name: &Path,
@@ -97,7 +97,7 @@ impl Folder {
         }
     }
 
-    /// Removes temporary files beside `name` that killed programs have left.
+    /// Removes temporary files that killed programs have left beside `name`.
     pub fn remove_abandoned(&self, name: &Path) {
         let Ok((folder, _)) = self.parent_of(name, Self::enter) else { return };
         for entry in folder.entries().unwrap_or_default() {
@@ -122,7 +122,7 @@ impl Folder {
         for number in 1..TRIES * TRIES {
             let new = free(number);
             let Some(kept) = new.file_name() else { break };
-            // Reserves the name first, so that no file is replaced.
+            // The name is reserved first, so that no file is replaced.
             match folder.create_here(kept) {
                 Ok(_) => {
                     folder.0.rename(own, &folder.0, kept)?;
@@ -136,7 +136,7 @@ impl Folder {
         Err(io::Error::new(ErrorKind::AlreadyExists, "no unused file name was found for the copy"))
     }
 
-    /// Renames a file that was kept under another name back, unless its name is in use again.
+    /// Renames a file that was kept under another name to its original name, unless that name is in use.
     ///
     /// # Errors
     /// Fails when it cannot be renamed.

@@ -1,4 +1,4 @@
-//! Record of the files that this program wrote into a folder, to distinguish them from other files and from edited ones.
+//! Record of the files that this program wrote into a folder. It distinguishes them from other files and from files edited since.
 
 use std::collections::BTreeMap;
 use std::io::{self, Read, Write};
@@ -6,9 +6,9 @@ use std::path::Path;
 
 use super::Folder;
 
-/// Name of the record: hidden, because it is of no use to users.
+/// Name of the record. It is hidden, because users do not need it.
 const FILE: &str = ".withy-written";
-/// Maximum size of a record [bytes]; without a record all files count as foreign and are kept.
+/// Maximum size of a record [bytes]. Without a record, all files count as foreign and are kept.
 const LARGEST: u64 = 16 << 20;
 /// Buffer size [bytes].
 const PIECE: usize = 1 << 16;
@@ -70,7 +70,7 @@ impl<W: Write> Write for ChecksumWriter<W> {
 }
 
 /// Checksums and lengths of the files that this program has written into a folder, by name. The last two contents of each file are kept, because a
-/// new content is noted before it replaces the old one.
+/// new content is recorded before it replaces the old one.
 #[derive(Debug, Default)]
 pub struct WrittenFiles {
     files: BTreeMap<String, [Option<FileChecksum>; 2]>,
@@ -79,9 +79,9 @@ pub struct WrittenFiles {
 }
 
 impl WrittenFiles {
-    /// Reads the record of a folder; damaged lines are ignored.
+    /// Reads the record of a folder. Damaged lines are ignored.
     pub fn of(folder: &Folder) -> Self {
-        // Without a readable record all files count as foreign and are kept.
+        // Without a readable record, all files count as foreign and are kept.
         let text = folder.read(Path::new(FILE), LARGEST).unwrap_or_default();
         let text = String::from_utf8_lossy(&text);
         let is_torn = !text.is_empty() && !text.ends_with('\n');
@@ -92,7 +92,8 @@ impl WrittenFiles {
         record
     }
 
-    /// Returns true if the name is unused or its file is unchanged since this program wrote it. Rereads the record if another run may have changed it.
+    /// Returns true if the name is unused, or its file is unchanged since this program wrote it. If another run may have changed the record, it is
+    /// read again.
     pub fn may_replace(&mut self, folder: &Folder, name: &str) -> bool {
         let path = Path::new(name);
         if !folder.has(path) {
@@ -116,7 +117,7 @@ impl WrittenFiles {
         }
     }
 
-    /// Records the content of a file before the file is placed. The record is written at once.
+    /// Records the content of a file before the file is renamed to its name. The record is written immediately.
     ///
     /// # Errors
     /// Fails if the record cannot be written.
@@ -134,7 +135,7 @@ impl WrittenFiles {
     }
 }
 
-/// Parses a line `checksum length name`. The last two lines of a name are valid.
+/// Parses a line `checksum length name`. For each name, the last two lines are valid.
 fn entry(line: &str) -> Option<(String, FileChecksum)> {
     let (checksum, rest) = line.split_once(' ')?;
     let (length, name) = rest.split_once(' ')?;

@@ -135,8 +135,8 @@ impl Sensitivities {
         }
     }
 
-    /// Follows a release of the run. Positions and rates are continuous and the time does not depend on parameters, so the derivatives are those of the
-    /// renumbered state.
+    /// Applies a release of the main run to the perturbed runs. Positions and rates are continuous and the time does not depend on parameters, so the
+    /// derivatives are those of the renumbered state.
     ///
     /// # Errors
     /// Fails if a perturbed scene cannot be built, which succeeded before.
@@ -174,7 +174,7 @@ impl Sensitivities {
     /// Advances the perturbed runs in a dry run.
     pub(super) fn dry_run_to(&mut self, end: f64) {
         self.each(|twin| {
-            // Errors would stop the run itself.
+            // The main run reports the same errors.
             let _: Result<(), SimulationError> = twin.dry_run_to(end, &mut NoMonitor);
         });
     }

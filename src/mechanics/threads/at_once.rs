@@ -9,10 +9,10 @@ use super::pool::{keep_polling, notify_workers, pool};
 /// Number of polls before a thread sleeps: about 50 µs, the cost of sleeping and waking.
 const MOST_POLLS: usize = 2000;
 
-/// Runs all tasks concurrently: the first one on this thread, each other one on a thread of the pool, or here if none has taken it.
+/// Runs all tasks concurrently: the first task on this thread, each other task on a thread of the pool. Tasks that no thread has started run on this
+/// thread.
 ///
-/// Returns after every task is done, and waits if all threads are busy. Each call allocates a few hundred bytes, so it is meant for tasks that take
-/// far longer.
+/// Returns when every task is done. Each call allocates a few hundred bytes, so it is suitable for tasks that take much longer than the allocation.
 pub fn run_concurrently<T: Send>(tasks: impl IntoIterator<Item = T>, work: impl Fn(T) + Sync) {
     let mut tasks = tasks.into_iter();
     let first = tasks.next();

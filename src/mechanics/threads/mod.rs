@@ -1,4 +1,5 @@
-//! Multithreading with results identical to those of one thread: the callers partition work such that no sum depends on the thread.
+//! Multithreading with results identical to those of one thread. The callers must partition their work such that no sum depends on the number of
+//! threads.
 
 mod at_once;
 mod pool;

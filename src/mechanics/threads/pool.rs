@@ -7,11 +7,11 @@ use std::time::{Duration, Instant};
 
 use rayon_core::{ThreadPool, ThreadPoolBuilder};
 
-/// Time for which an idle thread polls for new parts before it sleeps. The parts of a step follow immediately, and waking a thread takes as long as
-/// many of them.
+/// Time for which an idle thread polls for new tasks before it sleeps. The tasks of a step follow each other immediately, and waking a thread takes
+/// as long as many of them.
 const POLLING_TIME: Duration = Duration::from_micros(300);
 
-/// Number of hand-outs of parts.
+/// Number of times that tasks were distributed.
 static HANDED_OUT: AtomicUsize = AtomicUsize::new(0);
 
 /// Pool with one thread per additional core, created on first use; `None` with one core, or if the system provides no threads.
@@ -29,7 +29,7 @@ pub(super) fn notify_workers() {
     HANDED_OUT.fetch_add(1, Ordering::Release);
 }
 
-/// Makes this pool thread poll for new parts for a while after its work.
+/// Lets this pool thread poll for new tasks for some time after its work.
 pub(super) fn keep_polling() {
     let before = HANDED_OUT.load(Ordering::Acquire);
     rayon_core::spawn(move || {

@@ -1,8 +1,9 @@
 //! Means of schedules over steps.
 //!
-//! Between breaks, constants and tables are polynomials, which three Gauss points integrate exactly. Sines, smooth pulses and their products with each
-//! other and with tables are sums of `p(x) cos(κ x + φ)`, which are integrated in closed form. All other schedules are sampled: by three Gauss points,
-//! and by a rule that shares the middle one and has two more points. Both are exact for cubics, so that their difference shows what the samples miss.
+//! Between breaks, constants and tables are polynomials, which three Gauss points integrate exactly. Sines, smooth pulses and their products with
+//! each other and with tables are sums of `p(x) cos(κ x + φ)`, which are integrated in closed form. All other schedules are sampled at five points,
+//! by two rules: three Gauss points, and their middle point with two additional points. Both rules are exact for cubics, so that their difference
+//! shows what the samples miss.
 
 use super::{GAUSS, LimitSide, LoadError, Operation, Schedule, table_value};
 use crate::elementary::{cos, sin};
@@ -22,13 +23,13 @@ pub struct StepMean {
 /// Highest degree that three Gauss points integrate exactly.
 const EXACT_DEGREE: usize = 5;
 
-/// Distance from the middle of the additional points on [-1, 1]. Points at the ends would see jumps there, which the mean does not depend on.
+/// Distance of the additional points from the middle, on [-1, 1]. Points at the ends would include jumps there, on which the mean does not depend.
 const OUTER: f64 = 0.96;
 
-/// Weight of each additional point in a rule with the middle that is exact for cubics.
+/// Weight of each additional point in a rule with the middle point that is exact for cubics.
 const OUTER_WEIGHT: f64 = 1.0 / (6.0 * OUTER * OUTER);
 
-/// Largest number of waves of a closed form. Products of more are sampled.
+/// Largest number of waves in a closed form. Products with more waves are sampled.
 const MOST_WAVES: usize = 64;
 
 /// Largest degree of a product of tables in the closed form.

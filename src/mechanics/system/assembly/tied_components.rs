@@ -16,7 +16,7 @@ pub struct TiedComponents {
     pub links: Vec<(usize, usize)>,
     /// Body and control point of each inclined roller, in the order of the joints; `None` after a release.
     pub rollers: Vec<Option<(usize, usize)>>,
-    /// Classes with a prescribed movement, in the order of the drives.
+    /// Classes with a prescribed motion, in the order of the drives.
     pub prescribed: Vec<usize>,
 }
 

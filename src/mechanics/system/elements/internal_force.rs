@@ -81,10 +81,10 @@ pub trait InternalForce {
         None
     }
 
-    /// Passes each value outside of the range of a law to `take`.
+    /// Calls `take` with each value outside the range of a law.
     fn each_outside_law(&self, _take: &mut dyn FnMut(OutsideLaw)) {}
 
-    /// Hardest bounce that the steps did not resolve.
+    /// Unresolved bounce with the largest force.
     fn short_bounce(&self) -> Option<ShortBounce> {
         None
     }
@@ -118,10 +118,10 @@ pub trait InternalForce {
     /// Releases the element at the start of a step. Its stored energy counts as dissipated. By default nothing happens.
     fn release(&mut self) {}
 
-    /// Marks the element released, before a released state is restored.
+    /// Marks the element as released, before a released state is restored.
     fn detach(&mut self) {}
 
-    /// Marks the element attached, before an attached state is restored.
+    /// Marks the element as attached, before an attached state is restored.
     fn attach(&mut self) {}
 
     fn save(&self, state: &mut Vec<f64>);

@@ -22,7 +22,7 @@ use crate::joints::Component;
 use crate::loads::{LoadError, MotionAtStart, PrescribedMotion};
 use crate::system::bodies::Body;
 
-/// Supported degree of freedom with a prescribed movement.
+/// Supported degree of freedom with a prescribed motion.
 pub struct PrescribedMovement {
     pub support: Support,
     pub drive: usize,
@@ -230,7 +230,7 @@ impl PrescribedMovements {
         })
     }
 
-    /// Evaluates prescribed movements in a step, including the rates at its start.
+    /// Evaluates the prescribed increments in a step, and the rates at its start.
     ///
     /// # Errors
     /// Name of the drive whose function has no finite value, and the reason.

@@ -1,10 +1,10 @@
-//! Check of sampled schedules: changes within a step that its samples miss.
+//! Check of sampled schedules for changes within a step that the samples miss.
 
 use crate::integrators::Interval;
 use crate::loads::{Schedule, StepMean};
 
-/// Difference between two rules for the mean over a step, relative to the largest value, above which a schedule is unresolved. Jumps differ by at least
-/// a tenth of their size, a sine by this value with 2.7 steps per period.
+/// Difference between two rules for the mean over a step, relative to the largest value, above which the steps do not resolve a schedule. A jump
+/// causes at least a tenth of its size, a sine this value with 2.7 steps per period.
 const LARGEST_MISS: f64 = 0.01;
 
 /// Largest difference between two rules for the mean of a schedule over a step.

@@ -180,7 +180,7 @@ pub enum SystemError {
         /// Existing joint or support of the place.
         existing: String,
     },
-    /// Damping law that adds energy at some rate, or has a force at rest.
+    /// Damping law that adds energy at some rate, or has a force at zero rate.
     #[error("{damper}: {active_range}")]
     ActiveDamper {
         /// Description of the damper.

@@ -2,7 +2,7 @@
 //!
 //! ```text
 //! Δx_p - Δx_b - χ J ā = 0        a = Λ r,   ā = ½ (a0 + a1),   χ = 2 tan(Δθ/2), the tangent-scaled increment itself
-//! on the point -λ,   on the body λ and aτ × λ        aτ = (1-τ) a0 + τ a1,   τ = ½ but for generalized-α and at rest
+//! on the point -λ,   on the body λ and aτ × λ        aτ = (1-τ) a0 + τ a1,   τ = ½ except for generalized-α and in statics
 //! ```
 //!
 //! `χ J ā = a1 - a0` holds for every increment, so the point is at its position in the body at the end of every step. With tangent-scaled increments

@@ -20,7 +20,7 @@ use crate::system::{SliderState, SystemError};
 /// Instantaneous accelerations and forces.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Instant {
-    /// Accelerations of the unknown movements [length/time², 1/time²], with forces of rigid links at their unknowns.
+    /// Accelerations of the unknowns [length/time², 1/time²], with forces of rigid links at their unknowns.
     accelerations: Vec<f64>,
     reactions: Reactions,
     /// Contact force of each slave on its master [force].
@@ -28,7 +28,7 @@ pub struct Instant {
 }
 
 impl Instant {
-    /// Accelerations of the unknown movements, with forces of rigid links and rollers at their unknowns [length/time², 1/time²; force].
+    /// Accelerations of the unknowns, with forces of rigid links and rollers at their unknowns [length/time², 1/time²; force].
     pub fn accelerations(&self) -> &[f64] {
         &self.accelerations
     }

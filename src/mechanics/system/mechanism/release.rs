@@ -17,9 +17,9 @@ pub struct DofNumbers {
     pub links: Vec<[usize; 2]>,
     /// Force unknowns of inclined rollers; `None` after a release.
     pub rollers: Vec<Option<usize>>,
-    /// Prescribed movements, in the order of their numbers.
+    /// Prescribed degrees of freedom, in the order of their numbers.
     pub prescribed: Vec<PrescribedMovement>,
-    /// Fixed movements, in the order of their numbers.
+    /// Fixed degrees of freedom, in the order of their numbers.
     pub held: Vec<Support>,
     pub unknowns: Unknowns,
     pub joined: Vec<(BodyPoint, BodyPoint)>,

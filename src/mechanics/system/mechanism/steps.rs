@@ -85,7 +85,7 @@ impl System {
         if duration < 0.0 { sum.negated() } else { sum }
     }
 
-    /// Evaluates `M Δv` and `M v̄` of the prescribed movements in a step.
+    /// Evaluates `M Δv` and `M v̄` of the prescribed degrees of freedom in a step.
     fn add_prescribed_inertia(&mut self, rates: &[f64]) {
         let Self { bodies, elements, supports, motion, step, .. } = self;
         let movements = supports.prescribed_mut();

@@ -7,7 +7,7 @@ use crate::system::bodies::Body;
 
 /// Kind of a contact iterate: [`InStep`] or [`AtRest`].
 pub trait Passing {
-    /// Contact of a slider in an iterate with its equations, from the increments of all movements and the unknowns of all contacts.
+    /// Contact of a slider in an iterate with its equations, from the increments of all degrees of freedom and the unknowns of all contacts.
     fn iterate<'s>(
         slider: &'s mut SliderContact,
         bodies: &[Body],
@@ -29,10 +29,10 @@ pub trait Passing {
     /// Contact forces on the control points of the master in the window of the path [force].
     fn forces<'c>(contact: &'c Contact<'_>) -> impl Iterator<Item = Vec2> + 'c;
 
-    /// Derivatives of these forces: factors with respect to `λ` and `η`, and a force with respect to `Δξ`.
+    /// Derivatives of the contact forces on the master: factors with respect to `λ` and `η`, and a force with respect to `Δξ`.
     fn slopes<'c>(contact: &'c Contact<'_>) -> impl Iterator<Item = (f64, f64, Vec2)> + 'c;
 
-    /// Chord of the path relative to the path along the axis as drawn [-].
+    /// Chord of the path, relative to the path along the axis as drawn [-].
     fn chord(contact: &Contact<'_>) -> f64;
 }
 

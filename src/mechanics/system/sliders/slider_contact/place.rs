@@ -29,7 +29,7 @@ impl SliderContact {
     }
 
     fn part_of_master(&self) -> f64 {
-        // Arrivals differ from the end by a few units in the last place.
+        // After an arrival, the position differs from the end by a few units in the last place.
         if self.is_at(MasterEnd::Start) {
             return 0.0;
         }
@@ -45,7 +45,7 @@ impl SliderContact {
         self.heading().map_or(along, |heading| along * heading.sign())
     }
 
-    /// Contact that holds the slider: the `start` or `end` of its master or track, or a `seam`.
+    /// Limit at which the slider is held: the `start` or `end` of its master or track, or a `seam`.
     pub fn held_by(&self, bodies: &[Body]) -> Option<&'static str> {
         let SliderState::Held(end) = self.state else { return None };
         if self.seam(bodies, end).is_some() {
@@ -58,7 +58,7 @@ impl SliderContact {
         Some(on_track.name())
     }
 
-    /// Direction of the track along the master, for a slider on one.
+    /// Direction of the track along the master; `None` without a track.
     fn heading(&self) -> Option<TrackDirection> {
         self.track.as_deref().map(TrackPath::present).map(|leg| leg.heading)
     }
