@@ -30,6 +30,7 @@ const LOBE: f64 = 4.0;
 /// Vibration in a column.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SpectrumPeak {
+    /// Frequency [1/time].
     pub frequency: f64,
     /// Half the peak-to-peak value, in the dimension of the column.
     pub amplitude: f64,

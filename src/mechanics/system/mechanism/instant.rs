@@ -175,6 +175,7 @@ impl System {
         Ok((accelerations, contacts))
     }
 
+    /// Acceleration of a place [length/time²].
     pub fn acceleration(&self, now: &Instant, place: &BodyPoint) -> Vec2 {
         let [x, y, _] = self.bodies[place.body].at(place, &now.accelerations);
         Vec2::new(x, y)
