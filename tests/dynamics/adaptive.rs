@@ -6,15 +6,17 @@ use crate::common::{
     assert_energy_never_grows, body_scenes, ends, run, scenes, sci, settings, simulate,
     sliding_scenes,
 };
-use withy::beams::Mesh;
+use withy::beams::{Mesh, Section};
 use withy::geometry::Vec2;
 use withy::integrators::{EnergyClaim, INTEGRATORS, IntegratorEntry, Method};
 use withy::joints::SlidingRule;
 use withy::loads::{LoadKind, Schedule};
 use withy::simulation::{
-    Invariant, NoMonitor, Simulation, SimulationError, StepControl, StepSize, WorkCounts,
+    Invariant, NoMonitor, Simulation, SimulationError, StepControl, StepSize, Warning, WorkCounts,
 };
-use withy::system::Scene;
+use withy::system::{
+    Anchor, Origin, PointMass, Scene, Spring, SpringKind, SpringLaw, StationVelocity,
+};
 
 fn smooth(spans: usize) -> Mesh {
     Mesh::bspline(spans, 3, 2).unwrap()
@@ -351,5 +353,54 @@ fn at_rest_steps_grow_no_further_than_the_largest() {
             ran.unwrap();
             assert!(rest.dt() > 0.99 * longest && rest.time() > 1900.0 * longest);
         }
+    }
+}
+
+/// A clamped bar of 5 spans with a tip that starts along its axis or across it.
+fn struck_bar(velocity: Vec2) -> Scene {
+    let section = Section {
+        axial_stiffness: 1e6,
+        shear_stiffness: 1e6,
+        bending_stiffness: 1e3,
+        mass_per_length: 1.0,
+        rotary_inertia: 1e-2,
+    };
+    let mut scene = scenes::cantilever(&smooth(5), section);
+    let station = scenes::end_of(&mut scene, 0);
+    scene.add_mass(PointMass { station, mass: 10.0, rotary_inertia: 0.0 }).unwrap();
+    scene.velocities.push(StationVelocity { station, velocity, spin: None });
+    scene
+}
+
+/// A particle on a spring of stiffness 1 and length 0, as far from its anchor as the scene is long.
+fn oscillator() -> Scene {
+    let mut scene = Scene::new("oscillator");
+    let mass = crate::common::sliding::particle(&mut scene, Vec2::new(1.0, 0.0), 1.0);
+    let kind = SpringKind::Length(vec![Anchor::Ground(Vec2::zeros()), Anchor::Station(mass)]);
+    let law = Some(SpringLaw::Linear { stiffness: 1.0, natural: 0.0 });
+    let (name, origin) = ("spring".to_owned(), Origin::Zero);
+    scene.add_spring(Spring { name, kind, law, origin, damping: 0.0.into() }).unwrap();
+    scene
+}
+
+#[test]
+fn the_cause_of_many_steps_is_told() {
+    let decaying = Method::EnergyDecaying { chi: 0.1 };
+    for (scene, method, cause) in [
+        (struck_bar(Vec2::new(-0.1, 0.0)), Method::EnergyMomentum, "small fast vibration"),
+        (oscillator(), decaying, "first-order method energy_decaying"),
+        (oscillator(), Method::EnergyMomentum, ""),
+    ] {
+        let mut simulation = simulate(scene, method, adaptive(1e-4), 1.0);
+        while simulation.counts().steps < 5000 {
+            let end = simulation.time() + 5.0;
+            run(&mut simulation, end).unwrap();
+        }
+        let (steps, notes) = (simulation.counts().steps, simulation.warnings());
+        let told = notes.iter().find(|note| matches!(note, Warning::ManySteps { .. }));
+        let told = told.map(Warning::to_string);
+        println!("{steps}: {told:?}");
+        assert_eq!(told.is_some(), !cause.is_empty());
+        assert!(told.unwrap_or_default().contains(cause));
     }
 }

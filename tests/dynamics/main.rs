@@ -34,6 +34,7 @@ mod small_ways;
 mod springs;
 mod struck;
 mod tapers;
+mod units;
 mod unresolved_damping;
 mod unused_features;
 mod work_counts;

@@ -83,6 +83,16 @@ impl BandedMatrix {
         &mut self.storage
     }
 
+    /// Makes rows of different units comparable in row exchanges, by the diagonal.
+    pub fn weigh_rows(&mut self) {
+        self.storage.weigh_rows();
+    }
+
+    /// Makes rows of different units comparable in row exchanges, by their squared sizes.
+    pub(super) fn set_row_sizes(&mut self, sizes: impl Iterator<Item = f64>) {
+        self.storage.sizes.iter_mut().zip(sizes).for_each(|(size, given)| *size = given);
+    }
+
     /// Replaces the entries by the factors `P A = L U`.
     ///
     /// # Errors

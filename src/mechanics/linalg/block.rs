@@ -5,7 +5,7 @@
 //! on the touched unknowns is added to the band. Some own unknowns have no pivot yet, because they are coupled to the band only through a constraint
 //! (the contact force of a supported slave). These are *delayed*: they are inserted into the band next to the touched unknowns.
 
-use super::{BandedMatrix, LinearError};
+use super::{BandedMatrix, BorderUnit, LinearError};
 
 /// Number of unknowns of a block outside the band: those of a sliding contact.
 pub(super) const BLOCK: usize = 5;
@@ -35,8 +35,13 @@ pub(super) struct Block {
     row_at: Vec<usize>,
     column_at: Vec<usize>,
     pub(super) pivots: usize,
-    /// Scale of the equations of delayed unknowns, so that their size matches the equations of the band.
-    pub(super) scale: f64,
+    /// Units of the rows and unknowns of the block.
+    units: [(BorderUnit, BorderUnit); BLOCK],
+    /// Factors of rows and columns that make the entries of the dense matrix comparable, in the order of elimination.
+    row_factors: Vec<f64>,
+    column_factors: Vec<f64>,
+    /// Largest diagonal entry of the band at the touched unknowns.
+    pub(super) stiffness: f64,
 }
 
 impl Block {
@@ -52,7 +57,10 @@ impl Block {
             row_at: Vec::with_capacity(size),
             column_at: Vec::with_capacity(size),
             pivots: 0,
-            scale: 1.0,
+            units: [(BorderUnit::default(), BorderUnit::default()); BLOCK],
+            row_factors: Vec::with_capacity(size + touched),
+            column_factors: Vec::with_capacity(size + touched),
+            stiffness: 1.0,
             own,
         }
     }
@@ -73,6 +81,10 @@ impl Block {
 
     pub(super) fn add_to_corner(&mut self, row: usize, column: usize, value: f64) {
         self.corner[row][column] += value;
+    }
+
+    pub(super) fn set_units(&mut self, at: usize, row: BorderUnit, unknown: BorderUnit) {
+        self.units[at] = (row, unknown);
     }
 
     pub(super) fn in_column(&self, row: usize, column: usize) -> f64 {
@@ -107,7 +119,12 @@ impl Block {
         self.candidates() + self.touched.len()
     }
 
-    /// Eliminates the own unknowns of the block. `places` is a buffer of `NOWHERE` entries, which are restored on return.
+    /// Scale of a row of the Schur complement: equations of delayed unknowns are scaled to match those of the band.
+    pub(super) fn scale(&self, left: usize) -> f64 {
+        if left < self.delayed() { self.row_factors[self.pivots + left] } else { 1.0 }
+    }
+
+    /// Eliminates the own unknowns of the block. `places` is a buffer of `NOWHERE` entries, and restored on return.
     ///
     /// # Errors
     /// Fails if there is no pivot; the error contains the index in the block.
@@ -118,7 +135,8 @@ impl Block {
     ) -> Result<(), LinearError> {
         self.gather(band, places);
         let largest = self.touched.iter().map(|&at| band.get(at, at).abs()).fold(0.0, f64::max);
-        self.scale = if largest > 0.0 { largest } else { 1.0 };
+        self.stiffness = if largest > 0.0 { largest } else { 1.0 };
+        self.compare(band);
         let candidates = self.candidates();
         let fewest = candidates - if self.can_delay_unknowns() { MOST_DELAYED } else { 0 };
         self.row_at.clear();
@@ -131,7 +149,7 @@ impl Block {
             if !magnitude.is_finite() {
                 return Err(LinearError::NotFinite { unknown: at, size: candidates });
             }
-            if at >= fewest && self.fill(row, column) > LARGEST_FILL * largest * magnitude {
+            if at >= fewest && self.fill(row, column) > LARGEST_FILL * self.stiffness * magnitude {
                 break;
             }
             if magnitude == 0.0 {
@@ -178,14 +196,34 @@ impl Block {
         self.own.iter().chain(&self.touched).for_each(|&at| places[at] = UNTOUCHED);
     }
 
-    /// Largest entry among the candidates from index `first` on; NaN if an entry is NaN.
+    /// Sets the factors that turn rows into forces and columns into lengths: as if all of them had the largest stiffness of the band.
+    fn compare(&mut self, band: &BandedMatrix) {
+        let Self { own, touched, units, row_factors, column_factors, stiffness, .. } = self;
+        let of_band = |at: &usize| {
+            let diagonal = band.get(*at, *at).abs();
+            if diagonal > 0.0 { (*stiffness / diagonal).sqrt() } else { 1.0 }
+        };
+        row_factors.clear();
+        row_factors.extend(own.iter().map(of_band));
+        row_factors.extend(units.iter().map(|(row, _)| row.row_factor(*stiffness)));
+        row_factors.extend(touched.iter().map(of_band));
+        column_factors.clear();
+        column_factors.extend_from_slice(row_factors);
+        let unknowns = column_factors[own.len()..].iter_mut().zip(units);
+        unknowns.for_each(|(factor, (_, unknown))| *factor = unknown.column_factor(*stiffness));
+    }
+
+    /// Largest entry among candidates from a place on, in comparable units; NaN if one is NaN.
     fn largest_from(&self, first: usize) -> (usize, usize, f64) {
         let (size, candidates) = (self.size(), self.candidates());
         let mut found = (first, first, 0.0);
         for row in first..candidates {
             let entries = &self.front[row * size..][first..candidates];
-            for (column, entry) in (first..).zip(entries) {
-                let magnitude = entry.abs();
+            let of_row = self.row_factors[row];
+            for ((column, entry), factor) in
+                (first..).zip(entries).zip(&self.column_factors[first..])
+            {
+                let magnitude = entry.abs() * of_row * factor;
                 if magnitude > found.2 || magnitude.is_nan() {
                     found = (row, column, magnitude);
                 }
@@ -199,9 +237,12 @@ impl Block {
 
     fn fill(&self, row: usize, column: usize) -> f64 {
         let (size, candidates) = (self.size(), self.candidates());
-        let of_row = self.front[row * size..][candidates..size].iter().map(|entry| entry.abs());
-        let of_column = (candidates..size).map(|touched| self.front[touched * size + column].abs());
-        of_row.fold(0.0, f64::max) * of_column.fold(0.0, f64::max)
+        let of_row = self.front[row * size..][candidates..size].iter();
+        let of_row = of_row.zip(&self.column_factors[candidates..]);
+        let of_row = of_row.map(|(entry, factor)| entry.abs() * factor).fold(0.0, f64::max);
+        let of_column = (candidates..size)
+            .map(|touched| self.front[touched * size + column].abs() * self.row_factors[touched]);
+        of_row * self.row_factors[row] * of_column.fold(0.0, f64::max) * self.column_factors[column]
     }
 
     fn exchange(&mut self, at: usize, row: usize, column: usize) {
@@ -210,10 +251,12 @@ impl Block {
             let (before, behind) = self.front.split_at_mut(row * size);
             before[at * size..][..size].swap_with_slice(&mut behind[..size]);
             self.row_at.swap(at, row);
+            self.row_factors.swap(at, row);
         }
         if column != at {
             self.front.chunks_exact_mut(size).for_each(|row| row.swap(at, column));
             self.column_at.swap(at, column);
+            self.column_factors.swap(at, column);
         }
     }
 

@@ -29,6 +29,34 @@ pub struct BorderShape {
     pub row_entries: usize,
 }
 
+/// Unit of a border row or of a border unknown, where the band takes lengths to forces.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub enum BorderUnit {
+    /// Force.
+    #[default]
+    Force,
+    /// Length, if multiplied by this number.
+    Length(f64),
+}
+
+impl BorderUnit {
+    /// Factor that turns a row of this unit into forces, for a stiffness of the band [force/length].
+    pub(super) fn row_factor(self, stiffness: f64) -> f64 {
+        match self {
+            Self::Force => 1.0,
+            Self::Length(factor) => factor * stiffness,
+        }
+    }
+
+    /// Factor of the derivatives with respect to an unknown of this unit that turns them into those with respect to a length.
+    pub(super) fn column_factor(self, stiffness: f64) -> f64 {
+        match self {
+            Self::Force => stiffness,
+            Self::Length(factor) => 1.0 / factor,
+        }
+    }
+}
+
 /// Border of a [`BorderedMatrix`]: its last columns `B`, its last rows `C` and their common corner `D`.
 #[derive(Debug, Clone)]
 pub enum Border {
@@ -96,6 +124,17 @@ impl Border {
             Self::Local(border) => {
                 let (block, row) = border.block_mut(border_row);
                 block.add_to_corner(row, LocalBorder::column_in(border_row, border_column), value);
+            }
+        }
+    }
+
+    /// Sets the units of the row and of the unknown at an index of the border, which row exchanges and pivots depend on.
+    pub fn set_units(&mut self, at: usize, row: BorderUnit, unknown: BorderUnit) {
+        match self {
+            Self::Full(border) => border.set_row_unit(at, row),
+            Self::Local(border) => {
+                let (block, at) = border.block_mut(at);
+                block.set_units(at, row, unknown);
             }
         }
     }
@@ -201,9 +240,13 @@ impl BorderedMatrix {
             }
             (Border::Full(border), None) if border.width() == 0 => match ends {
                 Some(ends) => BorderFactors::TwoEnded(ends.factorise(band)?),
-                None => BorderFactors::Band(band.factorise()?),
+                None => {
+                    band.weigh_rows();
+                    BorderFactors::Band(band.factorise()?)
+                }
             },
             (Border::Full(border), None) => {
+                band.weigh_rows();
                 BorderFactors::Full(border.factorise(band.factorise()?, size)?)
             }
         };
@@ -292,6 +335,69 @@ mod tests {
             let right = DVector::from_vec(vec![1.0, -2.0, 0.5, 0.25, 4.0]);
             let error = &dense * DVector::from_row_slice(&x) - right;
             assert!(error.amax() < 1e-9, "{error}");
+        }
+    }
+
+    /// Solution of a contact on a band of positions and angles, in units of length and force, scaled back.
+    fn in_units(length: f64, force: f64, mut matrix: BorderedMatrix, seed: f64) -> Vec<f64> {
+        // Units of the rows, and of the unknowns.
+        let of_band = [(force, length), (force, length), (force * length, 1.0)];
+        let of_contact = [(length, force), (length, force), (force, force), (force, force)];
+        let of_way = [(force, 1.0)];
+        let units = of_band.iter().cycle().take(12).chain(&of_contact).chain(&of_way);
+        let units: Vec<(f64, f64)> = units.copied().collect();
+        let mut value = seed;
+        let mut next = || {
+            value = (7.3 * value).sin();
+            value
+        };
+        let mut entry =
+            |row: usize, column: usize, value: f64| value * units[row].0 / units[column].1 * next();
+        for row in 0..12_usize {
+            for column in row.saturating_sub(5)..(row + 6).min(12) {
+                let stiff = if row == column { 1e4 } else { 30.0 };
+                let value = entry(row, column, stiff).abs();
+                matrix.band_mut().add(row, column, value);
+            }
+        }
+        for at in 0..5 {
+            for touched in [0, 1, 3, 4, 6, 7] {
+                let (column, row) = (entry(touched, 12 + at, 1.0), entry(12 + at, touched, 1.0));
+                matrix.border_mut().add_to_column(touched, at, column);
+                matrix.border_mut().add_to_row(at, touched, row);
+            }
+            for other in 0..5 {
+                let value = if at < 2 && other < 4 { 0.0 } else { 1.0 };
+                let value = entry(12 + at, 12 + other, value);
+                matrix.border_mut().add_to_corner(at, other, value);
+            }
+            let row = if at < 2 { BorderUnit::Length(1.0) } else { BorderUnit::Force };
+            let unknown = if at < 4 { BorderUnit::Force } else { BorderUnit::Length(length) };
+            matrix.border_mut().set_units(at, row, unknown);
+        }
+        let mut x: Vec<f64> =
+            units.iter().enumerate().map(|(at, unit)| (1.0 + at as f64) * unit.0).collect();
+        matrix.factorise().unwrap().solve(&mut x);
+        x.iter().zip(units).map(|(x, (_, unit))| x / unit).collect()
+    }
+
+    #[test]
+    fn units_that_are_powers_of_two_change_no_digit() {
+        let full = || BorderedMatrix::zeros(12, 5, BorderShape { width: 5, row_entries: 30 });
+        let groups = (0..7).map(|first| (first..first + 6).collect()).collect();
+        let layout = BlockLayout { own: vec![vec![]], groups, block_entries: 30 };
+        let local = || BorderedMatrix::with_blocks(12, 5, layout.clone());
+        for seed in 1..50 {
+            let seed = f64::from(seed);
+            let first = [in_units(1.0, 1.0, full(), seed), in_units(1.0, 1.0, local(), seed)];
+            for (length, force) in [(-20, 0), (16, 4), (0, -60), (-40, 50)] {
+                let (length, force) = (2.0_f64.powi(length), 2.0_f64.powi(force));
+                assert_eq!(first[0], in_units(length, force, full(), seed));
+                assert_eq!(first[1], in_units(length, force, local(), seed));
+            }
+            let apart = first[0].iter().zip(&first[1]).map(|(a, b)| (a - b).abs());
+            let size = first[0].iter().fold(0.0_f64, |size, x| size.max(x.abs()));
+            assert!(apart.fold(0.0, f64::max) < 1e-9 * size);
         }
     }
 

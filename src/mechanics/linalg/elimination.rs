@@ -22,8 +22,14 @@ pub(super) const PANEL: usize = LANES;
 /// Smallest half-bandwidth for which a row has space for a panel followed by whole vectors.
 pub(super) const SMALLEST_HALF_BANDWIDTH: usize = PANEL + LANES - 2;
 
-/// Largest multiplier that needs no row exchange.
-pub(super) const LARGEST_MULTIPLIER: f64 = 8.0;
+/// Square of the largest multiplier without row exchange, of rows of one size.
+const LARGEST_SQUARE: f64 = 64.0;
+
+/// Returns true if a multiplier of a row needs no row exchange, from the squared sizes of the pivot row and of the row.
+#[inline(always)]
+pub(super) fn is_small(multiplier: f64, pivot_row: f64, row: f64) -> bool {
+    multiplier * multiplier * pivot_row <= LARGEST_SQUARE * row
+}
 
 /// Gaussian elimination with row exchanges. It replaces a banded matrix by its factors, panel by panel.
 pub(super) struct Elimination<'a>(pub(super) ActiveRows<'a>);
@@ -68,7 +74,8 @@ fn eliminate_fixed<S: Simd, const REACH: usize, const WIDTH: usize, const STRIDE
     first: usize,
 ) -> bool {
     let (rows, _) = storage.rows.as_chunks_mut::<STRIDE>();
-    fixed_band::eliminate_panel::<S, REACH, WIDTH, STRIDE>(simd, &mut rows[first..])
+    let sizes = &storage.sizes[first..];
+    fixed_band::eliminate_panel::<S, REACH, WIDTH, STRIDE>(simd, &mut rows[first..], sizes)
 }
 
 /// `reach` is the half-bandwidth of the storage. `eliminate_plain` eliminates a panel without previous fill-in, as [`eliminate_panel`] does.
@@ -153,16 +160,16 @@ pub(super) struct PanelFactors {
 
 impl PanelFactors {
     #[inline(always)]
-    pub(super) fn of(mut factors: [[f64; PANEL]; PANEL]) -> Self {
+    pub(super) fn of(mut factors: [[f64; PANEL]; PANEL], sizes: &[f64]) -> Self {
         let mut inverses = [0.0; PANEL];
         let mut is_stable = true;
         for column in 0..PANEL {
             let pivot_row = factors[column];
             let inverse = 1.0 / pivot_row[column];
             is_stable &= pivot_row[column].is_finite();
-            for row in &mut factors[column + 1..] {
+            for (row, size) in factors[column + 1..].iter_mut().zip(&sizes[column + 1..]) {
                 let multiplier = row[column] * inverse;
-                is_stable &= multiplier.abs() <= LARGEST_MULTIPLIER;
+                is_stable &= is_small(multiplier, sizes[column], *size);
                 row[column] = multiplier;
                 for (entry, above) in row.iter_mut().zip(pivot_row).skip(column + 1) {
                     *entry -= multiplier * above;
@@ -192,9 +199,10 @@ fn eliminate_panel<S: Simd>(
     for (row, entries) in heads.iter_mut().enumerate() {
         entries.copy_from_slice(&panel[head(row)..][..PANEL]);
     }
-    let PanelFactors { factors, inverses, is_stable } = PanelFactors::of(heads);
+    let (sizes, sizes_below) = storage.sizes[first..][..PANEL + below].split_at(PANEL);
+    let PanelFactors { factors, inverses, is_stable } = PanelFactors::of(heads, sizes);
 
-    let mut is_small = is_stable;
+    let mut are_small = is_stable;
     let multipliers = &mut storage.multipliers[..below];
     for (index, (row, found)) in rows_below.chunks_exact(stride).zip(&mut *multipliers).enumerate()
     {
@@ -205,10 +213,10 @@ fn eliminate_panel<S: Simd>(
                 entry -= found[before] * factors[before][column];
             }
             found[column] = entry * inverses[column];
-            is_small &= found[column].abs() <= LARGEST_MULTIPLIER;
+            are_small &= is_small(found[column], sizes[column], sizes_below[index]);
         }
     }
-    if !is_small {
+    if !are_small {
         return false;
     }
 
@@ -277,14 +285,17 @@ fn eliminate_column(
     let (stride, rows) = (3 * reach + PANEL, &mut *storage.rows);
     let last_row = end(column).min(size - 1);
     let diagonal = column * stride + reach + PANEL - 1;
-    let (mut pivot_row, mut magnitude) = (column, rows[diagonal].abs());
-    // In the next row, the entry of the same column is `stride - 1` further on.
+    // One row down, the entry of the same column is `stride - 1` further on.
+    let entry = |row: usize| rows[diagonal + (row - column) * (stride - 1)].abs();
+    let relative = |row: usize| entry(row) / storage.sizes[row].sqrt();
+    let (mut pivot_row, mut largest) = (column, relative(column));
     for row in column + 1..=last_row {
-        let candidate = rows[diagonal + (row - column) * (stride - 1)].abs();
-        if candidate > magnitude {
-            (pivot_row, magnitude) = (row, candidate);
+        let candidate = relative(row);
+        if candidate > largest {
+            (pivot_row, largest) = (row, candidate);
         }
     }
+    let magnitude = entry(pivot_row);
     if magnitude == 0.0 {
         return Err(LinearError::Singular { unknown: column, size });
     }
@@ -300,6 +311,7 @@ fn eliminate_column(
     let row = &mut upper[diagonal..][..width];
     let start = |below: usize| below * stride + reach + PANEL - 2 - below;
     if pivot_row > column {
+        storage.sizes.swap(column, pivot_row);
         row.swap_with_slice(&mut lower[start(pivot_row - column - 1)..][..width]);
     }
     let inverse = 1.0 / row[0];

@@ -4,12 +4,12 @@
 
 use pulp::Simd;
 
-use super::elimination::{LARGEST_MULTIPLIER, PANEL, PanelFactors, subtract};
+use super::elimination::{PANEL, PanelFactors, is_small, subtract};
 
 /// Eliminates the columns of a panel without previous fill-in from the rows below. Returns false without changes if rows should be exchanged.
 ///
-/// `rows` contains the panel and the `REACH` rows below it, with `STRIDE` stored entries each. `WIDTH` is the half-bandwidth, rounded up to whole
-/// vectors.
+/// `rows` are those of the panel and `REACH` below it, with `STRIDE` stored entries each, and `sizes` their squared sizes; `WIDTH` is the
+/// half-bandwidth in whole vectors.
 #[inline(always)]
 pub(super) fn eliminate_panel<
     S: Simd,
@@ -19,6 +19,7 @@ pub(super) fn eliminate_panel<
 >(
     simd: S,
     rows: &mut [[f64; STRIDE]],
+    sizes: &[f64],
 ) -> bool {
     let centre = REACH + PANEL - 1;
     let Some((panel, rows_below)) = rows.split_first_chunk_mut::<PANEL>() else {
@@ -31,11 +32,17 @@ pub(super) fn eliminate_panel<
     for (row, entries) in heads.iter_mut().enumerate() {
         entries.copy_from_slice(&panel[row][centre - row..][..PANEL]);
     }
-    let PanelFactors { factors, inverses, is_stable } = PanelFactors::of(heads);
+    let Some((sizes, sizes_below)) = sizes.split_first_chunk::<PANEL>() else {
+        return false;
+    };
+    let Some(sizes_below) = sizes_below.first_chunk::<REACH>() else {
+        return false;
+    };
+    let PanelFactors { factors, inverses, is_stable } = PanelFactors::of(heads, sizes);
 
     let [[_, u01, u02, u03], [_, _, u12, u13], [_, _, _, u23], _] = factors;
     let mut before = [[0.0; PANEL]; REACH];
-    let mut is_small = is_stable;
+    let mut are_small = is_stable;
     for (index, (row, before)) in rows_below.iter_mut().zip(&mut before).enumerate() {
         let head = &mut row[REACH - 1 - index..][..PANEL];
         before.copy_from_slice(head);
@@ -45,9 +52,11 @@ pub(super) fn eliminate_panel<
         let l3 = (head[3] - l0 * u03 - l1 * u13 - l2 * u23) * inverses[3];
         // The values are written one by one, because they are read one by one. Reading a vector that was written in parts would stall the processor.
         (head[0], head[1], head[2], head[3]) = (l0, l1, l2, l3);
-        is_small &= [l0, l1, l2, l3].iter().all(|l| l.abs() <= LARGEST_MULTIPLIER);
+        let size = sizes_below[index];
+        are_small &=
+            [l0, l1, l2, l3].iter().zip(sizes).all(|(l, pivot)| is_small(*l, *pivot, size));
     }
-    if !is_small {
+    if !are_small {
         for (index, (row, before)) in rows_below.iter_mut().zip(&before).enumerate() {
             row[REACH - 1 - index..][..PANEL].copy_from_slice(before);
         }

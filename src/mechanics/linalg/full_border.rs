@@ -8,12 +8,17 @@
 //! Any couplings of the border leave the width of the band unchanged (Govaerts & Pryce, Block elimination with one iterative refinement solves
 //! bordered linear systems accurately, BIT 30 (1990) 490–507; the caller decides on refinement).
 
-use super::{BandedLu, BandedMatrix, BorderShape, LinearError};
+use super::{BandedLu, BandedMatrix, BorderShape, BorderUnit, LinearError};
+use crate::elementary::square;
 
 /// Number of border columns stored and solved together: the number of unknowns of a sliding contact, a compile-time constant.
 const STRIP: usize = 5;
 
-/// Columns of `B`; after the factorisation columns of `Z`.
+/// Weight of lengths against forces in the choice of pivots. Equations of forces, such as that of a contact without friction, come first where they
+/// lose no more than four digits, so that a force of zero is exactly zero.
+const LENGTHS: f64 = 1e-4;
+
+/// Columns of `B`; after factorising of `Z`.
 #[derive(Debug, Clone)]
 struct BorderStrip {
     rows: Vec<[f64; STRIP]>,
@@ -27,7 +32,9 @@ pub struct FullBorder {
     strips: Vec<BorderStrip>,
     /// Entries of `C`: (row of the border, column, value). Entries at the same place add up.
     rows: Vec<(usize, usize, f64)>,
-    corner: BandedMatrix,
+    corner: Box<BandedMatrix>,
+    /// Units of the border rows.
+    units: Vec<BorderUnit>,
 }
 
 /// Factors of a matrix with a [`FullBorder`].
@@ -64,7 +71,8 @@ impl FullBorder {
             width,
             strips: vec![BorderStrip::zeros(size); width.div_ceil(STRIP)],
             rows: Vec::with_capacity(row_entries),
-            corner: BandedMatrix::zeros(width, width.saturating_sub(1)),
+            corner: Box::new(BandedMatrix::zeros(width, width.saturating_sub(1))),
+            units: vec![BorderUnit::default(); width],
         }
     }
 
@@ -90,6 +98,22 @@ impl FullBorder {
         self.corner.add(border_row, border_column, value);
     }
 
+    pub(super) fn set_row_unit(&mut self, border_row: usize, unit: BorderUnit) {
+        self.units[border_row] = unit;
+    }
+
+    /// Makes rows of the complement of different units comparable, by the largest compliance of its lengths.
+    fn weigh_rows(&mut self) {
+        let lengths = (0..self.width).filter(|row| self.units[*row] != BorderUnit::Force);
+        let compliances = lengths.map(|row| self.corner.get(row, row).abs());
+        let compliance = compliances.fold(0.0, f64::max);
+        if compliance > 0.0 && compliance.is_finite() {
+            let stiffness = LENGTHS / compliance;
+            let sizes = self.units.iter().map(|unit| square(1.0 / unit.row_factor(stiffness)));
+            self.corner.set_row_sizes(sizes);
+        }
+    }
+
     pub(super) fn in_column(&self, row: usize, border_column: usize) -> f64 {
         self.strips[border_column / STRIP].rows[row][border_column % STRIP]
     }
@@ -105,7 +129,7 @@ impl FullBorder {
 
     /// All nonzero entries of the matrix of this border and a band: row, column, value. Entries at the same place add up.
     pub(super) fn entries_with(&self, band: &BandedMatrix) -> Vec<(usize, usize, f64)> {
-        let (Self { width, strips, rows, corner }, n) = (self, band.size());
+        let (Self { width, strips, rows, corner, .. }, n) = (self, band.size());
         let reach = band.half_bandwidth();
         let in_band = (0..n).flat_map(|row| {
             let columns = row.saturating_sub(reach)..(row + reach + 1).min(n);
@@ -131,7 +155,8 @@ impl FullBorder {
         size: usize,
     ) -> Result<FullLu<'a>, LinearError> {
         self.eliminate(&band);
-        let Self { width, strips, rows, corner } = self;
+        self.weigh_rows();
+        let Self { width, strips, rows, corner, .. } = self;
         let complement = corner.factorise().map_err(|error| error.offset_by_rows(size))?;
         Ok(FullLu { width: *width, band, solved: strips, rows, complement })
     }

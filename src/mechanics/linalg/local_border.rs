@@ -112,6 +112,7 @@ impl LocalBorder {
         self.arrangement.fit(&self.blocks);
         self.matrix.remake(&self.arrangement.ends, band.half_bandwidth());
         self.copy(band);
+        self.matrix.weigh_rows();
         for (block, &delayed) in self.blocks.iter().zip(&self.arrangement.delayed) {
             add_schur_complement(block, delayed, &self.arrangement.position, &mut self.matrix);
         }
@@ -154,8 +155,11 @@ fn add_schur_complement(
     matrix: &mut ProfileMatrix,
 ) {
     let count = block.delayed();
+    for left in 0..count {
+        matrix.set_row_size(delayed + left, block.stiffness);
+    }
     for (number, entries) in block.schur_complement() {
-        let scale = if number < count { block.scale } else { 1.0 };
+        let scale = block.scale(number);
         let row = place_of(block, delayed, position, number);
         for (other, &value) in entries.iter().enumerate() {
             if value != 0.0 {
@@ -166,6 +170,7 @@ fn add_schur_complement(
     // Unused places of delayed unknowns get an identity row.
     if delayed != UNTOUCHED {
         for place in delayed + count..delayed + super::block::MOST_DELAYED {
+            matrix.set_row_size(place, 1.0);
             matrix.add(place, place, 1.0);
         }
     }
@@ -193,7 +198,7 @@ impl LocalLu<'_> {
                 right[position[block.touched[touched]]] -= value;
             });
             for (left, value) in own[block.pivots..].iter().enumerate() {
-                right[delayed + left] += block.scale * value;
+                right[delayed + left] += block.scale(left) * value;
             }
         }
         self.factors.solve(self.right);

@@ -26,7 +26,7 @@ mod two_ended;
 
 pub use band_rows::BandRows;
 pub use banded::{BandedLu, BandedMatrix};
-pub use bordered::{Border, BorderShape, BorderedLu, BorderedMatrix};
+pub use bordered::{Border, BorderShape, BorderUnit, BorderedLu, BorderedMatrix};
 pub use complementarity::{Pairing, complementary};
 pub use error::LinearError;
 pub use full_border::FullBorder;

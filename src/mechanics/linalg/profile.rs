@@ -60,6 +60,16 @@ impl ProfileMatrix {
         self.storage.rows[at..at + values.len()].copy_from_slice(values);
     }
 
+    /// Makes rows of different units comparable in row exchanges, by the diagonal.
+    pub(super) fn weigh_rows(&mut self) {
+        self.storage.weigh_rows();
+    }
+
+    /// Sets the squared size of a row.
+    pub(super) fn set_row_size(&mut self, row: usize, size: f64) {
+        self.storage.sizes[row] = size;
+    }
+
     /// Replaces the entries by the factors.
     ///
     /// # Errors

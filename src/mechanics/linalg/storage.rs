@@ -3,6 +3,7 @@
 use std::ops::Range;
 
 use super::elimination::{PANEL, SMALLEST_HALF_BANDWIDTH};
+use crate::elementary::square;
 
 /// Rows of a banded matrix, with data of the elimination.
 ///
@@ -20,6 +21,9 @@ pub(super) struct Storage {
     pub(super) last_columns: Vec<usize>,
     /// Multipliers of the rows below a panel, until the panel is accepted.
     pub(super) multipliers: Vec<[f64; PANEL]>,
+    /// Squared sizes of the rows, which make entries of equations of different units comparable; equal unless set. They are exchanged with the
+    /// rows.
+    pub(super) sizes: Vec<f64>,
 }
 
 /// Rows of a banded matrix during elimination, stored as in [`Storage`].
@@ -34,6 +38,7 @@ pub(super) struct ActiveRows<'a> {
     pub(super) pivots: &'a mut [usize],
     pub(super) last_columns: &'a mut [usize],
     pub(super) multipliers: &'a mut [[f64; PANEL]],
+    pub(super) sizes: &'a mut [f64],
 }
 
 #[derive(Debug, Clone, Copy)]
@@ -55,6 +60,7 @@ impl Storage {
             pivots: Vec::new(),
             last_columns: Vec::new(),
             multipliers: Vec::new(),
+            sizes: Vec::new(),
         };
         storage.remake(size, half_bandwidth);
         storage
@@ -66,6 +72,8 @@ impl Storage {
         self.pivots.resize(size, 0);
         self.last_columns.resize(size, 0);
         self.multipliers.resize(self.reach, [0.0; PANEL]);
+        self.sizes.clear();
+        self.sizes.resize(size + PANEL + self.reach, 1.0);
         self.rows.clear();
         self.rows.resize((size + PANEL + self.reach) * self.stride(), 0.0);
         self.end_with_the_identity();
@@ -84,8 +92,8 @@ impl Storage {
 
     pub(super) fn rows_mut(&mut self) -> ActiveRows<'_> {
         let Self { size, reach, .. } = *self;
-        let Self { rows, pivots, last_columns, multipliers, .. } = self;
-        ActiveRows { size, columns: size, reach, rows, pivots, last_columns, multipliers }
+        let Self { rows, pivots, last_columns, multipliers, sizes, .. } = self;
+        ActiveRows { size, columns: size, reach, rows, pivots, last_columns, multipliers, sizes }
     }
 
     pub(super) fn factors(&self) -> Factors<'_> {
@@ -102,6 +110,43 @@ impl Storage {
         for row in self.size..self.size + PANEL {
             let diagonal = row * self.stride() + self.centre();
             self.rows[diagonal] = 1.0;
+        }
+    }
+
+    /// Sets the squared sizes of the rows to their diagonal entries, as in a matrix scaled from both sides to a diagonal of ones. Rows without a
+    /// diagonal entry, those of constraints, get the largest of their entries in that scaling; rows coupled to constraints only likewise.
+    pub(super) fn weigh_rows(&mut self) {
+        let (stride, centre) = (self.stride(), self.centre());
+        let Self { size, reach, rows, sizes, .. } = self;
+        let (size, reach) = (*size, *reach);
+        let entry = |row: usize, column: usize| rows[row * stride + column + centre - row];
+        let mut are_all_known = true;
+        for (row, found) in sizes[..size].iter_mut().enumerate() {
+            *found = entry(row, row).abs();
+            are_all_known &= *found > 0.0;
+        }
+        if are_all_known {
+            return;
+        }
+        let near = |at: usize| at.saturating_sub(reach)..(at + reach + 1).min(size);
+        let known = |at: usize| near(at).filter(|other| entry(*other, *other) != 0.0);
+        let largest = |sizes: &mut dyn Iterator<Item = f64>| sizes.fold(0.0, f64::max);
+        let of_column = |column: usize| {
+            let of = |row| square(entry(row, column)) / entry(row, row).abs();
+            largest(&mut known(column).map(of))
+        };
+        for (row, size) in sizes[..size].iter_mut().enumerate().filter(|(_, size)| **size == 0.0) {
+            let by_known = |column| square(entry(row, column)) / entry(column, column).abs();
+            let coupled = near(row).filter(|column| entry(row, *column) != 0.0);
+            let by_constraint = |column| square(entry(row, column)) / of_column(column);
+            *size = largest(&mut known(row).map(by_known));
+            if *size == 0.0 {
+                *size = largest(&mut coupled.map(by_constraint).filter(|size| size.is_finite()));
+            }
+            // Rows without entries.
+            if *size == 0.0 {
+                *size = 1.0;
+            }
         }
     }
 }

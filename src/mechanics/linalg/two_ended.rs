@@ -112,6 +112,7 @@ impl TwoEnded {
         let Self { cut, threads, multipliers, middle, right, reversed: turned } = self;
         let (cut, threads) = (*cut, *threads);
         let BandCut { size, reach, .. } = cut;
+        band.weigh_rows();
         let storage = band.storage_mut();
         let (stride, centre) = (storage.stride(), storage.centre());
         let (before, behind) = (cut.upper_rows(), size - cut.lower_rows());
@@ -120,6 +121,8 @@ impl TwoEnded {
         let (rows, lower) = storage.rows[..size * stride].split_at_mut(behind * stride - shift);
         let (pivots, lower_pivots) = storage.pivots.split_at_mut(behind);
         let (last_columns, lower_last_columns) = storage.last_columns.split_at_mut(behind);
+        let (sizes, lower_sizes) = storage.sizes[..size].split_at_mut(behind);
+        lower_sizes.reverse();
         let upper = ActiveRows {
             size: before,
             columns: cut.upper,
@@ -128,6 +131,7 @@ impl TwoEnded {
             pivots,
             last_columns,
             multipliers: &mut storage.multipliers,
+            sizes,
         };
         let mut results = [Ok(()), Ok(())];
         let [of_upper, of_lower] = &mut results;
@@ -141,6 +145,7 @@ impl TwoEnded {
                 pivots: lower_pivots,
                 last_columns: lower_last_columns,
                 multipliers,
+                sizes: lower_sizes,
             };
             *result = Arch::new().dispatch(Elimination(lower));
         };
@@ -172,6 +177,7 @@ impl TwoEnded {
                 }
             }
         }
+        middle.weigh_rows();
         let middle =
             middle.factorise().map_err(|error| error.at(cut.upper + error.unknown(), size))?;
         let storage = band.storage();

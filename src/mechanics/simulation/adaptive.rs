@@ -24,6 +24,10 @@ pub(super) struct Adaptive {
     pub(super) doubling: StepDoubling,
     pub(super) resampling: Option<Resampling>,
     pub(super) tolerance: f64,
+    /// Length scale of position errors [length].
+    pub(super) length: f64,
+    /// Order of the method in the scene.
+    pub(super) order: u32,
 }
 
 pub(super) struct StepPlan {
@@ -60,7 +64,8 @@ impl Adaptive {
         let length = length_of(scene);
         let doubling = StepDoubling::new(order, length, allowed);
         let resampling = Resampling::of(scene, length, control.tolerance);
-        Self { controller, doubling, resampling, tolerance: control.tolerance }
+        let tolerance = control.tolerance;
+        Self { controller, doubling, resampling, tolerance, length, order }
     }
 
     /// Plans the next step from `now`, ending at `stop` at the latest [time].

@@ -17,6 +17,9 @@ pub struct Sample {
     pub newton_iterations: usize,
     /// Number of failed attempts before the step.
     pub retries: usize,
+    /// Energy that dampers returned in the backward part of the step. It is not stored in files [energy].
+    #[serde(skip)]
+    pub returned: f64,
 }
 
 /// Quantity that is constant when loads and supports are accounted for.
@@ -280,7 +283,10 @@ mod tests {
                 ..Measures::default()
             };
             let extra = (1..=width).map(|column| (10 * column + index) as f64);
-            history.push(Sample { measures, dt: 1.0, newton_iterations: 3, retries: 0 }, extra);
+            history.push(
+                Sample { measures, dt: 1.0, newton_iterations: 3, ..Sample::default() },
+                extra,
+            );
         }
         history
     }

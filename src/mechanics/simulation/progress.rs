@@ -39,11 +39,14 @@ pub(super) struct StepTaken {
     pub(super) dt: f64,
     pub(super) newton_iterations: usize,
     pub(super) retries: usize,
+    /// Energy that dampers returned in its backward part [energy].
+    pub(super) returned: f64,
 }
 
 impl StepTaken {
     pub(super) fn of(row: &Sample) -> Self {
-        Self { dt: row.dt, newton_iterations: row.newton_iterations, retries: row.retries }
+        let Sample { dt, newton_iterations, retries, returned, .. } = *row;
+        Self { dt, newton_iterations, retries, returned }
     }
 }
 
@@ -58,7 +61,13 @@ pub(super) struct RunProgress {
 }
 
 impl RunProgress {
-    pub(super) fn count_step(&mut self, interval: Interval, report: NewtonReport, retries: usize) {
+    pub(super) fn count_step(
+        &mut self,
+        interval: Interval,
+        report: NewtonReport,
+        retries: usize,
+        returned: f64,
+    ) {
         let NewtonReport { iterations, corrections, .. } = report;
         let counts = &mut self.counts;
         counts.steps += 1;
@@ -67,7 +76,7 @@ impl RunProgress {
         counts.newton_max = counts.newton_max.max(iterations);
         counts.factorisations += iterations;
         self.last_step =
-            StepTaken { dt: interval.duration(), newton_iterations: iterations, retries };
+            StepTaken { dt: interval.duration(), newton_iterations: iterations, retries, returned };
     }
 
     pub(super) fn count_dry_run(&mut self, dt: f64) {

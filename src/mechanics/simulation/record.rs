@@ -76,8 +76,9 @@ impl RunRecord {
 
     fn add_row(&mut self, model: &mut System, last_step: StepTaken) {
         self.truncate(self.permanent_rows);
-        let StepTaken { dt, newton_iterations, retries } = last_step;
-        let sample = Sample { measures: model.measure(), dt, newton_iterations, retries };
+        let StepTaken { dt, newton_iterations, retries, returned } = last_step;
+        let measures = model.measure();
+        let sample = Sample { measures, dt, newton_iterations, retries, returned };
         let sensed = self.reader.read(model);
         self.history.push(sample, extra_values(model).chain(sensed.iter().copied()));
         self.trajectory.push(model.time(), coordinates(model));

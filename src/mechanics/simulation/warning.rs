@@ -79,6 +79,21 @@ pub enum Warning {
         /// Length of the longest recent step [time].
         longest: f64,
     },
+    /// Many adaptive steps, much shorter than the motion of the scene as a whole needs, or of a first-order method.
+    ManySteps {
+        /// Number of steps so far.
+        steps: usize,
+        /// Mean step size [time].
+        dt: f64,
+        /// Tolerance [-].
+        tolerance: f64,
+        /// Name of the method if it is of first order.
+        method: Option<&'static str>,
+        /// Time in which the scene moves by its own length [time].
+        travel_time: f64,
+        /// Ratio of the step size that this motion needs to the mean one [-].
+        times: f64,
+    },
     /// Large rotation of sections in a step.
     Rotation {
         /// Step size [time].
@@ -111,14 +126,16 @@ pub enum Warning {
         /// Name and stiffness of the stiffest spring, if any.
         stiffest: Option<(String, f64)>,
     },
-    /// Dissipative element that added energy in a step.
+    /// Dampers that returned more energy in the backward part of a step than they dissipated in the whole step.
     EnergyGain {
         /// Time at the end of the step [time].
         time: f64,
         /// Length of the step [time].
         dt: f64,
-        /// Added energy [energy].
-        energy: f64,
+        /// Energy returned in the backward part of the step [energy].
+        returned: f64,
+        /// Energy dissipated in the whole step; negative if the motion grew [energy].
+        taken: f64,
     },
     /// Prescribed motion with a kink within a step.
     Bend {
@@ -170,12 +187,13 @@ impl Warning {
             Self::Motion { unresolved_fraction: share, .. }
             | Self::Beam { unresolved_fraction: share, .. } => *share,
             Self::Uneven { shortest, longest } => longest / shortest,
+            Self::ManySteps { steps, .. } => *steps as f64,
             Self::Rotation { angle, .. } => *angle,
             Self::SpansPerStep { spans, .. } => *spans,
             Self::WaveSpeed { speed, .. } => *speed,
             Self::Bounce { steps_per_impact: blows, .. } => *blows,
             Self::Drift { drift, .. } => *drift,
-            Self::EnergyGain { energy, .. } => *energy,
+            Self::EnergyGain { returned, taken, .. } => returned - taken,
             Self::Bend { curvature: bend, .. } => bend.size(),
             // Told once.
             Self::Schedule { .. } | Self::Range { .. } => 1.0,
@@ -188,6 +206,7 @@ impl Warning {
         match self {
             Self::Motion { .. }
             | Self::Uneven { .. }
+            | Self::ManySteps { .. }
             | Self::Rotation { .. }
             | Self::Drift { .. }
             | Self::EnergyGain { .. } => None,
@@ -291,6 +310,26 @@ impl fmt::Display for Warning {
                 short(*shortest),
                 short(*longest)
             ),
+            Self::ManySteps { steps, dt, tolerance, method, travel_time, times } => {
+                write!(
+                    f,
+                    "{steps} adaptive steps of {} on average with the tolerance {}: ",
+                    short(*dt),
+                    short(*tolerance)
+                )?;
+                match method {
+                    Some(method) => write!(
+                        f,
+                        "steps of the first-order method {method} are proportional to the tolerance; use the method energy_momentum or fourth_order, or a larger tolerance"
+                    ),
+                    None => write!(
+                        f,
+                        "the motion by the length of the scene takes about {} and needs steps {} times as long; the steps follow a small fast vibration, which impacts and sudden loads excite. If it does not matter, use fixed steps, a larger tolerance, or damping of the material",
+                        short(*travel_time),
+                        short(*times)
+                    ),
+                }
+            }
             Self::WaveSpeed { slider, speed, limit } => write!(
                 f,
                 "slider '{slider}' moves along its beam at up to {}, close to the speed of shear waves. Above {} the kink of the axis is not adapted to the contact force, and the contact is only first-order accurate in the span length; refine the mesh",
@@ -312,13 +351,20 @@ impl fmt::Display for Warning {
                     None => write!(f, " Check the stiffnesses, masses and units"),
                 }
             }
-            Self::EnergyGain { time, dt, energy } => write!(
-                f,
-                "dampers added an energy of {} in the step (dt = {}) that ends at t = {}: the method fourth_order has a backward substep, in which motion with a decay rate near 3.557/dt grows. Use another dt, or the method energy_momentum",
-                short(*energy),
-                short(*dt),
-                short(*time)
-            ),
+            Self::EnergyGain { time, dt, returned, taken } => {
+                if *taken < 0.0 {
+                    write!(f, "dampers added an energy of {}", short(-taken))?;
+                } else {
+                    let (taken, returned) = (short(*taken), short(*returned));
+                    write!(f, "dampers dissipated only {taken} and returned {returned}")?;
+                }
+                write!(
+                    f,
+                    " in the step (dt = {}) that ends at t = {}: the method fourth_order has a backward substep. A motion with a decay rate from 3.13/dt to 3.76/dt regains more energy in it than the step dissipates, and grows near 3.557/dt. Use another dt, or the method energy_momentum",
+                    short(*dt),
+                    short(*time)
+                )
+            }
             Self::Bend { drive, curvature: MotionCurvature { time, rates: [before, after] } } => {
                 write!(
                     f,

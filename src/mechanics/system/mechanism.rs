@@ -51,6 +51,8 @@ pub struct System {
     exchanged: ExchangeLedger,
     step: StepMeasures,
     saved_state: SystemState,
+    /// Energy that dampers returned in the last step backwards in time [energy].
+    returned: f64,
 }
 
 impl System {
@@ -75,6 +77,7 @@ impl System {
             exchanged: ExchangeLedger::default(),
             step: StepMeasures::new(degrees_of_freedom),
             saved_state: SystemState::default(),
+            returned: 0.0,
         }
     }
 
@@ -131,6 +134,11 @@ impl System {
     /// Present time [time].
     pub fn time(&self) -> f64 {
         self.motion.time
+    }
+
+    /// Energy that dampers returned in the last step backwards in time, of methods that take some; otherwise zero [energy].
+    pub fn returned(&self) -> f64 {
+        self.returned
     }
 
     /// Resolution of the motion by the steps so far.

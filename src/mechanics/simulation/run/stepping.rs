@@ -129,7 +129,7 @@ impl Simulation {
         report: NewtonReport,
         retries: usize,
     ) {
-        self.progress.count_step(interval, report, retries);
+        self.progress.count_step(interval, report, retries, self.model.returned());
         self.model.end_step(interval.duration());
         if let Some(sensitivities) = &mut self.stepper.sensitivities {
             sensitivities.count_step(interval, report);

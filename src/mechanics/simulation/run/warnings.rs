@@ -3,10 +3,12 @@
 use std::f64::consts::TAU;
 
 use super::Simulation;
+use crate::elementary::power;
 use crate::geometry::larger;
 use crate::integrators::{EnergyClaim, INTEGRATORS, Mechanism, Method};
+use crate::simulation::adaptive::Adaptive;
 use crate::simulation::warning::{LARGEST_ROTATION, MOST_SPANS, RateChangeCause, short};
-use crate::simulation::{Invariant, StepSize, Warning};
+use crate::simulation::{Invariant, Sample, StepSize, Warning};
 use crate::system::{RESOLVED_IMPACT, Resolution, SpringLaw, System, SystemFeature};
 use crate::vibration::{Modes, VibrationError};
 
@@ -47,6 +49,13 @@ const ALTERNATION: f64 = 0.1;
 /// Largest acceptable number of alternations.
 const MOST_TURNS: usize = 20;
 
+/// Number of adaptive steps that are many.
+const MANY_STEPS: usize = 5000;
+
+/// Factor by which steps are much shorter than the motion of the scene needs: they follow a vibration with an amplitude below a thousandth of its
+/// length.
+const MUCH_SHORTER: f64 = 50.0;
+
 /// Largest number of sliders whose resolution is described.
 const SLIDERS: usize = 6;
 
@@ -75,6 +84,7 @@ impl Simulation {
             notes.extend(self.unresolved_beams(dt));
         }
         notes.extend(self.uneven_steps());
+        notes.extend(self.many_steps());
         if resolution.rotation() > LARGEST_ROTATION {
             let dt = self.settings.method.step_with_part(resolution.turned_in());
             notes.push(Warning::Rotation { dt, angle: resolution.rotation() });
@@ -168,6 +178,22 @@ impl Simulation {
         (turns >= MOST_TURNS).then_some(Warning::Uneven { shortest, longest })
     }
 
+    /// Many adaptive steps of a method of first order, or much shorter ones than the motion of the scene as a whole needs.
+    fn many_steps(&self) -> Option<Warning> {
+        let Adaptive { tolerance, length, order, .. } = **self.adaptive.as_ref()?;
+        let (steps, rows) = (self.counts().steps, self.history().samples());
+        if steps < MANY_STEPS {
+            return None;
+        }
+        let kinetic = rows.iter().map(|row| row.measures.energy.kinetic).sum::<f64>();
+        let speed = (2.0 * kinetic / (rows.len() as f64 * self.model.total_mass())).sqrt();
+        let (dt, travel_time) = (self.time() / steps as f64, length / speed);
+        let times = travel_time * power(tolerance, 1.0 / f64::from(order)) / dt;
+        let method = (order == 1).then(|| self.settings.method.entry().name);
+        (method.is_some() || (times > MUCH_SHORTER && times.is_finite()))
+            .then_some(Warning::ManySteps { steps, dt, tolerance, method, travel_time, times })
+    }
+
     /// Longest step taken [time]. The requested step size may be longer.
     fn longest_step(&self) -> f64 {
         let rows = self.history().samples();
@@ -206,23 +232,33 @@ impl Simulation {
         others.find(|name| *name != self.settings.method.entry().name)
     }
 
-    /// Largest energy gained from a dissipative element in a step of the fourth-order method, whose backward substep may gain energy; `None` if it is
-    /// due to rounding.
+    /// Step of the fourth-order method in which dampers gained least, if its backward substeps returned more than all steps took, or if a step took
+    /// less than nothing; `None` if explained by rounding.
     fn energy_gain(&self) -> Option<Warning> {
         if self.settings.method != Method::FourthOrder {
             return None;
         }
         let rows = self.history().samples();
         rows.last().filter(|row| row.measures.dissipated != 0.0)?;
-        let given = rows.windows(2).map(|pair| {
+        let (mut all_returned, mut all_taken, mut rounding) = (0.0, 0.0, 0.0);
+        let mut worst: Option<(f64, f64, &Sample)> = None;
+        let mut has_grown = false;
+        for pair in rows.windows(2) {
             let [before, now] = [pair[0].measures, pair[1].measures];
             let held = now.energy.kinetic + now.energy.strain + now.energy.stored;
-            let energy = before.dissipated - now.dissipated;
-            (energy - DISSIPATION_ROUNDING * larger(held, now.dissipated.abs()), energy, &pair[1])
-        });
-        let (beyond, energy, row) = given.max_by(|(a, ..), (b, ..)| a.total_cmp(b))?;
-        let (time, dt) = (row.measures.time, row.dt);
-        (beyond > 0.0).then_some(Warning::EnergyGain { time, dt, energy })
+            let doubt = DISSIPATION_ROUNDING * larger(held, now.dissipated.abs());
+            let (returned, taken) = (pair[1].returned, now.dissipated - before.dissipated);
+            has_grown |= -taken > doubt;
+            all_returned += returned;
+            all_taken += taken;
+            rounding = larger(rounding, doubt);
+            if worst.is_none_or(|(energy, less, _)| returned - taken > energy - less) {
+                worst = Some((returned, taken, &pair[1]));
+            }
+        }
+        let is_slow = all_returned > all_taken + rounding;
+        let (returned, taken, row) = worst.filter(|_| has_grown || is_slow)?;
+        Some(Warning::EnergyGain { time: row.measures.time, dt: row.dt, returned, taken })
     }
 
     /// Possible causes of a large change of the kinetic energy within a step: the element with the largest dissipation, and controllers.

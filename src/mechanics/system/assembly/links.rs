@@ -29,7 +29,8 @@ impl System {
             }
         }
         self.links().add_coupling(self.bodies(), unknowns.count(), &mut matrix);
-        // Pseudo-random gaps, which a symmetry of the scene cannot close by chance.
+        matrix.weigh_rows();
+        // Gaps without symmetry, which no symmetry of a scene can close.
         let mut forces = vec![0.0; unknowns.count()];
         let across = self.links().rollers().map(|(unknown, _)| unknown);
         let of_links = self.links().iter().flat_map(|link| link.unknowns);

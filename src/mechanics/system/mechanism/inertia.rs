@@ -40,6 +40,7 @@ impl System {
             BandedMatrix::zeros(self.unknowns.count(), self.unknowns.half_bandwidth());
         self.add_inertia_tangent(1.0, &mut inertia);
         self.links.add_coupling(&self.bodies, self.unknowns.count(), &mut inertia);
+        inertia.weigh_rows();
         inertia
     }
 

@@ -97,6 +97,7 @@ impl Rigidity {
                 entries().for_each(|(&j, b)| matrix.add(i, j, factor * b));
             }
         }
+        matrix.weigh_rows();
         matrix
     }
 

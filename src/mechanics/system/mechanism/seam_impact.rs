@@ -192,8 +192,8 @@ fn turned(direction: Vec2, [from, to]: [Vec2; 2]) -> Vec2 {
     direction * from.dot(&to) + perpendicular(direction) * cross(from, to)
 }
 
-/// Impulses of an impact in which sliders are rotated at corners, with two impulses each, and laws for all other contacts. At corners `P = γ J ½ (w⁻
-/// + w⁺)`, with `γ` such that each slider rotates by its own angle to 1e-12, or as accurately as the last correction allows. `None` if stops are
+/// Impulses of an impact in which sliders are rotated at corners, with two impulses each, and laws for all other contacts. At corners
+/// `P = γ J ½ (w⁻ + w⁺)`, with `γ` such that each slider rotates by its own angle to 1e-12, or as accurately as the last correction allows. `None` if stops are
 /// struck too and the angles are not reached.
 ///
 /// For any `γ` this is one complementarity problem, with the rows `cos(θ/2) √det W P - sin(θ/2) J W P = sin(θ/2) J 2 w̄` for corners. Its solution is

@@ -277,7 +277,12 @@ impl Mechanism for System {
             self.exchanged.total += prescribed;
         }
         self.sliders.evaluate_end(&self.bodies, increments, constraints);
+        let is_backward = self.step.interval.duration() < 0.0;
+        let taken = if is_backward { self.elements.dissipated() } else { 0.0 };
         self.elements.advance(&self.bodies, self.step.rotations);
+        if is_backward {
+            self.returned = taken - self.elements.dissipated();
+        }
         self.bodies.advance(self.step.rotations);
         let arms = ArmRule { rotations: self.step.rotations, fraction: 0.5 };
         self.links.advance(&self.bodies, arms, increments);

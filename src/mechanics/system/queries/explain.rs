@@ -30,7 +30,7 @@ pub enum Usage {
 }
 
 impl SystemFeature {
-    /// Returns a feature in use.
+    /// Creates a used feature.
     pub fn used(name: impl Into<String>, how: impl Into<String>) -> Self {
         Self { name: name.into(), usage: Usage::Used(how.into()) }
     }
@@ -44,7 +44,7 @@ impl SystemFeature {
         )
     }
 
-    /// Returns an omitted feature.
+    /// Creates an omitted feature.
     pub fn omitted(name: impl Into<String>, saved: impl Into<String>) -> Self {
         Self { name: name.into(), usage: Usage::Omitted(saved.into()) }
     }

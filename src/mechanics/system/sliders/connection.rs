@@ -1,8 +1,8 @@
 //! Unknowns of slave, master and contact of a slider, and the assembly of the contact.
 
 use crate::geometry::Vec2;
-use crate::joints::{CONTACT_UNKNOWNS, Contact, Equation};
-use crate::linalg::Border;
+use crate::joints::{CONTACT_UNKNOWNS, Contact, Equation, Unit};
+use crate::linalg::{Border, BorderUnit};
 use crate::system::bodies::Body;
 
 /// Connection of a slider: places of its unknowns in the vectors of the model.
@@ -87,6 +87,14 @@ impl Connection {
             column(y, way, -by_way.y);
         }
         for (row, equation) in self.places().zip(equations) {
+            let of_row = match equation.unit {
+                Unit::Length => BorderUnit::Length(1.0),
+                Unit::Force => BorderUnit::Force,
+            };
+            let is_way = row == way;
+            let unknown =
+                if is_way { BorderUnit::Length(contact.length) } else { BorderUnit::Force };
+            border.set_units(row, of_row, unknown);
             for (unknown, slope) in self.places().zip(equation.by_unknowns.to_array()) {
                 border.add_to_corner(row, unknown, slope);
             }
