@@ -5,9 +5,9 @@ use super::{KnotVector, Span};
 
 /// Nonzero B-splines on `span` of `knots` with all derivatives at `xi`, extended as polynomials.
 ///
-/// The functions and their derivatives follow from the splines of one degree less. The spline `N_m` of degree `q - 1` has the support `[ξ_m,
-/// ξ_{m+q}]` of length `h_m`, and contributes to two splines of degree `q` (The NURBS Book, equations 2.5 and 2.7; the results are those of algorithm
-/// A2.3):
+/// The functions and their derivatives follow from the splines of one degree less. The spline `N_m` of degree `q - 1` has the support
+/// `[ξ_m, ξ_{m+q}]` of length `h_m`, and contributes to two splines of degree `q` (The NURBS Book, equations 2.5 and 2.7; the results are those of
+/// algorithm A2.3):
 ///
 /// ```text
 /// N_{m-1}   gets   (ξ_{m+q} - ξ) / h_m · N_m       its derivatives   -q / h_m · (those of N_m, one order less)

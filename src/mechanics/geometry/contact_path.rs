@@ -153,8 +153,8 @@ impl ContactPath {
         self.row(PathQuantity::Difference)
     }
 
-    /// Derivatives of the divided differences with respect to the end of the path, `∂D_i/∂ξ₁ = (B_i'(ξ₁) - D_i) / (ξ₁ - ξ₀)` for fixed ξ₀, or `½
-    /// B_i''(ξ₀)` for a path of zero length. They sum to zero.
+    /// Derivatives of the divided differences with respect to the end of the path, `∂D_i/∂ξ₁ = (B_i'(ξ₁) - D_i) / (ξ₁ - ξ₀)` for fixed ξ₀, or
+    /// `½ B_i''(ξ₀)` for a path of zero length. They sum to zero.
     ///
     /// They are accurate to rounding, unless `B_i'` jumps on the path. In this case the rounding error of `D_i` is divided by the length of the path.
     pub fn change(&self) -> &[f64] {

@@ -32,9 +32,9 @@ const ENDLESS_MOVEMENT: f64 = 30.0;
 const MOST_LEAVES: usize = 12;
 
 impl Continuation<'_> {
-    /// Finds the equilibrium that the unloaded scene approaches under a fraction of its loads with viscous damping. It repeats steps `σ M u + F(u) -
-    /// λ P = 0` with decreasing `σ` (pseudo-transient continuation; Kelley & Keyes, SIAM J. Numer. Anal. 35 (1998) 508–523). `movements` is the
-    /// number of unrestrained degrees of freedom as drawn.
+    /// Finds the equilibrium that the unloaded scene approaches under a fraction of its loads with viscous damping. It repeats steps
+    /// `σ M u + F(u) - λ P = 0` with decreasing `σ` (pseudo-transient continuation; Kelley & Keyes, SIAM J. Numer. Anal. 35 (1998) 508–523).
+    /// `movements` is the number of unrestrained degrees of freedom as drawn.
     ///
     /// `K + σ M` is positive definite at the start of every pass, so every pass reduces the energy.
     pub(super) fn find_equilibrium(

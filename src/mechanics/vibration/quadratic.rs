@@ -106,8 +106,8 @@ impl Quadratic {
             .collect())
     }
 
-    /// Shift that is not far above any eigenvalue [1/time]. With `x` scaled by `Ω`, restrained modes satisfy `ẏ = A y` with `|A⁻¹| ≤ |Ω⁻¹ B|² +
-    /// |Ω⁻¹|`.
+    /// Shift that is not far above any eigenvalue [1/time]. With `x` scaled by `Ω`, restrained modes satisfy `ẏ = A y` with
+    /// `|A⁻¹| ≤ |Ω⁻¹ B|² + |Ω⁻¹|`.
     fn slowest_shift(&self) -> f64 {
         let modes = || self.squares.iter().enumerate();
         let held = modes().filter(|(_, square)| **square != 0.0);

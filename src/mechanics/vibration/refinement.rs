@@ -29,9 +29,9 @@ pub(super) struct RefinedPair {
 
 /// Corrects the first `count` pairs of a search.
 ///
-/// Let a pair `(x, n)` consist of displacements and section forces, with `ω²` from its energies. With the residual force `r = ω² M x - Bᵀ (n + k m) -
-/// K_g x`, the correction is `δ = A⁻¹ r`, which maps `x` to `(ω² + σ) A⁻¹ M x`. Components of other pairs are removed from `δ` and counted in the
-/// residual, because the inverted stiffness would amplify small components of low pairs in high ones.
+/// Let a pair `(x, n)` consist of displacements and section forces, with `ω²` from its energies. With the residual force
+/// `r = ω² M x - Bᵀ (n + k m) - K_g x`, the correction is `δ = A⁻¹ r`, which maps `x` to `(ω² + σ) A⁻¹ M x`. Components of other pairs are removed
+/// from `δ` and counted in the residual, because the inverted stiffness would amplify small components of low pairs in high ones.
 ///
 /// # Errors
 /// Fails if the refinement is stopped.

@@ -15,8 +15,8 @@ impl SplineString {
     /// μ = ∫ (X(L) - s(ξ) - ∫ u² dX) ds/∫ g ds        u = l(X)ᵀ M⁻¹ t(ξ)/|x_ξ|
     /// ```
     ///
-    /// If the start is held, points in front of a unit kink move with the velocity `v` and all other points are fixed. In the mesh they move with `u
-    /// v` instead. Away from the kink `u` is exact, so only the spans around the kink contribute to the difference.
+    /// If the start is held, points in front of a unit kink move with the velocity `v` and all other points are fixed. In the mesh they move with
+    /// `u v` instead. Away from the kink `u` is exact, so only the spans around the kink contribute to the difference.
     pub fn inertia(
         &self,
         mesh: &Mesh,

@@ -168,8 +168,8 @@ impl KinkedAxis {
         self.jump * (1.0 - self.inverse_square_speed * self.speed * self.speed)
     }
 
-    /// Removes from the contact force the force of a stop, along the tangent `x'` of the axis [length]. The remaining force satisfies `p·x' + ½ g'
-    /// |p|²/GA = 0` up to the third power of `p`.
+    /// Removes from the contact force the force of a stop, along the tangent `x'` of the axis [length]. The remaining force satisfies
+    /// `p·x' + ½ g' |p|²/GA = 0` up to the third power of `p`.
     ///
     /// If the axis is compliant there, as within rounding of the end, the force is kept, because positions determine it.
     pub fn remove_stop_force(&mut self, tangent: Vec2) {
@@ -192,8 +192,8 @@ impl KinkedAxis {
         self.jump * (self.compliance_derivatives[0] * self.compliance)
     }
 
-    /// Derivative of [`offset`](Self::offset) with respect to `ξ`, and half of the scalar product of offset and second derivative, `½ g g''
-    /// |p|²/GA²`.
+    /// Derivative of [`offset`](Self::offset) with respect to `ξ`, and half of the scalar product of offset and second derivative,
+    /// `½ g g'' |p|²/GA²`.
     pub fn slopes(&self) -> (Vec2, f64) {
         let [length, slope, bend] = self.compliance_derivatives;
         let force = self.jump * self.compliance;
