@@ -91,7 +91,7 @@ pub trait BodyDynamics: Send + Sync {
         tangents: &mut [BlockSink<'_>],
     );
 
-    /// Adds `weight` times the forces that would remove the current strain mismatch. The strain derivatives are those of the last linearisation.
+    /// Adds `weight` times the forces that would remove the current strain mismatch, with the strain derivatives of the last linearisation.
     fn add_mismatch_forces(&mut self, weight: f64, forces: &mut [Movement]);
 
     /// Updates the section forces after a correction of the increments.

@@ -71,7 +71,7 @@ pub enum BeamError {
         "the longest span of a smooth part of the mesh is {ratio:.1e} times as long as the shortest, too much for an accurate quadrature of the strains; change the span lengths more gradually, or make the basis C0 between long and short spans (repeat the knot as often as the degree)"
     )]
     UnevenSpans {
-        /// Length of the longest span over that of the shortest [-].
+        /// Ratio of the longest span to the shortest [-].
         ratio: f64,
     },
     /// Axis or mesh that cannot be represented.

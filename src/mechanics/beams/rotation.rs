@@ -103,7 +103,7 @@ impl Rotation {
 }
 
 impl<T: Number> Rotation<T> {
-    /// Product of this rotation and that of an increment.
+    /// Product of this rotation and the rotation of an increment.
     #[inline(always)]
     pub fn turned(self, kind: RotationIncrement, increment: T) -> Self {
         self.times(&kind.turn(increment))

@@ -54,7 +54,7 @@ impl Station {
         Self { body: BodyIndex::Rigid(body, point), arc_length: 0.0 }
     }
 
-    /// Returns true if both stations coincide within rounding; `length` is that of the body.
+    /// Returns true if both stations coincide within rounding; `length` is the length of the body.
     pub fn is_at(&self, other: &Self, length: f64) -> bool {
         let apart = (self.arc_length - other.arc_length).abs();
         self.body == other.body && apart <= ROUNDING_OF_PLACES * length

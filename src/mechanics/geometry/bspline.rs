@@ -10,8 +10,8 @@ use super::{KnotVector, Span};
 /// algorithm A2.3):
 ///
 /// ```text
-/// N_{m-1}   gets   (ξ_{m+q} - ξ) / h_m · N_m       its derivatives   -q / h_m · (those of N_m, one order less)
-/// N_m       gets   (ξ - ξ_m)     / h_m · N_m       its derivatives    q / h_m · (those of N_m, one order less)
+/// N_{m-1}   gets   (ξ_{m+q} - ξ) / h_m · N_m       its derivatives   -q / h_m · (derivatives of N_m of one order less)
+/// N_m       gets   (ξ - ξ_m)     / h_m · N_m       its derivatives    q / h_m · (derivatives of N_m of one order less)
 /// ```
 pub(super) fn evaluate(knots: &KnotVector, span: &Span, xi: f64) -> BasisValues {
     let mut basis = BasisValues::zeros(span.first, knots.degree());

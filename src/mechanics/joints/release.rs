@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-/// Object that can be released, by its index among those of its kind.
+/// Object that can be released, by its index among the objects of its kind.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Releasable {
     /// Joint: a hinge, a rigid joint, a clamp, a support.

@@ -119,12 +119,12 @@ impl Block {
         self.candidates() + self.touched.len()
     }
 
-    /// Scale of a row of the Schur complement: equations of delayed unknowns are scaled to match those of the band.
+    /// Scale of a row of the Schur complement. The equations of delayed unknowns are scaled to the size of the equations of the band.
     pub(super) fn scale(&self, left: usize) -> f64 {
         if left < self.delayed() { self.row_factors[self.pivots + left] } else { 1.0 }
     }
 
-    /// Eliminates the own unknowns of the block. `places` is a buffer of `NOWHERE` entries, and restored on return.
+    /// Eliminates the own unknowns of the block. `places` is a buffer of `NOWHERE` entries, which are restored on return.
     ///
     /// # Errors
     /// Fails if there is no pivot; the error contains the index in the block.
@@ -196,7 +196,7 @@ impl Block {
         self.own.iter().chain(&self.touched).for_each(|&at| places[at] = UNTOUCHED);
     }
 
-    /// Sets the factors that turn rows into forces and columns into lengths: as if all of them had the largest stiffness of the band.
+    /// Sets the factors that convert rows to forces and columns to lengths, by the largest stiffness of the band.
     fn compare(&mut self, band: &BandedMatrix) {
         let Self { own, touched, units, row_factors, column_factors, stiffness, .. } = self;
         let of_band = |at: &usize| {
@@ -213,7 +213,7 @@ impl Block {
         unknowns.for_each(|(factor, (_, unknown))| *factor = unknown.column_factor(*stiffness));
     }
 
-    /// Largest entry among candidates from a place on, in comparable units; NaN if one is NaN.
+    /// Largest scaled entry among the candidates from index `first` on; NaN if an entry is NaN.
     fn largest_from(&self, first: usize) -> (usize, usize, f64) {
         let (size, candidates) = (self.size(), self.candidates());
         let mut found = (first, first, 0.0);

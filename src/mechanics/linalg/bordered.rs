@@ -29,18 +29,18 @@ pub struct BorderShape {
     pub row_entries: usize,
 }
 
-/// Unit of a border row or of a border unknown, where the band takes lengths to forces.
+/// Unit of a border row or of a border unknown. The band converts lengths to forces.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub enum BorderUnit {
     /// Force.
     #[default]
     Force,
-    /// Length, if multiplied by this number.
+    /// Unit that becomes a length when it is multiplied by this number.
     Length(f64),
 }
 
 impl BorderUnit {
-    /// Factor that turns a row of this unit into forces, for a stiffness of the band [force/length].
+    /// Factor that converts a row of this unit to forces, for a stiffness of the band [force/length].
     pub(super) fn row_factor(self, stiffness: f64) -> f64 {
         match self {
             Self::Force => 1.0,
@@ -48,7 +48,7 @@ impl BorderUnit {
         }
     }
 
-    /// Factor of the derivatives with respect to an unknown of this unit that turns them into those with respect to a length.
+    /// Factor that converts derivatives with respect to an unknown of this unit to derivatives with respect to a length.
     pub(super) fn column_factor(self, stiffness: f64) -> f64 {
         match self {
             Self::Force => stiffness,
@@ -128,7 +128,7 @@ impl Border {
         }
     }
 
-    /// Sets the units of the row and of the unknown at an index of the border, which row exchanges and pivots depend on.
+    /// Sets the units of the row and of the unknown at an index of the border. Row exchanges and pivots depend on them.
     pub fn set_units(&mut self, at: usize, row: BorderUnit, unknown: BorderUnit) {
         match self {
             Self::Full(border) => border.set_row_unit(at, row),

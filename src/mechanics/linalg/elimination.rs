@@ -22,10 +22,10 @@ pub(super) const PANEL: usize = LANES;
 /// Smallest half-bandwidth for which a row has space for a panel followed by whole vectors.
 pub(super) const SMALLEST_HALF_BANDWIDTH: usize = PANEL + LANES - 2;
 
-/// Square of the largest multiplier without row exchange, of rows of one size.
+/// Square of the largest multiplier that needs no row exchange, for rows of equal size.
 const LARGEST_SQUARE: f64 = 64.0;
 
-/// Returns true if a multiplier of a row needs no row exchange, from the squared sizes of the pivot row and of the row.
+/// Returns true if a multiplier needs no row exchange, for the squared sizes of the pivot row and of the eliminated row.
 #[inline(always)]
 pub(super) fn is_small(multiplier: f64, pivot_row: f64, row: f64) -> bool {
     multiplier * multiplier * pivot_row <= LARGEST_SQUARE * row

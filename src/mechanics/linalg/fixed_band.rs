@@ -8,8 +8,8 @@ use super::elimination::{PANEL, PanelFactors, is_small, subtract};
 
 /// Eliminates the columns of a panel without previous fill-in from the rows below. Returns false without changes if rows should be exchanged.
 ///
-/// `rows` are those of the panel and `REACH` below it, with `STRIDE` stored entries each, and `sizes` their squared sizes; `WIDTH` is the
-/// half-bandwidth in whole vectors.
+/// `rows` contains the panel and the `REACH` rows below it, with `STRIDE` stored entries each, and `sizes` their squared sizes. `WIDTH` is the
+/// half-bandwidth, rounded up to whole vectors.
 #[inline(always)]
 pub(super) fn eliminate_panel<
     S: Simd,

@@ -14,11 +14,11 @@ use crate::elementary::square;
 /// Number of border columns stored and solved together: the number of unknowns of a sliding contact, a compile-time constant.
 const STRIP: usize = 5;
 
-/// Weight of lengths against forces in the choice of pivots. Equations of forces, such as that of a contact without friction, come first where they
-/// lose no more than four digits, so that a force of zero is exactly zero.
+/// Weight of lengths relative to forces in the choice of pivots. Equations of forces, such as that of a frictionless contact, are preferred if this
+/// loses at most four digits, so that a zero force is exactly zero.
 const LENGTHS: f64 = 1e-4;
 
-/// Columns of `B`; after factorising of `Z`.
+/// Columns of `B`; after the factorisation columns of `Z`.
 #[derive(Debug, Clone)]
 struct BorderStrip {
     rows: Vec<[f64; STRIP]>,
@@ -102,7 +102,7 @@ impl FullBorder {
         self.units[border_row] = unit;
     }
 
-    /// Makes rows of the complement of different units comparable, by the largest compliance of its lengths.
+    /// Scales rows of the complement with different units by the largest compliance of its lengths, so that they can be compared.
     fn weigh_rows(&mut self) {
         let lengths = (0..self.width).filter(|row| self.units[*row] != BorderUnit::Force);
         let compliances = lengths.map(|row| self.corner.get(row, row).abs());

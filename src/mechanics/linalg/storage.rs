@@ -21,8 +21,8 @@ pub(super) struct Storage {
     pub(super) last_columns: Vec<usize>,
     /// Multipliers of the rows below a panel, until the panel is accepted.
     pub(super) multipliers: Vec<[f64; PANEL]>,
-    /// Squared sizes of the rows, which make entries of equations of different units comparable; equal unless set. They are exchanged with the
-    /// rows.
+    /// Squared sizes of the rows, by which entries of equations of different units are compared. They are equal unless set, and are exchanged
+    /// together with the rows.
     pub(super) sizes: Vec<f64>,
 }
 
@@ -113,8 +113,8 @@ impl Storage {
         }
     }
 
-    /// Sets the squared sizes of the rows to their diagonal entries, as in a matrix scaled from both sides to a diagonal of ones. Rows without a
-    /// diagonal entry, those of constraints, get the largest of their entries in that scaling; rows coupled to constraints only likewise.
+    /// Sets the squared sizes of the rows to their diagonal entries, as if the matrix were scaled from both sides to a unit diagonal. Rows without a
+    /// diagonal entry (constraints) get their largest scaled entry, and so do rows that are coupled only to constraints.
     pub(super) fn weigh_rows(&mut self) {
         let (stride, centre) = (self.stride(), self.centre());
         let Self { size, reach, rows, sizes, .. } = self;

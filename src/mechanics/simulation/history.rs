@@ -104,7 +104,7 @@ impl History {
     /// Appends a row: the sample, and the values of the additional columns in their order.
     ///
     /// # Panics
-    /// Panics if the number of values differs from that of the additional columns.
+    /// Panics if the number of values differs from the number of additional columns.
     pub fn push(&mut self, sample: Sample, extra: impl Iterator<Item = f64>) {
         self.samples.push(sample);
         self.extra.extend(extra);

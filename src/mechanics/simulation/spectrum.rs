@@ -2,7 +2,7 @@
 //!
 //! The mean is subtracted, the rows are weighted with a Blackman–Harris window (F. J. Harris, Proc. IEEE 66 (1978) 51-83: side lobes of -92 dB), and
 //! zeros are appended. A parabola through the logarithms of the three values around each maximum gives its frequency and amplitude. The Fourier
-//! transform is that of Cooley and Tukey (1965) with the sines of this crate, so that results are identical on all machines.
+//! transform is computed by the algorithm of Cooley and Tukey (1965) with the sines of this crate, so that results are identical on all machines.
 
 use std::f64::consts::TAU;
 

@@ -65,11 +65,11 @@ pub enum StepSizeError {
     Order {
         /// Name of the bound that should be smaller.
         name: &'static str,
-        /// Its value [time].
+        /// Value of this bound [time].
         value: f64,
         /// Name of the bound that should be larger.
         next: &'static str,
-        /// Its value [time].
+        /// Value of the larger bound [time].
         limit: f64,
     },
 }

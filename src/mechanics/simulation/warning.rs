@@ -79,7 +79,7 @@ pub enum Warning {
         /// Length of the longest recent step [time].
         longest: f64,
     },
-    /// Many adaptive steps, much shorter than the motion of the scene as a whole needs, or of a first-order method.
+    /// Large number of adaptive steps, because they are much shorter than the motion of the whole scene needs, or because the method is of first order.
     ManySteps {
         /// Number of steps so far.
         steps: usize,
@@ -91,7 +91,7 @@ pub enum Warning {
         method: Option<&'static str>,
         /// Time in which the scene moves by its own length [time].
         travel_time: f64,
-        /// Ratio of the step size that this motion needs to the mean one [-].
+        /// Ratio of the step size that the motion of the whole scene needs to the mean step size [-].
         times: f64,
     },
     /// Large rotation of sections in a step.
@@ -153,7 +153,7 @@ pub enum Warning {
         /// Step with the largest difference between two rules for the mean.
         change: MissedChange,
     },
-    /// Spring or damper outside of the range of its law.
+    /// Spring or damper outside the range of its law.
     Range {
         /// Description of the law with its owner.
         law: String,
@@ -195,7 +195,7 @@ impl Warning {
             Self::Drift { drift, .. } => *drift,
             Self::EnergyGain { returned, taken, .. } => returned - taken,
             Self::Bend { curvature: bend, .. } => bend.size(),
-            // Told once.
+            // These warnings are given only once.
             Self::Schedule { .. } | Self::Range { .. } => 1.0,
             Self::Contact { bounce, .. } => bounce.force,
         }

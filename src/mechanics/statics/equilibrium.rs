@@ -63,7 +63,7 @@ impl Equilibrium {
     /// Dry run for the check of scripts: the scene as drawn serves as its equilibrium.
     ///
     /// # Errors
-    /// Errors of [`find`](Self::find) except those of the solution.
+    /// Errors of [`find`](Self::find), except errors of the solution.
     pub fn dry_run(scene: Scene, loading: Loading) -> Result<Self, StaticsError> {
         let model = prepare(&scene, &loading)?;
         let Continuation { model, mut path, .. } = Continuation::new(&scene, model, loading);

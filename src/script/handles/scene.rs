@@ -100,7 +100,7 @@ impl SceneHandle {
         self.of_present().borrow_mut()
     }
 
-    /// Like [`change`](Self::change), with shared ownership.
+    /// Gives write access as [`change`](Self::change), with shared ownership.
     pub fn shared(&self) -> Rc<RefCell<Scene>> {
         self.variants.is_changed.set(true);
         Rc::clone(self.of_present())

@@ -89,7 +89,7 @@ pub struct KinkMotion {
     pub duration: f64,
 }
 
-/// Kinematics of a sliding contact in a step. Positions are relative to that of the slave at the start of the step.
+/// Kinematics of a sliding contact in a step. Positions are relative to the position of the slave at the start of the step.
 ///
 /// All laws have the same forces: `-λ` on the slave, and on control point `i` of the master `B̄_i λ - Δξ D_i η`, or `B̄_i λ - D_i χ` with a kink.
 #[derive(Debug, Clone, Copy)]

@@ -49,11 +49,11 @@ const ALTERNATION: f64 = 0.1;
 /// Largest acceptable number of alternations.
 const MOST_TURNS: usize = 20;
 
-/// Number of adaptive steps that are many.
+/// Number of adaptive steps above which a warning about their number is possible.
 const MANY_STEPS: usize = 5000;
 
-/// Factor by which steps are much shorter than the motion of the scene needs: they follow a vibration with an amplitude below a thousandth of its
-/// length.
+/// Ratio of the step size that the motion of the scene needs to the mean step size, above which the steps are too short. The steps then follow a
+/// vibration with an amplitude below a thousandth of the length of the scene.
 const MUCH_SHORTER: f64 = 50.0;
 
 /// Largest number of sliders whose resolution is described.

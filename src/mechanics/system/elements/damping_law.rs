@@ -145,7 +145,7 @@ impl DampingLaw {
         }
     }
 
-    /// Derivative of the force with respect to the rate; at a corner that of the segment above it [force·time/length, force·length·time/rad].
+    /// Derivative of the force with respect to the rate [force·time/length, force·length·time/rad]; at a corner the slope of the segment above it.
     pub fn slope(&self, rate: f64) -> f64 {
         match self {
             Self::Linear(constant) => *constant,

@@ -153,7 +153,7 @@ mod tests {
                     assert!((by - expected).norm() < 1e-8, "{law:?}: {by} {expected}");
                 }
                 let turned = force(velocity, angle + h) - force(velocity, angle - h);
-                // Derivative of the components plus that of the rotating directions.
+                // Derivative of the components plus derivative of the rotating directions.
                 let by = found.by_angle + Vec2::new(found.force.y, -found.force.x);
                 assert!((in_space(t, by) - turned / (2.0 * h)).norm() < 1e-8, "{law:?}");
             }

@@ -12,7 +12,7 @@ use crate::system::bodies::{Body, Tracker};
 pub struct Follower {
     tracker: Tracker,
     force: Vec2,
-    /// Force parts from the value at the start of the step and from that of the iterate.
+    /// Force parts from the load at the start of the step and from the load of the iterate.
     force_parts: Vec2,
     current: Vec2,
 }

@@ -59,7 +59,7 @@ impl SpringLaw {
         }
     }
 
-    /// Stiffness `U''(q)`; at a corner that of the segment above it [force/length, force·length/rad].
+    /// Stiffness `U''(q)` [force/length, force·length/rad]; at a corner the stiffness of the segment above it.
     pub fn slope(&self, q: impl Into<Coordinate>) -> f64 {
         match self {
             Self::Linear { stiffness, .. } => *stiffness,

@@ -35,7 +35,7 @@ pub struct InclinedRoller {
 }
 
 impl InclinedRoller {
-    /// Creates a roller at a control point on its line; `size` is that of the scene [length], `across` the unit normal of the line.
+    /// Creates a roller at a control point on its line; `size` is the size of the scene [length], `across` the unit normal of the line.
     pub fn new(
         joint: usize,
         node: (usize, usize),

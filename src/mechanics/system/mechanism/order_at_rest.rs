@@ -9,7 +9,7 @@ use crate::linalg::reverse_cuthill_mckee;
 pub struct OrderAtRest {
     count: usize,
     half_bandwidth: usize,
-    /// Place of each unknown; `None` if the order is that of the steps.
+    /// Place of each unknown; `None` if the order is the order of the steps.
     position: Option<Vec<usize>>,
 }
 
@@ -33,12 +33,12 @@ impl OrderAtRest {
         }
     }
 
-    /// Returns true if the order is that of steps.
+    /// Returns true if the order is the order of the steps.
     pub fn is_step_order(&self) -> bool {
         self.position.is_none()
     }
 
-    /// Converts values from this order to that of steps, restricted to `unknowns` entries.
+    /// Converts values from this order to the order of the steps, restricted to `unknowns` entries.
     pub fn to_step_order(&self, values: Vec<f64>, unknowns: usize) -> Vec<f64> {
         match &self.position {
             None => values,

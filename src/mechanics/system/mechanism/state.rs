@@ -89,7 +89,7 @@ impl System {
     /// Restores a [`state`](Self::state) of this model bit for bit.
     ///
     /// # Panics
-    /// Panics if the state is that of another model.
+    /// Panics if the state belongs to another model.
     pub fn restore(&mut self, state: &SystemState) {
         let mut numbers = state.numbers.iter().copied();
         let next = &mut || numbers.next().expect("the state is one of this model");

@@ -27,7 +27,7 @@ pub struct BeamSample {
     pub velocity: Vec2,
     /// Section angle, unwrapped from the tracked angle at the start of the beam [rad].
     pub angle: f64,
-    /// Section forces, including those of material damping.
+    /// Section forces, including the forces of material damping.
     pub forces: SectionForces,
     /// Strain energy per length as drawn [energy/length].
     pub strain_energy: f64,

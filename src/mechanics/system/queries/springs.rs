@@ -44,7 +44,7 @@ impl System {
         self.elements().resistances().filter_map(InternalForce::wind_work)
     }
 
-    /// Overwrites `branches` with those of all springs whose laws have sharp corners, in the order of the scene.
+    /// Overwrites `branches` with the branches of all springs whose laws have sharp corners, in the order of the scene.
     pub fn write_branches(&self, branches: &mut Vec<Branch>) {
         let all = self.elements().resistances();
         branches.clear();

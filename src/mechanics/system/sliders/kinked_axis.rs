@@ -145,7 +145,7 @@ impl KinkedAxis {
         (self.jump, self.speed) = (jump, speed);
     }
 
-    /// Sets the kink to that of a static contact force [force].
+    /// Sets the kink to the static kink of a contact force [force].
     pub fn set_static_kink(&mut self, force: Vec2) {
         (self.jump, self.speed) = (force, 0.0);
     }

@@ -82,7 +82,7 @@ impl MasterLimit {
         2 * self.slider + self.end as usize
     }
 
-    /// Limit with an index among those of all sliders.
+    /// Limit with this index among the limits of all sliders.
     pub fn of(number: usize) -> Self {
         Self::both(number / 2)[number % 2]
     }
