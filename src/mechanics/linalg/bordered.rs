@@ -131,7 +131,7 @@ impl Border {
     /// Sets the units of the row and of the unknown at an index of the border. Row exchanges and pivots depend on them.
     pub fn set_units(&mut self, at: usize, row: BorderUnit, unknown: BorderUnit) {
         match self {
-            Self::Full(border) => border.set_row_unit(at, row),
+            Self::Full(border) => border.set_units(at, row, unknown),
             Self::Local(border) => {
                 let (block, at) = border.block_mut(at);
                 block.set_units(at, row, unknown);

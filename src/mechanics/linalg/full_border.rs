@@ -33,8 +33,8 @@ pub struct FullBorder {
     /// Entries of `C`: (row of the border, column, value). Entries at the same place add up.
     rows: Vec<(usize, usize, f64)>,
     corner: Box<BandedMatrix>,
-    /// Units of the border rows.
-    units: Vec<BorderUnit>,
+    /// Units of the border rows and unknowns.
+    units: Vec<(BorderUnit, BorderUnit)>,
 }
 
 /// Factors of a matrix with a [`FullBorder`].
@@ -72,7 +72,7 @@ impl FullBorder {
             strips: vec![BorderStrip::zeros(size); width.div_ceil(STRIP)],
             rows: Vec::with_capacity(row_entries),
             corner: Box::new(BandedMatrix::zeros(width, width.saturating_sub(1))),
-            units: vec![BorderUnit::default(); width],
+            units: vec![(BorderUnit::default(), BorderUnit::default()); width],
         }
     }
 
@@ -98,18 +98,20 @@ impl FullBorder {
         self.corner.add(border_row, border_column, value);
     }
 
-    pub(super) fn set_row_unit(&mut self, border_row: usize, unit: BorderUnit) {
-        self.units[border_row] = unit;
+    pub(super) fn set_units(&mut self, at: usize, row: BorderUnit, unknown: BorderUnit) {
+        self.units[at] = (row, unknown);
     }
 
     /// Scales rows of the complement with different units by the largest compliance of its lengths, so that they can be compared.
     fn weigh_rows(&mut self) {
-        let lengths = (0..self.width).filter(|row| self.units[*row] != BorderUnit::Force);
-        let compliances = lengths.map(|row| self.corner.get(row, row).abs());
+        let compliances = self.units.iter().enumerate().map(|(at, units)| match units {
+            (BorderUnit::Length(_), BorderUnit::Force) => self.corner.get(at, at).abs(),
+            _ => 0.0,
+        });
         let compliance = compliances.fold(0.0, f64::max);
         if compliance > 0.0 && compliance.is_finite() {
             let stiffness = LENGTHS / compliance;
-            let sizes = self.units.iter().map(|unit| square(1.0 / unit.row_factor(stiffness)));
+            let sizes = self.units.iter().map(|(row, _)| square(1.0 / row.row_factor(stiffness)));
             self.corner.set_row_sizes(sizes);
         }
     }
