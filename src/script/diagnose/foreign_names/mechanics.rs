@@ -41,7 +41,7 @@ pub const WORDS: &[ForeignName] = &[
         &["damper", "energy_decaying", "generalized_alpha"],
     ),
     entry(
-        &["friction", "coulomb", "stick-slip", "stiction", "brake"],
+        &["friction", "coulomb", "stick-slip", "stiction", "frictionless", "brake"],
         "friction of sliders, joints and contacts is not supported yet; a damper with \
         #{ damping: |rate| 5 * tanh(rate / 0.01), rates: [-1, 1] } between two stations \
         approximates dry friction along their distance",
@@ -185,13 +185,6 @@ pub const WORDS: &[ForeignName] = &[
         "a slider bounces at the ends of its beam with ends: \"bounce\"; a spring with acts: \
         \"push\" is a bumper between two points; other collisions are not modelled",
         &["slider", "spring", "contact_force"],
-    ),
-    entry(
-        &["friction", "coulomb", "stick-slip", "stiction", "frictionless"],
-        "friction is not modelled: sliders, hinges and tendons are frictionless; a damper or a \
-        force controller such as |t, q| -mu * norm(q.contact_force(ring)) * \
-        tanh(q.slider_speed(ring) / 1e-3) along the beam approximates slip, without sticking",
-        &["slider", "damper", "force", "contact_force"],
     ),
     entry(
         &["cable", "rope", "string", "wire", "chain", "thread", "pulley", "sheave"],
