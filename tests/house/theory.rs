@@ -167,9 +167,13 @@ const NUMBERS: &[(&str, &str, &str)] = &[
         "integrators/balance.rs",
         "const SHORTEST_CHORD: f64 = 1e-3;",
     ),
-    ("to `4e-15` of the interval", "system/sliders/master_curve.rs", "const LANDED: f64 = 4e-15;"),
+    (
+        "to `4e-15` of the interval",
+        "system/sliders/master_curve.rs",
+        "const END_TOLERANCE: f64 = 4e-15;",
+    ),
     ("within `1e-10` of an end", "simulation/run/event_location.rs", "const NEAR: f64 = 1e-10;"),
-    ("no multiplier is above 8", "linalg/elimination.rs", "const LARGEST_MULTIPLIER: f64 = 8.0;"),
+    ("no multiplier is above 8", "linalg/elimination.rs", "const LARGEST_SQUARE: f64 = 64.0;"),
     ("Four columns are eliminated at once", "linalg/elimination.rs", "const LANES: usize = 4;"),
     ("Four columns are eliminated at once", "linalg/elimination.rs", "const PANEL: usize = LANES;"),
     (
@@ -228,13 +232,13 @@ const NUMBERS: &[(&str, &str, &str)] = &[
     (
         "the mean has to be nearer by a fifth",
         "system/state/forecast.rs",
-        "const CLEARLY_LESS: f64 = 0.8;",
+        "const SELECTION_RATIO: f64 = 0.8;",
     ),
     ("is halved, eight times at most", "statics/continuation.rs", "const MOST_HALVINGS: u32 = 8;"),
     (
         "more than four times as far as the last step went",
         "statics/continuation.rs",
-        "const FAR_UNDER_LOAD: f64 = 4.0;",
+        "const SNAP_THROUGH_RATIO: f64 = 4.0;",
     ),
     ("where it ends more than `2 Δs` away", "statics/continuation.rs", "const FAR: f64 = 2.0;"),
     (

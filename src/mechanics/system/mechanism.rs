@@ -51,8 +51,6 @@ pub struct System {
     exchanged: ExchangeLedger,
     step: StepMeasures,
     saved_state: SystemState,
-    /// Energy that dampers returned in the last step backwards in time [energy].
-    returned: f64,
 }
 
 impl System {
@@ -77,7 +75,6 @@ impl System {
             exchanged: ExchangeLedger::default(),
             step: StepMeasures::new(degrees_of_freedom),
             saved_state: SystemState::default(),
-            returned: 0.0,
         }
     }
 
@@ -138,7 +135,7 @@ impl System {
 
     /// Energy that dampers returned in the last step backwards in time, of methods that take some; otherwise zero [energy].
     pub fn returned(&self) -> f64 {
-        self.returned
+        self.step.returned
     }
 
     /// Resolution of the motion by the steps so far.

@@ -281,7 +281,7 @@ impl Mechanism for System {
         let taken = if is_backward { self.elements.dissipated() } else { 0.0 };
         self.elements.advance(&self.bodies, self.step.rotations);
         if is_backward {
-            self.returned = taken - self.elements.dissipated();
+            self.step.returned = taken - self.elements.dissipated();
         }
         self.bodies.advance(self.step.rotations);
         let arms = ArmRule { rotations: self.step.rotations, fraction: 0.5 };

@@ -15,6 +15,8 @@ pub struct StepMeasures {
     pub rotations: RotationIncrement,
     /// True if loads may jump at the start of the step and accelerations are kept.
     pub jumps: bool,
+    /// Energy that dampers returned in the last backward substep [energy].
+    pub returned: f64,
     /// Buffer for forces on all degrees of freedom.
     scratch: Vec<f64>,
 }
@@ -29,13 +31,14 @@ impl StepMeasures {
             contact: 0.0,
             rotations: RotationIncrement::TangentScaled,
             jumps: false,
+            returned: 0.0,
             scratch: vec![0.0; degrees_of_freedom],
         }
     }
 
     pub fn begin(&mut self, interval: Interval, jumps: bool) {
-        let scratch = std::mem::take(&mut self.scratch);
-        *self = Self { interval, jumps, scratch, ..Self::new(0) };
+        let (returned, scratch) = (self.returned, std::mem::take(&mut self.scratch));
+        *self = Self { interval, jumps, returned, scratch, ..Self::new(0) };
     }
 
     pub fn no_forces(&mut self) -> &mut [f64] {
