@@ -39,8 +39,8 @@ impl DataTable {
         for column in &self.columns {
             match &column.values {
                 DataValues::Numbers(values) => write::<DoubleType>(&mut group, values.clone())?,
-                DataValues::Whole(values) => write::<Int64Type>(&mut group, values.clone())?,
-                DataValues::Truths(values) => write::<BoolType>(&mut group, values.clone())?,
+                DataValues::Integers(values) => write::<Int64Type>(&mut group, values.clone())?,
+                DataValues::Booleans(values) => write::<BoolType>(&mut group, values.clone())?,
                 DataValues::Texts(values) => {
                     let texts = values.iter().map(|text| text.as_deref().map(ByteArray::from));
                     write::<ByteArrayType>(&mut group, texts.collect())?;
@@ -56,8 +56,8 @@ impl DataTable {
 fn field(column: &DataColumn) -> Result<TypePtr, ParquetError> {
     let (stored, meant) = match &column.values {
         DataValues::Numbers(_) => (Stored::DOUBLE, None),
-        DataValues::Whole(_) => (Stored::INT64, None),
-        DataValues::Truths(_) => (Stored::BOOLEAN, None),
+        DataValues::Integers(_) => (Stored::INT64, None),
+        DataValues::Booleans(_) => (Stored::BOOLEAN, None),
         DataValues::Texts(_) => (Stored::BYTE_ARRAY, Some(LogicalType::String)),
     };
     let field = Type::primitive_type_builder(&column.name, stored)
@@ -96,8 +96,8 @@ mod tests {
         let table = DataTable {
             columns: vec![
                 column("t", DataValues::Numbers(vec![Some(0.1), None])),
-                column("steps", DataValues::Whole(vec![Some(3), Some(-1)])),
-                column("good", DataValues::Truths(vec![None, Some(true)])),
+                column("steps", DataValues::Integers(vec![Some(3), Some(-1)])),
+                column("good", DataValues::Booleans(vec![None, Some(true)])),
                 column("told", DataValues::Texts(vec![Some("a, ö".into()), None])),
             ],
         };
