@@ -124,7 +124,7 @@ impl Block {
         if left < self.delayed() { self.row_factors[self.pivots + left] } else { 1.0 }
     }
 
-    /// Eliminates the own unknowns of the block. `places` is a buffer of `NOWHERE` entries, which are restored on return.
+    /// Eliminates the own unknowns of the block. `places` is a buffer of `UNTOUCHED` entries, which are restored on return.
     ///
     /// # Errors
     /// Fails if there is no pivot; the error contains the index in the block.

@@ -1,4 +1,4 @@
-//! Watch of tabulated laws for values outside of their range.
+//! Largest excursions of tabulated laws outside their range.
 
 use super::spring_law::SpringLaw;
 
@@ -10,7 +10,7 @@ const ROUNDING: f64 = 1e-9;
 pub struct OutsideLaw {
     /// True for the rate of a damping law, false for an elongation.
     pub is_rate: bool,
-    /// Ends of the range; an end that goes on level is infinite [length, rad; of rates per time].
+    /// Ends of the range [length, rad; of rates per time]. An end with a constant continuation is infinite.
     pub range: [f64; 2],
     /// Farthest value outside of it.
     pub reached: f64,
@@ -25,12 +25,12 @@ pub struct LawRange {
 }
 
 impl LawRange {
-    /// Watch of the elongations of a law; `None` for laws that are defined everywhere.
+    /// Record of the elongations of a law; `None` for laws that are defined everywhere.
     pub fn of_elongations(law: &SpringLaw) -> Option<Self> {
         Self::of(law, false)
     }
 
-    /// Watch of the rates of a damping law; `None` for laws that are defined everywhere.
+    /// Record of the rates of a damping law; `None` for laws that are defined everywhere.
     pub fn of_rates(law: &SpringLaw) -> Option<Self> {
         Self::of(law, true)
     }
@@ -49,7 +49,7 @@ impl LawRange {
         }
     }
 
-    /// Farthest value beyond rounding.
+    /// Farthest value outside the range; `None` if it is outside by rounding only.
     pub fn outside(&self) -> Option<OutsideLaw> {
         let [from, to] = self.farthest.range;
         let ends = [from, to].into_iter().filter(|end| end.is_finite());
