@@ -97,7 +97,7 @@ impl PngPage<'_> {
                 covered.push((corner.x as i32 + x as i32, corner.y as i32 + y as i32, amount))
             });
             for (x, y, amount) in covered {
-                // A pixel is a box. After the rotation, the box to the right of the start is above it.
+                // Each pixel is a square. After the rotation of the text by 90°, the pixel to the right of the start point lies above it.
                 let (x, y) = match text.direction {
                     TextDirection::Level => (start.0 + x, start.1 + y),
                     TextDirection::Upwards => (start.0 + y, start.1 - x - 1),

@@ -125,7 +125,7 @@ fn functions_that_steps_do_not_sample_are_told_once() {
                 panic!("{kind}, {}: {notes:?}", method.entry().name)
             };
             println!("{note}");
-            assert!(change.missed > 0.01, "{change:?}");
+            assert!(change.sampling_error > 0.01, "{change:?}");
             assert!(kind == "drive" || (change.time - time).abs() <= 0.5 * DT, "{change:?}");
             assert!(!note.is_new_or_worse(&notes));
         }

@@ -47,7 +47,7 @@ impl BasisValues {
         &row[..=self.degree]
     }
 
-    /// Derivative of `order` of `Σ_i N_i(ξ) P_i`, with one point `P_i` per basis function, in the unit of the points.
+    /// Derivative of order `order` of `Σ_i N_i(ξ) P_i`, with one point `P_i` per basis function, in the unit of the points.
     ///
     /// # Panics
     /// Panics if there are fewer points than basis functions.

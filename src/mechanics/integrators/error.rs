@@ -96,7 +96,7 @@ pub enum StepError {
     Chord {
         /// Interval of the step [time].
         interval: Interval,
-        /// Chord of the path of the slider in the mean configuration, relative to the path [-].
+        /// Ratio of the chord to the length of the path of the slider, in the mean configuration [-].
         chord: f64,
         /// Newton iterations of the step.
         iterations: usize,

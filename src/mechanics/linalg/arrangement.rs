@@ -21,7 +21,7 @@ pub(super) struct Arrangement {
     pub(super) delayed: Vec<usize>,
     pub(super) ends: Vec<usize>,
     own_ends: Vec<usize>,
-    /// Number of delayed unknowns behind each unknown of the order.
+    /// For each unknown in the order of elimination, the number of delayed unknowns that follow it.
     delayed_after: Vec<usize>,
     /// Touched unknowns of the blocks when the order was made.
     ordered_for: Vec<usize>,

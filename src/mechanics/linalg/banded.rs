@@ -267,7 +267,7 @@ mod tests {
         assert_eq!(matrix.factorise().unwrap_err(), LinearError::NotFinite { unknown: 0, size: 2 });
     }
 
-    /// Bits of factors and solutions for one instruction set; `None` without factors.
+    /// Bit patterns of the factors and solutions computed with one instruction set; `None` if there are no factors.
     fn worked_on(arch: Arch, matrix: &BandedMatrix, right: &[f64]) -> Option<Vec<u64>> {
         let mut storage = matrix.storage.clone();
         arch.dispatch(Elimination(storage.rows_mut())).ok()?;

@@ -136,7 +136,7 @@ impl Block {
         self.gather(band, places);
         let largest = self.touched.iter().map(|&at| band.get(at, at).abs()).fold(0.0, f64::max);
         self.stiffness = if largest > 0.0 { largest } else { 1.0 };
-        self.compare(band);
+        self.set_scale_factors(band);
         let candidates = self.candidates();
         let fewest = candidates - if self.can_delay_unknowns() { MOST_DELAYED } else { 0 };
         self.row_at.clear();
@@ -197,7 +197,7 @@ impl Block {
     }
 
     /// Sets the factors that convert rows to forces and columns to lengths, by the largest stiffness of the band.
-    fn compare(&mut self, band: &BandedMatrix) {
+    fn set_scale_factors(&mut self, band: &BandedMatrix) {
         let Self { own, touched, units, row_factors, column_factors, stiffness, .. } = self;
         let of_band = |at: &usize| {
             let diagonal = band.get(*at, *at).abs();

@@ -4,7 +4,7 @@
 //! of the band, is eliminated locally, with work proportional to the number of blocks.
 
 use super::full_border::FullLu;
-use super::joint_elimination::{JointElimination, TogetherLu};
+use super::joint_elimination::{JointElimination, JointLu};
 use super::local_border::LocalLu;
 use super::two_ended::{TwoEnded, TwoEndedLu};
 use super::{BandedLu, BandedMatrix, BlockLayout, FullBorder, LinearError, LocalBorder};
@@ -15,7 +15,7 @@ pub struct BorderedMatrix {
     band: BandedMatrix,
     border: Border,
     /// Joint elimination, if the band alone may be singular.
-    together: Option<JointElimination>,
+    joint_elimination: Option<JointElimination>,
     /// Elimination from both ends, if the band is long and has no border.
     ends: Option<Box<TwoEnded>>,
 }
@@ -75,7 +75,7 @@ enum BorderFactors<'a> {
     Band(BandedLu<'a>),
     TwoEnded(TwoEndedLu<'a>),
     Full(FullLu<'a>),
-    Joint(TogetherLu<'a>),
+    Joint(JointLu<'a>),
     Local(LocalLu<'a>),
 }
 
@@ -156,7 +156,7 @@ impl BorderedMatrix {
         Self {
             band: BandedMatrix::zeros(size, half_bandwidth),
             border: Border::Full(FullBorder::zeros(size, border)),
-            together: None,
+            joint_elimination: None,
             ends: if border.width == 0 {
                 TwoEnded::worthwhile(size, half_bandwidth).map(Box::new)
             } else {
@@ -170,7 +170,7 @@ impl BorderedMatrix {
         Self {
             band: BandedMatrix::zeros(size, half_bandwidth),
             border: Border::Local(Box::new(LocalBorder::zeros(size, half_bandwidth, layout))),
-            together: None,
+            joint_elimination: None,
             ends: None,
         }
     }
@@ -178,7 +178,11 @@ impl BorderedMatrix {
     /// Returns the matrix with joint elimination of its dense border and the band, for bands that alone may be singular. The last `full` rows and
     /// columns couple with all others and remain a border.
     pub fn with_joint_elimination(self, full: usize) -> Self {
-        Self { together: Some(JointElimination::new(self.size(), full)), ends: None, ..self }
+        Self {
+            joint_elimination: Some(JointElimination::new(self.size(), full)),
+            ends: None,
+            ..self
+        }
     }
 
     /// Sets the number of threads for a long band, with unchanged results.
@@ -231,7 +235,7 @@ impl BorderedMatrix {
     /// # Errors
     /// Fails if a column has no nonzero finite pivot. The entries are then lost.
     pub fn factorise(&mut self) -> Result<BorderedLu<'_>, LinearError> {
-        let Self { band, border, together, ends } = self;
+        let Self { band, border, joint_elimination: together, ends } = self;
         let size = band.size();
         let factors = match (border, together) {
             (Border::Local(border), _) => BorderFactors::Local(border.factorise(band)?),

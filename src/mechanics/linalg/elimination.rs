@@ -22,7 +22,7 @@ pub(super) const PANEL: usize = LANES;
 /// Smallest half-bandwidth for which a row has space for a panel followed by whole vectors.
 pub(super) const SMALLEST_HALF_BANDWIDTH: usize = PANEL + LANES - 2;
 
-/// Square of the largest multiplier that needs no row exchange, for rows of equal size.
+/// Square of the largest multiplier that needs no row exchange, for rows of equal norm.
 const LARGEST_SQUARE: f64 = 64.0;
 
 /// Returns true if a multiplier needs no row exchange, for the squared sizes of the pivot row and of the eliminated row.

@@ -35,7 +35,7 @@ struct Equilibration {
 
 /// Factors of a [`JointElimination`].
 #[derive(Debug)]
-pub(super) struct TogetherLu<'a> {
+pub(super) struct JointLu<'a> {
     others: Ordered<'a>,
     columns: &'a [Vec<f64>],
     rows: &'a [MatrixEntry],
@@ -69,7 +69,7 @@ impl JointElimination {
     pub(super) fn factorise(
         &mut self,
         entries: &[MatrixEntry],
-    ) -> Result<TogetherLu<'_>, LinearError> {
+    ) -> Result<JointLu<'_>, LinearError> {
         let size = self.size;
         self.columns.iter_mut().for_each(|column| column.fill(0.0));
         self.rows.clear();
@@ -93,7 +93,7 @@ impl JointElimination {
             }
         }
         let complement = complement.factorise().map_err(|error| error.offset_by_rows(size))?;
-        Ok(TogetherLu { others, columns, rows, complement })
+        Ok(JointLu { others, columns, rows, complement })
     }
 
     fn order(&mut self, entries: &[MatrixEntry]) {
@@ -110,7 +110,7 @@ impl JointElimination {
     }
 }
 
-impl TogetherLu<'_> {
+impl JointLu<'_> {
     pub(super) fn solve(&self, x: &mut [f64]) {
         let (x, z) = x.split_at_mut(x.len() - self.columns.len());
         self.others.solve(x);

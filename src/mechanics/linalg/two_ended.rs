@@ -252,7 +252,7 @@ mod tests {
         let mut x = right.to_vec();
         let mut factors = ends.factorise(&mut band).unwrap();
         factors.solve(&mut x);
-        // Repeats the solution with the same factors.
+        // Solves again with the same factors.
         x.copy_from_slice(right);
         factors.solve(&mut x);
         x

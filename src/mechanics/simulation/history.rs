@@ -72,7 +72,7 @@ pub struct DriftScales {
     pub mass: f64,
     /// Length scale of the scene [length]; zero if there is none, as for a single particle at the origin.
     pub length: f64,
-    /// Rounding error of the strain energy [energy], the smallest scale of a drift.
+    /// Rounding error of the strain energy [energy]. Energy drifts are relative to at least this value.
     pub rounding_energy: f64,
 }
 

@@ -85,7 +85,7 @@ impl TimeGrid {
         }
     }
 
-    /// End of the step that starts at `now`: the next grid point or cut, at most `limit` [time].
+    /// End of the step that starts at `now`: the next grid point or additional end of a step, at most `limit` [time].
     pub fn next(&self, now: f64, limit: f64) -> f64 {
         let grid = self.point(self.points_up_to(now) + 1);
         let cut = self.cuts[self.cuts.partition_point(|cut| self.has_reached(now, *cut))..].first();

@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 use std::fmt;
 
 use super::StepControl;
-use crate::system::{MissedChange, MotionCurvature, OutsideLaw, RESOLVED_IMPACT, ShortBounce};
+use crate::system::{MotionCurvature, OutsideLaw, RESOLVED_IMPACT, ShortBounce, UnsampledChange};
 
 /// Largest rotation of a section in a step without a warning: ten steps per revolution [rad].
 pub(super) const LARGEST_ROTATION: f64 = 0.1 * TAU;
@@ -135,7 +135,7 @@ pub enum Warning {
         /// Energy returned in the backward part of the step [energy].
         returned: f64,
         /// Energy dissipated in the whole step; negative if the motion grew [energy].
-        taken: f64,
+        dissipated: f64,
     },
     /// Prescribed motion with a kink within a step.
     Bend {
@@ -151,7 +151,7 @@ pub enum Warning {
         /// Step size [time].
         dt: f64,
         /// Step with the largest difference between two rules for the mean.
-        change: MissedChange,
+        change: UnsampledChange,
     },
     /// Spring or damper outside the range of its law.
     Range {
@@ -193,7 +193,7 @@ impl Warning {
             Self::WaveSpeed { speed, .. } => *speed,
             Self::Bounce { steps_per_impact: blows, .. } => *blows,
             Self::Drift { drift, .. } => *drift,
-            Self::EnergyGain { returned, taken, .. } => returned - taken,
+            Self::EnergyGain { returned, dissipated: taken, .. } => returned - taken,
             Self::Bend { curvature: bend, .. } => bend.size(),
             // These warnings are given only once.
             Self::Schedule { .. } | Self::Range { .. } => 1.0,
@@ -324,7 +324,7 @@ impl fmt::Display for Warning {
                     ),
                     None => write!(
                         f,
-                        "the motion by the length of the scene takes about {} and needs steps {} times as long; the steps follow a small fast vibration, which impacts and sudden loads excite. If it does not matter, use fixed steps, a larger tolerance, or damping of the material",
+                        "the scene moves by its own length in about {}, and steps {} times as long would resolve this motion. The steps follow a small fast vibration, such as an impact or a sudden load excites. If the vibration does not matter, use fixed steps, a larger tolerance, or damping of the material",
                         short(*travel_time),
                         short(*times)
                     ),
@@ -351,7 +351,7 @@ impl fmt::Display for Warning {
                     None => write!(f, " Check the stiffnesses, masses and units"),
                 }
             }
-            Self::EnergyGain { time, dt, returned, taken } => {
+            Self::EnergyGain { time, dt, returned, dissipated: taken } => {
                 if *taken < 0.0 {
                     write!(f, "dampers added an energy of {}", short(-taken))?;
                 } else {
@@ -374,7 +374,11 @@ impl fmt::Display for Warning {
                     short(*after)
                 )
             }
-            Self::Schedule { owner, dt, change: MissedChange { time, missed } } => write!(
+            Self::Schedule {
+                owner,
+                dt,
+                change: UnsampledChange { time, sampling_error: missed },
+            } => write!(
                 f,
                 "the function of time of {owner} changes faster than the steps (dt = {}) sample it: near t = {} two estimates of its mean over a step differ by {} % of its largest value. Use a smaller dt, declare the times of its jumps and kinks, or use a built-in schedule such as pulse, smooth_pulse, sine or table, which is integrated exactly",
                 short(*dt),

@@ -13,8 +13,8 @@ mod state;
 
 pub use elements::{
     Along, Anchor, Branch, DampingLaw, Drag, Dragged, Drive, DriveKind, DriveState, Element,
-    LoadAccount, MaterialDamping, MissedChange, MotionCurvature, Origin, OutsideLaw, PointMass,
-    ShortBounce, SpeedLaw, Spring, SpringKind, SpringLaw,
+    LawArgument, LoadAccount, MaterialDamping, MotionCurvature, Origin, OutsideLaw, PointMass,
+    ShortBounce, SpeedLaw, Spring, SpringKind, SpringLaw, UnsampledChange,
 };
 pub(crate) use errors::rounded;
 pub use errors::{

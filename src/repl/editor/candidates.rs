@@ -62,7 +62,7 @@ impl Candidate {
         Self { display: key.name.to_owned(), replacement: format!("{}: ", key.name), summary }
     }
 
-    /// Candidate of a key of the options of a script function.
+    /// Completion candidate for an option key of a script function.
     pub fn option_candidate(name: &str, about: &str) -> Self {
         Self {
             display: name.to_owned(),

@@ -30,8 +30,8 @@ pub struct SceneHandle {
     controllers: Rc<RefCell<Vec<Rc<Controller>>>>,
     /// Release conditions, with the index of the release.
     conditions: Rc<RefCell<Vec<Condition>>>,
-    /// True after the note on what modes of the scene leave out.
-    is_told_of_modes: Rc<Cell<bool>>,
+    /// True after the note on controllers and spins that modes do not include.
+    has_modes_note: Rc<Cell<bool>>,
 }
 
 struct Variants {
@@ -81,13 +81,13 @@ impl SceneHandle {
             functions: Rc::default(),
             controllers: Rc::default(),
             conditions: Rc::default(),
-            is_told_of_modes: Rc::default(),
+            has_modes_note: Rc::default(),
         }
     }
 
-    /// Returns true the first time it is called, for a note on modes that is printed once.
-    pub fn begins_to_tell_of_modes(&self) -> bool {
-        !self.is_told_of_modes.replace(true)
+    /// Returns true on the first call, because the note on modes is printed once per scene.
+    pub fn take_modes_note(&self) -> bool {
+        !self.has_modes_note.replace(true)
     }
 
     pub fn scene(&self) -> &RefCell<Scene> {
@@ -101,7 +101,7 @@ impl SceneHandle {
     }
 
     /// Gives write access as [`change`](Self::change), with shared ownership.
-    pub fn shared(&self) -> Rc<RefCell<Scene>> {
+    pub fn shared_for_change(&self) -> Rc<RefCell<Scene>> {
         self.variants.is_changed.set(true);
         Rc::clone(self.of_present())
     }

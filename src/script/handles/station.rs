@@ -77,5 +77,5 @@ impl Scripted for StationHandle {
 pub fn here(call: &Call, name: &str) -> Result<(Station, Rc<RefCell<Scene>>), ScriptError> {
     let scene = call.receiver::<SceneHandle>()?;
     let station = scene.own_station(&call.get::<StationHandle>(name)?)?;
-    Ok((station, scene.shared()))
+    Ok((station, scene.shared_for_change()))
 }

@@ -63,7 +63,7 @@ fn brief(x: f64) -> String {
     format_number(format!("{x:.5e}").parse().unwrap_or(x))
 }
 
-/// Point with six digits. A component that is due to rounding of the other is shown as 0.
+/// Point with six digits. A component within the rounding error of the other is shown as 0.
 fn brief_point(point: Vec2) -> String {
     let [x, y] = [point.x, point.y].map(|x| match x.abs() < ROUNDING * point.norm() {
         true => brief(0.0),

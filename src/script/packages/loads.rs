@@ -72,7 +72,7 @@ pub const TABLE: BindingTable = BindingTable {
             let beam = call.get::<BeamHandle>("beam")?.index_in(&scene)?;
             let kind = LoadKind::Line { beam, force: call.point("force")?, frame: frame(call)? };
             let schedule = when(call)?;
-            add(&scene.shared(), call, kind, schedule)
+            add(&scene.shared_for_change(), call, kind, schedule)
         })
         .summary("Adds a force per length on a whole beam that keeps its direction or follows the \
             sections like a pressure.")

@@ -47,8 +47,8 @@ pub const TABLE: BindingTable = BindingTable {
             error. With up to 240 unknowns all modes are computed at once, with more only the \
             lowest, by the block Lanczos method (Grimes, Lewis & Simon 1994); a count of the \
             negative pivots verifies that none is missing. Sliders can move along their beams, \
-            under their present contact forces. Controllers and spins are left out, and a note \
-            names them: modes are those at rest. Loads and gravity are ignored, because the \
+            under their present contact forces. Modes are computed at rest, without controllers \
+            and spins; a note names those of the scene. Loads and gravity are ignored, because the \
             scene is not deformed by them: for their effect, as on an inverted pendulum, use \
             scene.equilibrium().modes(n). For other configurations use rest.modes(n) of an \
             equilibrium or sim.modes(n) of a simulation.",
@@ -237,7 +237,7 @@ impl Scripted for ModesHandle {
     }
 }
 
-/// Notes once which controllers and spins of a scene its modes leave out.
+/// Prints a note on the controllers and spins of a scene that its modes do not include, once per scene.
 fn warn_about_omissions(call: &Call, handle: &SceneHandle, scene: &Scene) {
     let steered = scene.schedules().filter(|(_, schedule)| schedule.is_sampled());
     let controllers: Vec<String> = steered
@@ -252,21 +252,21 @@ fn warn_about_omissions(call: &Call, handle: &SceneHandle, scene: &Scene) {
         .chain(bodies.map(|body| format!("body '{}'", body.name)))
         .chain(motors.map(|drive| format!("motor '{}'", drive.name)))
         .collect();
-    if (controllers.is_empty() && spins.is_empty()) || !handle.begins_to_tell_of_modes() {
+    if (controllers.is_empty() && spins.is_empty()) || !handle.take_modes_note() {
         return;
     }
     if !controllers.is_empty() {
         let names = controllers.join(", ");
         call.context().print_message(&format!(
-            "note: modes leave out controllers, here of {names}; to see their effect, let the \
-            simulation vibrate"
+            "note: modes do not include the effect of controllers ({names}); simulate the vibration \
+            to see it"
         ));
     }
     if !spins.is_empty() {
         let names = spins.join(", ");
         call.context().print_message(&format!(
-            "note: modes are those at rest: the spin of {names}, with its centrifugal and \
-            gyroscopic forces, is left out"
+            "note: modes are computed at rest, without the centrifugal and gyroscopic forces of the \
+            spin of {names}"
         ));
     }
 }

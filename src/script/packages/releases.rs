@@ -102,15 +102,17 @@ fn release(call: &mut Call) -> Result<Dynamic, ScriptError> {
             (Trigger::Outside, Some(function))
         }
     };
-    handle.shared().borrow_mut().add_release(Release { object: hold, trigger }).map_err(
-        |error| {
+    handle
+        .shared_for_change()
+        .borrow_mut()
+        .add_release(Release { object: hold, trigger })
+        .map_err(|error| {
             let place = match error {
                 SystemError::Value { .. } => CallPart::Key("at".into()),
                 _ => CallPart::Argument(0),
             };
             ScriptError::from(error).at(place)
-        },
-    )?;
+        })?;
     if let Some(function) = condition {
         handle.store_condition(call.store(function, "the condition of a release"));
     }

@@ -304,7 +304,7 @@ fn add(
     options: &Options,
 ) -> Result<Dynamic, ScriptError> {
     let handle = call.receiver::<SceneHandle>()?;
-    let scene = handle.shared();
+    let scene = handle.shared_for_change();
     let prefix = if law.is_none() { "damper" } else { "spring" };
     let name = options.get_if::<ImmutableString>("name").map(String::from);
     let name = name.unwrap_or_else(|| scene.borrow().free_name(prefix));

@@ -12,7 +12,7 @@ pub(in crate::beams) trait MassIntegral:
     /// Adds a product times its weight [length] at a section.
     fn add(&mut self, product: f64, section: &Section);
 
-    /// Integral of the product without inertia [length].
+    /// Integral of the product of the functions, without the inertia per length [length].
     fn length(self) -> f64;
 
     /// Integrals that are proportional to the inertia of each component: the length integral, or the integrals of mass and rotary inertia.

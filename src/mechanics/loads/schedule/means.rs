@@ -15,7 +15,7 @@ pub struct StepMean {
     /// Mean factor [-].
     pub mean: f64,
     /// Difference between two rules for the mean; zero if it is exact [-].
-    pub missed: f64,
+    pub sampling_error: f64,
     /// Largest absolute value of the samples [-].
     pub largest: f64,
 }
@@ -45,7 +45,7 @@ impl Schedule {
     /// Fails if a function fails or a value is not finite.
     pub fn mean(&self, start: f64, end: f64) -> Result<StepMean, LoadError> {
         if let Self::Constant(factor) = self {
-            return Ok(StepMean { mean: *factor, missed: 0.0, largest: factor.abs() });
+            return Ok(StepMean { mean: *factor, sampling_error: 0.0, largest: factor.abs() });
         }
         let (middle, half) = (0.5 * (start + end), 0.5 * (end - start));
         match self.shape() {
@@ -56,7 +56,7 @@ impl Schedule {
                 let factors = Factors { first: self, others: None };
                 let mean = Step { middle, half }.mean(Some(&factors), Wave::one());
                 if let Some(mean) = mean {
-                    let found = StepMean { mean, missed: 0.0, largest: mean.abs() };
+                    let found = StepMean { mean, sampling_error: 0.0, largest: mean.abs() };
                     let failed = LoadError::NotFinite { time: middle, value: mean };
                     return mean.is_finite().then_some(found).ok_or(failed);
                 }
@@ -69,16 +69,17 @@ impl Schedule {
                     let (a, b) = (a.mean(start, end)?, b.mean(start, end)?);
                     return Ok(StepMean {
                         mean: a.mean + b.mean,
-                        missed: a.missed + b.missed,
+                        sampling_error: a.sampling_error + b.sampling_error,
                         largest: a.largest + b.largest,
                     });
                 }
                 (Operation::Product, Self::Constant(factor), other)
                 | (Operation::Product, other, Self::Constant(factor)) => {
-                    let StepMean { mean, missed, largest } = other.mean(start, end)?;
+                    let StepMean { mean, sampling_error: missed, largest } =
+                        other.mean(start, end)?;
                     return Ok(StepMean {
                         mean: factor * mean,
-                        missed: factor.abs() * missed,
+                        sampling_error: factor.abs() * missed,
                         largest: factor.abs() * largest,
                     });
                 }
@@ -91,7 +92,7 @@ impl Schedule {
         let [first, centre, last] = [at(-OUTER)?, inner[1], at(OUTER)?];
         let other = (1.0 - 2.0 * OUTER_WEIGHT) * centre + OUTER_WEIGHT * (first + last);
         let largest = largest.max(first.abs()).max(last.abs());
-        Ok(StepMean { mean, missed: (mean - other).abs(), largest })
+        Ok(StepMean { mean, sampling_error: (mean - other).abs(), largest })
     }
 
     /// Returns true if means of the schedule are sampled, so that they may miss fast changes.
@@ -373,7 +374,8 @@ mod tests {
                 let is_sampled = schedule.is_sampled_in_steps();
                 let close = if is_sampled { 0.03 } else { 1e-12 };
                 assert!(
-                    (found.mean - exact).abs() < close && (is_sampled || found.missed == 0.0),
+                    (found.mean - exact).abs() < close
+                        && (is_sampled || found.sampling_error == 0.0),
                     "{} on {start}, {end}: {found:?}, exact {exact}",
                     schedule.describe()
                 );
@@ -400,7 +402,7 @@ mod tests {
             let schedule =
                 Schedule::Function { function: Rc::new(move |t| Ok(function(t))), breaks: vec![] };
             assert!(schedule.is_sampled_in_steps());
-            let StepMean { missed, largest, .. } = schedule.mean(0.5, 0.6).unwrap();
+            let StepMean { sampling_error: missed, largest, .. } = schedule.mean(0.5, 0.6).unwrap();
             missed / largest
         };
         assert!(missed(|t| (TAU * t / 2.0).sin()) < 1e-5);
@@ -410,7 +412,7 @@ mod tests {
                 function: Rc::new(move |t| Ok(f64::from(u8::from(t > jump)))),
                 breaks: vec![],
             };
-            let StepMean { missed, largest, .. } = step.mean(0.5, 0.6).unwrap();
+            let StepMean { sampling_error: missed, largest, .. } = step.mean(0.5, 0.6).unwrap();
             assert!(largest == 1.0 && missed > 0.09, "{jump}: {missed}");
         }
         assert_eq!(missed(|t| if t < 0.6 { 1.0 } else { 0.0 }), 0.0, "a jump at the end of a step");

@@ -9,7 +9,7 @@ use crate::integrators::{EnergyClaim, INTEGRATORS, Mechanism, Method};
 use crate::simulation::adaptive::Adaptive;
 use crate::simulation::warning::{LARGEST_ROTATION, MOST_SPANS, RateChangeCause, short};
 use crate::simulation::{Invariant, Sample, StepSize, Warning};
-use crate::system::{RESOLVED_IMPACT, Resolution, SpringLaw, System, SystemFeature};
+use crate::system::{LawArgument, RESOLVED_IMPACT, Resolution, SpringLaw, System, SystemFeature};
 use crate::vibration::{Modes, VibrationError};
 
 /// Unresolved fraction of the kinetic energy above which the steps are too long. A single vibration reaches it with 3.5 steps per period; its period
@@ -124,7 +124,10 @@ impl Simulation {
         notes.extend(self.model.missed_changes().map(told));
         notes.extend(self.model.outside_laws().into_iter().filter_map(|(index, outside)| {
             let spring = self.scene.springs().nth(index)?.object();
-            let kind = if outside.is_rate { "damping law" } else { "law" };
+            let kind = match outside.argument {
+                LawArgument::Rate => "damping law",
+                LawArgument::Elongation => "law",
+            };
             Some(Warning::Range { law: format!("the {kind} of {spring}"), outside })
         }));
         let bounces = self.model.short_bounces();
@@ -258,7 +261,12 @@ impl Simulation {
         }
         let is_slow = all_returned > all_taken + rounding;
         let (returned, taken, row) = worst.filter(|_| has_grown || is_slow)?;
-        Some(Warning::EnergyGain { time: row.measures.time, dt: row.dt, returned, taken })
+        Some(Warning::EnergyGain {
+            time: row.measures.time,
+            dt: row.dt,
+            returned,
+            dissipated: taken,
+        })
     }
 
     /// Possible causes of a large change of the kinetic energy within a step: the element with the largest dissipation, and controllers.

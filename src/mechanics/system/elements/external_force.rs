@@ -1,6 +1,6 @@
 //! Interface of elements that apply forces to bodies.
 
-use super::{MissedChange, WorkAndImpulse};
+use super::{UnsampledChange, WorkAndImpulse};
 use crate::beams::{Collocation, RotationIncrement};
 use crate::integrators::{Interval, Method, Stage};
 use crate::linalg::BandedMatrix;
@@ -69,7 +69,7 @@ pub trait ExternalForce {
     }
 
     /// Largest change of a schedule that the steps so far have missed.
-    fn missed_change(&self) -> Option<MissedChange> {
+    fn missed_change(&self) -> Option<UnsampledChange> {
         None
     }
 

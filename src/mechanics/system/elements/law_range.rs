@@ -5,11 +5,20 @@ use super::spring_law::SpringLaw;
 /// Distance beyond a range that is attributed to rounding, relative to the range.
 const ROUNDING: f64 = 1e-9;
 
+/// Argument of a law.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum LawArgument {
+    /// Elongation of a spring.
+    Elongation,
+    /// Rate of the elongation, for a damping law.
+    Rate,
+}
+
 /// Value outside of the range in which a law is given.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct OutsideLaw {
-    /// True for the rate of a damping law, false for an elongation.
-    pub is_rate: bool,
+    /// Argument that left the range.
+    pub argument: LawArgument,
     /// Ends of the range [length, rad; of rates per time]. An end with a constant continuation is infinite.
     pub range: [f64; 2],
     /// Farthest value outside of it.
@@ -27,17 +36,17 @@ pub struct LawRange {
 impl LawRange {
     /// Record of the elongations of a law; `None` for laws that are defined everywhere.
     pub fn of_elongations(law: &SpringLaw) -> Option<Self> {
-        Self::of(law, false)
+        Self::of(law, LawArgument::Elongation)
     }
 
     /// Record of the rates of a damping law; `None` for laws that are defined everywhere.
     pub fn of_rates(law: &SpringLaw) -> Option<Self> {
-        Self::of(law, true)
+        Self::of(law, LawArgument::Rate)
     }
 
-    fn of(law: &SpringLaw, is_rate: bool) -> Option<Self> {
+    fn of(law: &SpringLaw, argument: LawArgument) -> Option<Self> {
         let range = law.range()?;
-        let farthest = OutsideLaw { is_rate, range, reached: 0.0 };
+        let farthest = OutsideLaw { argument, range, reached: 0.0 };
         Some(Self { farthest, beyond: 0.0 })
     }
 

@@ -3,7 +3,9 @@
 use super::element::{AssemblyContext, BuiltElement, ElementDef, SceneChecks};
 use super::follower::Follower;
 use super::load_vector::LoadVector;
-use super::{ExternalForce, LoadAccount, MissedChange, ScheduleCheck, TrialState, WorkAndImpulse};
+use super::{
+    ExternalForce, LoadAccount, ScheduleCheck, TrialState, UnsampledChange, WorkAndImpulse,
+};
 use crate::beams::{BodyIndex, RotationIncrement, Station};
 use crate::geometry::{GaussRule, Vec2};
 use crate::integrators::{Interval, Method, Stage};
@@ -279,7 +281,7 @@ impl ExternalForce for AppliedLoad {
         self.followers_mut().iter_mut().for_each(|each| each.advance(bodies, rotations));
     }
 
-    fn missed_change(&self) -> Option<MissedChange> {
+    fn missed_change(&self) -> Option<UnsampledChange> {
         self.check.as_ref()?.missed()
     }
 

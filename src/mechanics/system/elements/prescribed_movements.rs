@@ -14,7 +14,7 @@ mod at_rest;
 
 use super::motion_curvature::MotionCurvature;
 use super::supports::Support;
-use super::{Drive, MissedChange, ScheduleCheck, WorkAndImpulse};
+use super::{Drive, ScheduleCheck, UnsampledChange, WorkAndImpulse};
 use crate::beams::RotationIncrement;
 use crate::geometry::{Vec2, cross, larger};
 use crate::integrators::{Interval, PrescribedKinematics};
@@ -222,7 +222,7 @@ impl PrescribedMovements {
     }
 
     /// Drives by a rate that changes within steps unseen, with the largest change of each.
-    pub fn missed_changes(&self) -> impl Iterator<Item = (&str, MissedChange)> {
+    pub fn missed_changes(&self) -> impl Iterator<Item = (&str, UnsampledChange)> {
         let all = self.movements.iter().zip(&self.present);
         all.filter_map(|(movement, present)| {
             let missed = present.check.as_ref()?.missed()?;

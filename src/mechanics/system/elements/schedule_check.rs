@@ -9,18 +9,18 @@ const LARGEST_MISS: f64 = 0.01;
 
 /// Largest difference between two rules for the mean of a schedule over a step.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct MissedChange {
+pub struct UnsampledChange {
     /// Middle of the step [time].
     pub time: f64,
     /// Difference, relative to the largest value of the schedule [-].
-    pub missed: f64,
+    pub sampling_error: f64,
 }
 
 /// Largest difference so far. Schedules with exact means have no entry in the state.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct ScheduleCheck {
     time: f64,
-    missed: f64,
+    sampling_error: f64,
     largest: f64,
     in_step: MissedInStep,
 }
@@ -43,24 +43,28 @@ impl ScheduleCheck {
 
     /// Accepts the step.
     pub fn advance(&mut self) {
-        let MissedInStep { time, mean: StepMean { missed, largest, .. } } = self.in_step;
-        if missed > self.missed {
-            (self.time, self.missed) = (time, missed);
+        let MissedInStep { time, mean: StepMean { sampling_error: missed, largest, .. } } =
+            self.in_step;
+        if missed > self.sampling_error {
+            (self.time, self.sampling_error) = (time, missed);
         }
         self.largest = self.largest.max(largest);
     }
 
     /// Largest change that the steps so far have missed; `None` if they resolve the schedule.
-    pub fn missed(&self) -> Option<MissedChange> {
-        let is_missed = self.missed > LARGEST_MISS * self.largest;
-        is_missed.then(|| MissedChange { time: self.time, missed: self.missed / self.largest })
+    pub fn missed(&self) -> Option<UnsampledChange> {
+        let is_missed = self.sampling_error > LARGEST_MISS * self.largest;
+        is_missed.then(|| UnsampledChange {
+            time: self.time,
+            sampling_error: self.sampling_error / self.largest,
+        })
     }
 
     pub fn save(&self, state: &mut Vec<f64>) {
-        state.extend([self.time, self.missed, self.largest]);
+        state.extend([self.time, self.sampling_error, self.largest]);
     }
 
     pub fn restore(&mut self, next: &mut dyn FnMut() -> f64) {
-        (self.time, self.missed, self.largest) = (next(), next(), next());
+        (self.time, self.sampling_error, self.largest) = (next(), next(), next());
     }
 }

@@ -36,7 +36,7 @@ pub struct SpringDamper {
     tangent: Vec<f64>,
     /// Positions of terminals on the ground [length]; `None` for terminals on bodies.
     grounds: Vec<Option<Vec2>>,
-    /// Law over the growth of the elongation since the scene was built.
+    /// Force law as a function of the change of the elongation since the scene was built.
     law: Option<SpringLaw>,
     /// True if the law has corners and is monotonically increasing.
     rises: bool,

@@ -244,7 +244,7 @@ impl System {
         self.sliders.iter().map(|slider| slider.across(&self.bodies)).enumerate().collect()
     }
 
-    /// `Gᵀ` of a direction on all degrees of freedom.
+    /// Column of `Gᵀ` of a direction: generalised forces of a unit impulse on all degrees of freedom.
     fn transmitted(&self, (slider, unit): ImpactDirection) -> Vec<f64> {
         let mut forces = vec![0.0; self.degrees_of_freedom()];
         self.sliders[slider].transmit(&self.bodies, unit, &mut forces);

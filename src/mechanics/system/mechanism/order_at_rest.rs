@@ -9,7 +9,7 @@ use crate::linalg::reverse_cuthill_mckee;
 pub struct OrderAtRest {
     count: usize,
     half_bandwidth: usize,
-    /// Place of each unknown; `None` if the order is the order of the steps.
+    /// Position of each unknown in the order of elimination; `None` if it is the order used in time steps.
     position: Option<Vec<usize>>,
 }
 

@@ -1,7 +1,7 @@
 //! Queries of drives and named loads: work, forces and moments.
 
 use crate::system::System;
-use crate::system::elements::{DriveState, LoadAccount, MissedChange, MotionCurvature};
+use crate::system::elements::{DriveState, LoadAccount, MotionCurvature, UnsampledChange};
 
 impl System {
     /// States of the drives, in the order of the scene.
@@ -21,7 +21,7 @@ impl System {
     }
 
     /// Names of loads and drives whose schedule changes within steps unseen, with the largest change of each.
-    pub fn missed_changes(&self) -> impl Iterator<Item = (&str, MissedChange)> {
+    pub fn missed_changes(&self) -> impl Iterator<Item = (&str, UnsampledChange)> {
         let loads = self.elements().forces();
         let loads = loads.filter_map(|load| Some((load.name(), load.missed_change()?)));
         loads.chain(self.supports().prescribed().missed_changes())
