@@ -2,6 +2,7 @@
 //!
 //! ```text
 //! stability, cost → features
+//! error_estimate → trace
 //! precision, convergence → combination, truth, rivals → trial, observable, sheet
 //! trial, timing → case, outcome → patience, workers → journal
 //! ```
@@ -13,6 +14,7 @@ mod combination;
 mod convergence;
 mod cost;
 mod csv_table;
+mod error_estimate;
 mod external_results;
 mod features;
 mod journal;
@@ -27,6 +29,7 @@ mod run_result;
 mod stability;
 mod sweep;
 mod timing;
+mod trace;
 mod workers;
 
 #[cfg(test)]
@@ -40,10 +43,11 @@ pub use combination::{
 pub use convergence::{ALL_POSITIONS, Convergence, RefinedParameter, Refinement};
 pub use cost::{CostCase, StepCost, step_costs};
 pub use csv_table::{ParsedCsv, ParsedCsvError};
+pub use error_estimate::{DirectionError, ErrorVerdict, Levels};
 pub use external_results::{ExternalResult, ExternalResultError, machines};
 pub use features::{FEATURES, Feature};
 pub use journal::{Journal, JournalError};
-pub use observable::{Observable, ObservableKind, SYMBOLS};
+pub use observable::{Observable, ObservableKind, SYMBOLS, is_of_the_motion};
 pub use outcome::CaseOutcome;
 pub use pareto::pareto_front;
 pub use precision::{Precision, PrecisionRow};
@@ -56,4 +60,5 @@ pub use sweep::{
     Choice, RowLayout, Sweep, SweepColumn, SweepDesign, SweepResults, SweptParameter, SweptValues,
 };
 pub use timing::Timing;
+pub use trace::{Trace, TraceSource, TracedQuantity};
 pub use workers::on_all_cores;

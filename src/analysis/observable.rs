@@ -44,6 +44,11 @@ pub const SYMBOLS: [(&str, &str); 6] = [
 /// Columns of a history that describe the computation instead of the motion.
 const OF_THE_COMPUTATION: [&str; 5] = ["t", "gap", "dt", "newton_iterations", "retries"];
 
+/// Returns true if a column of the history describes the motion instead of the computation.
+pub fn is_of_the_motion(column: &str) -> bool {
+    !OF_THE_COMPUTATION.contains(&column)
+}
+
 impl Observable {
     /// Observables of a station: position and angle. Point masses have no angle.
     pub fn of_station(name: &str, station: Station) -> impl Iterator<Item = Self> {
@@ -61,7 +66,7 @@ impl Observable {
 
     /// Observables of all columns of a history that describe the motion.
     pub fn of_history(history: &History) -> impl Iterator<Item = Self> {
-        let told = history.columns().filter(|(name, _)| !OF_THE_COMPUTATION.contains(name));
+        let told = history.columns().filter(|(name, _)| is_of_the_motion(name));
         told.map(|(name, _)| Self::of_column(name, name, 1.0))
     }
 

@@ -6,7 +6,7 @@ use std::process;
 use std::sync::Arc;
 
 use super::Exit;
-use super::args::{CheckOptions, RunOptions, StudyOptions};
+use super::args::{CheckOptions, ErrorChoice, RunOptions, StudyOptions};
 use super::console::{print_error, print_error_styled};
 use super::interrupt::{self, InterruptLoss};
 use super::progress_display::{self, ProgressPreference};
@@ -20,7 +20,9 @@ use crate::script::messages::stop::Stop;
 use crate::script::packages::language;
 use crate::script::source::program::Program;
 use crate::script::state::limits::HardAbort;
-use crate::script::state::settings::{JournalPreference, RunMode, RunSettings, StudyPreferences};
+use crate::script::state::settings::{
+    ErrorEstimation, JournalPreference, RunMode, RunSettings, StudyPreferences,
+};
 
 /// Maximum size of a report that is checked before it is replaced [bytes].
 const LARGEST_REPORT: u64 = 1 << 28;
@@ -37,6 +39,7 @@ pub fn run(options: &RunOptions) -> Exit {
         printed: Box::new(stdout()),
         told: Box::new(stderr()),
         progress: progress_display::progress(wish),
+        errors: error_estimation(options),
         last_resort: Some(last_resort()),
         ..RunSettings::silent(RunMode::Run)
     };
@@ -53,6 +56,15 @@ pub fn run(options: &RunOptions) -> Exit {
         show_summary(&outcome);
     }
     exit_for(&outcome)
+}
+
+/// Estimation of errors for the options. Output that is read by a program does not depend on the run time, so it has no automatic estimates.
+fn error_estimation(options: &RunOptions) -> ErrorEstimation {
+    match options.error {
+        ErrorChoice::Always => ErrorEstimation::Always,
+        ErrorChoice::Auto if !options.quiet && stderr().is_terminal() => ErrorEstimation::Auto,
+        ErrorChoice::Auto | ErrorChoice::Never => ErrorEstimation::Never,
+    }
 }
 
 pub fn study(options: &StudyOptions) -> Exit {
@@ -199,6 +211,9 @@ pub(super) fn report_error(diagnostic: &Diagnostic) -> Exit {
 pub(super) fn show_summary(outcome: &RunOutcome) {
     for file in &outcome.files {
         print_error(&format!("wrote {}\n", file.display()));
+    }
+    for line in &outcome.errors {
+        print_error(&format!("{line}\n"));
     }
     if let Some(summary) = outcome.checks.summary() {
         print_error(&format!("{summary}\n"));

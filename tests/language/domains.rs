@@ -306,6 +306,10 @@ impl Reporter for Work {
         serde_json::json!({ "name": "work" })
     }
 
+    fn object(&self) -> rhai::Dynamic {
+        rhai::Dynamic::UNIT
+    }
+
     fn remains(&self, _numbers: usize) -> Option<(String, String)> {
         None
     }

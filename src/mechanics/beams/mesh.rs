@@ -106,6 +106,14 @@ impl Mesh {
         Ok(Self { basis: broken, quadrature: self.quadrature })
     }
 
+    /// Returns a mesh with about `ratio` times as many spans, as [`Basis::with_span_ratio`].
+    ///
+    /// # Errors
+    /// Fails if the mesh has too many or too short spans.
+    pub fn with_span_ratio(&self, ratio: f64) -> Result<Self, GeometryError> {
+        Ok(Self { basis: self.basis.with_span_ratio(ratio)?, quadrature: self.quadrature })
+    }
+
     /// Basis of the mesh.
     pub fn basis(&self) -> &Basis {
         &self.basis

@@ -135,6 +135,38 @@ impl Basis {
         }
     }
 
+    /// Returns a basis of the same kind with about `ratio` times as many spans, at least one between two breaks of reduced continuity. These breaks
+    /// are kept, and the spans between them follow the spacing of this basis.
+    ///
+    /// # Errors
+    /// Fails if the basis has too many or too short spans.
+    pub fn with_span_ratio(&self, ratio: f64) -> Result<Self, GeometryError> {
+        let breaks = self.breaks();
+        let knots = match self {
+            Self::Lagrange(lagrange) => {
+                let breaks = respaced(&breaks, ratio);
+                return Ok(Self::Lagrange(LagrangeBasis::new(lagrange.degree(), breaks)?));
+            }
+            Self::BSpline(knots) => knots,
+        };
+        let interior = &breaks[1..breaks.len() - 1];
+        let usual = interior.iter().map(|knot| knots.multiplicity(*knot)).min().unwrap_or(1);
+        let is_kept = |knot: f64| knots.multiplicity(knot) > usual;
+        let mut scaled = vec![breaks[0]; knots.degree() + 1];
+        let mut first = 0;
+        for last in 1..breaks.len() {
+            if !is_kept(breaks[last]) && last + 1 < breaks.len() {
+                continue;
+            }
+            let piece = respaced(&breaks[first..=last], ratio);
+            let inside = piece[1..piece.len() - 1].iter();
+            scaled.extend(inside.flat_map(|knot| std::iter::repeat_n(*knot, usual)));
+            scaled.extend(std::iter::repeat_n(breaks[last], knots.multiplicity(breaks[last])));
+            first = last;
+        }
+        Ok(Self::BSpline(KnotVector::new(knots.degree(), scaled)?))
+    }
+
     /// Returns the basis with continuity C⁰ at `xi`: the multiplicity of the knot is `degree`, or the Lagrange element is split.
     ///
     /// If a knot is closer to `xi` than 1e-10 of the domain, it is used instead of `xi`. At the ends, and where the basis is C⁰ already, nothing
@@ -159,6 +191,19 @@ impl Basis {
             }
         }
     }
+}
+
+/// Divides the interval of the breaks into `ratio` times as many spans, rounded up, with the same relative spacing.
+fn respaced(breaks: &[f64], ratio: f64) -> Vec<f64> {
+    let old = (breaks.len() - 1) as f64;
+    let new = (old * ratio).ceil().max(1.0);
+    let place = |index: usize| {
+        let from = index as f64 * old / new;
+        let below = (from as usize).min(breaks.len() - 2);
+        let share = from - below as f64;
+        breaks[below] * (1.0 - share) + breaks[below + 1] * share
+    };
+    (0..=new as usize).map(place).collect()
 }
 
 #[cfg(test)]
@@ -277,5 +322,22 @@ mod tests {
             prop_assert!(basis.breaks().iter().all(|old| breaks.contains(old)));
             prop_assert!(breaks.len() <= basis.breaks().len() + 1);
         }
+    }
+
+    #[test]
+    fn a_basis_with_another_number_of_spans_keeps_spacing_and_kinks() {
+        let breaks = |basis: &Basis, ratio: f64| basis.with_span_ratio(ratio).unwrap().breaks();
+        let uniform = spline(8, 3, 2);
+        assert_eq!(uniform.with_span_ratio(0.5).unwrap(), spline(4, 3, 2));
+        assert_eq!(uniform.with_span_ratio(2.0).unwrap(), spline(16, 3, 2));
+        assert_eq!(spline(7, 3, 1).with_span_ratio(0.5).unwrap().spans().len(), 4);
+        assert_eq!(spline(4, 2, 0).with_span_ratio(0.5).unwrap(), spline(2, 2, 0));
+        assert_eq!(spline(1, 3, 2).with_span_ratio(0.5).unwrap(), spline(1, 3, 2));
+        let kinked = uniform.with_break(0.25).unwrap().with_span_ratio(0.5).unwrap();
+        assert_eq!((kinked.breaks(), kinked.continuity()), (vec![0.0, 0.25, 0.5, 0.75, 1.0], 0));
+        let graded = KnotVector::new(1, vec![0.0, 0.0, 0.1, 0.3, 0.6, 1.0, 1.0]).unwrap();
+        assert_eq!(breaks(&Basis::BSpline(graded), 0.5), [0.0, 0.3, 1.0]);
+        let lagrange = Basis::Lagrange(LagrangeBasis::uniform(4, 2).unwrap());
+        assert_eq!(breaks(&lagrange, 0.25), [0.0, 1.0]);
     }
 }

@@ -128,6 +128,25 @@ pub(super) fn extra_columns(scene: &Scene) -> Vec<ExtraColumn> {
         .collect()
 }
 
+/// Returns true for columns with means of the last step: forces of sliders and drives, and sensors of means.
+pub(super) fn is_step_mean(scene: &Scene, column: &str) -> bool {
+    let is_of = |name: &str, quantity: &str| {
+        column.strip_prefix(name).is_some_and(|rest| rest.strip_prefix('.') == Some(quantity))
+    };
+    let forces = OF_SLIDER.iter().filter(|(_, dimension)| *dimension == "force");
+    let mut of_slider = forces.flat_map(|(quantity, _)| {
+        scene.sliders.iter().map(move |slider| (&slider.name, *quantity))
+    });
+    let of_drive = |drive: &Drive| {
+        drive
+            .motions()
+            .any(|(component, _)| is_of(&drive.name, column_suffix(drive.kind, component)))
+    };
+    of_slider.any(|(name, quantity)| is_of(name, quantity))
+        || scene.drives.iter().any(of_drive)
+        || scene.sensors.iter().any(|sensor| sensor.is_of_step() && sensor.name == column)
+}
+
 fn column_suffix(kind: DriveKind, component: Component) -> &'static str {
     match kind {
         DriveKind::Move => component.name(),

@@ -80,6 +80,10 @@ pub fn invariants(shell: &mut Shell, _: &str) -> CommandOutcome {
     shell.show_latest_result("invariants()")
 }
 
+pub fn error_estimate(shell: &mut Shell, _: &str) -> CommandOutcome {
+    shell.show_latest_result("error_estimate()")
+}
+
 pub fn view(shell: &mut Shell, operand: &str) -> CommandOutcome {
     let file = if operand.is_empty() { "view.html" } else { operand.trim_matches('"') };
     // Quotes and backslashes would end the string literal below, and no file name needs them.

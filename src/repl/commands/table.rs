@@ -84,6 +84,14 @@ pub const COMMANDS: &[Command] = &[
         body: inspection::invariants,
     },
     Command {
+        name: ":error",
+        operand: CommandOperand::Nothing,
+        placeholder: "",
+        summary: "estimates the errors of the last simulation in time and space",
+        doc: "The run is repeated with larger steps and on other meshes, as sim.error_estimate() does.",
+        body: inspection::error_estimate,
+    },
+    Command {
         name: ":plot",
         operand: CommandOperand::Curves,
         placeholder: "[CURVES, OPTIONS]",

@@ -66,6 +66,11 @@ impl StoredFunction {
         })
     }
 
+    /// Variables that the function has captured from its script.
+    pub fn captured(&self) -> impl Iterator<Item = &Dynamic> {
+        self.function.curry().iter().filter(|value| value.is_shared())
+    }
+
     /// Name of the function in messages.
     pub fn role(&self) -> &str {
         &self.role

@@ -1,8 +1,9 @@
 //! Execution of a script on a stack that is large enough for its limits.
 
 use std::path::PathBuf;
+use std::time::{Duration, Instant};
 
-use rhai::Engine;
+use rhai::{Engine, INT, Scope};
 
 use super::parse::parse;
 use super::script_engine::{Halt, ScriptEngine};
@@ -15,7 +16,7 @@ use crate::script::messages::error::ScriptError;
 use crate::script::messages::stop::Stop;
 use crate::script::source::program::Program;
 use crate::script::state::context::Context;
-use crate::script::state::settings::RunSettings;
+use crate::script::state::settings::{ErrorEstimation, RunSettings};
 
 /// Result of a run.
 #[derive(Debug)]
@@ -52,6 +53,8 @@ pub struct RunOutcome {
     pub checks: Checks,
     /// Report entries of the simulations.
     pub simulations: Vec<serde_json::Value>,
+    /// Estimated errors of the simulations, one line each; a remark if nothing was estimated.
+    pub errors: Vec<String>,
     /// Files written.
     pub files: Vec<PathBuf>,
     /// Interrupt or limit that stopped the run, if it was stopped.
@@ -66,6 +69,7 @@ impl RunOutcome {
             ending: Ending::Failed(diagnostic),
             checks: Checks::default(),
             simulations: Vec::new(),
+            errors: Vec::new(),
             files: Vec::new(),
             stopped_by: None,
             kept_cases: 0,
@@ -95,12 +99,19 @@ fn run_here(program: &Program, catalog: &Catalog, settings: RunSettings) -> RunO
     let needed = if may_go_back(program) { SNAPSHOTS } else { 0 };
     let snapshots = settings.snapshots.max(needed);
     let (folder, whole) = (program.folder.clone(), Some(program.clone()));
+    let estimation = settings.errors;
     let settings = RunSettings { snapshots, folder, program: whole, ..settings };
     let host = match ScriptEngine::open(catalog.clone(), settings) {
         Ok(host) => host,
         Err(diagnostic) => return RunOutcome::refused(diagnostic),
     };
-    let run = |engine: &Engine| engine.run_ast(&parse(engine, program)?);
+    let begun = Instant::now();
+    let mut errors = Vec::new();
+    let run = |engine: &Engine| {
+        engine.run_ast(&parse(engine, program)?)?;
+        errors = estimated_errors(engine, host.context(), (estimation, begun.elapsed()));
+        Ok(())
+    };
     let done = host.watch().and_then(|guard| host.run(&guard, || program.clone(), run));
     let context = host.context();
     match done {
@@ -111,10 +122,60 @@ fn run_here(program: &Program, catalog: &Catalog, settings: RunSettings) -> RunO
         ending: done.map_or_else(Ending::from, |()| Ending::Finished),
         checks: context.with_checks(|checks| checks.clone()),
         simulations: context.report(),
+        errors,
         files: context.output().written(),
         stopped_by: context.stopped_by(),
         kept_cases: context.journals().stored_cases(),
     }
+}
+
+/// Run time up to which errors are estimated without a request.
+const BRIEF: Duration = Duration::from_secs(1);
+
+/// Maximum number of simulations whose errors are estimated at the end of a run.
+const MOST_ESTIMATES: usize = 5;
+
+/// Estimated errors of the simulations that have taken steps, one line each.
+fn estimated_errors(
+    engine: &Engine,
+    context: &Context,
+    (estimation, elapsed): (ErrorEstimation, Duration),
+) -> Vec<String> {
+    let steps = |of: &rhai::Dynamic| ask::<INT>(engine, of, "object.steps").unwrap_or(0);
+    let ran: Vec<rhai::Dynamic> =
+        context.simulations().into_iter().filter(|of| steps(of) > 0).collect();
+    let has_limit = context.meter().limits().steps.is_some();
+    let options = match estimation {
+        _ if ran.is_empty() => return Vec::new(),
+        ErrorEstimation::Always => String::new(),
+        ErrorEstimation::Auto if elapsed < BRIEF && !has_limit => {
+            format!("#{{ max_time: {:?} }}", elapsed.as_secs_f64().max(0.01))
+        }
+        _ => return vec!["estimated error: not estimated; --error estimates it".to_owned()],
+    };
+    let mut lines = Vec::new();
+    for simulation in ran.iter().take(MOST_ESTIMATES) {
+        let name = ask::<String>(engine, simulation, "object.name").unwrap_or_default();
+        let request = format!("object.error_estimate({options}).summary");
+        let estimate = ask::<String>(engine, simulation, &request);
+        let estimate = estimate.unwrap_or_else(|reason| format!("not estimated: {reason}"));
+        lines.push(format!("estimated error of '{name}': {estimate}"));
+    }
+    if let Some(more) = ran.len().checked_sub(MOST_ESTIMATES).filter(|more| *more > 0) {
+        lines.push(format!("estimated error: not estimated for {more} further simulations"));
+    }
+    lines
+}
+
+/// Value of an expression in which `object` is the given value, or the message of the error.
+fn ask<T: Clone + Send + Sync + 'static>(
+    engine: &Engine,
+    object: &rhai::Dynamic,
+    expression: &str,
+) -> Result<T, String> {
+    let mut scope = Scope::new();
+    scope.push_dynamic("object", object.clone());
+    engine.eval_with_scope(&mut scope, expression).map_err(|error| error.to_string())
 }
 
 fn discard_journals(context: &Context) {

@@ -31,6 +31,11 @@ impl<F: Clone> Events<F> {
         Some(due.clone())
     }
 
+    /// All functions with their times, called or not.
+    pub fn all(&self) -> &[(f64, F)] {
+        &self.functions
+    }
+
     /// Schedules the functions after `now` again, after a rewind.
     pub fn reschedule_after(&mut self, now: f64) {
         let passed = self.functions.partition_point(|(time, _)| *time <= now);

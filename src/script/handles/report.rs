@@ -1,5 +1,6 @@
 //! Report entry of a simulation.
 
+use rhai::Dynamic;
 use serde_json::{Value, json};
 
 use super::simulation::SimulationHandle;
@@ -72,6 +73,10 @@ impl Reporter for SimulationHandle {
             "sliders": model.slider_names().enumerate().map(slider).collect::<Vec<_>>(),
             "ends": ends.collect::<serde_json::Map<_, _>>(),
         })
+    }
+
+    fn object(&self) -> Dynamic {
+        Dynamic::from(self.clone())
     }
 
     fn remains(&self, numbers: usize) -> Option<(String, String)> {

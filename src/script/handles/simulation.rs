@@ -1,6 +1,7 @@
 //! Handle of a simulation in a script: steps, events, progress and interruption.
 
 mod commands;
+mod companions;
 mod revisit;
 mod sensing;
 mod variants;
@@ -28,6 +29,7 @@ use crate::simulation::{Monitor, Simulation, SimulationError, StepSize};
 use crate::vibration::{Modes, VibrationError};
 use sensing::ColumnReader;
 
+pub use companions::{Companion, RunStart};
 pub use revisit::Revisit;
 pub use visit::Visited;
 
@@ -45,6 +47,7 @@ struct Live {
     /// True once an early end of the run was reported.
     is_ending_told: Cell<bool>,
     notes: Notes,
+    start: RunStart,
     sensing: ColumnReader,
 }
 
@@ -98,7 +101,26 @@ impl SimulationHandle {
         scene: SceneHandle,
         name: String,
         notes: Notes,
+        start: RunStart,
         context: &Context,
+    ) -> Self {
+        let handle = Self::unreported(simulation, scene, name, notes, start);
+        handle.report_as_latest(context);
+        handle
+    }
+
+    /// Adds the simulation to the report of the run, as the latest one.
+    pub fn report_as_latest(&self, context: &Context) {
+        context.add_reporter(Box::new(self.clone()));
+        self.is_latest(context);
+    }
+
+    fn unreported(
+        simulation: Simulation,
+        scene: SceneHandle,
+        name: String,
+        notes: Notes,
+        start: RunStart,
     ) -> Self {
         let live = Live {
             sensing: ColumnReader::new(
@@ -109,15 +131,13 @@ impl SimulationHandle {
             name,
             scene,
             notes,
+            start,
             is_firing: Cell::new(false),
             is_ending_told: Cell::new(false),
             simulation: RefCell::new(simulation),
             events: RefCell::default(),
         };
-        let handle = Self(Rc::new(live));
-        context.add_reporter(Box::new(handle.clone()));
-        handle.is_latest(context);
-        handle
+        Self(Rc::new(live))
     }
 
     /// Independent copy of the simulation in its current state, with its scheduled functions.
@@ -129,7 +149,8 @@ impl SimulationHandle {
             return Err(ScriptError::new(told).hint(hint));
         }
         let simulation = self.simulation().fork()?;
-        let fork = Self::new(simulation, self.0.scene.clone(), name, self.0.notes.clone(), context);
+        let (scene, notes) = (self.0.scene.clone(), self.0.notes.clone());
+        let fork = Self::new(simulation, scene, name, notes, self.0.start.clone(), context);
         fork.0.sensing.copy_from(&self.0.sensing);
         fork.0.events.replace(self.0.events.borrow().clone());
         fork.0.is_ending_told.set(self.0.is_ending_told.get());
@@ -235,10 +256,10 @@ impl SimulationHandle {
         }
         context.progress().begin(&self.0.name, now, end);
         let outcome = match (context.mode(), goal) {
-            (RunMode::DryBuild, _) => self.dry_run(call, end),
-            (RunMode::Run, RunTarget::Steps(steps)) => self.take_steps(call, *steps),
+            (RunMode::DryBuild, _) => self.dry_run(context, end),
+            (RunMode::Run, RunTarget::Steps(steps)) => self.take_steps(context, *steps),
             (RunMode::Run, RunTarget::Time(_)) => {
-                let ran = self.run_to(call, end);
+                let ran = self.run_to(context, end);
                 self.0.notes.report_warnings(self.name(), &self.simulation(), context);
                 ran
             }
@@ -247,18 +268,17 @@ impl SimulationHandle {
         outcome
     }
 
-    fn take_steps(&self, call: &Call, steps: usize) -> Result<(), ScriptError> {
+    fn take_steps(&self, context: &Context, steps: usize) -> Result<(), ScriptError> {
         for taken in 0..steps {
             // The first step after the end is an error. Later ends of the run are only reported.
             if taken > 0 && self.has_ended() {
-                self.report_end(call.context(), &format!("before it had taken {steps} steps"));
+                self.report_end(context, &format!("before it had taken {steps} steps"));
                 break;
             }
-            let context = call.context();
             if !context.meter().allows_a_step() {
                 context.proceed()?;
             }
-            self.step_with_callbacks(call)?;
+            self.step_with_callbacks(context)?;
             self.call_due_functions()?;
         }
         Ok(())
@@ -278,20 +298,19 @@ impl SimulationHandle {
         }
     }
 
-    fn run_to(&self, call: &Call, end: f64) -> Result<(), ScriptError> {
+    fn run_to(&self, context: &Context, end: f64) -> Result<(), ScriptError> {
         loop {
             let next = self.0.events.borrow().next_time().unwrap_or(f64::INFINITY);
             let stop = if next < end { next } else { end };
             let slack = self.slack();
-            let context = call.context();
             if self.time() < stop - slack && !context.meter().allows_a_step() {
                 context.proceed()?;
             }
-            self.run_with_callbacks(call, stop, slack)?;
+            self.run_with_callbacks(context, stop, slack)?;
             self.call_due_functions()?;
             if self.has_ended() && self.time() < end {
                 let when = format!("before t = {}", format_number(end));
-                self.report_end(call.context(), &when);
+                self.report_end(context, &when);
                 return Ok(());
             }
             if self.time() >= end || stop >= end || stop.is_nan() {
@@ -301,12 +320,12 @@ impl SimulationHandle {
     }
 
     /// Dry run: time advances, and scheduled functions are called.
-    fn dry_run(&self, call: &Call, end: f64) -> Result<(), ScriptError> {
-        call.context().meter().count_dry_run();
-        call.context().proceed()?;
-        let mut watch = DryRunObserver(call.context());
+    pub fn dry_run(&self, context: &Context, end: f64) -> Result<(), ScriptError> {
+        context.meter().count_dry_run();
+        context.proceed()?;
+        let mut watch = DryRunObserver(context);
         let pretended = self.0.simulation.borrow_mut().dry_run_to(end, &mut watch);
-        pretended.map_err(|error| explain(error, call.context()))?;
+        pretended.map_err(|error| explain(error, context))?;
         self.evaluate_columns()?;
         self.call_due_functions()
     }

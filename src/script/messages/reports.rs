@@ -3,10 +3,15 @@
 use std::cell::RefCell;
 use std::collections::HashSet;
 
+use rhai::Dynamic;
+
 /// An object that contributes to the report of a run, such as a simulation.
 pub trait Reporter {
     /// Returns the entry in the report. It is called when the run ends, for any reason.
     fn report(&self) -> serde_json::Value;
+
+    /// Returns the object as a value of the language.
+    fn object(&self) -> Dynamic;
 
     /// Name and content of a rescue file with about `numbers` values, for a script that was stopped.
     fn remains(&self, numbers: usize) -> Option<(String, String)>;
@@ -48,6 +53,11 @@ impl Reports {
         let (kept, all) = (MOST_REMAINS, reporters.len());
         let note = format!("note: the first {kept} of {all} simulations are kept");
         (files, remains.next().map(|_| note))
+    }
+
+    /// Objects of all reporters.
+    pub fn objects(&self) -> Vec<Dynamic> {
+        self.0.borrow().iter().map(|reporter| reporter.object()).collect()
     }
 
     /// Drops all reporters.

@@ -22,6 +22,7 @@ use crate::script::bindings::table::{
 };
 use crate::script::handles::equilibrium::EquilibriumHandle;
 use crate::script::handles::scene::SceneHandle;
+use crate::script::handles::simulation::RunStart;
 use crate::script::handles::station::StationHandle;
 use crate::script::messages::error::ScriptError;
 use crate::script::state::settings::RunMode;
@@ -170,7 +171,8 @@ pub const TABLE: BindingTable = BindingTable {
         .with_related(&["modes"]),
         method(EQUILIBRIUM, "start", &[options("options", START)], |call| {
             let handle = call.receiver::<EquilibriumHandle>()?;
-            begin(call, handle.scene().clone(), |settings| {
+            let from = RunStart::Equilibrium(handle.clone());
+            begin(call, handle.scene().clone(), from, |settings| {
                 Simulation::start_at_rest(&handle.equilibrium(), settings)
             })
         })

@@ -28,6 +28,7 @@ mod precision_studies;
 mod reading_options;
 mod recording;
 mod releases;
+mod run_errors;
 mod samples;
 mod saving;
 mod scenes;
@@ -80,6 +81,7 @@ pub const TABLES: &[&BindingTable] = &[
     &simulations::TABLE,
     &derivatives::TABLE,
     &notes::TABLE,
+    &run_errors::TABLE,
     &recording::TABLE,
     &sensors::TABLE,
     &time_travel::TABLE,

@@ -19,7 +19,7 @@ use crate::script::handles::beam::BeamHandle;
 use crate::script::handles::notes::Notes;
 use crate::script::handles::rigid_body::RigidBodyHandle;
 use crate::script::handles::scene::SceneHandle;
-use crate::script::handles::simulation::SimulationHandle;
+use crate::script::handles::simulation::{RunStart, SimulationHandle};
 use crate::script::handles::station::StationHandle;
 use crate::script::handles::track::TrackHandle;
 use crate::script::messages::error::{CallPart, ScriptError};
@@ -180,6 +180,7 @@ fn load(call: &mut Call) -> Result<Dynamic, ScriptError> {
         scene,
         name,
         Notes::default(),
+        RunStart::Loaded,
         call.context(),
     )))
 }

@@ -25,7 +25,7 @@ use crate::script::bindings::table::{BindingTable, FunctionBinding, method, prop
 use crate::script::handles::history::HistoryHandle;
 use crate::script::handles::notes::Notes;
 use crate::script::handles::scene::SceneHandle;
-use crate::script::handles::simulation::{RunTarget, SimulationHandle};
+use crate::script::handles::simulation::{RunStart, RunTarget, SimulationHandle};
 use crate::script::handles::station::StationHandle;
 use crate::script::handles::step_size::step_size;
 use crate::script::messages::error::ScriptError;
@@ -261,7 +261,7 @@ fn start(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let handle = call.receiver::<SceneHandle>()?;
     let scene = handle.scene().borrow().clone();
     let variations = handle.variations()?;
-    begin(call, handle, |settings| match variations.is_empty() {
+    begin(call, handle, RunStart::Scene, |settings| match variations.is_empty() {
         true => Simulation::start(scene, settings),
         false => Simulation::start_with_derivatives(scene, settings, variations),
     })
@@ -270,6 +270,7 @@ fn start(call: &mut Call) -> Result<Dynamic, ScriptError> {
 pub(super) fn begin(
     call: &Call,
     of: SceneHandle,
+    from: RunStart,
     start: impl FnOnce(SimulationSettings) -> Result<Simulation, SimulationError>,
 ) -> Result<Dynamic, ScriptError> {
     let options = call.options("options")?;
@@ -290,7 +291,7 @@ pub(super) fn begin(
         options.optional_text("notes")?.map(|word| meant(&PRINTING, &word)).unwrap_or_default();
     let notes = Notes::new(printing);
     of.take_change();
-    let started = SimulationHandle::new(simulation, of, name, notes, call.context());
+    let started = SimulationHandle::new(simulation, of, name, notes, from, call.context());
     started.evaluate_columns()?;
     Ok(Dynamic::from(started))
 }

@@ -332,6 +332,11 @@ impl Context {
         self.0.reports.add(reporter);
     }
 
+    /// Simulations of the run, as values of the language.
+    pub fn simulations(&self) -> Vec<Dynamic> {
+        self.0.reports.objects()
+    }
+
     /// Writes the rescue files of the simulations, after a script that failed.
     pub fn save_remains(&self) {
         let (files, note) = self.0.reports.remains(self.meter().rescue_budget());

@@ -41,6 +41,8 @@ pub struct RunSettings {
     pub progress: Box<dyn Progress + Send>,
     /// Options of the studies.
     pub studies: StudyPreferences,
+    /// Estimation of errors at the end of the run.
+    pub errors: ErrorEstimation,
     /// Action that ends the whole program when a limit is exceeded and the run does not react.
     pub last_resort: Option<HardAbort>,
     /// Script of the run, which the engines of other threads also compile; `None` at the prompt.
@@ -60,6 +62,18 @@ pub struct StudyPreferences {
     pub part: Option<StudyPart>,
     /// Folders with parts that are merged instead of computing the studies.
     pub merge: Vec<PathBuf>,
+}
+
+/// Estimation of the discretisation errors of all simulations at the end of a run.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum ErrorEstimation {
+    /// No estimate.
+    #[default]
+    Never,
+    /// Estimate after runs of less than a second, within about the time of the run.
+    Auto,
+    /// Estimate after every run.
+    Always,
 }
 
 /// Treatment of finished cases when a study is interrupted.
@@ -88,6 +102,7 @@ impl RunSettings {
             told: Box::new(io::sink()),
             progress: Box::new(NoProgress),
             studies: StudyPreferences::default(),
+            errors: ErrorEstimation::Never,
             last_resort: None,
             program: None,
             refuses_files: None,

@@ -17,5 +17,7 @@ pub mod precision_chart;
 pub mod precision_comparison;
 pub mod precision_rows;
 pub mod reference;
+pub mod refinement;
+pub mod run_error;
 pub mod stability;
 pub mod sweeps;

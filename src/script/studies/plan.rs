@@ -300,7 +300,8 @@ fn subject(call: &Call, mesh: String, made: &Dynamic) -> Result<ObservedScene, S
     Ok(ObservedScene { mesh, scene, observables })
 }
 
-fn usual_stations(scene: &Scene) -> Vec<(String, Station)> {
+/// Stations that a study compares: ends of beams, particles and rigid bodies.
+pub fn usual_stations(scene: &Scene) -> Vec<(String, Station)> {
     let ends = scene.beams.iter().enumerate().flat_map(|(index, beam)| {
         [("start", 0.0), ("end", beam.axis.length())]
             .map(|(end, s)| (format!("{}.{end}", beam.name), Station::on_beam(index, s)))

@@ -4,6 +4,7 @@ use super::Simulation;
 use crate::beams::{BodyPoint, Station};
 use crate::geometry::Vec2;
 use crate::joints::Releasable;
+use crate::simulation::columns;
 use crate::simulation::{Arrival, ArrivalKind, Configuration, Outline, ReleaseEvent};
 use crate::system::SystemError;
 use crate::vibration::{Modes, VibrationError};
@@ -15,6 +16,11 @@ impl Simulation {
     /// Fails if the station lies outside its beam.
     pub fn place(&self, station: &Station) -> Result<BodyPoint, SystemError> {
         self.scene.place(station, self.model.meshes())
+    }
+
+    /// Returns true if a column of the history has means of the last step, such as contact forces, instead of present values.
+    pub fn is_step_mean(&self, column: &str) -> bool {
+        columns::is_step_mean(&self.scene, column)
     }
 
     /// Lowest natural modes about the present configuration, treated as an equilibrium with its present section and constraint forces.

@@ -55,6 +55,19 @@ impl Scene {
         self.beams.iter().map(|beam| beam.axis.length()).reduce(f64::max)
     }
 
+    /// Returns the scene with about `ratio` times as many spans in each beam, at least one between breaks of reduced continuity.
+    ///
+    /// # Errors
+    /// Fails if a beam has too many or too short spans.
+    pub fn with_span_ratio(&self, ratio: f64) -> Result<Self, SystemError> {
+        let mut scaled = self.clone();
+        for beam in &mut scaled.beams {
+            let mesh = beam.mesh.with_span_ratio(ratio);
+            beam.mesh = mesh.map_err(SystemError::geometry(&beam.name))?;
+        }
+        Ok(scaled)
+    }
+
     /// Total mass [mass].
     pub fn mass(&self) -> f64 {
         let beams: f64 = self.beams.iter().map(BeamDefinition::mass).sum();

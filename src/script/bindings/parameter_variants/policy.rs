@@ -45,6 +45,7 @@ const AT_VALUES: &[&str] = &[
     "looking closely",
     "help",
     "notes",
+    "error estimates",
     "pictures",
     "pictures of arrays",
     "pictures along beams",

@@ -10,12 +10,12 @@ use super::commands::Commands;
 use super::variants::in_words;
 use super::{ProgressMonitor, SimulationHandle, explain};
 use crate::loads::{SampleClock, Schedule};
-use crate::script::bindings::call::Call;
 use crate::script::bindings::parameter_variants::set_unavailable;
 use crate::script::bindings::stored::StoredFunction;
 use crate::script::handles::scene::{Condition, Controller};
 use crate::script::messages::error::ScriptError;
 use crate::script::messages::numbers::{as_number, describe};
+use crate::script::state::context::Context;
 use crate::simulation::{Simulation, StepSize};
 
 pub(super) struct ColumnReader {
@@ -48,6 +48,14 @@ impl ColumnReader {
         self.told.copy_from(&other.told);
     }
 
+    /// All script functions that are called between steps.
+    pub(super) fn all_functions(&self) -> impl Iterator<Item = &StoredFunction> {
+        let columns = self.functions.iter().map(|function| &**function);
+        let conditions = self.conditions.iter().map(|condition| &*condition.function);
+        let controllers = self.controllers.iter().map(|controller| &controller.function);
+        columns.chain(conditions).chain(controllers)
+    }
+
     fn command_of(&self, controller: usize, sample: u64) -> Option<f64> {
         self.commands.borrow().get(controller)?.get(&sample).copied()
     }
@@ -66,7 +74,7 @@ impl ColumnReader {
     }
 
     /// Rejects an advance or rewind of the simulation by a function that may only read it.
-    pub(super) fn expect_idle(&self) -> Result<(), ScriptError> {
+    pub fn expect_idle(&self) -> Result<(), ScriptError> {
         match self.is_looking.get() {
             false => Ok(()),
             true => Err(ScriptError::new(
@@ -231,16 +239,16 @@ impl SimulationHandle {
     /// Runs to a time. The run pauses at recorded steps if functions fill columns, and before every step if functions control the simulation.
     pub(super) fn run_with_callbacks(
         &self,
-        call: &Call,
+        context: &Context,
         stop: f64,
         slack: f64,
     ) -> Result<(), ScriptError> {
-        let ran = self.run_with_pauses(call, stop, slack);
+        let ran = self.run_with_pauses(context, stop, slack);
         self.restore_after_error(ran)
     }
 
-    pub(super) fn step_with_callbacks(&self, call: &Call) -> Result<(), ScriptError> {
-        let stepped = self.step_with_pauses(call);
+    pub(super) fn step_with_callbacks(&self, context: &Context) -> Result<(), ScriptError> {
+        let stepped = self.step_with_pauses(context);
         self.restore_after_error(stepped)
     }
 
@@ -249,32 +257,32 @@ impl SimulationHandle {
         ran.inspect_err(|_| self.0.simulation.borrow_mut().restore_step_start())
     }
 
-    fn step_with_pauses(&self, call: &Call) -> Result<(), ScriptError> {
+    fn step_with_pauses(&self, context: &Context) -> Result<(), ScriptError> {
         let steps = self.simulation().counts().steps;
         loop {
             self.command()?;
             // The number of substeps is not known in advance, so the step is always completed.
-            let mut watch = ProgressMonitor::new(call.context(), f64::NEG_INFINITY);
+            let mut watch = ProgressMonitor::new(context, f64::NEG_INFINITY);
             watch.pauses = self.varies_steps() && self.is_controlled();
             let stepped = self.0.simulation.borrow_mut().step(&mut watch);
             let is_taken = stepped.is_ok() || self.simulation().counts().steps > steps;
             if !watch.is_paused || is_taken {
                 if !watch.is_paused {
-                    stepped.map_err(|error| explain(error, call.context()))?;
+                    stepped.map_err(|error| explain(error, context))?;
                 }
                 return self.evaluate_columns();
             }
         }
     }
 
-    fn run_with_pauses(&self, call: &Call, stop: f64, slack: f64) -> Result<(), ScriptError> {
+    fn run_with_pauses(&self, context: &Context, stop: f64, slack: f64) -> Result<(), ScriptError> {
         loop {
             self.command()?;
-            let mut watch = ProgressMonitor::new(call.context(), stop - slack);
+            let mut watch = ProgressMonitor::new(context, stop - slack);
             watch.pauses = !self.0.sensing.functions.is_empty() || self.is_controlled();
             let ran = self.0.simulation.borrow_mut().run_to(stop, &mut watch);
             if !watch.is_paused || ran.is_ok() {
-                ran.map_err(|error| explain(error, call.context()))?;
+                ran.map_err(|error| explain(error, context))?;
                 return self.evaluate_columns();
             }
             let simulation = self.simulation();

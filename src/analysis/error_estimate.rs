@@ -1,0 +1,234 @@
+//! Estimate of the discretisation error of a run from coarser runs of the same scene (Richardson 1911; order from three levels, Roache 1998).
+//!
+//! With the sizes `h₁ < h₂ < h₃` and the error `C h^p`, the distances `d₁₂` and `d₂₃` of neighbouring levels give the observed order `p` from
+//! `d₂₃/d₁₂ = (h₃^p - h₂^p)/(h₂^p - h₁^p)` and the error `C h_k^p = d₁₂ h_k^p/(h₂^p - h₁^p)` of level `k`.
+
+use super::trace::Trace;
+use crate::elementary::power;
+
+/// Distance of two runs, relative to the scale of a quantity, below which it is rounding.
+const ROUNDING: f64 = 1e-10;
+
+/// Bounds of the orders that are searched.
+const ORDERS: (f64, f64) = (0.05, 12.0);
+
+/// Smallest observed order of a converging run, relative to the order of the method.
+const SHARE_OF_ORDER: f64 = 0.7;
+
+/// Smallest observed order of a converging run whose method has no known order, as for meshes.
+const LEAST_ORDER: f64 = 0.7;
+
+/// Error, relative to the scale of a quantity, above which an observed order proves nothing.
+const TOO_LARGE: f64 = 0.3;
+
+/// Growth of the distance of two runs after the time of the last convergence that indicates chaotic motion.
+const GROWTH_OF_CHAOS: f64 = 10.0;
+
+/// Reliability of an estimate.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum ErrorVerdict {
+    /// The runs agree to rounding.
+    Exact,
+    /// The observed order is that of the method, or the runs converge at least with first order.
+    Converged,
+    /// The runs do not converge yet. The estimate is a lower bound.
+    PreAsymptotic,
+    /// Nearby runs separate. The result has a meaning until a time.
+    Chaotic {
+        /// Time until which the runs converge [time].
+        until: f64,
+    },
+}
+
+impl ErrorVerdict {
+    /// Verdict in words.
+    pub fn describe(self) -> &'static str {
+        match self {
+            Self::Exact => "exact",
+            Self::Converged => "converged",
+            Self::PreAsymptotic => "pre-asymptotic",
+            Self::Chaotic { .. } => "chaotic",
+        }
+    }
+}
+
+/// Estimated error of a quantity by one of the discretisations, time or space.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct DirectionError {
+    /// Error at the present time, in the dimension of the quantity.
+    pub present: f64,
+    /// Largest error of the run, in the dimension of the quantity.
+    pub largest: f64,
+    /// Observed order; `None` if the runs agree to rounding or do not converge.
+    pub order: Option<f64>,
+    /// Reliability.
+    pub verdict: ErrorVerdict,
+}
+
+/// A quantity on three levels of refinement, from fine to coarse. The third level may be missing.
+#[derive(Debug, Clone, Copy)]
+pub struct Levels<'a> {
+    /// Step or mesh sizes, from fine to coarse.
+    pub sizes: [f64; 3],
+    /// Trace of each level.
+    pub traces: [Option<&'a Trace>; 3],
+    /// Index of the level whose error is estimated.
+    pub level: usize,
+    /// Order of the method, if it is known.
+    pub order: Option<f64>,
+    /// Scale of the quantity.
+    pub scale: f64,
+}
+
+impl Levels<'_> {
+    /// Estimated error; `None` if the two finest levels have no common times.
+    pub fn error(&self) -> Option<DirectionError> {
+        let [fine, middle, coarse] = self.traces;
+        let middle = middle?;
+        let near = fine?.distances(middle);
+        let far = coarse.map(|coarse| middle.distances(coarse)).unwrap_or_default();
+        let present = near.last()?.1;
+        let largest = near.iter().map(|(_, distance)| *distance).fold(0.0, f64::max);
+        if largest <= ROUNDING * self.scale {
+            let verdict = ErrorVerdict::Exact;
+            return Some(DirectionError { present, largest, order: None, verdict });
+        }
+        let order = self.observed_order(root_mean_square(&near), root_mean_square(&far));
+        let factor = order.map_or(1.0, |order| self.factor(order));
+        let is_small = factor * largest < TOO_LARGE * self.scale;
+        if order.is_some_and(|order| self.is_converging(order)) && is_small {
+            let verdict = ErrorVerdict::Converged;
+            let (present, largest) = (factor * present, factor * largest);
+            return Some(DirectionError { present, largest, order, verdict });
+        }
+        let verdict = match self.last_convergence(&near, &far) {
+            Some(until) => ErrorVerdict::Chaotic { until },
+            None => ErrorVerdict::PreAsymptotic,
+        };
+        // Where the order means nothing, the distance itself is the lower bound.
+        let factor = factor.max(1.0);
+        Some(DirectionError {
+            present: factor * present,
+            largest: factor * largest,
+            order,
+            verdict,
+        })
+    }
+
+    /// Error of the level in units of the distance of the two finest levels.
+    fn factor(&self, order: f64) -> f64 {
+        let order = self.order.map_or(order, |claimed| order.min(claimed));
+        let [h1, h2, _] = self.sizes.map(|size| power(size / self.sizes[0], order));
+        power(self.sizes[self.level] / self.sizes[0], order) / (h2 - h1)
+    }
+
+    fn is_converging(&self, order: f64) -> bool {
+        order >= self.order.map_or(LEAST_ORDER, |claimed| SHARE_OF_ORDER * claimed)
+    }
+
+    /// Order that explains the distances of both pairs of levels; `None` if they do not decrease.
+    fn observed_order(&self, near: f64, far: f64) -> Option<f64> {
+        let [_, h2, h3] = self.sizes.map(|size| size / self.sizes[0]);
+        let ratio = |order: f64| (power(h3, order) - power(h2, order)) / (power(h2, order) - 1.0);
+        let wanted = far / near;
+        if !(wanted > ratio(ORDERS.0)) {
+            return None;
+        }
+        let (mut low, mut high) = ORDERS;
+        while high - low > 1e-3 {
+            let middle = 0.5 * (low + high);
+            if ratio(middle) < wanted { low = middle } else { high = middle }
+        }
+        Some(low)
+    }
+
+    /// Time until which a run converges that ends far from its neighbours; `None` if it never converges, or the distances do not grow afterwards.
+    fn last_convergence(&self, near: &[(f64, f64)], far: &[(f64, f64)]) -> Option<f64> {
+        let end = near.last()?.0;
+        let start = near.first()?.0;
+        // Windows of a twentieth of the run smooth zero crossings of the distances.
+        let window = (end - start) / 20.0;
+        let within = |distances: &[(f64, f64)], to: f64| {
+            let inside =
+                distances.iter().filter(|(time, _)| *time > to - window && *time <= to).copied();
+            root_mean_square(&inside.collect::<Vec<_>>())
+        };
+        let converges = |to: f64| {
+            let order = self.observed_order(within(near, to), within(far, to));
+            order.is_some_and(|order| self.is_converging(order))
+        };
+        let times = (1..=20).map(|index| start + index as f64 * window);
+        let until = times.take_while(|time| converges(*time)).last()?;
+        let (then, now) = (within(near, until), within(near, end));
+        let is_accurate = then < TOO_LARGE / GROWTH_OF_CHAOS * self.scale;
+        (is_accurate && now > GROWTH_OF_CHAOS * then).then_some(until)
+    }
+}
+
+fn root_mean_square(distances: &[(f64, f64)]) -> f64 {
+    let squares = distances.iter().map(|(_, distance)| distance * distance).sum::<f64>();
+    (squares / distances.len() as f64).sqrt()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const SIZES: [f64; 3] = [1.0, 2.0, 4.0];
+
+    fn sampled(step: f64, value: impl Fn(f64) -> f64) -> Trace {
+        let times: Vec<f64> = (0..=(64.0 / step) as usize).map(|row| row as f64 * step).collect();
+        let values: Vec<f64> = times.iter().map(|time| value(*time)).collect();
+        Trace::of_values(times, values)
+    }
+
+    fn estimate(sizes: [f64; 3], level: usize, value: impl Fn(f64, f64) -> f64) -> DirectionError {
+        let traces = sizes.map(|size| sampled(size, |time| value(time, size)));
+        let traces = traces.each_ref().map(Some);
+        Levels { sizes, traces, level, order: Some(2.0), scale: 1.0 }.error().unwrap()
+    }
+
+    #[test]
+    fn an_error_of_known_order_is_found_on_every_level() {
+        for level in 0..3 {
+            let error = estimate(SIZES, level, |time, h| (0.1 * time).sin() + 1e-6 * time * h * h);
+            assert_eq!(error.verdict, ErrorVerdict::Converged);
+            assert!((error.order.unwrap() - 2.0).abs() < 0.01, "{error:?}");
+            let exact = 64e-6 * SIZES[level] * SIZES[level];
+            assert!((error.largest / exact - 1.0).abs() < 0.01, "{level} {error:?}");
+            assert!((error.present / exact - 1.0).abs() < 0.01);
+        }
+        let uneven = estimate([1.0, 2.0, 8.0], 0, |time, h| 1e-6 * time * h * h);
+        assert!((uneven.order.unwrap() - 2.0).abs() < 0.01, "{uneven:?}");
+    }
+
+    #[test]
+    fn equal_runs_are_exact_and_runs_without_order_are_not_converged() {
+        let exact = estimate(SIZES, 0, |time, _| time);
+        assert_eq!((exact.verdict, exact.order, exact.largest), (ErrorVerdict::Exact, None, 0.0));
+        let lost = estimate(SIZES, 0, |time, h| (0.1 * time * h).sin());
+        assert_eq!(lost.verdict, ErrorVerdict::PreAsymptotic);
+        let first_order = estimate(SIZES, 0, |time, h| 1e-4 * time * h);
+        assert_eq!(first_order.verdict, ErrorVerdict::PreAsymptotic);
+    }
+
+    #[test]
+    fn runs_that_separate_are_chaotic_from_a_time_on() {
+        let separate = estimate(SIZES, 0, |time, h| {
+            let distance = 1e-6 * h * h * (0.4 * time).exp();
+            (time + if distance > 0.3 { 1.0 + time * h } else { distance }).sin()
+        });
+        let ErrorVerdict::Chaotic { until } = separate.verdict else { panic!("{separate:?}") };
+        assert!(until > 10.0 && until < 40.0, "{until}");
+    }
+
+    #[test]
+    fn without_a_third_level_the_distance_is_a_lower_bound() {
+        let traces = [1.0, 2.0].map(|size| sampled(size, |time| 1e-6 * time * size * size));
+        let traces = [Some(&traces[0]), Some(&traces[1]), None];
+        let levels = Levels { sizes: SIZES, traces, level: 0, order: Some(2.0), scale: 1.0 };
+        let error = levels.error().unwrap();
+        assert_eq!((error.verdict, error.order), (ErrorVerdict::PreAsymptotic, None));
+        assert!((error.largest / (3.0 * 64e-6) - 1.0).abs() < 1e-12);
+    }
+}

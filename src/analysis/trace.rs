@@ -1,0 +1,177 @@
+//! Values of a quantity over a run, and their distance from those of another run of the same scene.
+
+use crate::beams::Station;
+use crate::geometry::Vec2;
+use crate::simulation::Simulation;
+
+/// Difference of two times, relative to the length of a run, below which they are equal.
+const SAME_TIME: f64 = 1e-9;
+
+/// A quantity that is followed over a run.
+#[derive(Debug, Clone, PartialEq)]
+pub struct TracedQuantity {
+    /// Name of the station or column.
+    pub name: String,
+    /// Dimension of the values.
+    pub dimension: &'static str,
+    /// Source of the values.
+    pub source: TraceSource,
+}
+
+/// Source of the values of a traced quantity.
+#[derive(Debug, Clone, PartialEq)]
+pub enum TraceSource {
+    /// Position of a station in all recorded configurations [length].
+    Position(Station),
+    /// Column of the history with present values.
+    Column,
+    /// Column of the history with means of the last step, such as contact forces.
+    StepMean,
+}
+
+/// Values of a quantity over time. Scalars are in the first component.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Trace {
+    times: Vec<f64>,
+    values: Vec<Vec2>,
+    /// True if the values are integrals from the start, so that means over different steps can be compared.
+    is_integral: bool,
+}
+
+impl Trace {
+    /// Reads the values of a quantity from the records of a simulation. The trace is empty if there are none.
+    pub fn of(simulation: &Simulation, quantity: &TracedQuantity) -> Self {
+        let history = simulation.history();
+        let column = |name: &str| history.column(name).unwrap_or_default();
+        match &quantity.source {
+            TraceSource::Position(station) => {
+                let path = simulation.place(station).map(|place| simulation.path(&place));
+                let (times, values) = path.unwrap_or_default().into_iter().unzip();
+                Self { times, values, is_integral: false }
+            }
+            TraceSource::Column => {
+                let values = column(&quantity.name).into_iter().map(scalar).collect();
+                Self { times: column("t"), values, is_integral: false }
+            }
+            TraceSource::StepMean => {
+                let means = column(&quantity.name);
+                let mut sum = 0.0;
+                let add = |(mean, dt): (&f64, f64)| {
+                    // The first row has no step, and its mean may be undefined.
+                    sum += if dt > 0.0 { mean * dt } else { 0.0 };
+                    scalar(sum)
+                };
+                let values = means.iter().zip(column("dt")).map(add).collect();
+                Self { times: column("t"), values, is_integral: true }
+            }
+        }
+    }
+
+    /// Trace with the given present values.
+    #[cfg(test)]
+    pub fn of_values(times: Vec<f64>, values: impl IntoIterator<Item = f64>) -> Self {
+        let values = values.into_iter().map(scalar).collect();
+        Self { times, values, is_integral: false }
+    }
+
+    /// Largest magnitude of the values; of the means for step means.
+    pub fn largest(&self) -> f64 {
+        let steps = self.times.windows(2).zip(self.values.windows(2));
+        match self.is_integral {
+            false => self.values.iter().map(|value| value.norm()).fold(0.0, f64::max),
+            true => steps
+                .filter(|(times, _)| times[0] < times[1])
+                .map(|(times, values)| (values[1] - values[0]).norm() / (times[1] - times[0]))
+                .fold(0.0, f64::max),
+        }
+    }
+
+    /// Largest distance from the first value.
+    pub fn range(&self) -> f64 {
+        let first = self.values.first().copied().unwrap_or_default();
+        self.values.iter().map(|value| (value - first).norm()).fold(0.0, f64::max)
+    }
+
+    /// Distances of a coarser trace from this one, at the times of the coarser trace [time, dimension of the values]. Means are compared over the
+    /// steps of the coarser trace.
+    pub fn distances(&self, coarser: &Self) -> Vec<(f64, f64)> {
+        let pairs = coarser.times.iter().zip(&coarser.values);
+        let both = pairs.filter_map(|(time, value)| Some((*time, value - self.at(*time)?)));
+        if !self.is_integral {
+            return both.map(|(time, difference)| (time, difference.norm())).collect();
+        }
+        let both: Vec<(f64, Vec2)> = both.collect();
+        let over_step = |pair: &[(f64, Vec2)]| {
+            let ((start, before), (end, after)) = (pair[0], pair[1]);
+            (end > start).then(|| (end, (after - before).norm() / (end - start)))
+        };
+        both.windows(2).filter_map(over_step).collect()
+    }
+
+    /// Value at a time: the recorded value, or the cubic through the four nearest ones. `None` outside the trace.
+    fn at(&self, time: f64) -> Option<Vec2> {
+        let (first, last) = (*self.times.first()?, *self.times.last()?);
+        let slack = SAME_TIME * (last - first);
+        let after = self.times.partition_point(|other| *other < time - slack);
+        let nearest = self.times.get(after)?;
+        if (nearest - time).abs() <= slack {
+            // Of equal times, the last is that after an event.
+            let equal = self.times[after..].iter().take_while(|other| **other <= time + slack);
+            return Some(self.values[after + equal.count() - 1]);
+        }
+        let from = after.checked_sub(1)?.saturating_sub(1).min(self.times.len().saturating_sub(4));
+        let to = (from + 4).min(self.times.len());
+        let (times, values) = (&self.times[from..to], &self.values[from..to]);
+        if times.windows(2).any(|pair| pair[0] >= pair[1]) {
+            let (start, end) = (self.times[after - 1], self.times[after]);
+            let share = (time - start) / (end - start);
+            return Some(self.values[after - 1] * (1.0 - share) + self.values[after] * share);
+        }
+        let weight = |index: usize| -> f64 {
+            let others = times.iter().enumerate().filter(|(other, _)| *other != index);
+            others.map(|(_, other)| (time - other) / (times[index] - other)).product()
+        };
+        Some(values.iter().enumerate().map(|(index, value)| value * weight(index)).sum())
+    }
+}
+
+fn scalar(value: f64) -> Vec2 {
+    Vec2::new(value, 0.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn cubic(times: &[f64]) -> Trace {
+        Trace::of_values(times.to_vec(), times.iter().map(|t| t * t * (t - 1.0)))
+    }
+
+    #[test]
+    fn other_times_are_interpolated_by_cubics() {
+        let fine = cubic(&[0.0, 0.3, 0.5, 1.0, 1.5, 1.6]);
+        let coarse = cubic(&[0.0, 0.1, 0.4, 0.7, 1.5, 1.55]);
+        let distances = fine.distances(&coarse);
+        assert_eq!(distances.len(), 6);
+        assert!(distances.iter().all(|(_, distance)| *distance < 1e-14), "{distances:?}");
+        assert_eq!(fine.distances(&cubic(&[2.0])), []);
+    }
+
+    #[test]
+    fn the_value_after_an_event_counts() {
+        let fine = Trace::of_values(vec![0.0, 1.0, 1.0, 2.0], [0.0, 1.0, 5.0, 6.0]);
+        let coarse = Trace::of_values(vec![0.0, 1.0, 1.5], [0.0, 5.0, 5.5]);
+        assert_eq!(fine.distances(&coarse), [(0.0, 0.0), (1.0, 0.0), (1.5, 0.0)]);
+    }
+
+    #[test]
+    fn means_are_compared_over_the_same_interval() {
+        let integral = |times: &[f64]| Trace {
+            is_integral: true,
+            ..Trace::of_values(times.to_vec(), times.iter().map(|t| t * t))
+        };
+        let (fine, coarse) = (integral(&[0.0, 1.0, 2.0, 3.0, 4.0]), integral(&[0.0, 2.0, 4.0]));
+        assert_eq!(fine.distances(&coarse), [(2.0, 0.0), (4.0, 0.0)]);
+        assert_eq!(coarse.largest(), 6.0);
+    }
+}

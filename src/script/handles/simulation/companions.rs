@@ -1,0 +1,186 @@
+//! Companion runs: the scene and the functions of a simulation from its start, on another mesh or with other steps.
+
+use std::rc::Rc;
+
+use rhai::Dynamic;
+
+use super::SimulationHandle;
+use crate::script::bindings::stored::StoredFunction;
+use crate::script::handles::equilibrium::EquilibriumHandle;
+use crate::script::handles::notes::{Notes, Printing};
+use crate::script::handles::scene::SceneHandle;
+use crate::script::messages::error::ScriptError;
+use crate::script::state::context::Context;
+use crate::simulation::{Simulation, SimulationSettings, StepControl, StepSize};
+use crate::statics::Equilibrium;
+use crate::system::Scene;
+
+/// State from which a simulation was started.
+#[derive(Clone)]
+pub enum RunStart {
+    /// Initial state of the scene.
+    Scene,
+    /// Equilibrium.
+    Equilibrium(EquilibriumHandle),
+    /// Saved simulation, whose start is not stored.
+    Loaded,
+}
+
+/// Discretisation of a companion run, relative to that of the simulation.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Companion {
+    /// Number of spans.
+    pub span_ratio: f64,
+    /// Step size; a whole power of two.
+    pub step_ratio: f64,
+}
+
+const NO_FILES: &str = "companion runs repeat the functions of a simulation and must not write \
+    files; write them after the run";
+
+impl SimulationHandle {
+    /// Starts a simulation of a scene on a mesh with another number of spans, which is not reported.
+    pub fn start_refined(
+        scene: &SceneHandle,
+        (span_ratio, settings): (f64, SimulationSettings),
+        name: String,
+    ) -> Result<Self, ScriptError> {
+        let description = scene.scene().borrow().with_span_ratio(span_ratio)?;
+        let simulation = Simulation::start(description, settings)?;
+        let notes = Notes::new(Printing::Never);
+        let handle = Self::unreported(simulation, scene.clone(), name, notes, RunStart::Scene);
+        handle.evaluate_columns()?;
+        Ok(handle)
+    }
+
+    /// Runs to a time. What the functions of the simulation print is dropped.
+    pub fn run_silently(&self, end: f64, context: &Context) -> Result<(), ScriptError> {
+        context.without_output_or_files(NO_FILES, || self.run_to(context, end))
+    }
+
+    /// Start of the simulation.
+    pub fn start(&self) -> &RunStart {
+        &self.0.start
+    }
+
+    /// Returns true if script functions are called between steps.
+    pub fn has_callbacks(&self) -> bool {
+        self.callbacks().next().is_some() || !self.0.events.borrow().all().is_empty()
+    }
+
+    fn callbacks(&self) -> impl Iterator<Item = &StoredFunction> {
+        self.0.sensing.all_functions()
+    }
+
+    /// Scene of a companion run.
+    pub fn companion_scene(&self, companion: Companion) -> Result<Scene, ScriptError> {
+        let simulation = self.simulation();
+        let scene = simulation.scene();
+        if companion.span_ratio == 1.0 {
+            return Ok(scene.clone());
+        }
+        Ok(scene.with_span_ratio(companion.span_ratio)?)
+    }
+
+    /// Settings of a companion run. The tolerance of adaptive steps follows the step size.
+    pub fn companion_settings(&self, companion: Companion) -> SimulationSettings {
+        let settings = *self.simulation().settings();
+        let dt = match settings.dt {
+            StepSize::Fixed(dt) => StepSize::Fixed(dt * companion.step_ratio),
+            StepSize::Adaptive(control) => {
+                let order = settings.method.entry().claims.order;
+                let looser = (0..order).fold(1.0, |factor, _| factor * companion.step_ratio);
+                let tolerance = (control.tolerance * looser).min(StepControl::MOST_TOLERANCE);
+                StepSize::Adaptive(StepControl { tolerance, ..control })
+            }
+        };
+        SimulationSettings { dt, ..settings }
+    }
+
+    /// Runs a companion to the present time of this simulation. Its functions are called again; what they print is dropped.
+    ///
+    /// # Errors
+    /// Fails if the companion cannot be started, does not reach the time, or a function depends on its earlier calls.
+    pub fn run_companion(
+        &self,
+        companion: Companion,
+        context: &Context,
+    ) -> Result<Self, ScriptError> {
+        let (scene, settings) =
+            (self.companion_scene(companion)?, self.companion_settings(companion));
+        let mut simulation = match self.start() {
+            RunStart::Equilibrium(rest) if companion.span_ratio == 1.0 => {
+                Simulation::start_at_rest(&rest.equilibrium(), settings)?
+            }
+            RunStart::Equilibrium(rest) => {
+                let loading = *rest.equilibrium().loading();
+                let found = Equilibrium::find(scene, loading, &mut |_| !context.is_stopped())?;
+                Simulation::start_at_rest(&found, settings)?
+            }
+            RunStart::Scene | RunStart::Loaded => Simulation::start(scene, settings)?,
+        };
+        let events = self.0.events.borrow().clone();
+        for (time, _) in events.all() {
+            simulation.cut_at(*time);
+        }
+        let parts = (self.0.scene.clone(), self.name().to_owned(), self.0.notes.clone());
+        let handle = Self::unreported(simulation, parts.0, parts.1, parts.2, self.start().clone());
+        handle.0.events.replace(events);
+        handle.0.events.borrow_mut().reschedule_after(f64::NEG_INFINITY);
+        let captured = CapturedVariables::of(self)?;
+        let ran =
+            handle.evaluate_columns().and_then(|()| handle.run_silently(self.time(), context));
+        // The outputs of controllers are shared with this simulation.
+        self.with_simulation_mut(|_| ());
+        captured.expect_unchanged()?;
+        ran.map(|()| handle)
+    }
+}
+
+/// Values of the variables that the functions of a simulation have captured, before a companion run.
+struct CapturedVariables(Vec<(String, Dynamic, Dynamic)>);
+
+impl CapturedVariables {
+    fn of(handle: &SimulationHandle) -> Result<Self, ScriptError> {
+        let events: Vec<Rc<StoredFunction>> =
+            handle.0.events.borrow().all().iter().map(|(_, function)| function.clone()).collect();
+        let functions = handle.callbacks().chain(events.iter().map(|function| &**function));
+        let mut values = Vec::new();
+        for function in functions {
+            for shared in function.captured() {
+                let value = shared.flatten_clone();
+                if value.is::<SimulationHandle>() {
+                    let told = format!(
+                        "{} reads a simulation of the script, and a companion run has another one",
+                        function.role()
+                    );
+                    let hint = "read the simulation that the function receives as its argument";
+                    return Err(ScriptError::new(told).hint(hint));
+                }
+                values.push((function.role().to_owned(), shared.clone(), value));
+            }
+        }
+        Ok(Self(values))
+    }
+
+    /// Restores the variables. Fails if a function has changed one, because a companion run would need its value at the start of the simulation.
+    fn expect_unchanged(self) -> Result<(), ScriptError> {
+        let mut changed = None;
+        for (role, mut shared, value) in self.0 {
+            if format!("{:?}", shared.flatten_clone()) == format!("{value:?}") {
+                continue;
+            }
+            changed = Some(role);
+            if let Some(mut cell) = shared.write_lock::<Dynamic>() {
+                *cell = value;
+            }
+        }
+        changed.map_or(Ok(()), |role| {
+            let told = format!(
+                "{role} changes a variable of the script, so a companion run cannot repeat it from the start"
+            );
+            let hint = "compute the value from the time and the simulation alone, or estimate the error by a study";
+            Err(ScriptError::new(told).hint(hint))
+        })
+    }
+}

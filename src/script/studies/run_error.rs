@@ -1,0 +1,461 @@
+//! Estimated discretisation error of a run, from companion runs with larger steps and on other meshes.
+
+use std::ops::ControlFlow;
+use std::sync::atomic::AtomicBool;
+use std::time::Duration;
+
+use crate::analysis::{
+    Case, CaseOutcome, DirectionError, ErrorVerdict, Levels, RunLimits, Trace, TraceSource,
+    TracedQuantity, is_of_the_motion, on_all_cores,
+};
+use crate::geometry::larger;
+use crate::output::{Cell, TextTable, scientific, significant};
+use crate::script::handles::simulation::{Companion, RunStart, SimulationHandle};
+use crate::script::messages::error::ScriptError;
+use crate::script::state::context::Context;
+use crate::simulation::{History, Simulation};
+use crate::system::Scene;
+
+use super::plan::usual_stations;
+
+/// Name of the largest error of all stations.
+pub const POSITIONS: &str = "positions";
+
+/// Largest number of rows of a printed table.
+const MOST_ROWS: usize = 24;
+
+/// Smallest number of spans of a beam that is coarsened twice. Shorter beams are also refined.
+const SPANS_TO_COARSEN: usize = 4;
+
+/// Estimated errors of a run.
+#[derive(Debug, Clone)]
+pub struct RunError {
+    /// Name of the simulation.
+    pub name: String,
+    /// Present time of the simulation [time].
+    pub time: f64,
+    /// Scale of positions [length].
+    pub length: f64,
+    /// Largest errors of all stations, then those of each station and recorded column.
+    pub quantities: Vec<QuantityError>,
+    /// Reasons for missing estimates.
+    pub missing: Vec<String>,
+    /// Steps of all companion runs together.
+    pub steps: usize,
+}
+
+/// Estimated errors of one quantity.
+#[derive(Debug, Clone)]
+pub struct QuantityError {
+    /// Name of the station or column.
+    pub name: String,
+    /// Dimension of the errors.
+    pub dimension: &'static str,
+    /// Largest value of the run, or the size of the scene for positions.
+    pub scale: f64,
+    /// Error of the steps.
+    pub in_time: Option<DirectionError>,
+    /// Error of the mesh.
+    pub in_space: Option<DirectionError>,
+}
+
+impl QuantityError {
+    /// Errors of a quantity in a dry run, in which nothing is estimated.
+    pub fn unknown(name: &str) -> Self {
+        let verdict = ErrorVerdict::PreAsymptotic;
+        let none = Some(DirectionError { present: 0.0, largest: 0.0, order: Some(0.0), verdict });
+        let name = name.to_owned();
+        Self { name, dimension: "-", scale: 0.0, in_time: none, in_space: none }
+    }
+
+    /// Sum of the errors in time and space at the present time, and the largest of the run.
+    pub fn total(&self) -> (f64, f64) {
+        let both = || [self.in_time, self.in_space].into_iter().flatten();
+        (both().map(|error| error.present).sum(), both().map(|error| error.largest).sum())
+    }
+
+    /// Verdict in words on both errors.
+    pub fn verdict(&self) -> String {
+        let both = [("in time", self.in_time), ("in space", self.in_space)];
+        let known = both.into_iter().filter_map(|(of, error)| Some((of, error?.verdict)));
+        let known: Vec<(&str, ErrorVerdict)> = known.collect();
+        let is_good = |verdict: ErrorVerdict| {
+            matches!(verdict, ErrorVerdict::Exact | ErrorVerdict::Converged)
+        };
+        let chaos = known.iter().filter_map(|(_, verdict)| match verdict {
+            ErrorVerdict::Chaotic { until } => Some(*until),
+            _ => None,
+        });
+        if let Some(until) = chaos.reduce(f64::min) {
+            return format!("chaotic, meaningful until t = {}", significant(until, 3));
+        }
+        let bad: Vec<&str> =
+            known.iter().filter(|(_, verdict)| !is_good(*verdict)).map(|(of, _)| *of).collect();
+        match (known.is_empty(), bad.as_slice()) {
+            (true, _) => "not estimated".to_owned(),
+            (_, []) if known.iter().all(|(_, verdict)| *verdict == ErrorVerdict::Exact) => {
+                ErrorVerdict::Exact.describe().to_owned()
+            }
+            (_, []) => ErrorVerdict::Converged.describe().to_owned(),
+            (_, [of]) => format!("{} {of}", ErrorVerdict::PreAsymptotic.describe()),
+            _ => ErrorVerdict::PreAsymptotic.describe().to_owned(),
+        }
+    }
+}
+
+/// Companion runs of an estimate.
+struct Plan {
+    /// Companions; the first two have larger steps on the same mesh.
+    companions: Vec<Companion>,
+    /// Indices of the runs for the estimate in space, from the finest to the coarsest mesh.
+    meshes: Option<[usize; 3]>,
+    /// Mesh sizes of these runs, relative to the mesh of the simulation.
+    mesh_sizes: [f64; 3],
+    /// Position of the mesh of the simulation in these runs.
+    level: usize,
+}
+
+impl Plan {
+    fn of(scene: &Scene) -> Result<Self, ScriptError> {
+        let at = |span_ratio, step_ratio| Companion { span_ratio, step_ratio };
+        let mut companions = vec![at(1.0, 2.0), at(1.0, 4.0)];
+        let spans = |scene: &Scene| scene.beams.iter().map(|beam| beam.mesh.spans()).sum::<usize>();
+        let Some(shortest) = scene.beams.iter().map(|beam| beam.mesh.spans()).min() else {
+            return Ok(Self { companions, meshes: None, mesh_sizes: [1.0; 3], level: 0 });
+        };
+        // Companions 2 and 3 have twice the step of the simulation, as companion 0.
+        let (ratios, meshes, level) = match shortest {
+            SPANS_TO_COARSEN.. => ([0.75, 0.5], [0, 2, 3], 0),
+            1 => ([4.0, 2.0], [2, 3, 0], 2),
+            _ => ([2.0, 0.5], [2, 0, 3], 1),
+        };
+        companions.extend(ratios.map(|ratio| at(ratio, 2.0)));
+        let mut mesh_sizes = [1.0; 3];
+        for (size, run) in mesh_sizes.iter_mut().zip(meshes) {
+            let scaled = scene.with_span_ratio(companions[run].span_ratio)?;
+            *size = spans(scene) as f64 / spans(&scaled) as f64;
+        }
+        Ok(Self { companions, meshes: Some(meshes), mesh_sizes, level })
+    }
+}
+
+/// A finished companion run.
+struct FinishedRun {
+    traces: Vec<Trace>,
+    steps: usize,
+}
+
+impl FinishedRun {
+    fn of(simulation: &Simulation, quantities: &[TracedQuantity]) -> Self {
+        let traces = quantities.iter().map(|quantity| Trace::of(simulation, quantity)).collect();
+        Self { traces, steps: simulation.counts().steps }
+    }
+}
+
+impl RunError {
+    /// Estimate without any result, for the given reason.
+    pub fn not_estimated(handle: &SimulationHandle, reason: &str) -> Self {
+        let (name, time) = (handle.name().to_owned(), handle.time());
+        let missing = vec![reason.to_owned()];
+        Self { name, time, length: 1.0, quantities: Vec::new(), missing, steps: 0 }
+    }
+
+    /// Estimates the errors of a simulation at its present time and over its run. With a limit, each companion run stops after this time.
+    ///
+    /// # Errors
+    /// Fails if the simulation cannot be repeated from its start, or the script is stopped.
+    pub fn estimate(
+        handle: &SimulationHandle,
+        context: &Context,
+        limit: Option<Duration>,
+    ) -> Result<Self, ScriptError> {
+        if let RunStart::Loaded = handle.start() {
+            let told = format!(
+                "the error of '{}' cannot be estimated: a saved simulation does not contain its start",
+                handle.name()
+            );
+            let hint = "estimate the error before sim.save(…)";
+            return Err(ScriptError::new(told).hint(hint));
+        }
+        if handle.simulation().counts().steps == 0 {
+            return Ok(Self::not_estimated(handle, "the simulation has taken no step"));
+        }
+        let mut estimate = Self { missing: Vec::new(), ..Self::not_estimated(handle, "") };
+        let (plan, quantities, own) = {
+            let simulation = handle.simulation();
+            let quantities = traced_quantities(&simulation);
+            let own = FinishedRun::of(&simulation, &quantities);
+            (Plan::of(simulation.scene())?, quantities, own)
+        };
+        let runs = run_companions((handle, &plan.companions), &quantities, context, limit)?;
+        let settings = *handle.simulation().settings();
+        let time_levels = [Some(&own), runs[0].as_ref().ok(), runs[1].as_ref().ok()];
+        let mesh_levels = plan.meshes.map(|meshes| meshes.map(|run| runs[run].as_ref().ok()));
+        estimate.steps = runs.iter().flatten().map(|run| run.steps).sum();
+        let failures = || runs.iter().filter_map(|run| run.as_ref().err());
+        match failures().next() {
+            Some((_, reason)) if failures().all(|(_, other)| other == reason) => {
+                estimate.missing.push(reason.clone());
+            }
+            _ => estimate.missing.extend(failures().map(|(of, reason)| format!("{of}: {reason}"))),
+        }
+        if runs.iter().all(Result::is_err) {
+            return Ok(estimate);
+        }
+        if plan.meshes.is_none() {
+            estimate.missing.push("in space: the scene has no beams".to_owned());
+        }
+        let order = f64::from(settings.method.entry().claims.order);
+        let steps = Refinement { sizes: [1.0, 2.0, 4.0], level: 0, order: Some(order) };
+        let meshes = Refinement { sizes: plan.mesh_sizes, level: plan.level, order: None };
+        let scales = Scales::of(&handle.simulation(), &quantities, &own.traces);
+        estimate.length = scales.length;
+        for (index, quantity) in quantities.iter().enumerate() {
+            let scale = scales.of_quantity(quantity);
+            if scale > 0.0 {
+                let in_time = steps.error_of(index, scale, time_levels);
+                let in_space = mesh_levels.and_then(|runs| meshes.error_of(index, scale, runs));
+                let (name, dimension) = (quantity.name.clone(), quantity.dimension);
+                let error = QuantityError { name, dimension, scale, in_time, in_space };
+                estimate.quantities.push(error);
+            }
+        }
+        let is_position =
+            |quantity: &&TracedQuantity| matches!(quantity.source, TraceSource::Position(_));
+        let stations = quantities.iter().filter(is_position).count().min(estimate.quantities.len());
+        if let Some(first) = estimate.quantities.first().filter(|_| stations > 0) {
+            let largest = |of: fn(&QuantityError) -> Option<DirectionError>| {
+                let errors = estimate.quantities[..stations].iter().filter_map(of);
+                errors.reduce(|a, b| DirectionError {
+                    present: larger(a.present, b.present),
+                    ..if b.largest > a.largest { b } else { a }
+                })
+            };
+            let (in_time, in_space) = (largest(|of| of.in_time), largest(|of| of.in_space));
+            let together =
+                QuantityError { name: POSITIONS.to_owned(), in_time, in_space, ..*first };
+            estimate.quantities.insert(0, together);
+        }
+        Ok(estimate)
+    }
+
+    /// Errors of a station or column, or of all positions together.
+    pub fn of(&self, name: &str) -> Option<&QuantityError> {
+        self.quantities.iter().find(|quantity| quantity.name == name)
+    }
+
+    /// One line on all positions together.
+    pub fn summary(&self) -> String {
+        let Some(positions) = self.of(POSITIONS) else {
+            return format!("not estimated: {}", self.missing.join("; "));
+        };
+        let part = |of: &str, error: Option<DirectionError>| match error {
+            None => format!("{of} not estimated"),
+            Some(error) => format!("{of} {}", scientific(error.present, 2)),
+        };
+        format!(
+            "positions {} at t = {}, {} ({}, {}; size {})",
+            scientific(positions.total().0, 2),
+            significant(self.time, 6),
+            positions.verdict(),
+            part("in time", positions.in_time),
+            part("in space", positions.in_space),
+            significant(self.length, 3),
+        )
+    }
+
+    /// Table of all quantities whose error is not zero.
+    pub fn table(&self) -> String {
+        let heads =
+            ["quantity", "in time", "largest", "order", "in space", "largest", "order", "verdict"];
+        let title = format!(
+            "estimated errors of '{}' at t = {}, and the largest of the run",
+            self.name,
+            significant(self.time, 6)
+        );
+        let mut table = TextTable::new(&heads).title(title);
+        let is_shown = |quantity: &&QuantityError| {
+            let both = [quantity.in_time, quantity.in_space];
+            both.into_iter().flatten().any(|error| error.verdict != ErrorVerdict::Exact)
+        };
+        let shown: Vec<&QuantityError> = self.quantities.iter().filter(is_shown).collect();
+        for quantity in shown.iter().take(MOST_ROWS) {
+            let cells = [quantity.in_time, quantity.in_space].into_iter().flat_map(|error| {
+                let number = |read: fn(&DirectionError) -> f64| {
+                    error
+                        .as_ref()
+                        .map_or_else(|| "-".to_owned(), |error| scientific(read(error), 2))
+                };
+                let order = error.and_then(|error| error.order);
+                let order = order.map_or_else(|| "-".to_owned(), |order| format!("{order:.1}"));
+                [number(|error| error.present), number(|error| error.largest), order]
+            });
+            let first = format!("{} [{}]", quantity.name, quantity.dimension);
+            let cells = cells.map(Cell::Number);
+            let verdict = Cell::Text(quantity.verdict());
+            table.row(std::iter::once(Cell::Text(first)).chain(cells).chain([verdict]));
+        }
+        let mut text = match self.quantities.is_empty() {
+            true => format!("no estimated errors of '{}'", self.name),
+            false => table.to_string().trim_end().to_owned(),
+        };
+        let exact = self.quantities.len() - shown.len();
+        let left_out = shown.len().saturating_sub(MOST_ROWS);
+        if exact > 0 {
+            text += &format!("\n{exact} quantities agree to rounding in all runs");
+        }
+        if left_out > 0 {
+            text += &format!("\n{left_out} further quantities are in .rows");
+        }
+        for reason in &self.missing {
+            text += &format!("\nnot estimated: {reason}");
+        }
+        text
+    }
+}
+
+/// Three levels of refinement of time or space.
+struct Refinement {
+    /// Step or mesh sizes, from fine to coarse.
+    sizes: [f64; 3],
+    /// Level of the simulation.
+    level: usize,
+    /// Order of the method, if it is known.
+    order: Option<f64>,
+}
+
+impl Refinement {
+    /// Error of a traced quantity.
+    fn error_of(
+        &self,
+        quantity: usize,
+        scale: f64,
+        runs: [Option<&FinishedRun>; 3],
+    ) -> Option<DirectionError> {
+        let traces = runs.map(|run| run.map(|run| &run.traces[quantity]));
+        let &Self { sizes, level, order } = self;
+        Levels { sizes, traces, level, order, scale }.error()
+    }
+}
+
+/// Runs companions, in parallel if no script function is called between their steps. The error of a run is its description and the
+/// reason for its failure.
+fn run_companions(
+    (handle, companions): (&SimulationHandle, &[Companion]),
+    quantities: &[TracedQuantity],
+    context: &Context,
+    limit: Option<Duration>,
+) -> Result<Vec<Result<FinishedRun, (String, String)>>, ScriptError> {
+    let describe = |companion: &Companion, reason: String| {
+        let of = match companion.span_ratio {
+            1.0 => format!("the run with {} times the step", companion.step_ratio),
+            ratio => format!("the run with {ratio} times the spans"),
+        };
+        (of, reason)
+    };
+    let is_from_scene = matches!(handle.start(), RunStart::Scene);
+    if handle.has_callbacks() || !is_from_scene {
+        let mut runs = Vec::new();
+        for companion in companions {
+            let run = handle.run_companion(*companion, context);
+            context.proceed()?;
+            runs.push(match run {
+                Ok(run) => Ok(FinishedRun::of(&run.simulation(), quantities)),
+                Err(ScriptError::Failure(failure)) => Err(describe(companion, failure.message)),
+                Err(error) => return Err(error),
+            });
+        }
+        return Ok(runs);
+    }
+    let stops = vec![handle.time()];
+    let cases: Vec<Case> = companions
+        .iter()
+        .map(|companion| {
+            let settings = handle.companion_settings(*companion);
+            Ok(Case { scene: handle.companion_scene(*companion)?, settings, stops: stops.clone() })
+        })
+        .collect::<Result<_, ScriptError>>()?;
+    let stop = AtomicBool::new(false);
+    let limits = RunLimits { wall: limit.unwrap_or(Duration::MAX), ..RunLimits::default() };
+    let work = |case: &Case| {
+        let (outcome, simulation) = case.run(limits, &stop, |_| ());
+        match (outcome, simulation) {
+            (CaseOutcome::Finished, Some(run)) => Ok(FinishedRun::of(&run, quantities)),
+            // A run may end by itself, as where a slider leaves its beam.
+            (_, Some(run)) if run.ending().is_some() => Ok(FinishedRun::of(&run, quantities)),
+            (outcome, _) => Err(outcome.describe()),
+        }
+    };
+    let found = on_all_cores(&cases, &stop, work, |_| match context.is_stopped() {
+        true => ControlFlow::Break(()),
+        false => ControlFlow::Continue(()),
+    });
+    context.proceed()?;
+    let runs = companions.iter().zip(found).map(|(companion, run)| {
+        let run = run.unwrap_or_else(|| Err("it was stopped".to_owned())).and_then(|run| run);
+        run.map_err(|reason| describe(companion, reason))
+    });
+    Ok(runs.collect())
+}
+
+fn traced_quantities(simulation: &Simulation) -> Vec<TracedQuantity> {
+    let stations = usual_stations(simulation.scene()).into_iter().map(|(name, station)| {
+        TracedQuantity { name, dimension: "length", source: TraceSource::Position(station) }
+    });
+    let columns = simulation.history().columns().filter(|(name, _)| is_of_the_motion(name));
+    let columns = columns.map(|(name, dimension)| TracedQuantity {
+        name: name.to_owned(),
+        dimension,
+        source: match simulation.is_step_mean(name) {
+            true => TraceSource::StepMean,
+            false => TraceSource::Column,
+        },
+    });
+    stations.chain(columns).collect()
+}
+
+/// Scales of quantities: the size of the scene, and the largest value of all columns of a dimension.
+struct Scales {
+    length: f64,
+    by_dimension: Vec<(&'static str, f64)>,
+}
+
+impl Scales {
+    fn of(simulation: &Simulation, quantities: &[TracedQuantity], traces: &[Trace]) -> Self {
+        let scene = simulation.scene();
+        let is_position =
+            |quantity: &TracedQuantity| matches!(quantity.source, TraceSource::Position(_));
+        let all = || quantities.iter().zip(traces);
+        let range = all().filter(|(quantity, _)| is_position(quantity)).map(|(_, of)| of.range());
+        let size = scene.longest_beam().unwrap_or_else(|| scene.extent());
+        let length = if size > 0.0 { size } else { range.fold(0.0, larger) };
+        // Momenta of a scene at rest as a whole are zero but for rounding.
+        let kinetic = largest(simulation.history(), "kinetic");
+        let momentum = (2.0 * simulation.model().total_mass() * kinetic).sqrt();
+        let mut by_dimension =
+            vec![("mass·length/time", momentum), ("mass·length²/time", momentum * length)];
+        for (quantity, trace) in all().filter(|(quantity, _)| !is_position(quantity)) {
+            let own = trace.largest();
+            match by_dimension.iter_mut().find(|(other, _)| *other == quantity.dimension) {
+                Some((_, scale)) => *scale = larger(*scale, own),
+                None => by_dimension.push((quantity.dimension, own)),
+            }
+        }
+        Self { length, by_dimension }
+    }
+
+    fn of_quantity(&self, quantity: &TracedQuantity) -> f64 {
+        match quantity.source {
+            TraceSource::Position(_) => self.length,
+            _ => {
+                let found =
+                    self.by_dimension.iter().find(|(other, _)| *other == quantity.dimension);
+                found.map_or(0.0, |(_, scale)| *scale)
+            }
+        }
+    }
+}
+
+fn largest(history: &History, column: &str) -> f64 {
+    history.column(column).unwrap_or_default().into_iter().map(f64::abs).fold(0.0, larger)
+}
