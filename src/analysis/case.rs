@@ -16,7 +16,6 @@ use crate::system::{Scene, Sensor};
 /// A run of a study, as serialisable data.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub struct Case {
-    /// Scene.
     pub scene: Scene,
     /// Integrator, step size and tolerance.
     pub settings: SimulationSettings,
@@ -232,9 +231,9 @@ mod tests {
         case.scene.add_load(LoadKind::Moment { station, moment: 1.0 }, schedule);
         let patience = RunLimits { wall: Duration::from_millis(50), ..RunLimits::default() };
         let (outcome, _) = case.run(patience, &never(), |_| ());
-        let told = outcome.describe();
-        assert!(told.starts_with("stopped at t = 0.5 by a limit"), "{told}");
-        assert!(told.ends_with(": more than 0.05 s"), "{told}");
+        let message = outcome.describe();
+        assert!(message.starts_with("stopped at t = 0.5 by a limit"), "{message}");
+        assert!(message.ends_with(": more than 0.05 s"), "{message}");
         assert!(!is_past_deadline(), "patience with one case is not that with another");
     }
 }

@@ -6,14 +6,10 @@ use crate::integrators::Method;
 use crate::simulation::SimulationSettings;
 use crate::system::Scene;
 
-/// A scene on a mesh, with its observables.
 #[derive(Debug, Clone)]
 pub struct ObservedScene {
-    /// Name of the mesh.
     pub mesh: String,
-    /// Scene.
     pub scene: Scene,
-    /// Observables.
     pub observables: Vec<Observable>,
 }
 
@@ -27,14 +23,12 @@ impl ObservedScene {
 /// A mesh, an integrator and a step size.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Combination {
-    /// Index of the subject.
     pub subject: usize,
     /// Integrator and step size.
     pub settings: SimulationSettings,
 }
 
 impl Combination {
-    /// Case of the combination.
     pub fn case(&self, subjects: &[ObservedScene], stops: &[f64]) -> Case {
         let scene = subjects[self.subject].scene.clone();
         Case { scene, settings: self.settings, stops: stops.to_vec() }

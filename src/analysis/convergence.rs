@@ -6,10 +6,8 @@ use super::run_result::RunResult;
 use crate::elementary::{ln, square};
 use crate::integrators::Method;
 
-/// Refined quantity of a convergence study.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum RefinedParameter {
-    /// Step size.
     Step,
     /// Mesh; its size is one over the number of spans.
     Mesh,
@@ -21,9 +19,7 @@ const SIGNIFICANCE: f64 = 2.0;
 /// Errors of one quantity with one integrator, from coarse to fine.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Refinement {
-    /// Integrator.
     pub method: Method,
-    /// Description of the quantity.
     pub quantity: String,
     /// Step sizes [time] or mesh sizes [-], from coarse to fine.
     pub sizes: Vec<f64>,
@@ -72,20 +68,15 @@ impl Refinement {
     }
 }
 
-/// Results of a convergence study.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Convergence {
-    /// Name of the study.
     pub name: String,
-    /// Refined quantity.
     pub refined: RefinedParameter,
-    /// Description of the fixed quantity.
     pub fixed: String,
     /// Times of the comparison [time].
     pub times: Vec<f64>,
     /// Length scale of position errors [length].
     pub length: f64,
-    /// Reference.
     pub reference: ReferenceSolution,
     /// Errors by integrator and quantity.
     pub ladders: Vec<Refinement>,

@@ -10,30 +10,21 @@ use crate::simulation::{Recording, Simulation};
 /// A case whose steps are timed, with settings that affect the time.
 #[derive(Debug, Clone)]
 pub struct CostCase {
-    /// Name.
     pub name: String,
-    /// Run that is timed.
     pub case: Case,
-    /// Recording of states.
     pub recording: Recording,
     /// Memory for snapshots [bytes].
     pub snapshots: usize,
 }
 
-/// Cost of the steps of a case.
 #[derive(Debug, Clone, PartialEq)]
 pub struct StepCost {
-    /// Name of the case.
     pub name: String,
-    /// Outcome of the run.
     pub outcome: CaseOutcome,
-    /// Number of unknowns of a step.
     pub unknowns: usize,
-    /// Half-bandwidth of the system matrix.
     pub half_bandwidth: usize,
     /// Number of border columns of contacts.
     pub border: usize,
-    /// Number of history columns.
     pub columns: usize,
     /// Average number of Newton iterations per step.
     pub iterations: f64,
@@ -55,7 +46,6 @@ impl CostCase {
 }
 
 impl StepCost {
-    /// Cost of a case without measurements.
     pub fn unmeasured(case: &CostCase, outcome: CaseOutcome) -> Self {
         Self {
             name: case.name.clone(),

@@ -1,50 +1,32 @@
 //! CSV tables of other programs, with `#` comment lines, any of three separators and an optional line of units.
 
-/// Error of a table file.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum ParsedCsvError {
-    /// Invalid CSV.
     #[error("line {line} is not a row of the table: {reason}")]
     Row {
         /// Line, from 1.
         line: u64,
-        /// Reason.
         reason: String,
     },
-    /// Duplicate column name.
     #[error("two columns have the name '{column}'; rename one of them")]
-    Duplicate {
-        /// Name.
-        column: String,
-    },
-    /// Unknown column.
+    Duplicate { column: String },
     #[error("it has no column '{column}'; its columns are {known}")]
-    Column {
-        /// Requested name.
-        column: String,
-        /// Existing names.
-        known: String,
-    },
-    /// A cell that is not a number.
+    Column { column: String, known: String },
     #[error(
         "line {line}, column '{column}', holds '{text}', which is not a finite number below 1e150"
     )]
     Number {
-        /// Name of the column.
         column: String,
         /// Line, from 1.
         line: u64,
-        /// Text of the cell.
         text: String,
     },
     /// A negative number in a column of sizes.
     #[error("line {line}, column '{column}', holds '{text}', but an error must not be negative")]
     Negative {
-        /// Name of the column.
         column: String,
         /// Line, from 1.
         line: u64,
-        /// Text of the cell.
         text: String,
     },
 }
@@ -52,7 +34,6 @@ pub enum ParsedCsvError {
 /// Largest allowed magnitude of a number, so that its square is finite.
 const LARGEST: f64 = 1e150;
 
-/// A table of texts with named columns.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct ParsedCsv {
     columns: Vec<String>,
@@ -100,22 +81,18 @@ impl ParsedCsv {
         Ok(Self { columns, separator, rows })
     }
 
-    /// Names of the columns, in order.
     pub fn columns(&self) -> &[String] {
         &self.columns
     }
 
-    /// Number of rows.
     pub fn len(&self) -> usize {
         self.rows.len()
     }
 
-    /// Returns true if there are no rows.
     pub fn is_empty(&self) -> bool {
         self.rows.is_empty()
     }
 
-    /// Returns true if a column exists.
     pub fn has(&self, column: &str) -> bool {
         self.columns.iter().any(|name| name == column)
     }
@@ -238,21 +215,21 @@ mod tests {
         let sheet =
             ParsedCsv::parse("# how it was made\nt, x0\n0,1.5\n1,two\n2,NaN\n3,-1e300\n").unwrap();
         assert_eq!((sheet.len(), sheet.number(0, "x0")), (4, Ok(1.5)));
-        for (row, told) in [
+        for (row, message) in [
             (1, "line 4, column 'x0', holds 'two'"),
             (2, "line 5, column 'x0', holds 'NaN'"),
             (3, "line 6, column 'x0', holds '-1e300'"),
         ] {
             let error = sheet.number(row, "x0").unwrap_err().to_string();
-            assert_eq!(error, format!("{told}, which is not a finite number below 1e150"));
+            assert_eq!(error, format!("{message}, which is not a finite number below 1e150"));
         }
-        let told = sheet.number(0, "y0").unwrap_err().to_string();
-        assert_eq!(told, "it has no column 'y0'; its columns are t, x0");
-        let told = ParsedCsv::parse("t, x0, x0\n0,1,2\n").unwrap_err().to_string();
-        assert_eq!(told, "two columns have the name 'x0'; rename one of them");
-        let told = ParsedCsv::parse("# made\nt,x0\n0,1\n1\n").unwrap_err().to_string();
+        let message = sheet.number(0, "y0").unwrap_err().to_string();
+        assert_eq!(message, "it has no column 'y0'; its columns are t, x0");
+        let message = ParsedCsv::parse("t, x0, x0\n0,1,2\n").unwrap_err().to_string();
+        assert_eq!(message, "two columns have the name 'x0'; rename one of them");
+        let message = ParsedCsv::parse("# made\nt,x0\n0,1\n1\n").unwrap_err().to_string();
         assert_eq!(
-            told,
+            message,
             "line 4 is not a row of the table: it has 1 cells, but there are 2 columns"
         );
     }

@@ -8,11 +8,9 @@ use crate::geometry::Vec2;
 /// A run of another program.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ExternalResult {
-    /// Name of the program.
     pub program: String,
     /// Series of the run, such as the program with one integrator.
     pub series: String,
-    /// Description of the settings.
     pub setting: String,
     /// Run time [s].
     pub run_time: f64,
@@ -20,28 +18,24 @@ pub struct ExternalResult {
     pub error: f64,
     /// Energy drift [-]; NaN if not measured.
     pub energy_drift: f64,
-    /// Machine of the measurement.
     pub machine: String,
 }
 
-/// Error of a table of other programs.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum ExternalResultError {
-    /// The table cannot be read.
     #[error(transparent)]
     Sheet(#[from] ParsedCsvError),
-    /// The table cannot be compared with the reference.
     #[error(transparent)]
     ReferenceMismatch(#[from] ReferenceError),
     /// A run whose positions were measured at another time than the study uses.
-    #[error("its row {row} has positions at t = {measured}, but the study needs t = {}", asked.join(", "))]
+    #[error("its row {row} has positions at t = {measured}, but the study needs t = {}", requested.join(", "))]
     Times {
         /// Row below the header, from 1.
         row: usize,
         /// Time of the measured positions [time].
         measured: f64,
         /// Times of the study.
-        asked: Vec<String>,
+        requested: Vec<String>,
     },
 }
 
@@ -66,8 +60,8 @@ impl ExternalResult {
                 let measured = sheet.number(row, "t")?;
                 if times.len() != 1 || (times[0] - measured).abs() > 1e-9 * measured.abs().max(1.0)
                 {
-                    let asked = times.iter().map(f64::to_string).collect();
-                    return Err(ExternalResultError::Times { row: row + 1, measured, asked });
+                    let requested = times.iter().map(f64::to_string).collect();
+                    return Err(ExternalResultError::Times { row: row + 1, measured, requested });
                 }
                 let compared = |(index, of): (usize, &Observable)| {
                     let is_compared = of.is_position() && truth.knows(index);
@@ -133,12 +127,12 @@ mod tests {
         assert_eq!(rivals[0].setting, "euler, dt = 0.1");
         assert!(rivals[1].energy_drift.is_nan());
         assert_eq!(machines(&rivals), ["a Cray"]);
-        let told =
+        let message =
             ExternalResult::of_sheet(&sheet, &observables, &truth, (&[2.0], 10.0)).unwrap_err();
-        assert!(told.to_string().contains("row 1 has positions at t = 1"), "{told}");
+        assert!(message.to_string().contains("row 1 has positions at t = 1"), "{message}");
         let lame = ParsedCsv::parse("series,peer,t,xA,yA\na,b,1,0,0\n").unwrap();
-        let told =
+        let message =
             ExternalResult::of_sheet(&lame, &observables, &truth, (&[1.0], 10.0)).unwrap_err();
-        assert!(told.to_string().contains("no column 'run_time_s'"), "{told}");
+        assert!(message.to_string().contains("no column 'run_time_s'"), "{message}");
     }
 }

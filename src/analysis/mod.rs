@@ -35,30 +35,29 @@ mod workers;
 #[cfg(test)]
 mod samples;
 
-pub use case::Case;
-pub use combination::{
-    Combination, ObservedScene, PART_OF_THE_SMALLEST_STEP, all_combinations, finest_mesh,
-    highest_order,
+pub(crate) use case::Case;
+pub(crate) use combination::{
+    ObservedScene, PART_OF_THE_SMALLEST_STEP, all_combinations, finest_mesh, highest_order,
 };
-pub use convergence::{ALL_POSITIONS, Convergence, RefinedParameter, Refinement};
-pub use cost::{CostCase, StepCost, step_costs};
-pub use csv_table::{ParsedCsv, ParsedCsvError};
-pub use error_estimate::{DirectionError, ErrorVerdict, Levels};
-pub use external_results::{ExternalResult, ExternalResultError, machines};
+pub(crate) use convergence::{ALL_POSITIONS, Convergence, RefinedParameter, Refinement};
+pub(crate) use cost::{CostCase, StepCost, step_costs};
+pub(crate) use csv_table::ParsedCsv;
+pub(crate) use error_estimate::{DirectionError, ErrorVerdict, Levels};
+pub(crate) use external_results::{ExternalResult, machines};
 pub use features::{FEATURES, Feature};
 pub use journal::{Journal, JournalError};
-pub use observable::{Observable, ObservableKind, SYMBOLS, is_of_the_motion};
-pub use outcome::CaseOutcome;
-pub use pareto::pareto_front;
-pub use precision::{Precision, PrecisionRow};
-pub use reference::{Deviation, Readings, ReferenceError, ReferenceSolution};
-pub use row_journal::{RowEntry, RowJournal, read_rows, remove_rows};
-pub use run_limits::{RunLimits, is_past_deadline};
-pub use run_result::RunResult;
-pub use stability::StabilityVerdict;
-pub use sweep::{
+pub(crate) use observable::{Observable, SYMBOLS, is_of_the_motion};
+pub(crate) use outcome::CaseOutcome;
+pub(crate) use pareto::pareto_front;
+pub(crate) use precision::{Precision, PrecisionRow};
+pub(crate) use reference::{Deviation, ReferenceSolution};
+pub(crate) use row_journal::{RowEntry, RowJournal, read_rows, remove_rows};
+pub(crate) use run_limits::{RunLimits, is_past_deadline};
+pub(crate) use run_result::RunResult;
+pub(crate) use stability::StabilityVerdict;
+pub(crate) use sweep::{
     Choice, RowLayout, Sweep, SweepColumn, SweepDesign, SweepResults, SweptParameter, SweptValues,
 };
-pub use timing::Timing;
-pub use trace::{Trace, TraceSource, TracedQuantity};
-pub use workers::on_all_cores;
+pub(crate) use timing::Timing;
+pub(crate) use trace::{Trace, TraceSource, TracedQuantity};
+pub(crate) use workers::on_all_cores;

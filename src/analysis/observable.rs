@@ -11,7 +11,6 @@ use crate::simulation::{History, Simulation};
 pub struct Observable {
     /// Name of the station or column; unique for its kind.
     pub name: String,
-    /// Quantity.
     pub kind: ObservableKind,
 }
 
@@ -23,12 +22,7 @@ pub enum ObservableKind {
     /// Angle of the section at a station [rad].
     Angle(Station),
     /// Column of the history, at the current row.
-    Column {
-        /// Name of the column.
-        column: String,
-        /// Factor applied to the value.
-        factor: f64,
-    },
+    Column { column: String, factor: f64 },
 }
 
 /// Symbols of history columns in tables of solutions.
@@ -58,7 +52,6 @@ impl Observable {
         kinds.map(move |kind| Self { name: name.clone(), kind })
     }
 
-    /// Observable of a history column, times a factor.
     pub fn of_column(name: &str, column: &str, factor: f64) -> Self {
         let kind = ObservableKind::Column { column: column.to_owned(), factor };
         Self { name: name.to_owned(), kind }
@@ -66,11 +59,10 @@ impl Observable {
 
     /// Observables of all columns of a history that describe the motion.
     pub fn of_history(history: &History) -> impl Iterator<Item = Self> {
-        let told = history.columns().filter(|(name, _)| is_of_the_motion(name));
-        told.map(|(name, _)| Self::of_column(name, name, 1.0))
+        let columns = history.columns().filter(|(name, _)| is_of_the_motion(name));
+        columns.map(|(name, _)| Self::of_column(name, name, 1.0))
     }
 
-    /// Returns true for the position of a station.
     pub fn is_position(&self) -> bool {
         matches!(self.kind, ObservableKind::Position(_))
     }

@@ -11,11 +11,9 @@ use crate::simulation::{SimulationSettings, StepSize};
 /// A combination of mesh, integrator and step size with its results.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PrecisionRow {
-    /// Name of the mesh.
     pub mesh: String,
     /// Integrator and step size.
     pub settings: SimulationSettings,
-    /// Results of the run.
     pub result: RunResult,
     /// Run time; `None` if the run failed.
     pub timing: Option<Timing>,
@@ -28,7 +26,6 @@ pub struct PrecisionRow {
 }
 
 impl PrecisionRow {
-    /// Row of a combination.
     pub fn new(
         (mesh, settings): (String, SimulationSettings),
         result: RunResult,
@@ -58,22 +55,17 @@ impl PrecisionRow {
     }
 }
 
-/// Results of a work-precision study.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Precision {
-    /// Name of the study.
     pub name: String,
     /// Times of the comparison [time]. The last time ends a run.
     pub times: Vec<f64>,
     /// Length scale of position errors [length].
     pub length: f64,
-    /// Observables.
     pub observables: Vec<Observable>,
-    /// Reference.
     pub reference: ReferenceSolution,
     /// All combinations, including failed ones.
     pub rows: Vec<PrecisionRow>,
-    /// Runs of other programs for comparison.
     pub external_results: Vec<ExternalResult>,
 }
 

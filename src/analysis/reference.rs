@@ -43,7 +43,6 @@ impl Deviation {
         }
     }
 
-    /// Deviation divided by a scale.
     pub fn divided_by(self, scale: f64) -> Self {
         Self {
             distance: self.distance / scale,
@@ -53,13 +52,10 @@ impl Deviation {
     }
 }
 
-/// Error of a reference.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum ReferenceError {
-    /// The table is invalid.
     #[error(transparent)]
     Sheet(#[from] ParsedCsvError),
-    /// The table is empty.
     #[error("it has no rows")]
     Empty,
     /// A time of the study for which the reference has no row.
@@ -67,7 +63,6 @@ pub enum ReferenceError {
     Time {
         /// Missing time [time].
         time: f64,
-        /// Neighbouring times.
         nearest: Vec<String>,
     },
     /// A time of the study for which the reference has two different rows.
@@ -75,21 +70,14 @@ pub enum ReferenceError {
     DuplicateTime {
         /// Duplicate time [time].
         time: f64,
-        /// Line of the first row.
         first: u64,
-        /// Line of the second row.
         second: u64,
     },
     /// A reference that contains no station of the study.
     #[error(
         "it has no station of the study: the station '{station}' needs the columns x{station} and y{station}, but its columns are {known}"
     )]
-    Stations {
-        /// A station of the study.
-        station: String,
-        /// Columns of the reference.
-        known: String,
-    },
+    Stations { station: String, known: String },
 }
 
 /// Relative error below which a reference of rounded numbers does not resolve it.
@@ -104,9 +92,7 @@ struct KnownValue {
 /// Reference of a study: values of its observables at its times.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ReferenceSolution {
-    /// Source, in one line.
     pub source: String,
-    /// True if the reference is a run of this program.
     pub is_own: bool,
     /// Values by time and observable; `None` if unknown.
     known: Vec<Vec<Option<KnownValue>>>,
@@ -227,7 +213,6 @@ impl ReferenceSolution {
         }
     }
 
-    /// Reference from a run.
     pub fn of_run(source: impl Into<String>, readings: &Readings) -> Self {
         let known = |value: &Vec2| {
             (value.x.is_finite() && value.y.is_finite())
@@ -311,34 +296,34 @@ mod tests {
     #[test]
     fn a_table_without_the_time_or_the_stations_is_refused() {
         let sheet = ParsedCsv::parse(TABLE).unwrap();
-        let told =
+        let outcome =
             ReferenceSolution::of_sheet("T.csv", &sheet, &observables(), &[0.3]).unwrap_err();
         assert_eq!(
-            told.to_string(),
+            outcome.to_string(),
             "it has no row at t = 0.3; the nearest rows are at t = 0 and 0.5"
         );
         let empty = ParsedCsv::parse("t,xA,yA\n").unwrap();
-        let told =
+        let outcome =
             ReferenceSolution::of_sheet("T.csv", &empty, &observables(), &[0.3]).unwrap_err();
-        assert_eq!(told.to_string(), "it has no rows");
+        assert_eq!(outcome.to_string(), "it has no rows");
         let other: Vec<_> = Observable::of_station("tip", Station::on_beam(0, 0.0)).collect();
-        let told =
+        let outcome =
             ReferenceSolution::of_sheet("T.csv", &sheet, &other, &[0.5]).unwrap_err().to_string();
-        assert!(told.contains("xtip and ytip") && told.contains("t, xA, yA"), "{told}");
+        assert!(outcome.contains("xtip and ytip") && outcome.contains("t, xA, yA"), "{outcome}");
     }
 
     #[test]
     fn a_table_that_says_two_things_of_one_time_or_a_negative_size_is_refused() {
-        let told = |rows: &str| {
+        let outcome = |rows: &str| {
             let sheet = ParsedCsv::parse(&format!("# two\nt,xA,yA,thA,KE,d_pos\n{rows}")).unwrap();
             ReferenceSolution::of_sheet("T.csv", &sheet, &observables(), &[0.5])
                 .map_err(|it| it.to_string())
         };
         let row = "0.5,3,4,0.2,2,0\n";
-        assert!(told(&row.repeat(2)).is_ok(), "said twice is said once");
-        let both = told(&format!("0,0,0,0,0,0\n{row}0.5,3,4.1,0.2,2,0\n")).unwrap_err();
+        assert!(outcome(&row.repeat(2)).is_ok(), "said twice is said once");
+        let both = outcome(&format!("0,0,0,0,0,0\n{row}0.5,3,4.1,0.2,2,0\n")).unwrap_err();
         assert_eq!(both, "lines 4 and 5 are both for t = 0.5, but have different values");
-        let negative = told("0.5,3,4,0.2,2,-0.1\n").unwrap_err();
+        let negative = outcome("0.5,3,4,0.2,2,-0.1\n").unwrap_err();
         assert_eq!(
             negative,
             "line 3, column 'd_pos', holds '-0.1', but an error must not be negative"

@@ -15,23 +15,19 @@ const LONGEST: u32 = 1 << 20;
 /// system has not written.
 const DELAY: Duration = Duration::from_millis(100);
 
-/// An entry of the journal of a sweep.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub enum RowEntry {
     /// First entry: identification of the sweep.
     Sweep {
         /// Hash of all data on which the rows depend.
         fingerprint: u64,
-        /// Number of rows of the whole sweep.
         rows: u64,
         /// Part of the sweep, from 1, and number of parts; (1, 1) for the whole sweep.
         part: (u32, u32),
     },
     /// Names of the results. The entry precedes that of the first completed row.
     Names(Vec<String>),
-    /// Results of a row.
     Computed(u64, Vec<f64>),
-    /// Reason of a failed row.
     Failed(u64, String),
 }
 

@@ -3,7 +3,6 @@
 use std::cell::Cell;
 use std::time::{Duration, Instant};
 
-/// Limits of a case.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RunLimits {
     /// Maximum number of steps, including failed ones.
@@ -19,7 +18,6 @@ impl Default for RunLimits {
 }
 
 thread_local! {
-    /// Deadline of the case that runs on this thread.
     static DEADLINE: Cell<Option<Instant>> = const { Cell::new(None) };
 }
 

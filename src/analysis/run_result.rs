@@ -9,22 +9,17 @@ use super::reference::Readings;
 use super::{Case, CaseOutcome, RunLimits};
 use crate::simulation::{History, Invariant, Simulation};
 
-/// Results of a run of a study.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct RunResult {
-    /// Outcome.
     pub outcome: CaseOutcome,
     /// Observables at the stops that were reached.
     pub readings: Readings,
-    /// Number of unknowns of a step.
     pub unknowns: usize,
-    /// Number of successful steps.
     pub steps: usize,
     /// Number of Newton iterations of the successful steps.
     pub newton_iterations: usize,
     /// Number of factorisations, including retried steps.
     pub factorisations: usize,
-    /// Number of retried steps.
     pub retries: usize,
     /// Drifts of the whole run, with the work and impulses of loads subtracted, in the order of [`Invariant::ALL`].
     pub drifts: [f64; 4],
@@ -60,7 +55,6 @@ impl RunResult {
         }
     }
 
-    /// Results of a run that did not start.
     pub fn not_started(outcome: CaseOutcome) -> Self {
         Self {
             outcome,

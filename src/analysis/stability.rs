@@ -8,21 +8,17 @@ use super::{Case, CaseOutcome, RunLimits};
 use crate::simulation::Simulation;
 use crate::system::Scene;
 
-/// Verdict on a run.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct StabilityVerdict {
-    /// Outcome.
     pub outcome: CaseOutcome,
     /// Largest increase of `E - W` above an earlier value after the last schedule break, relative to the largest energy; NaN if the run did not start
     /// or an energy is NaN.
     pub energy_growth: f64,
-    /// Number of successful steps.
     pub steps: usize,
     /// Average number of Newton iterations per step.
     pub mean_iterations: f64,
     /// Maximum number of Newton iterations of a step.
     pub most_iterations: usize,
-    /// Number of retried steps.
     pub retries: usize,
 }
 
@@ -50,7 +46,6 @@ impl StabilityVerdict {
         }
     }
 
-    /// Verdict on a run that did not start.
     pub fn not_started(outcome: CaseOutcome) -> Self {
         Self {
             outcome,

@@ -4,28 +4,20 @@ use std::collections::{BTreeMap, HashMap};
 
 use crate::sampling::{VarianceShare, grid_indices, rank_indices, saltelli_indices};
 
-/// A swept parameter.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SweptParameter {
-    /// Name.
     pub name: String,
-    /// Values.
     pub values: SweptValues,
 }
 
-/// Values of a swept parameter.
 #[derive(Clone, Debug, PartialEq)]
 pub enum SweptValues {
     /// A few levels, which need not be numbers.
     Levels {
-        /// Labels of the levels.
         labels: Vec<String>,
-        /// Numbers of the levels, if all are numbers.
         numbers: Option<Vec<f64>>,
-        /// Level of each row.
         choice: Choice,
     },
-    /// A number per row.
     Numbers(Vec<f64>),
 }
 
@@ -76,7 +68,6 @@ impl SweptValues {
 /// Arrangement of the rows in the parameter space.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum RowLayout {
-    /// Full grid.
     Grid,
     /// Independent or low-discrepancy points.
     Points,
@@ -84,21 +75,17 @@ pub enum RowLayout {
     Saltelli,
 }
 
-/// Parameters and rows of a sweep.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SweepDesign {
     /// Parameters, in the order of their names.
     pub parameters: Vec<SweptParameter>,
-    /// Number of runs.
     pub rows: usize,
-    /// Arrangement.
     pub arrangement: RowLayout,
 }
 
 /// Results of a sweep: a column of numbers per result, and the reasons of failed rows.
 #[derive(Clone, Debug, Default)]
 pub struct SweepResults {
-    /// Names of the results.
     pub names: Vec<String>,
     /// Columns by name; NaN in failed rows.
     columns: Vec<Vec<f64>>,
@@ -112,23 +99,16 @@ struct FailureReasons {
     of_rows: BTreeMap<u32, u32>,
 }
 
-/// A finished sweep.
 #[derive(Clone, Debug)]
 pub struct Sweep {
-    /// Name of the sweep and its files.
     pub name: String,
-    /// Design.
     pub design: SweepDesign,
-    /// Results.
     pub results: SweepResults,
 }
 
-/// A column of a sweep.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum SweepColumn<'s> {
-    /// Values of a parameter.
     Parameter(&'s SweptValues),
-    /// Results.
     Result(&'s [f64]),
 }
 
@@ -156,7 +136,6 @@ impl SweepResults {
         }
     }
 
-    /// Sets the reason of a failed row.
     pub fn fail(&mut self, row: usize, reason: &str) {
         let FailureReasons { texts, known, of_rows } = &mut self.reasons;
         let number = *known.entry(reason.to_owned()).or_insert_with(|| {
@@ -166,7 +145,6 @@ impl SweepResults {
         of_rows.insert(row as u32, number);
     }
 
-    /// Reason of a failed row.
     pub fn failure(&self, row: usize) -> Option<&str> {
         let number = self.reasons.of_rows.get(&(row as u32))?;
         Some(&self.reasons.texts[*number as usize])
@@ -178,7 +156,6 @@ impl SweepResults {
         of_rows.iter().map(|(row, number)| (*row as usize, texts[*number as usize].as_str()))
     }
 
-    /// Column of a result.
     pub fn column(&self, name: &str) -> Option<&[f64]> {
         let at = self.names.iter().position(|known| known == name)?;
         self.columns.get(at).map(Vec::as_slice)
@@ -191,7 +168,6 @@ impl SweepResults {
 }
 
 impl Sweep {
-    /// Column of a parameter or result.
     pub fn column(&self, name: &str) -> Option<SweepColumn<'_>> {
         let of = self.design.parameters.iter().find(|of| of.name == name);
         let own = of.map(|of| SweepColumn::Parameter(&of.values));

@@ -6,7 +6,6 @@ use serde::{Deserialize, Serialize};
 
 use super::{Case, RunLimits};
 
-/// Times of a case.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Timing {
     /// Median time to build the scene and its model.
@@ -17,7 +16,6 @@ pub struct Timing {
     pub shortest: Duration,
     /// Median processor time of the run; `None` if not available. On a busy machine it excludes the time of other processes.
     pub processor: Option<Duration>,
-    /// Number of repetitions.
     pub repeats: usize,
 }
 
@@ -27,8 +25,8 @@ pub const LONGEST_REPETITION: Duration = Duration::from_secs(10);
 /// Processor time of this thread on Linux. After a pause it is exact; otherwise the system updates it only at ticks of the scheduler.
 fn processor_time() -> Option<Duration> {
     std::thread::sleep(Duration::from_nanos(1));
-    let told = std::fs::read_to_string("/proc/thread-self/schedstat").ok()?;
-    told.split_whitespace().next()?.parse().ok().map(Duration::from_nanos)
+    let statistics = std::fs::read_to_string("/proc/thread-self/schedstat").ok()?;
+    statistics.split_whitespace().next()?.parse().ok().map(Duration::from_nanos)
 }
 
 impl Timing {

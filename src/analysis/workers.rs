@@ -102,22 +102,22 @@ mod tests {
         let mut cases: Vec<Case> =
             (1..=9).rev().map(|tens| spinning(0.1, &[f64::from(tens)])).collect();
         cases.insert(4, pushed_by_a_function(0.1, &[0.5]));
-        let mut heard = Vec::new();
+        let mut received = Vec::new();
         let results = on_all_cores(
             &cases,
             &stop,
             |case| steps(case, &stop),
             |news| {
-                heard.extend(news.map(|(number, _)| number));
+                received.extend(news.map(|(number, _)| number));
                 ControlFlow::Continue(())
             },
         );
         let steps: Vec<usize> =
             results.into_iter().map(|result| result.unwrap().unwrap().1).collect();
         assert_eq!(steps, [90, 80, 70, 60, 5, 50, 40, 30, 20, 10]);
-        assert_eq!(heard.last(), Some(&4));
-        heard.sort_unstable();
-        assert!(heard.into_iter().eq(0..10));
+        assert_eq!(received.last(), Some(&4));
+        received.sort_unstable();
+        assert!(received.into_iter().eq(0..10));
     }
 
     #[test]

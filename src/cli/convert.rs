@@ -22,7 +22,7 @@ pub fn convert(options: &ConvertOptions) -> Exit {
         interrupt: interrupt::flag(InterruptLoss::Run),
         limits: options.limits.limits(),
         printed: Box::new(stdout()),
-        told: Box::new(stderr()),
+        diagnostics: Box::new(stderr()),
         progress: progress_display::progress(wish),
         last_resort: Some(last_resort()),
         ..RunSettings::silent(RunMode::Run)

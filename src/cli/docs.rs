@@ -56,16 +56,16 @@ fn write_definitions(catalog: &Catalog, folder: &Path) -> Result<String, Diagnos
             .with_hint("--definitions takes a folder, which is created if necessary")
     };
     std::fs::create_dir_all(folder).map_err(|error| refused(folder, &error))?;
-    let mut told = String::new();
+    let mut listing = String::new();
     for file in definitions(catalog) {
         let path = folder.join(&file.name);
         if path.symlink_metadata().is_ok() && !is_definition(&path) {
             return Err(refused(&path, &"a file of this name exists and is not a definition file"));
         }
         write_atomic(&path, file.text.as_bytes()).map_err(|error| refused(&path, &error))?;
-        told += &format!("wrote {}\n", path.display());
+        listing += &format!("wrote {}\n", path.display());
     }
-    Ok(told)
+    Ok(listing)
 }
 
 /// Returns true if a file may be replaced, that is, if it contains the marker line of definition files.

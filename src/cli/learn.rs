@@ -128,7 +128,7 @@ fn check(
         interrupt: Arc::clone(flag),
         limits: limits.limits(),
         printed: Box::new(stdout()),
-        told: Box::new(stderr()),
+        diagnostics: Box::new(stderr()),
         progress: progress_display::progress(ProgressPreference::Show),
         last_resort: Some(last_resort()),
         ..RunSettings::silent(RunMode::Run)

@@ -55,8 +55,8 @@ impl ProgressDisplay {
             return;
         }
         let bar = shown.get_or_insert_with(|| self.create_bar());
-        let share = (reached - self.from.get()) / (self.to.get() - self.from.get());
-        bar.set_position((share.clamp(0.0, 1.0) * PARTS as f64) as u64);
+        let fraction = (reached - self.from.get()) / (self.to.get() - self.from.get());
+        bar.set_position((fraction.clamp(0.0, 1.0) * PARTS as f64) as u64);
         bar.set_message(message());
     }
 }

@@ -37,7 +37,7 @@ pub fn run(options: &RunOptions) -> Exit {
         interrupt: interrupt::flag(InterruptLoss::Run),
         limits: options.limits.limits(),
         printed: Box::new(stdout()),
-        told: Box::new(stderr()),
+        diagnostics: Box::new(stderr()),
         progress: progress_display::progress(wish),
         errors: error_estimation(options),
         last_resort: Some(last_resort()),
@@ -80,7 +80,7 @@ pub fn study(options: &StudyOptions) -> Exit {
         interrupt: interrupt::flag(InterruptLoss::Run),
         limits: options.limits.limits(),
         printed: if options.part.is_some() { Box::new(sink()) } else { Box::new(stdout()) },
-        told: Box::new(stderr()),
+        diagnostics: Box::new(stderr()),
         progress: progress_display::progress(wish),
         studies,
         last_resort: Some(last_resort()),
@@ -103,7 +103,7 @@ pub fn check(options: &CheckOptions) -> Exit {
         interrupt: interrupt::flag(InterruptLoss::Run),
         limits: options.limits.limits(),
         last_resort: Some(last_resort()),
-        ..RunSettings::silent(RunMode::DryBuild)
+        ..RunSettings::silent(RunMode::DryRun)
     };
     match start(&options.file, settings) {
         Ok(outcome) => {
@@ -226,8 +226,8 @@ pub(super) fn last_resort() -> HardAbort {
 
 fn end_at(stop: Stop) {
     typed_ahead::restore();
-    let (told, hint) = stop.message_and_hint();
-    report_error(&Diagnostic { hint, ..Diagnostic::general(told) });
+    let (message, hint) = stop.message_and_hint();
+    report_error(&Diagnostic { hint, ..Diagnostic::general(message) });
     print_error(
         "note: a long operation could not be interrupted: files written before it are complete, all other results are lost\n",
     );
@@ -244,8 +244,8 @@ fn check_report_path(file: &Path) -> Result<(), Diagnostic> {
     match content.is_some_and(|content| content.get("simulations").is_some()) {
         true => Ok(()),
         false => {
-            let told = format!("'{}' exists and is not a report", file.display());
-            Err(Diagnostic::general(told)
+            let message = format!("'{}' exists and is not a report", file.display());
+            Err(Diagnostic::general(message)
                 .with_hint("--report takes the name of a new file, or of an earlier report"))
         }
     }

@@ -117,7 +117,7 @@ fn settings(options: &SessionOptions, is_conversation: bool) -> RunSettings {
         limits: options.limits.limits(),
         snapshots: (u64::from(options.snapshots) * MEGABYTE) as usize,
         printed: Box::new(stdout()),
-        told: Box::new(stderr()),
+        diagnostics: Box::new(stderr()),
         progress: progress_display::progress(if is_conversation {
             ProgressPreference::Show
         } else {

@@ -84,7 +84,7 @@ fn perform(run: ViewRun, options: &ViewOptions) -> Exit {
         interrupt: interrupt::flag(InterruptLoss::Run),
         limits: options.limits.limits(),
         printed: Box::new(stdout()),
-        told: Box::new(std::io::stderr()),
+        diagnostics: Box::new(std::io::stderr()),
         progress: progress_display::progress(wish),
         last_resort: Some(last_resort()),
         ..RunSettings::silent(RunMode::Run)

@@ -16,8 +16,8 @@ pub const LARGEST: u64 = 1 << 20;
 /// Fails if the file is a link, not regular, not UTF-8, or larger than a megabyte.
 pub fn load(path: &Path, folder: &Path) -> Result<Program, Diagnostic> {
     let refused = |why: &str| {
-        let told = format!("cannot read the attempt '{}': {why}", path.display());
-        Diagnostic::general(told).with_hint("an attempt must be a regular text file")
+        let message = format!("cannot read the attempt '{}': {why}", path.display());
+        Diagnostic::general(message).with_hint("an attempt must be a regular text file")
     };
     let below = path.strip_prefix(folder).unwrap_or(path);
     let content = Folder::open(folder).and_then(|folder| folder.read(below, LARGEST));

@@ -25,23 +25,22 @@ struct CapturedText {
 }
 
 impl CaptureWriter {
-    /// Output captured so far.
     pub fn captured(&self) -> CapturedOutput {
-        let heard = self.0.lock().unwrap_or_else(PoisonError::into_inner);
-        let text = String::from_utf8_lossy(&heard.text);
+        let captured = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        let text = String::from_utf8_lossy(&captured.text);
         CapturedOutput {
             lines: text.lines().map(str::to_owned).collect(),
-            further_lines: heard.further_lines,
+            further_lines: captured.further_lines,
         }
     }
 }
 
 impl Write for CaptureWriter {
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
-        let mut heard = self.0.lock().unwrap_or_else(PoisonError::into_inner);
-        let (kept, rest) = bytes.split_at(bytes.len().min(MOST - heard.text.len()));
-        heard.text.extend(kept);
-        heard.further_lines += rest.iter().filter(|byte| **byte == b'\n').count();
+        let mut captured = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        let (kept, rest) = bytes.split_at(bytes.len().min(MOST - captured.text.len()));
+        captured.text.extend(kept);
+        captured.further_lines += rest.iter().filter(|byte| **byte == b'\n').count();
         Ok(bytes.len())
     }
 
@@ -56,13 +55,13 @@ mod tests {
 
     #[test]
     fn the_beginning_is_kept_and_the_rest_counted() {
-        let ear = CaptureWriter::default();
-        let mut writer = ear.clone();
+        let writer = CaptureWriter::default();
+        let mut writer = writer.clone();
         for _ in 0..MOST {
             writer.write_all(b"1\n").unwrap();
         }
-        let heard = ear.captured();
-        assert_eq!((heard.lines.len(), heard.further_lines), (MOST / 2, MOST / 2));
-        assert!(heard.lines.iter().all(|line| line == "1"));
+        let captured = writer.captured();
+        assert_eq!((captured.lines.len(), captured.further_lines), (MOST / 2, MOST / 2));
+        assert!(captured.lines.iter().all(|line| line == "1"));
     }
 }

@@ -104,8 +104,8 @@ mod tests {
 
     #[test]
     fn a_slip_is_recognised() {
-        let told = find("knik").unwrap_err().to_string();
-        assert!(told.contains("did you mean 'kink'?"), "{told}");
+        let message = find("knik").unwrap_err().to_string();
+        assert!(message.contains("did you mean 'kink'?"), "{message}");
         assert!(find("beams/kink").is_err());
     }
 

@@ -22,7 +22,7 @@ pub fn grade<M: Send>(
     let jobs = || submissions.iter().flat_map(|of| EXERCISES.iter().map(move |it| (of, it)));
     let jobs: Vec<_> = jobs().collect();
     let next = AtomicUsize::new(0);
-    let mut told = 0;
+    let mut reported = 0;
     thread::scope(|scope| {
         let (send, marks) = channel();
         for _ in 0..workers.clamp(1, jobs.len().max(1)) {
@@ -44,14 +44,14 @@ pub fn grade<M: Send>(
             let (submission, exercise) = jobs[number];
             note(submission, exercise, &mark);
             waiting.insert(number, mark);
-            while let Some(mark) = waiting.remove(&told) {
-                let (submission, exercise) = jobs[told];
+            while let Some(mark) = waiting.remove(&reported) {
+                let (submission, exercise) = jobs[reported];
                 tell(submission, exercise, mark);
-                told += 1;
+                reported += 1;
             }
         }
     });
-    told == jobs.len()
+    reported == jobs.len()
 }
 
 #[cfg(test)]
@@ -68,7 +68,7 @@ mod tests {
     #[test]
     fn marks_come_in_order_however_long_each_takes() {
         let class = class(3);
-        let mut told = Vec::new();
+        let mut reported = Vec::new();
         let judge = |submission: &Submission, exercise: &Exercise| {
             let length = submission.student.len() + exercise.name.len();
             thread::sleep(Duration::from_millis(length as u64 * 7 % 5));
@@ -82,15 +82,15 @@ mod tests {
         };
         let whole = grade(&class, 4, &stop, judge, note, |submission, exercise, mark| {
             assert_eq!(mark, exercise.id());
-            told.push((submission.student.clone(), mark));
+            reported.push((submission.student.clone(), mark));
         });
         noted.sort();
-        let mut sorted = told.clone();
+        let mut sorted = reported.clone();
         sorted.sort();
         assert_eq!(noted, sorted);
         let asked =
             class.iter().flat_map(|of| EXERCISES.iter().map(|it| (of.student.clone(), it.id())));
-        assert!(whole && told == asked.collect::<Vec<_>>());
+        assert!(whole && reported == asked.collect::<Vec<_>>());
     }
 
     #[test]
@@ -110,13 +110,13 @@ mod tests {
     #[test]
     fn what_was_marked_before_it_was_stopped_is_told() {
         let stop = AtomicBool::new(false);
-        let (calls, mut told) = (AtomicUsize::new(0), 0);
+        let (calls, mut reported) = (AtomicUsize::new(0), 0);
         let judge = |_: &Submission, _: &Exercise| {
             let number = calls.fetch_add(1, Ordering::Relaxed) + 1;
             stop.store(number == 5, Ordering::Relaxed);
             Some(())
         };
-        let whole = grade(&class(50), 1, &stop, judge, |_, _, _| (), |_, _, ()| told += 1);
-        assert!(!whole && told == 5);
+        let whole = grade(&class(50), 1, &stop, judge, |_, _, _| (), |_, _, ()| reported += 1);
+        assert!(!whole && reported == 5);
     }
 }

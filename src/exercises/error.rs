@@ -13,24 +13,12 @@ pub enum ExerciseError {
         /// Name of an exercise that is similar to the given one.
         nearest: Option<String>,
     },
-    /// A file of the exercises could not be written.
     #[error(transparent)]
     Write(#[from] OutputError),
-    /// A file of the exercises could not be read.
     #[error("cannot read '{}': {source}; check that you may read it", path.display())]
-    Read {
-        path: PathBuf,
-        /// Error of the operating system.
-        source: io::Error,
-    },
-    /// The file of marks could not be written.
+    Read { path: PathBuf, source: io::Error },
     #[error("cannot write the marks to '{}': {source}; give --marks the name of a writable file", path.display())]
-    Marks {
-        path: PathBuf,
-        /// Error of the operating system.
-        source: io::Error,
-    },
-    /// The terminal cannot be drawn on.
+    Marks { path: PathBuf, source: io::Error },
     #[error(
         "cannot use this terminal: {0}; 'withy learn watch | cat' prints the same as plain lines"
     )]
@@ -40,19 +28,10 @@ pub enum ExerciseError {
         "cannot create a folder for the output of attempts: {0}; set TMPDIR to a writable folder"
     )]
     Scratch(io::Error),
-    /// The file of an attempt could not be renamed.
     #[error("cannot copy '{}' to '{}': {source}; nothing was changed", from.display(), to.display())]
-    Keep {
-        /// Name before the renaming.
-        from: PathBuf,
-        to: PathBuf,
-        /// Error of the operating system.
-        source: io::Error,
-    },
-    /// The progress file is invalid.
+    Keep { from: PathBuf, to: PathBuf, source: io::Error },
     #[error("'{}' is damaged ({why}); move it away to restart the record of progress; your attempts are kept", path.display())]
     Progress { path: PathBuf, why: serde_json::Error },
-    /// A folder without submissions.
     #[error("'{}' has no submissions; it must contain a folder for each student, with folders such as '{track}'", path.display())]
     NoSubmissions {
         path: PathBuf,

@@ -11,17 +11,14 @@ use super::submissions::Submission;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Mark {
-    /// All checks of the judge passed.
     Passed,
     /// The attempt runs, but checks of the judge failed.
     WrongResult,
     /// The attempt fails or is not a text file.
     Error,
-    /// A limit was exceeded.
     Stopped,
     /// The start file is unchanged.
     Unchanged,
-    /// There is no file.
     Missing,
 }
 
@@ -54,7 +51,6 @@ impl Mark {
 pub struct Graded {
     pub exercise: &'static Exercise,
     pub mark: Mark,
-    /// Message; may be empty.
     pub message: String,
 }
 
@@ -93,10 +89,10 @@ pub enum GradingTask {
 impl GradingTask {
     pub fn of(submission: &Submission, exercise: &Exercise) -> Self {
         if submission.is_link() {
-            let told = format!("the folder '{}' is a link", submission.folder.display());
+            let message = format!("the folder '{}' is a link", submission.folder.display());
             return Self::Known(
                 Mark::Error,
-                format!("{told}; an attempt must be in a real folder"),
+                format!("{message}; an attempt must be in a real folder"),
             );
         }
         let Some(path) = submission.attempt(exercise) else {

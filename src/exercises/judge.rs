@@ -16,7 +16,6 @@ pub struct Judge {
     pub hints: Vec<String>,
 }
 
-/// A variable that an attempt must define.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Need {
     pub name: String,
@@ -25,7 +24,6 @@ pub struct Need {
 }
 
 impl Judge {
-    /// Parses the header of a judge's script.
     pub fn of(script: &str) -> Self {
         let head = script.lines().map_while(|line| line.strip_prefix("//!")).map(str::trim);
         let mut entries: Vec<String> = Vec::new();

@@ -62,7 +62,7 @@ impl JudgingContext {
         let silence = SilenceSwitch::default();
         let settings = RunSettings {
             printed: silence.wrap(settings.printed),
-            told: silence.wrap(settings.told),
+            diagnostics: silence.wrap(settings.diagnostics),
             ..settings
         };
         let host = ScriptEngine::open(language(), settings).map_err(AttemptVerdict::Error)?;
@@ -188,9 +188,9 @@ fn callable(name: &str, value: Dynamic, functions: &AST) -> Dynamic {
     let call = move |native: NativeCallContext, arguments: &mut [&mut Dynamic]| {
         if let Some(has) = parameters.filter(|count| *count != arguments.len()) {
             let needed = arguments.len();
-            let told =
+            let message =
                 format!("the number of parameters of '{variable}' must be {needed}, but is {has}");
-            return Err(told.into());
+            return Err(message.into());
         }
         let mut surroundings = native.global_runtime_state().clone();
         surroundings.lib = [functions.shared_lib().clone()].into_iter().collect();

@@ -75,7 +75,6 @@ fn read_line(line: &str) -> Option<(StudentExercise, KnownMark)> {
 }
 
 impl KnownMarks {
-    /// Known mark of an attempt with this fingerprint.
     pub fn find(
         &self,
         submission: &Submission,

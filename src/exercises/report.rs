@@ -11,7 +11,6 @@ const LONGEST: usize = 4000;
 /// Maximum lengths of an excerpt of a source line, and of its part before the error [characters].
 const EXCERPT: (usize, usize) = (400, 150);
 
-/// Result and output of an attempt.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct AttemptReport {
     pub outcome: AttemptOutcome,
@@ -20,12 +19,10 @@ pub struct AttemptReport {
 
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum AttemptOutcome {
-    /// All checks of the judge passed.
     Passed,
     /// The attempt runs, but checks failed, with these messages of the judge.
     WrongResult(Vec<String>),
     Error(AttemptError),
-    /// A limit was exceeded.
     Stopped(AttemptError),
     Interrupted,
 }
@@ -34,7 +31,6 @@ pub enum AttemptOutcome {
 pub struct AttemptError {
     pub message: String,
     pub help: Option<String>,
-    /// Location in a script, if known.
     pub place: Option<ScriptPosition>,
     pub calls: Vec<String>,
 }

@@ -12,7 +12,6 @@ impl SilenceSwitch {
         self.0.store(true, Ordering::Relaxed);
     }
 
-    /// Wraps a writer, so that it can be silenced.
     pub fn wrap(&self, writer: Box<dyn Write + Send>) -> Box<dyn Write + Send> {
         Box::new(SilencedWriter { silence: self.clone(), writer })
     }
@@ -57,11 +56,11 @@ mod tests {
 
     #[test]
     fn nothing_gets_through_once_there_is_silence() {
-        let (heard, silence) = (SilenceState::default(), SilenceSwitch::default());
-        let mut writer = silence.wrap(Box::new(heard.clone()));
+        let (written, silence) = (SilenceState::default(), SilenceSwitch::default());
+        let mut writer = silence.wrap(Box::new(written.clone()));
         writer.write_all(b"before").unwrap();
         silence.begin();
         writer.write_all(b"after").unwrap();
-        assert_eq!(*heard.0.lock().unwrap(), b"before");
+        assert_eq!(*written.0.lock().unwrap(), b"before");
     }
 }

@@ -114,8 +114,8 @@ mod tests {
     #[test]
     fn an_empty_folder_and_none_are_refused() {
         let empty = tempfile::tempdir().unwrap();
-        let told = Submission::all_in(empty.path()).unwrap_err().to_string();
-        assert!(told.contains("a folder for each student"), "{told}");
+        let message = Submission::all_in(empty.path()).unwrap_err().to_string();
+        assert!(message.contains("a folder for each student"), "{message}");
         assert!(Submission::all_in(&empty.path().join("none")).is_err());
     }
 }

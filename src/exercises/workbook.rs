@@ -25,7 +25,6 @@ pub enum Advice {
     Hint {
         text: String,
         number: usize,
-        /// Number of hints of the exercise.
         count: usize,
     },
     /// The solution, after all hints were given.
@@ -223,8 +222,11 @@ mod tests {
         let (_folder, workbook) = workbook();
         let file = workbook.folder().join(progress::FILE);
         fs::write(&file, "{ half").unwrap();
-        let told = workbook.record(&EXERCISES[0], true).unwrap_err().to_string();
-        assert!(told.contains("is damaged") && told.contains("your attempts are kept"), "{told}");
+        let message = workbook.record(&EXERCISES[0], true).unwrap_err().to_string();
+        assert!(
+            message.contains("is damaged") && message.contains("your attempts are kept"),
+            "{message}"
+        );
         assert_eq!(fs::read_to_string(&file).unwrap(), "{ half");
     }
 }

@@ -27,7 +27,6 @@ pub type SlopesOfRating = Result<SlopedRating, String>;
 /// Evaluates a design; `None` if the run fails.
 pub type Rate<'r, E> = dyn FnMut(&[f64]) -> Result<Option<Rating>, E> + 'r;
 
-/// Evaluates a design with derivatives.
 pub type RateWithSlopes<'r, E> = dyn FnMut(&[f64]) -> Result<SlopesOfRating, E> + 'r;
 
 struct Descent<'d, 'f, E> {

@@ -15,7 +15,6 @@ const FARTHEST: f64 = 1e15;
 /// Penalty of a failed run, added to the worst objective.
 pub(super) const PENALTY: f64 = 10.0;
 
-/// A minimisation problem.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Design {
     pub ranges: Vec<SearchRange>,
@@ -25,7 +24,6 @@ pub struct Design {
     pub most_runs: usize,
 }
 
-/// Result of a run.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Rating {
     pub objective: f64,
@@ -33,13 +31,10 @@ pub struct Rating {
     pub constraints: Vec<f64>,
 }
 
-/// Best design found.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Designed {
     pub parameters: Vec<f64>,
-    /// Objective and constraints.
     pub rating: Rating,
-    /// True if all constraints are met.
     pub is_feasible: bool,
     /// True if the search converged within the allowed number of runs and no parameter diverged.
     pub is_settled: bool,

@@ -7,7 +7,7 @@ use super::student_quantile;
 /// Uncertainty of fitted parameters, from the scatter of the residuals.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Estimate {
-    /// Standard deviation of a weighted residual: root of the sum of squares over the degrees of freedom.
+    /// Standard deviation of a weighted residual: square root of the sum of squares divided by the degrees of freedom.
     pub deviation: f64,
     /// Degrees of freedom: residuals minus parameters.
     pub freedom: usize,

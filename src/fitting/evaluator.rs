@@ -18,7 +18,6 @@ pub struct CountedEvaluator<'a, 'e, E> {
 }
 
 pub struct EvaluatedPoint {
-    /// Values, or the reason of failure.
     pub values: Evaluation,
     pub derivatives: Option<DMatrix<f64>>,
 }
@@ -65,8 +64,8 @@ impl<'a, 'e, E> CountedEvaluator<'a, 'e, E> {
 
     fn are_true(&mut self, x: &[f64], here: &[f64], slopes: &DMatrix<f64>) -> Result<bool, E> {
         let [low, high] = test_points(self.ranges, x);
-        let way = DVector::from_fn(x.len(), |at, _| high[at] - low[at]);
-        let change = slopes * way;
+        let step = DVector::from_fn(x.len(), |at, _| high[at] - low[at]);
+        let change = slopes * step;
         self.runs += 2;
         let found = (self.evaluate)(&[low, high])?;
         let [Ok(low), Ok(high)] = &found[..] else { return Ok(true) };

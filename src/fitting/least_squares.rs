@@ -29,7 +29,6 @@ pub struct LeastSquares {
     pub relative_step: f64,
 }
 
-/// Reason for the end of a search.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum TerminationReason {
     Settled,
@@ -39,7 +38,6 @@ pub enum TerminationReason {
     Unfinished,
 }
 
-/// Result of a fit.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Fitted {
     pub parameters: Vec<f64>,
@@ -170,7 +168,6 @@ enum Round {
 }
 
 impl LeastSquares {
-    /// A problem with these parameters.
     pub fn new(ranges: Vec<SearchRange>) -> Self {
         Self { ranges, relative_step: RELATIVE_STEP }
     }
@@ -295,8 +292,8 @@ impl LeastSquares {
                 }
                 return Ok(Round::Converged);
             }
-            let share = gained / promised;
-            let Some(found) = found.filter(|_| share > 1e-4) else {
+            let gain_ratio = gained / promised;
+            let Some(found) = found.filter(|_| gain_ratio > 1e-4) else {
                 if !is_fresh {
                     return Ok(Round::NeedsDerivatives(None));
                 }
@@ -309,7 +306,7 @@ impl LeastSquares {
             let change = &found - &state.residuals;
             state.update_derivatives(&step, &change);
             (state.x, state.residuals) = (x, found);
-            state.damping = match share {
+            state.damping = match gain_ratio {
                 good if good > 0.75 => (state.damping / 10.0).max(DAMPING.1),
                 bad if bad < 0.25 => state.damping * 4.0,
                 _ => state.damping,

@@ -4,9 +4,7 @@
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SearchRange {
     pub start: f64,
-    /// Lower bound.
     pub low: f64,
-    /// Upper bound.
     pub high: f64,
 }
 

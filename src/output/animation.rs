@@ -17,9 +17,7 @@ type Pixels = Vec<u8>;
 
 /// Sequence of pictures of equal size, drawn on demand.
 pub struct Animation<'a> {
-    /// Number of frames.
     pub frames: usize,
-    /// Frames per second.
     pub frames_per_second: u16,
     /// Draws the frame with an index. It is called twice per frame; the first pass collects the colours.
     pub draw: &'a dyn Fn(usize) -> Result<Figure, OutputError>,
@@ -214,10 +212,11 @@ mod tests {
         let many = |frame: usize| {
             let mut canvas = Canvas::default();
             for column in 0..100u8 {
-                let colour = crate::output::Colour(column * 2, 255 - column, (frame * 80) as u8);
+                let colour =
+                    crate::output::colour::Colour(column * 2, 255 - column, (frame * 80) as u8);
                 let (left, top) = (f64::from(column), 20.0);
                 let bottom = if column == 7 { 90.0 } else { 60.0 };
-                let area = crate::output::Area { left, top, right: left + 1.0, bottom };
+                let area = crate::output::canvas::Area { left, top, right: left + 1.0, bottom };
                 canvas.fill(area, colour);
             }
             Figure::new(canvas, (120.0, 100.0))
@@ -238,7 +237,7 @@ mod tests {
     #[test]
     fn too_many_pixels_are_refused_and_told() {
         let animation = Animation { frames: 1_000_000, frames_per_second: 10, draw: &disc };
-        let told = animation.to_png().unwrap_err().to_string();
-        assert!(told.contains("1000000 frames of 120 by 100"), "{told}");
+        let message = animation.to_png().unwrap_err().to_string();
+        assert!(message.contains("1000000 frames of 120 by 100"), "{message}");
     }
 }

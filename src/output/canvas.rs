@@ -14,11 +14,9 @@ const FAR: f64 = 20_000.0;
 /// A box with sides along the axes; `top` is less than `bottom`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Area {
-    /// The least x of the box, its left side.
     pub left: f64,
     /// The least y of the box, its upper side.
     pub top: f64,
-    /// The greatest x of the box, its right side.
     pub right: f64,
     /// The greatest y of the box, its lower side.
     pub bottom: f64,
@@ -40,12 +38,10 @@ impl Area {
         Self { left: x - reach, top: y - reach, right: x + reach, bottom: y + reach }
     }
 
-    /// The length of the box in x.
     pub fn width(&self) -> f64 {
         self.right - self.left
     }
 
-    /// The length of the box in y.
     pub fn height(&self) -> f64 {
         self.bottom - self.top
     }
@@ -62,7 +58,6 @@ pub enum Align {
     End,
 }
 
-/// The direction in which a text is written.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum TextDirection {
     /// The text runs from left to right.
@@ -74,47 +69,35 @@ pub enum TextDirection {
 /// A text of a picture on its line; `anchor` is on the baseline.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Text {
-    /// Text to write.
     pub text: String,
     /// Left end of the baseline, after alignment [pixels].
     pub start: Point,
     /// The size of the text [pixels per em].
     pub size: f64,
-    /// The colour of the glyphs.
     pub colour: Colour,
-    /// The direction of the text.
     pub direction: TextDirection,
 }
 
-/// A shape on a canvas.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Shape {
     /// A polyline with round ends and corners.
     Line {
-        /// The corners of the line [pixels].
         points: Vec<Point>,
         /// The width of the line [pixels].
         width: f64,
-        /// The colour of the line.
         colour: Colour,
     },
-    /// A filled circle.
     Disc {
-        /// The centre of the circle [pixels].
         centre: Point,
         /// The radius of the circle [pixels].
         radius: f64,
-        /// The colour of the circle.
         colour: Colour,
     },
     /// A filled box, with sides along the axes.
     Fill {
-        /// Area of the box.
         area: Area,
-        /// The colour of the box.
         colour: Colour,
     },
-    /// A line of text.
     Text(Text),
 }
 
@@ -125,7 +108,6 @@ pub struct Canvas {
 }
 
 impl Canvas {
-    /// Shapes on the canvas, from back to front.
     pub fn shapes(&self) -> &[Shape] {
         &self.shapes
     }
@@ -138,14 +120,12 @@ impl Canvas {
         }
     }
 
-    /// Draws a filled circle on the canvas.
     pub fn disc(&mut self, centre: Point, radius: f64, colour: Colour) {
         if let Some(centre) = reachable(centre) {
             self.shapes.push(Shape::Disc { centre, radius, colour });
         }
     }
 
-    /// Fills a box on the canvas.
     pub fn fill(&mut self, area: Area, colour: Colour) {
         let corners = reachable((area.left, area.top)).zip(reachable((area.right, area.bottom)));
         if let Some(((left, top), (right, bottom))) = corners {

@@ -19,7 +19,6 @@ const FAINT: (f64, f64, f64) = (0.9, 2.4, 0.15);
 const THIN: f64 = 1.3;
 const NOTE: f64 = 12.0;
 
-/// The colour of a series of a chart.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum SeriesColour {
     /// The next colour of the palette.
@@ -29,8 +28,6 @@ pub enum SeriesColour {
     OfSeries(usize),
     /// The colour of titles, for series that summarise all others.
     Black,
-    /// The colour of labels, for guide lines.
-    Grey,
 }
 
 /// Visual weight of a series.
@@ -39,7 +36,6 @@ pub enum SeriesEmphasis {
     /// A line of normal width.
     #[default]
     Full,
-    /// A thin line.
     Thin,
     /// A thin and pale line, drawn in the background.
     Pale,
@@ -48,7 +44,6 @@ pub enum SeriesEmphasis {
 /// A series of a chart: a named curve. Points that are not finite leave a gap.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Series {
-    /// The name of the series in the legend.
     pub name: String,
     /// The points of the series, in the order in which they are joined.
     pub points: Vec<Point>,
@@ -56,7 +51,6 @@ pub struct Series {
     pub stroke: Option<Stroke>,
     /// Shape of the markers, if the stroke has any.
     pub marker: Marker,
-    /// The colour of the series.
     pub ink: SeriesColour,
     /// Line width and paleness of the series.
     pub weight: SeriesEmphasis,
@@ -68,31 +62,26 @@ impl Series {
         Self { name: name.into(), points, ..Self::default() }
     }
 
-    /// Sets the shape of the markers.
     pub fn marker(mut self, marker: Marker) -> Self {
         self.marker = marker;
         self
     }
 
-    /// Sets the colour of the series.
     pub fn ink(mut self, ink: SeriesColour) -> Self {
         self.ink = ink;
         self
     }
 
-    /// Draws the series thin.
     pub fn thin(mut self) -> Self {
         self.weight = SeriesEmphasis::Thin;
         self
     }
 
-    /// Draws the series thin and pale.
     pub fn pale(mut self) -> Self {
         self.weight = SeriesEmphasis::Pale;
         self
     }
 
-    /// Sets the line style of the series.
     pub fn stroke(mut self, stroke: Stroke) -> Self {
         self.stroke = Some(stroke);
         self
@@ -107,7 +96,6 @@ pub struct LineChart {
     y_label: String,
     x_scale: AxisScale,
     y_scale: AxisScale,
-    floor: f64,
     limits: AxisLimits,
     size: (f64, f64),
     pub(super) series: Vec<Series>,
@@ -124,7 +112,6 @@ impl LineChart {
             y_label: String::new(),
             x_scale: AxisScale::Linear,
             y_scale: AxisScale::Linear,
-            floor: DEFAULT_FLOOR,
             limits: AxisLimits::default(),
             size: (900.0, 560.0),
             series: Vec::new(),
@@ -133,39 +120,28 @@ impl LineChart {
         }
     }
 
-    /// Sets the title.
     pub fn title(mut self, title: impl Into<String>) -> Self {
         self.title = title.into();
         self
     }
 
-    /// Sets the label of the horizontal axis of the chart.
     pub fn x_label(mut self, label: impl Into<String>) -> Self {
         self.x_label = label.into();
         self
     }
 
-    /// Sets the label of the vertical axis of the chart.
     pub fn y_label(mut self, label: impl Into<String>) -> Self {
         self.y_label = label.into();
         self
     }
 
-    /// Sets the scale of the horizontal axis.
     pub fn x_scale(mut self, scale: AxisScale) -> Self {
         self.x_scale = scale;
         self
     }
 
-    /// Sets the scale of the vertical axis.
     pub fn y_scale(mut self, scale: AxisScale) -> Self {
         self.y_scale = scale;
-        self
-    }
-
-    /// Sets the bottom of logarithmic axes. Values at or below `floor` are shown there. If `floor` is not positive, it is [`DEFAULT_FLOOR`].
-    pub fn floor(mut self, floor: f64) -> Self {
-        self.floor = floor;
         self
     }
 
@@ -181,7 +157,6 @@ impl LineChart {
         self
     }
 
-    /// Adds a series to the chart.
     pub fn series(mut self, series: Series) -> Self {
         self.series.push(series);
         self
@@ -215,7 +190,6 @@ impl LineChart {
         self
     }
 
-    /// Adds a caption line below the title of the chart.
     pub fn caption(mut self, words: impl Into<String>) -> Self {
         self.captions.push(words.into());
         self
@@ -236,14 +210,14 @@ impl LineChart {
         let marked = self.series.iter().any(|series| series.stroke.is_some_and(Stroke::has_marks));
         let axis = |scale, values: &mut dyn Iterator<Item = f64>, margin| match scale {
             AxisScale::Linear => Axis::linear(values, margin),
-            AxisScale::Logarithmic => Axis::logarithmic(values, self.floor),
+            AxisScale::Logarithmic => Axis::logarithmic(values, DEFAULT_FLOOR),
         };
         let fixed = |scale, ends: Option<(f64, f64)>| {
             let (low, high) = ends.filter(|(low, high)| low < high)?;
             Some(match scale {
                 AxisScale::Linear => Axis::between(low, high),
                 AxisScale::Logarithmic if low > 0.0 => Axis::powers_between(low, high),
-                AxisScale::Logarithmic => Axis::logarithmic([low, high], self.floor),
+                AxisScale::Logarithmic => Axis::logarithmic([low, high], DEFAULT_FLOOR),
             })
         };
         let is_between = |x: f64| self.limits.x.is_none_or(|(low, high)| (low..=high).contains(&x));
@@ -287,7 +261,6 @@ fn default_style(index: usize, series: &Series) -> (Colour, Stroke) {
         SeriesColour::Next => hue(index),
         SeriesColour::OfSeries(number) => hue(number),
         SeriesColour::Black => INK,
-        SeriesColour::Grey => GREY,
     };
     (colour, series.stroke.unwrap_or(Stroke::of_palette_pass(index / HUE_COUNT)))
 }

@@ -1,9 +1,7 @@
 //! CSV tables of numbers: columns of equal length, after `#` comment lines.
 
+use super::OutputError;
 use std::borrow::Cow;
-use std::path::Path;
-
-use super::{OutputError, files::write_atomic};
 
 /// A table of named columns of numbers. Reading gives every number bit for bit.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -15,7 +13,6 @@ pub struct CsvTable {
 }
 
 impl CsvTable {
-    /// A table without columns.
     pub fn new() -> Self {
         Self::default()
     }
@@ -26,7 +23,6 @@ impl CsvTable {
         self
     }
 
-    /// Adds a column at the right of the table.
     pub fn column(mut self, name: impl Into<String>, values: Vec<f64>) -> Self {
         self.columns.push((name.into(), values));
         self
@@ -66,11 +62,6 @@ impl CsvTable {
             writer.flush().map_err(::csv::Error::from)?;
         }
         Ok(String::from_utf8_lossy(&bytes).into_owned())
-    }
-
-    /// Writes the table to the file `path` atomically.
-    pub fn save(&self, path: impl AsRef<Path>) -> Result<(), OutputError> {
-        write_atomic(path, self.to_text()?.as_bytes())
     }
 
     fn common_length(&self) -> Result<usize, OutputError> {
@@ -174,11 +165,8 @@ mod tests {
     }
 
     #[test]
-    fn an_empty_table_is_a_file() {
-        let home = tempfile::tempdir().unwrap();
-        let path = home.path().join("empty.csv");
-        CsvTable::new().save(&path).unwrap();
-        assert_eq!(std::fs::read_to_string(path).unwrap(), "");
+    fn an_empty_table_has_no_text() {
+        assert_eq!(CsvTable::new().to_text().unwrap(), "");
     }
 
     proptest! {

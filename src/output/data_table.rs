@@ -6,45 +6,33 @@ use super::csv::{csv_cell, exact};
 /// Columns of equal length; a value may be missing.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct DataTable {
-    /// The columns, from left to right.
     pub columns: Vec<DataColumn>,
 }
 
-/// A column of a table.
 #[derive(Clone, Debug, PartialEq)]
 pub struct DataColumn {
-    /// The name of the column.
     pub name: String,
     /// Dimension of the column; `-` for a pure number, empty if unknown or not applicable.
     pub dimension: String,
-    /// Values of the column.
     pub values: DataValues,
 }
 
-/// The values of a column, all of one kind.
 #[derive(Clone, Debug, PartialEq)]
 pub enum DataValues {
-    /// Numbers.
     Numbers(Vec<Option<f64>>),
-    /// Whole numbers.
     Integers(Vec<Option<i64>>),
-    /// Booleans.
     Booleans(Vec<Option<bool>>),
-    /// Texts.
     Texts(Vec<Option<String>>),
 }
 
 /// Header lines above the rows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum TableHeading {
-    /// One line of names.
     Names,
-    /// One line of names and one of dimensions.
     NamesAndUnits,
 }
 
 impl DataValues {
-    /// Number of values.
     pub fn length(&self) -> usize {
         match self {
             Self::Numbers(values) => values.len(),

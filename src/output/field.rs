@@ -25,7 +25,6 @@ const DIGITS: usize = 4;
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct FieldPicture {
     title: String,
-    captions: Vec<String>,
     label: String,
     beams: Vec<Vec<(Point, f64)>>,
     scenery: MechanismOutline,
@@ -36,12 +35,6 @@ impl FieldPicture {
     /// A picture without beams; `label` names the quantity that the colours show.
     pub fn new(title: impl Into<String>, label: impl Into<String>) -> Self {
         Self { title: title.into(), label: label.into(), ..Self::default() }
-    }
-
-    /// Adds a caption line below the title.
-    pub fn caption(mut self, words: impl Into<String>) -> Self {
-        self.captions.push(words.into());
-        self
     }
 
     /// Adds a beam: points along it with their values.
@@ -74,7 +67,7 @@ impl FieldPicture {
         let (x, y) = self.view().axes(width, height);
         Frame {
             title: self.title.clone(),
-            captions: self.captions.clone(),
+            captions: Vec::new(),
             x_label: "x".into(),
             y_label: "y".into(),
             x,

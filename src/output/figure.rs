@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use super::{OutputError, canvas::Canvas, files::write_atomic, png, svg};
+use super::{OutputError, canvas::Canvas, png, svg};
 
 const SIDES: std::ops::RangeInclusive<f64> = 100.0..=8000.0;
 
@@ -52,7 +52,6 @@ impl Figure {
         (self.width, self.height)
     }
 
-    /// SVG document of the picture.
     pub fn to_svg(&self) -> Result<String, OutputError> {
         svg::paint(&self.canvas, self.width, self.height)
     }
@@ -67,11 +66,12 @@ impl Figure {
     }
 
     /// Writes the picture to the file `path` atomically; the extension, `.svg` or `.png`, selects the format.
+    #[cfg(test)]
     pub fn save(&self, path: impl AsRef<Path>) -> Result<(), OutputError> {
         let path = path.as_ref();
         match PictureKind::of(path)? {
-            PictureKind::Svg => write_atomic(path, self.to_svg()?.as_bytes()),
-            PictureKind::Png => write_atomic(path, &self.to_png()?),
+            PictureKind::Svg => super::files::write_atomic(path, self.to_svg()?.as_bytes()),
+            PictureKind::Png => super::files::write_atomic(path, &self.to_png()?),
         }
     }
 }

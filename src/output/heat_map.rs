@@ -27,7 +27,6 @@ const AROUND_TEXT: f64 = 8.0;
 const AROUND_NAME: f64 = 5.0;
 const LINE: f64 = 14.0;
 
-/// A cell of a heat map.
 #[derive(Clone, Debug, PartialEq)]
 pub struct HeatCell {
     /// Number that determines the colour; `None` for a hatched cell.
@@ -60,13 +59,11 @@ impl HeatMap {
         }
     }
 
-    /// Sets the label and the names of the columns.
     pub fn columns(mut self, label: impl Into<String>, names: Vec<String>) -> Self {
         self.columns = (label.into(), names);
         self
     }
 
-    /// Sets the label of the rows.
     pub fn rows(mut self, label: impl Into<String>) -> Self {
         self.rows.0 = label.into();
         self
@@ -85,7 +82,6 @@ impl HeatMap {
         self
     }
 
-    /// The title above the heat map.
     pub fn title(&self) -> &str {
         &self.title
     }

@@ -19,13 +19,11 @@ const MOST_CELLS: usize = 160;
 /// Axis of a level map: its label and the ascending midpoints of its cells.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct LevelAxis {
-    /// Label of the axis.
     pub label: String,
     /// Midpoints of the cells, ascending.
     pub middles: Vec<f64>,
 }
 
-/// A map of cells, each coloured by its number.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct LevelMap {
     title: String,
@@ -137,14 +135,13 @@ impl LevelMap {
         let (captions, values) = match merged {
             (1, 1) => (Vec::new(), values),
             (across, up) => {
-                let told = format!("each drawn cell is the mean of {across} × {up} cells");
-                (vec![told], means(&values, merged))
+                let note = format!("each drawn cell is the mean of {across} × {up} cells");
+                (vec![note], means(&values, merged))
             }
         };
         Self { title: title.into(), captions, label: label.into(), x, y, values }
     }
 
-    /// Adds a caption line below the title.
     pub fn caption(mut self, words: impl Into<String>) -> Self {
         self.captions.push(words.into());
         self

@@ -5,13 +5,10 @@ use super::{
     colour::{Colour, WHITE},
 };
 
-/// Marker shape of a series.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum Marker {
-    /// A filled circle.
     #[default]
     Disc,
-    /// A filled square.
     Square,
     /// An outlined square standing on its corner.
     Diamond,

@@ -13,7 +13,6 @@ const OUTLINE: f64 = 1.6;
 /// Rigid bodies as lines, and symbols on top, in data units.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct MechanismOutline {
-    /// The outlines of rigid bodies.
     pub bodies: Vec<Vec<Point>>,
     /// Supports, joints, sliders, springs and loads.
     pub symbols: Vec<PlacedSymbol>,

@@ -19,10 +19,8 @@ const TRACE: f64 = 1.4;
 const MARK: f64 = 2.4;
 const PARTICLE: f64 = 4.5;
 
-/// The mechanism at one time.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct MotionFrame {
-    /// The time of the snapshot.
     pub time: f64,
     /// The centre line of each beam in the snapshot, always in the same order.
     pub lines: Vec<Vec<Point>>,
@@ -30,7 +28,6 @@ pub struct MotionFrame {
     pub marks: Vec<Point>,
     /// Point masses, drawn as larger dots.
     pub particles: Vec<Point>,
-    /// The outlines of rigid bodies in the snapshot.
     pub bodies: Vec<Vec<Point>>,
 }
 
@@ -38,8 +35,6 @@ pub struct MotionFrame {
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct MotionPicture {
     title: String,
-    x_label: String,
-    y_label: String,
     time_label: String,
     beams: Vec<String>,
     snapshots: Vec<MotionFrame>,
@@ -50,22 +45,8 @@ pub struct MotionPicture {
 }
 
 impl MotionPicture {
-    /// A motion picture without snapshots.
     pub fn new(title: impl Into<String>) -> Self {
-        Self {
-            title: title.into(),
-            x_label: "x".into(),
-            y_label: "y".into(),
-            time_label: "t".into(),
-            ..Self::default()
-        }
-    }
-
-    /// Sets the labels of the axes; the default is `x` and `y`.
-    pub fn labels(mut self, x_label: impl Into<String>, y_label: impl Into<String>) -> Self {
-        self.x_label = x_label.into();
-        self.y_label = y_label.into();
-        self
+        Self { title: title.into(), time_label: "t".into(), ..Self::default() }
     }
 
     /// Sets the label of the time bar; the default is `t`.
@@ -74,7 +55,6 @@ impl MotionPicture {
         self
     }
 
-    /// Replaces the title of the motion picture.
     pub fn title(mut self, title: impl Into<String>) -> Self {
         self.title = title.into();
         self
@@ -104,7 +84,6 @@ impl MotionPicture {
         self
     }
 
-    /// Adds a caption line below the title.
     pub fn caption(mut self, words: impl Into<String>) -> Self {
         self.captions.push(words.into());
         self
@@ -151,8 +130,8 @@ impl MotionPicture {
         Frame {
             title: self.title.clone(),
             captions: self.captions.clone(),
-            x_label: self.x_label.clone(),
-            y_label: self.y_label.clone(),
+            x_label: "x".into(),
+            y_label: "y".into(),
             x,
             y,
             legend: self.legend(),

@@ -19,10 +19,8 @@ pub struct NpzArchive {
     pub arrays: Vec<NpzArray>,
 }
 
-/// An array of doubles.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct NpzArray {
-    /// The name of the array.
     pub name: String,
     /// Lengths of the dimensions, slowest first.
     pub shape: Vec<usize>,
@@ -60,7 +58,6 @@ impl NpzArchive {
 }
 
 impl NpzArray {
-    /// A one-dimensional array.
     pub fn row(name: impl Into<String>, values: Vec<f64>) -> Self {
         Self { name: name.into(), shape: vec![values.len()], values }
     }

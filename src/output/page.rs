@@ -1,7 +1,5 @@
 //! Panels, and pages that arrange panels in a grid.
 
-use std::path::Path;
-
 use super::{
     OutputError,
     canvas::{Align, Area, Canvas},
@@ -48,7 +46,8 @@ pub trait Panel {
     }
 
     /// Writes the panel as a stand-alone picture to a `.svg` or `.png` file.
-    fn save(&self, path: impl AsRef<Path>) -> Result<(), OutputError>
+    #[cfg(test)]
+    fn save(&self, path: impl AsRef<std::path::Path>) -> Result<(), OutputError>
     where
         Self: Sized,
     {
@@ -86,13 +85,11 @@ impl Page {
         Self { title: String::new(), columns: columns.max(1), panels: Vec::new() }
     }
 
-    /// Sets a title above all panels.
     pub fn title(mut self, title: impl Into<String>) -> Self {
         self.title = title.into();
         self
     }
 
-    /// Adds a panel to the page.
     pub fn panel(mut self, panel: impl Panel + 'static) -> Self {
         self.panels.push(Box::new(panel));
         self

@@ -15,9 +15,7 @@ const MARGIN: f64 = 0.05;
 /// User-defined ends of the axes.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct AxisLimits {
-    /// Smallest and largest value of the horizontal axis.
     pub x: Option<(f64, f64)>,
-    /// Smallest and largest value of the vertical axis.
     pub y: Option<(f64, f64)>,
 }
 

@@ -8,7 +8,6 @@ use super::csv::{comment_line, csv_cell};
 pub struct CsvRecords {
     /// Lines written above the table, each after a `#`.
     pub comments: Vec<String>,
-    /// The names of the table's columns.
     pub names: Vec<String>,
     /// Rows with one text per column.
     pub rows: Vec<Vec<String>>,

@@ -27,23 +27,18 @@ const DIGITS: usize = 4;
 /// Side of a beam, seen along it, for positive values.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum BeamSide {
-    /// Left side.
     #[default]
     Left,
-    /// Right side.
     Right,
 }
 
-/// A beam with values along it.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct BeamStrip {
-    /// The centre line.
     pub line: Vec<Point>,
     /// Points along the beam with their values. A point at which the value jumps has two entries.
     pub values: Vec<(Point, f64)>,
 }
 
-/// Diagrams along beams.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct StripPicture {
     title: String,
@@ -51,7 +46,6 @@ pub struct StripPicture {
     strips: Vec<BeamStrip>,
     side: BeamSide,
     scenery: MechanismOutline,
-    limits: AxisLimits,
 }
 
 #[derive(Clone, Copy)]
@@ -62,18 +56,15 @@ struct Ordinate {
 }
 
 impl StripPicture {
-    /// A picture without beams.
     pub fn new(title: impl Into<String>) -> Self {
         Self { title: title.into(), ..Self::default() }
     }
 
-    /// Adds a caption line below the title.
     pub fn caption(mut self, words: impl Into<String>) -> Self {
         self.captions.push(words.into());
         self
     }
 
-    /// Adds a beam.
     pub fn strip(mut self, strip: BeamStrip) -> Self {
         self.strips.push(strip);
         self
@@ -88,12 +79,6 @@ impl StripPicture {
     /// Draws rigid bodies, supports, joints, sliders and loads over the diagrams.
     pub fn scenery(mut self, scenery: MechanismOutline) -> Self {
         self.scenery = scenery;
-        self
-    }
-
-    /// Fixes the ends of the axes. Both axes keep the same scale, so one of them may show more.
-    pub fn limits(mut self, limits: AxisLimits) -> Self {
-        self.limits = limits;
         self
     }
 
@@ -144,7 +129,7 @@ impl StripPicture {
         let runs = self.strips.iter().flat_map(|strip| self.runs(strip));
         let tips: Vec<Point> = runs.flatten().map(|ordinate| ordinate.tip).collect();
         let points: Vec<Point> = lines.chain(tips).collect();
-        self.scenery.view(points.into_iter(), &self.limits)
+        self.scenery.view(points.into_iter(), &AxisLimits::default())
     }
 
     fn frame(&self, width: f64, height: f64) -> Frame {

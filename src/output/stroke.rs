@@ -9,16 +9,13 @@ use super::{
 /// Line style, which distinguishes series of the same colour.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum Stroke {
-    /// An unbroken line.
     #[default]
     Solid,
-    /// Long dashes.
     Dashed,
     /// Short dashes, nearly dots.
     Dotted,
     /// An unbroken line with a marker at every point, for few measured or computed points.
     Marked,
-    /// Markers without a line.
     MarkersOnly,
 }
 

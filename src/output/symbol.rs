@@ -18,7 +18,6 @@ use crate::elementary::hypot;
 /// White space around a symbol, so that it is not cut off.
 const ROOM: f64 = 20.0;
 
-/// Kinds of symbols.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Symbol {
     /// A support that fixes the position.
@@ -91,9 +90,7 @@ impl Symbol {
 /// A symbol at a point, in data units.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PlacedSymbol {
-    /// Kind of symbol.
     pub symbol: Symbol,
-    /// The place of the symbol.
     pub at: Point,
     /// Direction of the symbol, of any length; zero if the symbol has none. Springs, dampers and tendons end at `at + direction`.
     pub direction: Point,

@@ -6,7 +6,6 @@ use super::number::format_number;
 use super::printable::printable_line;
 use super::width::{columns, padded};
 
-/// A cell of a text table.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Cell {
     /// A text, flush left.
@@ -62,12 +61,10 @@ pub struct TextTable {
 }
 
 impl TextTable {
-    /// A table with the given column heads and no rows.
     pub fn new(header: &[&str]) -> Self {
         Self { header: header.iter().map(|head| (*head).to_string()).collect(), ..Self::default() }
     }
 
-    /// Puts a title above the table.
     pub fn title(mut self, title: impl Into<String>) -> Self {
         self.title = title.into();
         self

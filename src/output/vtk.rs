@@ -26,23 +26,17 @@ pub struct VtkGrid {
 pub struct VtkCell {
     /// Name of the body, which is written as a comment.
     pub name: String,
-    /// Points in the plane.
     pub points: Vec<Point>,
 }
 
-/// A quantity at each point.
 #[derive(Clone, Debug, PartialEq)]
 pub struct VtkField {
-    /// The name of the array.
     pub name: String,
-    /// The values of the array.
     pub values: VtkValues,
 }
 
-/// The values of a field.
 #[derive(Clone, Debug, PartialEq)]
 pub enum VtkValues {
-    /// Numbers.
     Numbers(Vec<f64>),
     /// Vectors in the plane; the third component in the file is zero.
     Vectors(Vec<Point>),
@@ -121,8 +115,8 @@ impl VtkGrid {
 
     fn names(&self) -> String {
         let bodies = self.cells.iter().enumerate();
-        let told: Vec<String> = bodies.map(|(at, cell)| format!("{at} {}", cell.name)).collect();
-        format!("body: {}", told.join(", "))
+        let entries: Vec<String> = bodies.map(|(at, cell)| format!("{at} {}", cell.name)).collect();
+        format!("body: {}", entries.join(", "))
     }
 }
 

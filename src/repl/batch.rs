@@ -48,14 +48,15 @@ pub fn run(shell: &mut Shell, lines: impl BufRead) -> CommandOutcome {
                 input.push('\n');
             }
             Err(error) => {
-                let told = Diagnostic::general(format!("cannot read the input: {error}"));
-                return shell.report_error(&told.with_hint("the input must be UTF-8 text"));
+                let message = Diagnostic::general(format!("cannot read the input: {error}"));
+                return shell.report_error(&message.with_hint("the input must be UTF-8 text"));
             }
         }
         if input.len() as u64 > LARGEST_SCRIPT {
-            let told = Diagnostic::general("an input is longer than 16 megabytes");
-            return shell
-                .report_error(&told.with_hint("is a bracket or a quotation mark never closed?"));
+            let message = Diagnostic::general("an input is longer than 16 megabytes");
+            return shell.report_error(
+                &message.with_hint("is a bracket or a quotation mark never closed?"),
+            );
         }
         // The next line is read only after a complete input. Programs that use the pipe interactively must end an input with a semicolon or an empty
         // line.

@@ -92,8 +92,8 @@ fn shape_of_array(array: &Array) -> PlotShape {
             );
         }
         Some([x, y]) => {
-            let told = format!("its two arrays have {} and {} numbers", x.len(), y.len());
-            return PlotShape::None(told);
+            let message = format!("its two arrays have {} and {} numbers", x.len(), y.len());
+            return PlotShape::None(message);
         }
         Some(rows) if rows.iter().all(|row| row.len() == 2) => {
             return PlotShape::Whole(
@@ -211,7 +211,10 @@ mod tests {
             ("x".into(), "it is a text"),
             (true.into(), "it is a text"),
         ] {
-            assert!(matches!(&of(value), PlotShape::None(told) if told.contains(why)), "{why}");
+            assert!(
+                matches!(&of(value), PlotShape::None(message) if message.contains(why)),
+                "{why}"
+            );
         }
     }
 
@@ -227,9 +230,9 @@ mod tests {
     fn a_curve_has_a_summary() {
         let points = vec![(0.0, 2.0), (0.1, -1.0), (0.2, 1.5)];
         let curve = |over| PlotCurve { name: "f".into(), over, points: points.clone() };
-        let told = "f: 2 at the start, minimum -1, maximum 2, now 1.5 (3 states)";
-        assert_eq!(summary(&curve(CurveAbscissa::Time)), told);
-        let told = "f: 2 at the first, minimum -1, maximum 2, 1.5 at the last (3 points)";
-        assert_eq!(summary(&curve(CurveAbscissa::Index)), told);
+        let message = "f: 2 at the start, minimum -1, maximum 2, now 1.5 (3 states)";
+        assert_eq!(summary(&curve(CurveAbscissa::Time)), message);
+        let message = "f: 2 at the first, minimum -1, maximum 2, 1.5 at the last (3 points)";
+        assert_eq!(summary(&curve(CurveAbscissa::Index)), message);
     }
 }

@@ -51,8 +51,8 @@ fn evaluate_snapshots(
     let chosen = (0..kept.len()).rev().filter(|at| (last - at).is_multiple_of(every) || *at == 0);
     let steps: Vec<usize> = chosen.map(|at| kept[at].0).collect();
     let revisit = Revisit::at_present(subject).map_err(|error| shell.report_native_error(error))?;
-    let way = PlaybackStep::Back(steps.into_iter());
-    let (mut points, _) = evaluate_at_states(shell, text, Visits::new(shell, revisit, way))?;
+    let playback = PlaybackStep::Back(steps.into_iter());
+    let (mut points, _) = evaluate_at_states(shell, text, Visits::new(shell, revisit, playback))?;
     points.reverse();
     let time = |at: usize| significant(kept[at].1, DIGITS);
     let what = match (kept[0].0, points.len() == kept.len()) {
@@ -79,8 +79,8 @@ fn evaluate_rerun(
 ) -> Result<Option<Followed>, CommandOutcome> {
     let rows = subject.simulation().history().samples().len();
     let revisit = Revisit::at_start(subject).map_err(|error| shell.report_native_error(error))?;
-    let way = PlaybackStep::NextRow { next: 0, rows, every: rows.div_ceil(MOST_STATES) };
-    let (points, other) = evaluate_at_states(shell, text, Visits::new(shell, revisit, way))?;
+    let playback = PlaybackStep::NextRow { next: 0, rows, every: rows.div_ceil(MOST_STATES) };
+    let (points, other) = evaluate_at_states(shell, text, Visits::new(shell, revisit, playback))?;
     if let Some(why) = other {
         shell.print_note(&format!(
             "note: the first snapshots of simulation '{}' were discarded, and {why}",
@@ -146,15 +146,15 @@ impl Visits {
                     Ok(true) => (),
                     Ok(false) => {
                         let time = significant(self.revisit.place().1, DIGITS);
-                        let told = format!("the repeated run differs at t = {time}");
-                        return Err(PlaybackError::Another(told));
+                        let message = format!("the repeated run differs at t = {time}");
+                        return Err(PlaybackError::Another(message));
                     }
                     Err(stopped @ ScriptError::Stopped(_)) => {
                         return Err(PlaybackError::Refused(stopped));
                     }
                     Err(_) => {
-                        let told = "the repeated run fails";
-                        return Err(PlaybackError::Another(told.into()));
+                        let message = "the repeated run fails";
+                        return Err(PlaybackError::Another(message.into()));
                     }
                 }
                 if row.is_multiple_of(*every) || row + 1 == *rows {
@@ -216,9 +216,9 @@ fn evaluate_at_states(
         (Ok(()), Some(PlaybackError::Moves)) => Err(shell.report_error(&moves(text))),
         (Ok(()), Some(PlaybackError::Refused(error))) => Err(shell.report_native_error(error)),
         (Ok(()), Some(PlaybackError::NoPoint(why))) => {
-            let told = Diagnostic::general(format!("'{text}' cannot be plotted {at}: {why}"));
+            let message = Diagnostic::general(format!("'{text}' cannot be plotted {at}: {why}"));
             Err(shell
-                .report_error(&told.with_hint("it must be a number, or a vector, at all times")))
+                .report_error(&message.with_hint("it must be a number, or a vector, at all times")))
         }
     }
 }

@@ -6,8 +6,8 @@ mod program;
 
 use std::io::stdout;
 
-pub use keyboard::{Keyboard, Pressed};
-pub use pages::show_pages;
+pub(crate) use keyboard::{Keyboard, Pressed};
+pub(crate) use pages::show_pages;
 
 /// Result of showing a text in pages.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

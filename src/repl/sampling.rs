@@ -34,7 +34,6 @@ pub struct Figures {
     /// Shortest run, which other processes have disturbed least.
     pub least: Duration,
     pub median: Duration,
-    /// Lower and upper quartile.
     pub quartiles: (Duration, Duration),
 }
 
@@ -136,9 +135,9 @@ mod tests {
 
     #[test]
     fn equal_runs_are_enough_after_a_fifth_of_a_second() {
-        let told = figures(&[10_000]);
+        let message = figures(&[10_000]);
         let ten = Duration::from_millis(10);
-        assert_eq!(told, Figures { runs: 20, least: ten, median: ten, quartiles: (ten, ten) });
+        assert_eq!(message, Figures { runs: 20, least: ten, median: ten, quartiles: (ten, ten) });
         assert_eq!(figures(&[1]).runs, MOST_RUNS);
     }
 

@@ -150,9 +150,9 @@ impl Shell {
         let operand = operand.trim();
         match commands::find(name) {
             Ok(command) if command.operand == CommandOperand::Nothing && !operand.is_empty() => {
-                let told = format!("'{}' takes no argument, got '{operand}'", command.name);
+                let message = format!("'{}' takes no argument, got '{operand}'", command.name);
                 let hint = format!("write {0}; :help {0} describes it", command.name);
-                self.report_error(&Diagnostic::general(told).with_hint(hint))
+                self.report_error(&Diagnostic::general(message).with_hint(hint))
             }
             Ok(command) => (command.body)(self, operand),
             Err(refusal) => self.report_error(&refusal),
@@ -251,8 +251,8 @@ impl Shell {
             ReplyTarget::Terminal(style) => style.width,
             ReplyTarget::Pipe => usize::MAX,
         };
-        let told = diagnostic.render_within(self.colours(), width);
-        self.session.context().print_styled_message(told.trim_end());
+        let message = diagnostic.render_within(self.colours(), width);
+        self.session.context().print_styled_message(message.trim_end());
         CommandOutcome::Failed
     }
 

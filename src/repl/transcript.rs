@@ -49,7 +49,6 @@ impl Transcript {
         before
     }
 
-    /// Program of an input typed at the prompt.
     pub fn typed(&self, text: &str) -> Program {
         Program { folder: self.folder.clone(), ..Program::named(PROMPT, text) }
     }

@@ -48,7 +48,6 @@ const DIRECTIONS: [(u32, &[u32]); 39] = [
     (22, &[1, 3, 1, 11, 11, 11, 77, 249]),
 ];
 
-/// Maximum number of coordinates.
 pub const MOST_DIMENSIONS: usize = DIRECTIONS.len() + 1;
 
 /// Direction numbers of a coordinate, from 0, as fractions of 2³².

@@ -234,8 +234,8 @@ mod tests {
         folder.write_atomic(Path::new("file"), b"mine").unwrap();
         assert_eq!(fs::read(other.join("secret")).unwrap(), b"secret");
         assert_eq!(folder.read(Path::new("file"), 100).unwrap(), b"mine");
-        let told = Folder::open_or_create(&other.join("out")).unwrap_err().to_string();
-        assert!(told.contains("'out' is a link"), "{told}");
+        let message = Folder::open_or_create(&other.join("out")).unwrap_err().to_string();
+        assert!(message.contains("'out' is a link"), "{message}");
     }
 
     #[test]

@@ -56,8 +56,8 @@ fn expect_length(bytes: u64, most: u64) -> io::Result<()> {
     match bytes <= most {
         true => Ok(()),
         false => {
-            let told = format!("it has more than {most} bytes, the largest allowed size");
-            Err(io::Error::new(io::ErrorKind::FileTooLarge, told))
+            let message = format!("it has more than {most} bytes, the largest allowed size");
+            Err(io::Error::new(io::ErrorKind::FileTooLarge, message))
         }
     }
 }

@@ -39,7 +39,6 @@ impl FileChecksum {
     }
 }
 
-/// Writer that computes the checksum of its output.
 pub struct ChecksumWriter<W> {
     inner: W,
     hasher: crc32fast::Hasher,

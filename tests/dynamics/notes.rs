@@ -275,7 +275,7 @@ fn notes_are_those_of_the_steps_behind_the_present() {
 fn outcome(script: &str) -> (RunOutcome, String) {
     let (told, out) = (Notepad::default(), tempfile::tempdir().unwrap());
     let settings = RunSettings {
-        told: Box::new(told.clone()),
+        diagnostics: Box::new(told.clone()),
         out: out.path().to_owned(),
         ..RunSettings::silent(RunMode::Run)
     };

@@ -13,7 +13,7 @@ fn run_in(out: &Path, mode: RunMode, script: &str) -> (RunOutcome, String) {
     let told = Notepad::default();
     let settings = RunSettings {
         out: out.to_owned(),
-        told: Box::new(told.clone()),
+        diagnostics: Box::new(told.clone()),
         ..RunSettings::silent(mode)
     };
     let outcome = run(&Program::named("script", script), &language(), settings);
@@ -86,9 +86,9 @@ fn a_check_loads_what_an_earlier_run_or_the_script_itself_saves_and_writes_nothi
     let both = format!(
         "{FIRST}\nlet again = load_simulation(\"half.withy\");\nagain.step(3);\nagain.back(7);\nlet other = again.fork();\nother.rewind(0);\nprint(again.scene.beam_named(\"rod\").length);"
     );
-    assert_good(&run_in(&out, RunMode::DryBuild, &both).0);
+    assert_good(&run_in(&out, RunMode::DryRun, &both).0);
     assert!(!out.exists());
-    let refused = message(&run_in(&out, RunMode::DryBuild, SECOND).0);
+    let refused = message(&run_in(&out, RunMode::DryRun, SECOND).0);
     assert!(
         refused.contains("no file \"half.withy\"")
             && refused.contains("first run the script that writes it"),
@@ -96,7 +96,7 @@ fn a_check_loads_what_an_earlier_run_or_the_script_itself_saves_and_writes_nothi
     );
     assert_good(&run_in(&out, RunMode::Run, FIRST).0);
     let before = std::fs::read(out.join("half.withy")).unwrap();
-    assert_good(&run_in(&out, RunMode::DryBuild, "let sim = load_simulation(\"half.withy\");\nsim.run_to(2);\nsim.back(500);\nsim.rewind(0.1);\nsim.save(\"half.withy\");").0);
+    assert_good(&run_in(&out, RunMode::DryRun, "let sim = load_simulation(\"half.withy\");\nsim.run_to(2);\nsim.back(500);\nsim.rewind(0.1);\nsim.save(\"half.withy\");").0);
     assert_eq!(std::fs::read(out.join("half.withy")).unwrap(), before);
 }
 

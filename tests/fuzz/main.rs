@@ -197,7 +197,7 @@ impl Prompt {
             folder: folder.to_owned(),
             limits: LIMITS,
             snapshots: MEGABYTE as usize,
-            told: Box::new(told.clone()),
+            diagnostics: Box::new(told.clone()),
             ..RunSettings::silent(RunMode::Run)
         };
         let session = Session::new(catalog.clone(), settings).unwrap();

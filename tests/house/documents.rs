@@ -52,7 +52,7 @@ fn every_block_of_rhai_in_the_documents_runs() {
             let told = Notepad::default();
             let settings = RunSettings {
                 out: out.path().to_owned(),
-                told: Box::new(told.clone()),
+                diagnostics: Box::new(told.clone()),
                 ..RunSettings::silent(RunMode::Run)
             };
             let outcome = run(&Program::named(&name, &block.text), &language(), settings);

@@ -10,7 +10,7 @@ use withy::script::state::settings::{RunMode, RunSettings};
 fn told(text: &str) -> String {
     let told = Notepad::default();
     let settings =
-        RunSettings { told: Box::new(told.clone()), ..RunSettings::silent(RunMode::Run) };
+        RunSettings { diagnostics: Box::new(told.clone()), ..RunSettings::silent(RunMode::Run) };
     let outcome = run(&Program::named("derivatives", text), &language(), settings);
     assert!(matches!(outcome.ending, Ending::Finished), "{:?}", outcome.ending);
     assert_eq!(outcome.checks.failed(), []);

@@ -65,7 +65,7 @@ fn every_solution_passes_and_its_steps_resolve_what_happens() {
         let (notes, out) = (Notepad::default(), tempfile::tempdir().unwrap());
         let settings = RunSettings {
             out: out.path().into(),
-            told: Box::new(notes.clone()),
+            diagnostics: Box::new(notes.clone()),
             ..RunSettings::silent(RunMode::Run)
         };
         let program = Program::named("solution", exercise.solution);

@@ -32,7 +32,7 @@ fn ran(text: &str) -> (TempDir, String) {
     let (folder, told) = (tempfile::tempdir().unwrap(), Notepad::default());
     let settings = RunSettings {
         out: folder.path().to_owned(),
-        told: Box::new(told.clone()),
+        diagnostics: Box::new(told.clone()),
         ..RunSettings::silent(RunMode::Run)
     };
     let outcome = run(&Program::named("export", &format!("{SCENE}{text}")), &language(), settings);

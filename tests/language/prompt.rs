@@ -38,7 +38,7 @@ impl Prompt {
         let folder = tempfile::tempdir().unwrap();
         let settings = RunSettings {
             printed: Box::new(printed.clone()),
-            told: Box::new(told.clone()),
+            diagnostics: Box::new(told.clone()),
             interrupt: interrupt.clone(),
             out: folder.keep(),
             snapshots,

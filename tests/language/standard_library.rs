@@ -26,7 +26,7 @@ fn run_beside(files: &[(&str, &str)], script: &str) -> (RunOutcome, String) {
     }
     let told = Notepad::default();
     let settings =
-        RunSettings { told: Box::new(told.clone()), ..RunSettings::silent(RunMode::Run) };
+        RunSettings { diagnostics: Box::new(told.clone()), ..RunSettings::silent(RunMode::Run) };
     let program = Program { folder: home.path().into(), ..Program::named("main.rhai", script) };
     (run(&program, &language(), settings), told.take())
 }
@@ -155,7 +155,7 @@ fn an_error_in_a_closure_of_the_user_stays_at_its_place() {
 fn the_prompt_imports_the_library() {
     let told = Notepad::default();
     let settings =
-        RunSettings { told: Box::new(told.clone()), ..RunSettings::silent(RunMode::Run) };
+        RunSettings { diagnostics: Box::new(told.clone()), ..RunSettings::silent(RunMode::Run) };
     let mut session = Session::new(language(), settings).unwrap();
     for input in
         ["import \"std/checks\" as checks;", "let a = 2;", "checks::assert_close(\"a\", a, 1, 0.1)"]

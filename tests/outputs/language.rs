@@ -26,7 +26,7 @@ fn keep_run(book: &mut Book, name: &str, text: &str) {
     let settings = RunSettings {
         out: out.path().join("out"),
         printed: Box::new(printed.clone()),
-        told: Box::new(told.clone()),
+        diagnostics: Box::new(told.clone()),
         ..RunSettings::silent(RunMode::Run)
     };
     let outcome = run(&Program::named("script", text), &language(), settings);

@@ -138,21 +138,21 @@ fn stopped(stop: Stop, printed: CapturedOutput) -> AttemptReport {
 /// Judges an attempt in this process, which runs nothing else, and prints the report.
 pub fn try_here(workbook: &Workbook, exercise: &Exercise, options: &LimitOptions) -> Exit {
     exit_with_parent();
-    let ear = CaptureWriter::default();
-    let heard = ear.clone();
+    let output = CaptureWriter::default();
+    let captured = output.clone();
     // Only one report may be printed.
     let turn = Arc::new(Mutex::new(()));
     let last_turn = Arc::clone(&turn);
     let resort = move |stop: Stop| {
         let _turn = last_turn.lock().unwrap_or_else(PoisonError::into_inner);
-        send_report(&stopped(stop, heard.captured()));
+        send_report(&stopped(stop, captured.captured()));
         process::exit(0)
     };
     let settings = RunSettings {
         out: workbook.folder().join("out"),
         limits: options.limits(),
-        printed: Box::new(ear.clone()),
-        told: Box::new(ear.clone()),
+        printed: Box::new(output.clone()),
+        diagnostics: Box::new(output.clone()),
         last_resort: Some(Arc::new(resort)),
         ..RunSettings::silent(RunMode::Run)
     };
@@ -161,7 +161,7 @@ pub fn try_here(workbook: &Workbook, exercise: &Exercise, options: &LimitOptions
         Err(why) => AttemptVerdict::Error(why),
     };
     let _turn = turn.lock().unwrap_or_else(PoisonError::into_inner);
-    send_report(&AttemptReport { outcome: verdict.into(), printed: ear.captured() });
+    send_report(&AttemptReport { outcome: verdict.into(), printed: output.captured() });
     // Data of the attempt are not dropped, because this may take long.
     process::exit(0)
 }

@@ -24,8 +24,8 @@ pub fn outcome(state: &TuiState, columns: usize) -> Vec<ScreenLine> {
 
 fn judged(state: &TuiState, report: &AttemptReport, columns: usize) -> Vec<ScreenLine> {
     let not_yet = |what: &str| {
-        let told = format!("(run {}): {what}", state.runs);
-        labelled(("Not yet", BAD), &told, "  ", columns)
+        let message = format!("(run {}): {what}", state.runs);
+        labelled(("Not yet", BAD), &message, "  ", columns)
     };
     let mut lines;
     match &report.outcome {
@@ -115,15 +115,15 @@ fn text_from_column(text: &str, columns: usize) -> String {
 }
 
 fn printed(state: &TuiState, printed: &CapturedOutput, columns: usize) -> Vec<ScreenLine> {
-    let CapturedOutput { lines: heard, further_lines: more } = printed;
-    if heard.is_empty() {
+    let CapturedOutput { lines: captured, further_lines: more } = printed;
+    if captured.is_empty() {
         return Vec::new();
     }
     let mut lines = vec![ScreenLine::default(), ScreenLine::of("It prints:", FAINT)];
-    for line in heard.iter().take(PRINTED) {
+    for line in captured.iter().take(PRINTED) {
         lines.extend(paragraph(&format!("  {line}"), "    ", columns, &PLAIN));
     }
-    let more = heard.len().saturating_sub(PRINTED) + more;
+    let more = captured.len().saturating_sub(PRINTED) + more;
     if more > 0 {
         let word = format!("  … and {more} more lines: withy run {}", state.file);
         lines.extend(paragraph(&word, "    ", columns, &FAINT));

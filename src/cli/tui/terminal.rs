@@ -47,8 +47,8 @@ impl RawTerminal {
     }
 
     pub fn size(&self) -> (usize, usize) {
-        let told = terminal::size().ok().filter(|(columns, rows)| *columns > 0 && *rows > 0);
-        let (columns, rows) = told.unwrap_or(USUAL);
+        let size = terminal::size().ok().filter(|(columns, rows)| *columns > 0 && *rows > 0);
+        let (columns, rows) = size.unwrap_or(USUAL);
         (usize::from(columns), usize::from(rows))
     }
 

@@ -20,7 +20,6 @@ pub(super) struct AxisPoint<const N: usize> {
 }
 
 impl<const N: usize> AxisPoint<N> {
-    /// Placeholder of zero weight and functions.
     pub(super) const EMPTY: Self = Self { shape: [0.0; N], slope: [0.0; N], weight: 0.0 };
 }
 

@@ -235,18 +235,23 @@ impl Dashpots {
         duration: f64,
     ) -> f64 {
         let (mut sum, mut all) = (0.0, [RateMismatch::default(); 3]);
-        let share = self.resolution.share(duration);
+        let fraction = self.resolution.fraction(duration);
         for SpanDashpots { first, forces, moments } in &mut self.spans {
             let moved = &moved[*first..*first + self.order];
             for dashpot in forces {
                 sum += dashpot.advance(moved, rotations, duration);
-                let seen = share.map(|share| dashpot.last_rate_mismatch(share)).unwrap_or_default();
+                let seen = fraction
+                    .map(|fraction| dashpot.last_rate_mismatch(fraction))
+                    .unwrap_or_default();
                 all.iter_mut().zip(seen).for_each(|(all, seen)| all.join(seen));
             }
             for dashpot in moments {
                 sum += dashpot.advance(moved, rotations, duration);
-                all[2]
-                    .join(share.map(|share| dashpot.last_rate_mismatch(share)).unwrap_or_default());
+                all[2].join(
+                    fraction
+                        .map(|fraction| dashpot.last_rate_mismatch(fraction))
+                        .unwrap_or_default(),
+                );
             }
         }
         self.resolution.add(duration, all);

@@ -46,7 +46,7 @@ impl ForceSummary {
 /// Receiver of the force derivatives of a span: its first control point and the rows of the block.
 pub type BlockSink<'a> = &'a mut (dyn FnMut(usize, &[f64]) + Send);
 
-/// Dynamics of a beam or a body of points: reference quantities, state at the start of a step, and iterate of the step.
+/// Dynamics of a beam or a body of points. It provides reference quantities, the state at the start of a step, and the iterate of the step.
 ///
 /// Increments, rates and forces are indexed by control point.
 pub trait BodyDynamics: Send + Sync {

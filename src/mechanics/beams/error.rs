@@ -3,27 +3,23 @@
 use crate::geometry::GeometryError;
 
 /// Section, mesh or beam that cannot be built.
+#[expect(missing_docs, reason = "the messages describe the variants and their fields")]
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum BeamError {
-    /// Section property that is not positive and finite.
     #[error("section: {name} is {value}, but must be a positive finite number [{dimension}]{hint}")]
     SectionValue {
-        /// Name of the property.
         name: &'static str,
-        /// Rejected value.
         value: f64,
         /// Dimension, such as `force`.
         dimension: &'static str,
         /// Additional advice; may be empty.
         hint: &'static str,
     },
-    /// Poisson's ratio outside its range.
     #[error("section: nu is {value}, but Poisson's ratio must lie in (-1, 0.5]")]
     PoissonRatio {
         /// Rejected value [-].
         value: f64,
     },
-    /// Tube whose inner radius is not smaller than the outer one.
     #[error(
         "section: the inner radius {inner} of a tube must be smaller than the outer radius {outer}"
     )]
@@ -33,15 +29,8 @@ pub enum BeamError {
         /// Outer radius [length].
         outer: f64,
     },
-    /// Taper with too few or too many places.
     #[error("taper: {} given, but 2 to {most} are needed", places(.count))]
-    TaperPlaces {
-        /// Number of places.
-        count: usize,
-        /// Largest allowed number.
-        most: usize,
-    },
-    /// Taper whose places do not increase from 0 to 1.
+    TaperPlaces { count: usize, most: usize },
     #[error(
         "taper: a place is {value}, but places must increase from 0 (start of the beam) to 1 (its end)"
     )]
@@ -49,24 +38,14 @@ pub enum BeamError {
         /// First place out of order [-].
         value: f64,
     },
-    /// Taper between solids of different shapes.
     #[error(
         "taper: sections of different shapes (rectangle, circle, tube) cannot be interpolated; give sections of one shape, or stiffnesses and inertias"
     )]
     TaperShapes,
-    /// Quadrature with too few or too many points.
     #[error(
         "quadrature: {points} points per span, but 1 to {most} are allowed for degree {degree}"
     )]
-    Quadrature {
-        /// Requested number of points.
-        points: usize,
-        /// Largest allowed number.
-        most: usize,
-        /// Degree of the basis.
-        degree: usize,
-    },
-    /// Spans of too different lengths for a patch rule.
+    Quadrature { points: usize, most: usize, degree: usize },
     #[error(
         "the longest span of a smooth part of the mesh is {ratio:.1e} times as long as the shortest, too much for an accurate quadrature of the strains; change the span lengths more gradually, or make the basis C0 between long and short spans (repeat the knot as often as the degree)"
     )]
@@ -77,7 +56,6 @@ pub enum BeamError {
     /// Axis or mesh that cannot be represented.
     #[error(transparent)]
     Geometry(#[from] GeometryError),
-    /// Axis with a point without a tangent.
     #[error(
         "the axis has no tangent at parameter {parameter}: its derivative vanishes there; use more spans or elements, or move the control points apart"
     )]

@@ -123,7 +123,6 @@ impl ForceDashpot {
         mean.to_section(by - turned)
     }
 
-    /// Target force for the rates of a configuration.
     fn target_force(&self, at: RateCollocation, now: &DashpotKinematics) -> Vec2 {
         let carried = self.last_rate * at.by_last;
         now.resistance.component_mul(&now.change) - self.damping.component_mul(&carried)
@@ -243,9 +242,10 @@ impl ForceDashpot {
     }
 
     /// Strain rates at the start of the step: present or extrapolated rates, as selected.
-    fn selected_rates(&self, told: DashpotRates<'_>) -> Vec2 {
-        let (present, carried) = (self.rate(told.present), self.carried(told.extrapolation));
-        let [axial, shear, _] = told.is_extrapolated;
+    fn selected_rates(&self, selected: DashpotRates<'_>) -> Vec2 {
+        let (present, carried) =
+            (self.rate(selected.present), self.carried(selected.extrapolation));
+        let [axial, shear, _] = selected.is_extrapolated;
         Vec2::new(
             if axial { carried.x } else { present.x },
             if shear { carried.y } else { present.y },

@@ -19,7 +19,6 @@ pub(super) struct ForcePoint<const N: usize> {
     pub(super) rotation: Rotation,
     /// `Γ0`
     pub(super) strain: Vec2,
-    /// Section force `N` of the last step.
     pub(super) last_force: Vec2,
 }
 

@@ -371,7 +371,7 @@ impl StrainKinematics<Lanes> {
     }
 }
 
-/// `Γ = Λᵀ x' - e1`
+/// Axial and shear strain `Γ = Λᵀ x' - e1`.
 #[inline(always)]
 fn strain_of<T: Number>(rotation: Rotation<T>, gradient: Pair<T>) -> Pair<T> {
     rotation.to_section(gradient) - Pair::first_axis(gradient.x)

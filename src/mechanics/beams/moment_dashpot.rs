@@ -74,9 +74,9 @@ impl MomentDashpot {
     }
 
     /// Mismatch of the rate in the last accepted step. `share` is its start as a fraction of the time between the middles of the last two steps.
-    pub(super) fn last_rate_mismatch(&self, share: f64) -> RateMismatch {
+    pub(super) fn last_rate_mismatch(&self, fraction: f64) -> RateMismatch {
         let damping = self.functions.weight * self.damping;
-        RateMismatch::of(damping, self.start_rate, [self.rate_before, self.last_rate], share)
+        RateMismatch::of(damping, self.start_rate, [self.rate_before, self.last_rate], fraction)
     }
 
     fn bend(&self, at: RateCollocation, moved: &[Movement]) -> RotationKinematics {
@@ -90,7 +90,6 @@ impl MomentDashpot {
         }
     }
 
-    /// Target moment for the rate of a configuration.
     fn target_moment(&self, at: RateCollocation, now: &RotationKinematics) -> f64 {
         now.resistance * now.change() - self.damping * at.by_last * self.last_rate
     }

@@ -14,7 +14,6 @@ pub(super) struct MomentPoint<const N: usize> {
     pub(super) axis: AxisPoint<N>,
     /// `κ0`
     pub(super) curvature: f64,
-    /// Moment `M` of the last step.
     pub(super) last_moment: f64,
 }
 

@@ -28,9 +28,9 @@ impl RateMismatch {
     /// Mismatch of a rate with its damping [force·time; energy/time], from the rate at the start of a step and the means of the previous step and
     /// this one.
     /// this one.
-    pub(super) fn of(damping: f64, start: f64, [before, now]: [f64; 2], share: f64) -> Self {
+    pub(super) fn of(damping: f64, start: f64, [before, now]: [f64; 2], fraction: f64) -> Self {
         let (change, off) = (now - before, start - before);
-        let off = off - share * change;
+        let off = off - fraction * change;
         Self { off: damping * off * off, apart: damping * change * change }
     }
 
@@ -61,7 +61,7 @@ pub(super) struct RateResolution {
 
 impl RateResolution {
     /// Start of a step of a duration [time], as a fraction of the time between the middles of the last step and this one; `None` without a last step.
-    pub(super) fn share(&self, duration: f64) -> Option<f64> {
+    pub(super) fn fraction(&self, duration: f64) -> Option<f64> {
         let between = duration + self.before;
         // A substep of the fourth-order method runs backwards in time, and may end where the previous substep started.
         let is_there = duration.is_finite() && self.before * between > 0.0;
@@ -78,7 +78,8 @@ impl RateResolution {
             *all = RateMismatch { off: KEPT * all.off, apart: KEPT * all.apart };
             all.join(seen);
         }
-        self.extrapolation = self.share(duration).map_or(0.0, |share| 1.0 - share).max(0.0);
+        self.extrapolation =
+            self.fraction(duration).map_or(0.0, |fraction| 1.0 - fraction).max(0.0);
         self.before = duration;
     }
 
@@ -105,12 +106,12 @@ mod tests {
     use super::*;
 
     /// Selection after each of some steps, for rates given at their ends.
-    fn are_told(rate: impl Fn(i32) -> f64) -> Vec<bool> {
+    fn selections(rate: impl Fn(i32) -> f64) -> Vec<bool> {
         let mut watch = RateResolution::default();
         let mean = |step: i32| 0.5 * (rate(step) + rate(step - 1));
-        let told = (1..300).map(|step| {
-            let seen = watch.share(0.1).map(|share| {
-                RateMismatch::of(2.0, rate(step - 1), [mean(step - 1), mean(step)], share)
+        let extrapolates = (1..300).map(|step| {
+            let seen = watch.fraction(0.1).map(|fraction| {
+                RateMismatch::of(2.0, rate(step - 1), [mean(step - 1), mean(step)], fraction)
             });
             watch.add(
                 0.1,
@@ -120,25 +121,29 @@ mod tests {
             assert!(!axial && !bending);
             !shear
         });
-        told.collect()
+        extrapolates.collect()
     }
 
     #[test]
     fn rates_of_vibration_and_of_decay_that_steps_resolve_are_told_as_they_are() {
         for turn in [0.01, 0.1, 0.5, 1.0] {
-            let told = are_told(|step| (turn * f64::from(step) + 0.3).cos());
-            assert!(told.into_iter().all(|told| told), "{turn}");
+            let extrapolates = selections(|step| (turn * f64::from(step) + 0.3).cos());
+            assert!(extrapolates.into_iter().all(|extrapolates| extrapolates), "{turn}");
         }
-        assert!(are_told(|step| 0.7_f64.powi(step)).into_iter().all(|told| told));
-        assert!(are_told(|step| f64::from(step.max(100))).into_iter().all(|told| told));
+        assert!(selections(|step| 0.7_f64.powi(step)).into_iter().all(|extrapolates| extrapolates));
+        assert!(
+            selections(|step| f64::from(step.max(100)))
+                .into_iter()
+                .all(|extrapolates| extrapolates)
+        );
     }
 
     #[test]
     fn rates_that_alternate_are_carried_on_from_means() {
         for ring in [0.1, 1.0, 100.0] {
-            let told =
-                are_told(|step| (0.1 * f64::from(step)).cos() + ring * (-1.0_f64).powi(step));
-            assert!(told.into_iter().skip(1).all(|told| !told), "{ring}");
+            let extrapolates =
+                selections(|step| (0.1 * f64::from(step)).cos() + ring * (-1.0_f64).powi(step));
+            assert!(extrapolates.into_iter().skip(1).all(|extrapolates| !extrapolates), "{ring}");
         }
     }
 

@@ -23,7 +23,6 @@ pub(super) struct Turn<T> {
 }
 
 impl RotationIncrement {
-    /// Rotation of an increment `Δω`.
     #[inline(always)]
     pub(super) fn turn<T: Number>(self, increment: T) -> Turn<T> {
         let one = increment.same(1.0);
@@ -117,7 +116,7 @@ impl<T: Number> Rotation<T> {
         }
     }
 
-    /// Normalises a rotation, whose determinant rounding has changed.
+    /// Normalises a rotation whose determinant differs from one because of rounding.
     #[inline(always)]
     pub fn normalised(self) -> Self {
         let square = self.cos * self.cos + self.sin * self.sin;

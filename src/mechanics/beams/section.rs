@@ -150,8 +150,8 @@ impl Section {
         }
     }
 
-    pub(super) fn mixed(&self, other: &Self, share: f64) -> Self {
-        self.each(other, |a, b| a + share * (b - a))
+    pub(super) fn mixed(&self, other: &Self, fraction: f64) -> Self {
+        self.each(other, |a, b| a + fraction * (b - a))
     }
 
     pub(super) fn plus(&self, other: &Self, weight: f64) -> Self {
@@ -166,8 +166,8 @@ impl Solid {
     }
 
     /// Linear interpolation of all dimensions and constants to another solid of the same kind.
-    pub(super) fn mixed(&self, other: &Self, share: f64) -> Self {
-        let mix = |a: f64, b: f64| a + share * (b - a);
+    pub(super) fn mixed(&self, other: &Self, fraction: f64) -> Self {
+        let mix = |a: f64, b: f64| a + fraction * (b - a);
         let shape = match (self.shape, other.shape) {
             (
                 SectionShape::Rectangle { width: w, height: h },

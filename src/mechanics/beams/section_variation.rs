@@ -69,13 +69,13 @@ impl SectionVariation {
         match self {
             Self::Uniform(section) => *section,
             Self::Numbers(all) => {
-                let (share, [before, after]) = between(all, part);
-                before.mixed(&after, share)
+                let (fraction, [before, after]) = between(all, part);
+                before.mixed(&after, fraction)
             }
             Self::Dimensions(all) => {
-                let (share, [before, after]) = between(all, part);
+                let (fraction, [before, after]) = between(all, part);
                 // The interpolation of two valid solids is valid.
-                let solid = before.mixed(&after, share);
+                let solid = before.mixed(&after, fraction);
                 Section::from_solid(solid).unwrap_or_else(|_| Section::of_solid(solid))
             }
         }
@@ -184,7 +184,7 @@ mod tests {
                 .validated()
         };
         assert!(of(&[0.0, 0.3, 1.0]).is_ok() && wedge().validated().is_ok());
-        for (places, told) in [
+        for (places, expected) in [
             (&[0.0][..], "1 place"),
             (&[0.0, 0.6, 0.4, 1.0], "0.4"),
             (&[0.0, 0.5], "0.5"),
@@ -192,7 +192,7 @@ mod tests {
             (&[0.0, f64::NAN, 1.0], "NaN"),
         ] {
             let message = of(places).unwrap_err().to_string();
-            assert!(message.contains(told), "{message}");
+            assert!(message.contains(expected), "{message}");
         }
     }
 }

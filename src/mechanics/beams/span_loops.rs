@@ -19,7 +19,6 @@ pub(super) trait SpanLoop<const N: usize, S> {
     /// Body of the loop for a group of spans.
     fn at<V: Simd>(&mut self, simd: V, group: &mut SpanGroup<N, S>);
 
-    /// Runs the loop over groups of spans.
     fn over(self, groups: &mut [SpanGroup<N, S>])
     where
         Self: Sized,

@@ -34,7 +34,6 @@ struct SpanCut {
     astride: Range<usize>,
 }
 
-/// Partition of the spans of a beam into concurrent parts.
 #[derive(Debug, Clone, Default)]
 pub(super) struct SpanPartition {
     cuts: Vec<SpanCut>,

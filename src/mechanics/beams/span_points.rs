@@ -157,7 +157,7 @@ impl<const N: usize, S: Sections> SpanGroup<N, S> {
         }
     }
 
-    /// Points for `Γ` of a span, with their sections.
+    /// Quadrature points of a span for the strain `Γ`, with their sections.
     pub(super) fn force_points_of<'a>(
         &'a self,
         uniform: &'a Section,
@@ -169,7 +169,7 @@ impl<const N: usize, S: Sections> SpanGroup<N, S> {
         })
     }
 
-    /// Points for `κ` of a span, with their sections.
+    /// Quadrature points of a span for the curvature `κ`, with their sections.
     pub(super) fn moment_points_of<'a>(
         &'a self,
         uniform: &'a Section,
@@ -181,7 +181,7 @@ impl<const N: usize, S: Sections> SpanGroup<N, S> {
         })
     }
 
-    /// A point for `Γ` of a span, with its section.
+    /// Quadrature point of a span for the strain `Γ`, with its section.
     pub(super) fn force_point_of<'a>(
         &'a self,
         uniform: &'a Section,
@@ -192,7 +192,7 @@ impl<const N: usize, S: Sections> SpanGroup<N, S> {
         (self.force_point(index), self.sections.of_force(uniform, index))
     }
 
-    /// A point for `κ` of a span, with its section.
+    /// Quadrature point of a span for the curvature `κ`, with its section.
     pub(super) fn moment_point_of<'a>(
         &'a self,
         uniform: &'a Section,

@@ -124,7 +124,7 @@ impl BodyPoint {
         (self.first..).zip(self.shape().iter().copied())
     }
 
-    /// Control point with the largest function. At a break of the mesh it coincides with the place.
+    /// Control point whose basis function is largest at the station. At a break of the mesh it lies at the station.
     pub fn nearest_control_point(&self) -> usize {
         self.weights()
             .max_by(|(_, a), (_, b)| a.total_cmp(b))

@@ -18,7 +18,7 @@ pub struct TaperQuadrature {
 }
 
 impl TaperQuadrature {
-    /// Evaluates the errors for a section variation. Places are used as fractions of the parameter, which is exact for spans of equal length.
+    /// Computes the quadrature errors for a variation of the section. Places along the beam are used as fractions of the parameter, which is exact for spans of equal length.
     ///
     /// # Errors
     /// Fails if the mesh has no quadrature.

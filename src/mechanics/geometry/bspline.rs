@@ -61,7 +61,7 @@ fn raise<const WIDTH: usize>(
     higher
 }
 
-/// Derivatives of the next order of the functions of degree `q`, from those of degree `q - 1`.
+/// Derivatives of one order more of the functions of degree `q`, from the derivatives of the functions of degree `q - 1`.
 #[inline(always)]
 fn differentiate<const WIDTH: usize>(
     lower: &[f64; WIDTH],

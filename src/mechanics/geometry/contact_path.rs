@@ -98,19 +98,19 @@ impl ContactPath {
             return;
         }
         let finite = from.is_finite() && to.is_finite();
-        let way = self.interval(from, if finite { to } else { from });
-        self.interval = PathInterval { from, to, ..way };
-        let (low, high) = way.lowest_and_highest();
+        let interval = self.interval(from, if finite { to } else { from });
+        self.interval = PathInterval { from, to, ..interval };
+        let (low, high) = interval.lowest_and_highest();
         self.first = self.line.spans[low].first;
         self.length = self.line.spans[high].first + self.line.basis.degree() + 1 - self.first;
         if finite {
             self.fill(0.0);
             // The common degrees are compile-time constants.
             match self.line.basis.degree() {
-                1 => self.add_values::<2>(way),
-                2 => self.add_values::<3>(way),
-                3 => self.add_values::<4>(way),
-                _ => self.add_values::<{ MAX_DEGREE + 1 }>(way),
+                1 => self.add_values::<2>(interval),
+                2 => self.add_values::<3>(interval),
+                3 => self.add_values::<4>(interval),
+                _ => self.add_values::<{ MAX_DEGREE + 1 }>(interval),
             }
         } else {
             self.fill(f64::NAN);
@@ -165,13 +165,13 @@ impl ContactPath {
     ///
     /// The slope of the polynomial may jump only where the slopes of the basis jump.
     pub fn along(&self, function: &PiecewisePolynomial) -> FunctionOnPath {
-        let way = self.interval;
-        let [start, ..] = function.in_span(way.departure, way.from);
-        let [end, slope, _] = function.in_span(way.arrival, way.to);
+        let interval = self.interval;
+        let [start, ..] = function.in_span(interval.departure, interval.from);
+        let [end, slope, _] = function.in_span(interval.arrival, interval.to);
         let (mut difference, mut change) = (0.0, 0.0);
-        let (low, high) = way.lowest_and_highest();
+        let (low, high) = interval.lowest_and_highest();
         for (index, span) in (low..).zip(&self.line.spans[low..=high]) {
-            let piece = way.piece(index, span);
+            let piece = interval.piece(index, span);
             for &(t, weight) in function.rule() {
                 let xi = piece.enter + t * (piece.leave - piece.enter);
                 let [_, by_xi, bend] = function.in_span(index, xi);
@@ -179,8 +179,8 @@ impl ContactPath {
                 change += weight * piece.share * (piece.before + t * piece.share) * bend;
             }
         }
-        if self.line.kinks[way.departure] != self.line.kinks[way.arrival] {
-            change = (slope - difference) / (way.to - way.from);
+        if self.line.kinks[interval.departure] != self.line.kinks[interval.arrival] {
+            change = (slope - difference) / (interval.to - interval.from);
         }
         FunctionOnPath { start, end, slope, difference, change }
     }
@@ -224,26 +224,28 @@ impl ContactPath {
         self.numbers[..QUANTITIES * self.length].fill(value);
     }
 
-    fn add_values<const WIDTH: usize>(&mut self, way: PathInterval) {
-        self.add_ends::<WIDTH>(way);
-        self.add_quotients::<WIDTH>(way);
+    fn add_values<const WIDTH: usize>(&mut self, interval: PathInterval) {
+        self.add_ends::<WIDTH>(interval);
+        self.add_quotients::<WIDTH>(interval);
     }
 
-    fn add_ends<const WIDTH: usize>(&mut self, way: PathInterval) {
+    fn add_ends<const WIDTH: usize>(&mut self, interval: PathInterval) {
         let PathSupport { basis, spans, .. } = &*self.line;
         let [start, end, mean, slope, ..] = rows(&mut self.numbers, self.length);
-        let departure = &spans[way.departure];
+        let departure = &spans[interval.departure];
         let values = match &self.departing {
-            Some((from, span, values)) if (*from, *span) == (way.from, way.departure) => values,
+            Some((from, span, values)) if (*from, *span) == (interval.from, interval.departure) => {
+                values
+            }
             _ => {
-                let own = basis.evaluate_low::<WIDTH>(departure, way.from);
+                let own = basis.evaluate_low::<WIDTH>(departure, interval.from);
                 let mut values = FunctionRow::default();
                 values[..=basis.degree()].copy_from_slice(own.values());
-                &self.departing.insert((way.from, way.departure, values)).2
+                &self.departing.insert((interval.from, interval.departure, values)).2
             }
         };
         add(start, departure.first - self.first, 1.0, &values[..=basis.degree()]);
-        let values = basis.evaluate_low::<WIDTH>(&spans[way.arrival], way.to);
+        let values = basis.evaluate_low::<WIDTH>(&spans[interval.arrival], interval.to);
         add(end, values.first - self.first, 1.0, values.values());
         add(slope, values.first - self.first, 1.0, values.slopes());
         add(mean, 0, 0.5, start);
@@ -252,13 +254,13 @@ impl ContactPath {
 
     /// Adds the integrals over the path: `D = ∫ B'(ξ₀ + s Δξ) ds` over `0 < s < 1` and its derivative `∫ s B''(ξ₀ + s Δξ) ds`, unless `B'` jumps on
     /// the path.
-    fn add_quotients<const WIDTH: usize>(&mut self, way: PathInterval) {
+    fn add_quotients<const WIDTH: usize>(&mut self, interval: PathInterval) {
         let PathSupport { basis, spans, kinks, rule } = &*self.line;
         let [.., slope, difference, change] = rows(&mut self.numbers, self.length);
-        let smooth = kinks[way.departure] == kinks[way.arrival];
-        let (low, high) = way.lowest_and_highest();
+        let smooth = kinks[interval.departure] == kinks[interval.arrival];
+        let (low, high) = interval.lowest_and_highest();
         for (index, span) in spans[low..=high].iter().enumerate() {
-            let piece = way.piece(low + index, span);
+            let piece = interval.piece(low + index, span);
             let skip = span.first - self.first;
             for &(t, weight) in rule {
                 let xi = piece.enter + t * (piece.leave - piece.enter);
@@ -272,7 +274,7 @@ impl ContactPath {
             }
         }
         if !smooth {
-            let length = way.to - way.from;
+            let length = interval.to - interval.from;
             add(change, 0, 1.0 / length, slope);
             add(change, 0, -1.0 / length, difference);
         }

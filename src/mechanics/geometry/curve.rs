@@ -197,8 +197,8 @@ mod tests {
             let (start, end) = curve.domain();
             let (xi, h) = (start + 0.43 * (end - start), 1e-6);
             let turn = curve.tangent_angle(xi + h).unwrap() - curve.tangent_angle(xi - h).unwrap();
-            let way = curve.length_to(xi + h).unwrap() - curve.length_to(xi - h).unwrap();
-            assert!((turn / way - curve.curvature(xi).unwrap()).abs() < 1e-7);
+            let arc = curve.length_to(xi + h).unwrap() - curve.length_to(xi - h).unwrap();
+            assert!((turn / arc - curve.curvature(xi).unwrap()).abs() < 1e-7);
         }
     }
 

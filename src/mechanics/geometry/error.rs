@@ -3,36 +3,22 @@
 use super::Vec2;
 
 /// Error of a curve, basis or quadrature rule. Every message names the object, the value, the allowed range and, if not obvious, the remedy.
+#[expect(missing_docs, reason = "the messages describe the variants and their fields")]
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum GeometryError {
-    /// Number that is NaN or infinite.
     #[error("{object} is {value}, but must be a finite number")]
     NotFinite {
         /// Meaning of the number, such as "knot 3".
         object: String,
-        /// Rejected number.
         value: f64,
     },
 
-    /// Polynomial degree that is not available.
     #[error("degree {degree} is not available; allowed are 1 to {largest}")]
-    Degree {
-        /// Requested degree.
-        degree: usize,
-        /// Largest degree.
-        largest: usize,
-    },
+    Degree { degree: usize, largest: usize },
 
-    /// Basis without spans, or with too many.
     #[error("spans: {spans} requested, but 1 to {largest} are allowed")]
-    Spans {
-        /// Requested number of spans.
-        spans: usize,
-        /// Largest number of spans.
-        largest: usize,
-    },
+    Spans { spans: usize, largest: usize },
 
-    /// Continuity too high for the degree.
     #[error(
         "continuity {continuity} is not possible with degree {degree}; allowed are 0 to {}",
         .degree - 1
@@ -40,23 +26,15 @@ pub enum GeometryError {
     Continuity {
         /// Requested number of continuous derivatives at interior knots.
         continuity: usize,
-        /// Degree of the splines.
         degree: usize,
     },
 
-    /// Knot vector with too few knots.
     #[error(
         "knots: {count} are too few for degree {degree}; an open knot vector has at least {} ({} at each end)",
         2 * (.degree + 1), .degree + 1
     )]
-    TooFewKnots {
-        /// Number of knots.
-        count: usize,
-        /// Degree of the splines.
-        degree: usize,
-    },
+    TooFewKnots { count: usize, degree: usize },
 
-    /// Knot smaller than the previous one.
     #[error(
         "knots: entry {index} ({value}) is smaller than entry {} ({previous}); knots must not decrease",
         .index - 1
@@ -81,9 +59,7 @@ pub enum GeometryError {
         end: &'static str,
         /// End knot [-].
         knot: f64,
-        /// Multiplicity of the knot.
         multiplicity: usize,
-        /// Degree of the splines.
         degree: usize,
     },
 
@@ -94,7 +70,6 @@ pub enum GeometryError {
     InteriorMultiplicity {
         /// Interior knot [-].
         knot: f64,
-        /// Multiplicity of the knot.
         multiplicity: usize,
         /// Degree of the splines, the largest allowed multiplicity.
         degree: usize,
@@ -113,14 +88,12 @@ pub enum GeometryError {
         end: f64,
     },
 
-    /// Knot vector whose first and last knots coincide.
     #[error("knots: all are {knot}, but the last knot must be larger than the first")]
     EmptyDomain {
         /// Value of the knots [-].
         knot: f64,
     },
 
-    /// Breaks of Lagrange elements that do not increase.
     #[error(
         "breaks: entry {index} ({value}) is not larger than entry {} ({previous}); breaks must increase",
         .index - 1
@@ -134,7 +107,6 @@ pub enum GeometryError {
         previous: f64,
     },
 
-    /// Parameter outside a curve or basis.
     #[error("parameter {xi} is outside [{start}, {end}]")]
     OutsideDomain {
         /// Parameter [-].
@@ -145,7 +117,6 @@ pub enum GeometryError {
         end: f64,
     },
 
-    /// Inserted knot that is not strictly inside the domain.
     #[error("knot {xi} cannot be inserted; it must lie strictly between {start} and {end}")]
     InsertOutside {
         /// Knot to be inserted [-].
@@ -156,27 +127,14 @@ pub enum GeometryError {
         end: f64,
     },
 
-    /// Different numbers of control points and basis functions.
     #[error(
         "control points: {points} given; the knot vector has {functions} basis functions and needs one each"
     )]
-    ControlPointCount {
-        /// Number of control points.
-        points: usize,
-        /// Number of basis functions.
-        functions: usize,
-    },
+    ControlPointCount { points: usize, functions: usize },
 
-    /// Too few points for a curve.
     #[error("points: {count} given; a curve needs at least {needed}")]
-    TooFewPoints {
-        /// Number of points.
-        count: usize,
-        /// Smallest number of points.
-        needed: usize,
-    },
+    TooFewPoints { count: usize, needed: usize },
 
-    /// Consecutive points of a curve that coincide.
     #[error(
         "points: entries {} and {index} are both ({}, {}); consecutive points must differ: leave one out",
         .index - 1, .point.x, .point.y
@@ -188,28 +146,24 @@ pub enum GeometryError {
         point: Vec2,
     },
 
-    /// Line of zero length.
     #[error("line: start and end are both ({}, {}), but must differ", .point.x, .point.y)]
     ZeroLengthLine {
         /// Start and end [length].
         point: Vec2,
     },
 
-    /// Spline whose control points all coincide.
     #[error("spline: all control points are ({}, {}); at least one must differ", .point.x, .point.y)]
     ZeroLengthSpline {
         /// Place of the control points [length].
         point: Vec2,
     },
 
-    /// Arc whose radius is not positive.
     #[error("arc: radius is {radius}, but must be positive")]
     ArcRadius {
         /// Radius [length].
         radius: f64,
     },
 
-    /// Arc with equal start and end angles.
     #[error(
         "arc: start and end angle are both {angle}, but must differ (add 2π for a full circle)"
     )]
@@ -218,7 +172,6 @@ pub enum GeometryError {
         angle: f64,
     },
 
-    /// Arc of more than a full turn.
     #[error(
         "arc: the angle between start and end is {sweep} rad, but at most 2π is allowed in either direction"
     )]
@@ -227,7 +180,6 @@ pub enum GeometryError {
         sweep: f64,
     },
 
-    /// Point of a curve without tangent and curvature, because the derivative is zero.
     #[error(
         "curve: no tangent at parameter {xi}, where its derivative is zero; move coincident control points apart, or evaluate at another parameter"
     )]
@@ -236,7 +188,6 @@ pub enum GeometryError {
         xi: f64,
     },
 
-    /// Arc length outside a curve.
     #[error("arc length {arc_length} is outside the length of the curve, [0, {length}]")]
     OutsideLength {
         /// Requested arc length [length].
@@ -245,14 +196,8 @@ pub enum GeometryError {
         length: f64,
     },
 
-    /// Gauss rule that is not available.
     #[error("quadrature: {points} points requested, but 1 to {largest} are allowed")]
-    QuadraturePoints {
-        /// Requested number of points.
-        points: usize,
-        /// Largest number of points.
-        largest: usize,
-    },
+    QuadraturePoints { points: usize, largest: usize },
 }
 
 fn open_end(end: &str, knot: f64, degree: usize) -> String {

@@ -61,9 +61,9 @@ fn at(culprit: Option<&FailureSource>) -> String {
 }
 
 /// Rejected step. The mechanism is in its state at the start of the step.
+#[expect(missing_docs, reason = "the messages describe the variants and their fields")]
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum StepError {
-    /// Equations that were not solved.
     #[error("the step of {:.3e} from t = {} failed: {source}{}", interval.duration(), interval.start, at(failure_source.as_deref()))]
     Newton {
         /// Interval of the step [time].
@@ -75,7 +75,6 @@ pub enum StepError {
         /// Location of the failure, if known.
         failure_source: Option<Box<FailureSource>>,
     },
-    /// Mean rotation of a section in the step of at least π, which the step does not resolve.
     #[error(
         "a section would rotate by {rotation:.2} rad in the step of {:.3e} from t = {}, but the rotation per step must be below π; use a smaller step",
         interval.duration(), interval.start
@@ -85,10 +84,8 @@ pub enum StepError {
         interval: Interval,
         /// Rotation increment `Δω` of the section, mean rate times step [rad].
         rotation: f64,
-        /// Newton iterations of the step.
         iterations: usize,
     },
-    /// Path of a slider that collapses in the mean configuration, because the beam rotates by about π.
     #[error(
         "in the step of {:.3e} from t = {} the beam under a slider rotates by about π (chord {chord:.1e} of the path); use a smaller step",
         interval.duration(), interval.start
@@ -98,7 +95,6 @@ pub enum StepError {
         interval: Interval,
         /// Ratio of the chord to the length of the path of the slider, in the mean configuration [-].
         chord: f64,
-        /// Newton iterations of the step.
         iterations: usize,
     },
     /// Constraint limit that is passed within the step, so that the step must end at the limit.
@@ -111,17 +107,13 @@ pub enum StepError {
         interval: Interval,
         /// Passed limit, and the overshoot.
         overshoot: Overshoot,
-        /// Newton iterations of the step.
         iterations: usize,
     },
-    /// Load without a finite value.
     #[error("{load}: {source} (in the step from t = {} to {})", interval.start, interval.end)]
     Load {
         /// Interval of the step [time].
         interval: Interval,
-        /// Name of the load.
         load: String,
-        /// Reason.
         source: ExternalError,
     },
 }

@@ -18,7 +18,7 @@ pub enum Method {
     Trapezoidal,
     /// [`EnergyDecaying`]: momenta are conserved, vibrations are damped.
     EnergyDecaying {
-        /// Dissipation `χ`: shift of the strain of the section forces beyond the mean, in units of half the change of strain [-].
+        /// Dissipation `χ`: section forces use the mean strain plus `χ/2` times the change of strain in the step [-].
         chi: f64,
     },
     /// [`FourthOrder`]: a composition of seven energy–momentum steps.
@@ -296,7 +296,11 @@ mod tests {
         for chi in [-0.1, f64::NAN, f64::INFINITY] {
             assert!(Method::EnergyDecaying { chi }.check().is_err(), "{chi}");
         }
-        let told = Method::GeneralizedAlpha { rho_infinity: 1.5 }.check().unwrap_err().to_string();
-        assert!(told.contains("rho_infinity is 1.5") && told.contains("from 0 to 1"), "{told}");
+        let message =
+            Method::GeneralizedAlpha { rho_infinity: 1.5 }.check().unwrap_err().to_string();
+        assert!(
+            message.contains("rho_infinity is 1.5") && message.contains("from 0 to 1"),
+            "{message}"
+        );
     }
 }

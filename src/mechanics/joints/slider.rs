@@ -70,9 +70,9 @@ impl EndAction {
 /// Treatment of start velocities across the master.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 pub enum StartVelocities {
-    /// They are rejected.
+    /// Start velocities across the master are rejected.
     #[default]
     Check,
-    /// They are removed by the smallest change in the norm of the kinetic energy.
+    /// Start velocities across the master are removed by the smallest change in the norm of the kinetic energy.
     Project,
 }

@@ -75,7 +75,6 @@ impl Arrangement {
         }
     }
 
-    /// Uses the natural order of the band.
     fn use_natural_order(&mut self) {
         self.position.fill(0);
         for &at in self.layout.own.iter().flatten() {

@@ -39,7 +39,6 @@ impl DoubleDouble {
         Self::renormalised(high, self.low.mul_add(factor, low))
     }
 
-    /// Product `self · other`.
     #[inline(always)]
     pub(super) fn multiply_double_double(self, other: Self) -> Self {
         let Self { high, low } = Self::product(self.high, other.high);

@@ -149,7 +149,6 @@ fn eliminate_in_profile<S: Simd>(
     Ok(())
 }
 
-/// Factors of the diagonal block of a panel.
 pub(super) struct PanelFactors {
     /// Multipliers left of the diagonal; entries of the upper factor on the diagonal and right of it.
     pub(super) factors: [[f64; PANEL]; PANEL],

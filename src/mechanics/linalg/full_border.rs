@@ -37,7 +37,6 @@ pub struct FullBorder {
     units: Vec<(BorderUnit, BorderUnit)>,
 }
 
-/// Factors of a matrix with a [`FullBorder`].
 #[derive(Debug)]
 pub(super) struct FullLu<'a> {
     width: usize,

@@ -7,7 +7,6 @@
 use super::ordering::reverse_cuthill_mckee;
 use super::{BandedLu, BandedMatrix, LinearError};
 
-/// Number of scaling passes.
 const SCALINGS: usize = 4;
 
 type MatrixEntry = (usize, usize, f64);
@@ -33,7 +32,6 @@ struct Equilibration {
     columns: Vec<f64>,
 }
 
-/// Factors of a [`JointElimination`].
 #[derive(Debug)]
 pub(super) struct JointLu<'a> {
     others: Ordered<'a>,

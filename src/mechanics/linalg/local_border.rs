@@ -44,7 +44,6 @@ pub struct LocalBorder {
     all: Vec<f64>,
 }
 
-/// Factors of a matrix with a [`LocalBorder`].
 #[derive(Debug)]
 pub(super) struct LocalLu<'a> {
     blocks: &'a [Block],

@@ -65,7 +65,6 @@ impl ProfileMatrix {
         self.storage.weigh_rows();
     }
 
-    /// Sets the squared size of a row.
     pub(super) fn set_row_size(&mut self, row: usize, size: f64) {
         self.storage.sizes[row] = size;
     }

@@ -37,7 +37,6 @@ struct BandCut {
     lower: usize,
 }
 
-/// Factors of a band eliminated from both ends.
 #[derive(Debug)]
 pub(super) struct TwoEndedLu<'a> {
     cut: BandCut,

@@ -36,35 +36,15 @@ impl Error for FunctionError {
 }
 
 /// Schedule that is invalid, or has no value at some time.
+#[expect(missing_docs, reason = "the messages describe the variants and their fields")]
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum LoadError {
-    /// Number outside its range.
     #[error("{schedule}: {name} is {value}, but must be {allowed}")]
-    Value {
-        /// Kind of the schedule.
-        schedule: &'static str,
-        /// Name of the parameter.
-        name: &'static str,
-        /// Rejected value.
-        value: f64,
-        /// Allowed values.
-        allowed: &'static str,
-    },
-    /// Combination of too many schedules.
+    Value { schedule: &'static str, name: &'static str, value: f64, allowed: &'static str },
     #[error("a schedule has {parts} parts, but at most {most} can be combined")]
-    TooManyParts {
-        /// Number of parts.
-        parts: usize,
-        /// Largest number of parts.
-        most: usize,
-    },
-    /// Table with too few rows.
+    TooManyParts { parts: usize, most: usize },
     #[error("table: {rows} rows given, but at least 2 are needed, each with a time and a factor")]
-    ShortTable {
-        /// Number of rows.
-        rows: usize,
-    },
-    /// Table with decreasing times.
+    ShortTable { rows: usize },
     #[error(
         "table: the time of row {row} ({time}) is smaller than the previous one ({before}); times must not decrease (repeat a time for a jump)"
     )]
@@ -76,10 +56,8 @@ pub enum LoadError {
         /// Time of the previous row [time].
         before: f64,
     },
-    /// Stored schedule with missing or superfluous terms.
     #[error("a stored schedule has missing or superfluous terms")]
     StoredTerms,
-    /// Motion that jumps.
     #[error(
         "it jumps at t = {time} from {before} to {after}, but a prescribed motion must be continuous"
     )]
@@ -91,7 +69,6 @@ pub enum LoadError {
         /// Value after the jump [length, rad].
         after: f64,
     },
-    /// Motion with an infinite rate.
     #[error("its rate is infinite at t = {time}, but must be finite")]
     InfiniteRate {
         /// Time of the infinite rate [time].
@@ -100,7 +77,6 @@ pub enum LoadError {
     /// Function that failed.
     #[error(transparent)]
     Function(FunctionError),
-    /// Value that is not finite.
     #[error("the schedule is {value} at t = {time}, but it must be finite")]
     NotFinite {
         /// Time [time].

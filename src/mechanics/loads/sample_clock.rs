@@ -140,7 +140,7 @@ mod tests {
         for (period, delay) in [(0.0, 0.0), (-1.0, 0.0), (f64::NAN, 0.0), (1.0, -0.1)] {
             assert!(SampleClock::new(period, delay).is_err());
         }
-        let told = SampleClock::new(1.0, f64::INFINITY).unwrap_err().to_string();
-        assert!(told.contains("the delay is inf, but must be zero or a positive"), "{told}");
+        let message = SampleClock::new(1.0, f64::INFINITY).unwrap_err().to_string();
+        assert!(message.contains("the delay is inf, but must be zero or a positive"), "{message}");
     }
 }

@@ -85,7 +85,6 @@ pub enum Operation {
     Product,
 }
 
-/// Largest number of parts of a combined schedule.
 pub(super) const MOST_PARTS: usize = 1000;
 
 impl std::fmt::Debug for Schedule {

@@ -4,15 +4,14 @@ use super::ResidualNorms;
 use crate::linalg::LinearError;
 
 /// Failed Newton solve.
+#[expect(missing_docs, reason = "the messages describe the variants and their fields")]
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum NewtonError {
-    /// Iteration limit reached.
     #[error("Newton's method did not converge in {} iterations ({})", history.len(), describe(history))]
     NotConverged {
         /// Residual norms after each iteration.
         history: Vec<ResidualNorms>,
     },
-    /// Value that is not finite.
     #[error("Newton's method produced a number that is not finite after {} iterations ({})", history.len(), describe(history))]
     NotFinite {
         /// Residual norms after each iteration.
@@ -21,7 +20,6 @@ pub enum NewtonError {
     /// Tangent that could not be factorised.
     #[error("{source} (after {} Newton iterations)", history.len())]
     Linear {
-        /// Reason.
         source: LinearError,
         /// Residual norms after each iteration.
         history: Vec<ResidualNorms>,

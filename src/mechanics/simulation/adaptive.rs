@@ -69,9 +69,9 @@ impl Adaptive {
     }
 
     /// Plans the next step from `now`, ending at `stop` at the latest [time].
-    pub(super) fn plan(&self, pace: &StepSizeState, now: f64, stop: f64) -> StepPlan {
+    pub(super) fn plan(&self, state: &StepSizeState, now: f64, stop: f64) -> StepPlan {
         let least = self.controller.smallest.max(ROUNDINGS * f64::EPSILON * now);
-        let wish = pace.unconstrained_size.max(least);
+        let wish = state.unconstrained_size.max(least);
         let left = stop - now;
         let (end, is_cut) = if stop <= now + wish {
             (stop, stop < now + wish)

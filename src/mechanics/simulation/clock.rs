@@ -22,6 +22,6 @@ impl StepClock {
 
     /// Planned size of the next step [time].
     pub(super) fn dt(&self) -> f64 {
-        self.step_size.map_or(self.grid.dt(), |pace| pace.unconstrained_size)
+        self.step_size.map_or(self.grid.dt(), |state| state.unconstrained_size)
     }
 }

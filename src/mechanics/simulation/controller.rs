@@ -10,13 +10,10 @@ use crate::elementary::power;
 /// Ratio of the next step to the longest step that would be accepted.
 const SAFETY: f64 = 0.9;
 
-/// Largest step-growth factor.
 const MOST_GROWTH: f64 = 5.0;
 
-/// Smallest step-growth factor.
 const LEAST_GROWTH: f64 = 0.2;
 
-/// Largest factor after a second rejection.
 const SECOND_REJECTION_FACTOR: f64 = 0.5;
 
 /// Exponent of the error of the last step.
@@ -63,56 +60,56 @@ impl StepController {
     }
 
     /// Returns true if the step size that the state requests is not below the smallest.
-    pub(super) fn allows(&self, pace: &StepSizeState) -> bool {
-        let is_error = pace.error.is_none_or(|error| error >= LEAST_ERROR && error.is_finite());
-        (self.smallest..=self.largest).contains(&pace.unconstrained_size)
-            && pace.unconstrained_size.is_finite()
+    pub(super) fn allows(&self, state: &StepSizeState) -> bool {
+        let is_error = state.error.is_none_or(|error| error >= LEAST_ERROR && error.is_finite());
+        (self.smallest..=self.largest).contains(&state.unconstrained_size)
+            && state.unconstrained_size.is_finite()
             && is_error
-            && pace.tries < usize::MAX / 2
+            && state.tries < usize::MAX / 2
     }
 
-    pub(super) fn restart(&self, pace: &mut StepSizeState) {
-        *pace = StepSizeState {
-            unconstrained_size: pace.unconstrained_size.min(self.first),
+    pub(super) fn restart(&self, state: &mut StepSizeState) {
+        *state = StepSizeState {
+            unconstrained_size: state.unconstrained_size.min(self.first),
             ..self.start()
         };
     }
 
-    pub(super) fn accept(&self, pace: &mut StepSizeState, trial: TriedStep) {
+    pub(super) fn accept(&self, state: &mut StepSizeState, trial: TriedStep) {
         let error = trial.error.max(LEAST_ERROR);
-        let growth = match pace.error {
+        let growth = match state.error {
             None => self.room(error),
             Some(last) => power(self.room(error), NOW) / power(self.room(last), BEFORE),
         };
         // After a failed attempt the step size does not grow.
-        let most = if pace.tries > 0 { 1.0 } else { MOST_GROWTH };
+        let most = if state.tries > 0 { 1.0 } else { MOST_GROWTH };
         let wish = trial.duration * growth.clamp(LEAST_GROWTH, most);
-        *pace =
+        *state =
             StepSizeState { unconstrained_size: self.bounded(wish), error: Some(error), tries: 0 };
     }
 
     /// Updates the state after an accepted step that an event shortened. The step size may increase, but not decrease.
-    pub(super) fn accept_cut(&self, pace: &mut StepSizeState, trial: TriedStep) {
-        let mut alone = StepSizeState { error: None, ..*pace };
+    pub(super) fn accept_cut(&self, state: &mut StepSizeState, trial: TriedStep) {
+        let mut alone = StepSizeState { error: None, ..*state };
         self.accept(&mut alone, trial);
-        *pace = StepSizeState {
-            unconstrained_size: alone.unconstrained_size.max(pace.unconstrained_size),
-            error: pace.error,
+        *state = StepSizeState {
+            unconstrained_size: alone.unconstrained_size.max(state.unconstrained_size),
+            error: state.error,
             tries: 0,
         };
     }
 
     /// Updates the state after a step with too large an error.
-    pub(super) fn reject(&self, pace: &mut StepSizeState, trial: TriedStep) {
-        let most = if pace.tries > 0 { SECOND_REJECTION_FACTOR } else { SAFETY };
+    pub(super) fn reject(&self, state: &mut StepSizeState, trial: TriedStep) {
+        let most = if state.tries > 0 { SECOND_REJECTION_FACTOR } else { SAFETY };
         // A NaN error counts as infinite.
         let error = if trial.error.is_nan() { f64::INFINITY } else { trial.error };
-        self.shorten(pace, trial.duration, self.room(error).clamp(LEAST_GROWTH, most));
+        self.shorten(state, trial.duration, self.room(error).clamp(LEAST_GROWTH, most));
     }
 
     /// Updates the state after a step of a duration [time] that was not solved.
-    pub(super) fn fail(&self, pace: &mut StepSizeState, duration: f64) {
-        self.shorten(pace, duration, SECOND_REJECTION_FACTOR);
+    pub(super) fn fail(&self, state: &mut StepSizeState, duration: f64) {
+        self.shorten(state, duration, SECOND_REJECTION_FACTOR);
     }
 
     /// Factor by which a step with this error could have been longer.
@@ -120,10 +117,10 @@ impl StepController {
         SAFETY * power(error, -1.0 / self.order)
     }
 
-    fn shorten(&self, pace: &mut StepSizeState, duration: f64, part: f64) {
-        pace.tries += 1;
+    fn shorten(&self, state: &mut StepSizeState, duration: f64, part: f64) {
+        state.tries += 1;
         // The end of a step may overflow, and so may its duration.
-        pace.unconstrained_size = self.bounded(duration.min(pace.unconstrained_size) * part);
+        state.unconstrained_size = self.bounded(duration.min(state.unconstrained_size) * part);
     }
 
     fn bounded(&self, wish: f64) -> f64 {
@@ -140,16 +137,16 @@ mod tests {
 
     /// Accepted sizes up to t = 1 for an error of `(size/right)³`.
     fn sizes(first: f64, right: impl Fn(usize) -> f64) -> (Vec<f64>, usize) {
-        let mut pace = StepSizeState { unconstrained_size: first, ..CONTROLLER.start() };
+        let mut state = StepSizeState { unconstrained_size: first, ..CONTROLLER.start() };
         let (mut sizes, mut rejected) = (Vec::new(), 0);
         while sizes.len() < 30 {
-            let duration = pace.unconstrained_size;
+            let duration = state.unconstrained_size;
             let trial = TriedStep { duration, error: (duration / right(sizes.len())).powi(3) };
             if trial.error <= 1.0 {
-                CONTROLLER.accept(&mut pace, trial);
+                CONTROLLER.accept(&mut state, trial);
                 sizes.push(duration);
             } else {
-                CONTROLLER.reject(&mut pace, trial);
+                CONTROLLER.reject(&mut state, trial);
                 rejected += 1;
             }
         }
@@ -174,41 +171,41 @@ mod tests {
 
     #[test]
     fn a_cut_step_changes_nothing_unless_the_wish_was_too_small() {
-        let mut pace = StepSizeState { unconstrained_size: 1.0, error: Some(0.5), tries: 0 };
-        let before = pace;
-        CONTROLLER.accept_cut(&mut pace, TriedStep { duration: 1e-2, error: 1e-9 });
-        assert_eq!(pace, before);
-        CONTROLLER.accept_cut(&mut pace, TriedStep { duration: 0.9, error: 1e-3 });
-        assert!(pace.unconstrained_size > 4.0 && pace.error == before.error);
+        let mut state = StepSizeState { unconstrained_size: 1.0, error: Some(0.5), tries: 0 };
+        let before = state;
+        CONTROLLER.accept_cut(&mut state, TriedStep { duration: 1e-2, error: 1e-9 });
+        assert_eq!(state, before);
+        CONTROLLER.accept_cut(&mut state, TriedStep { duration: 0.9, error: 1e-3 });
+        assert!(state.unconstrained_size > 4.0 && state.error == before.error);
     }
 
     #[test]
     fn what_fails_is_halved_until_it_is_the_smallest() {
-        let mut pace = CONTROLLER.start();
-        CONTROLLER.fail(&mut pace, 0.1);
-        assert_eq!((pace.unconstrained_size, pace.tries), (0.05, 1));
-        CONTROLLER.accept(&mut pace, TriedStep { duration: 0.05, error: 1e-6 });
-        assert_eq!((pace.unconstrained_size, pace.tries), (0.05, 0), "it does not grow at once");
-        CONTROLLER.reject(&mut pace, TriedStep { duration: 2e-3, error: f64::NAN });
-        assert_eq!(pace.unconstrained_size, 1e-3);
+        let mut state = CONTROLLER.start();
+        CONTROLLER.fail(&mut state, 0.1);
+        assert_eq!((state.unconstrained_size, state.tries), (0.05, 1));
+        CONTROLLER.accept(&mut state, TriedStep { duration: 0.05, error: 1e-6 });
+        assert_eq!((state.unconstrained_size, state.tries), (0.05, 0), "it does not grow at once");
+        CONTROLLER.reject(&mut state, TriedStep { duration: 2e-3, error: f64::NAN });
+        assert_eq!(state.unconstrained_size, 1e-3);
     }
 
     #[test]
     fn a_step_beyond_all_numbers_is_shortened_too() {
-        let mut pace = StepSizeState { unconstrained_size: 4.0, error: None, tries: 0 };
-        CONTROLLER.fail(&mut pace, f64::INFINITY);
-        assert_eq!(pace.unconstrained_size, 2.0);
-        CONTROLLER.reject(&mut pace, TriedStep { duration: f64::INFINITY, error: f64::NAN });
-        assert_eq!(pace.unconstrained_size, 0.4);
+        let mut state = StepSizeState { unconstrained_size: 4.0, error: None, tries: 0 };
+        CONTROLLER.fail(&mut state, f64::INFINITY);
+        assert_eq!(state.unconstrained_size, 2.0);
+        CONTROLLER.reject(&mut state, TriedStep { duration: f64::INFINITY, error: f64::NAN });
+        assert_eq!(state.unconstrained_size, 0.4);
     }
 
     #[test]
     fn after_a_jump_steps_begin_as_at_the_start() {
-        let mut pace = StepSizeState { unconstrained_size: 3.0, error: Some(0.5), tries: 2 };
-        CONTROLLER.restart(&mut pace);
-        assert_eq!(pace, CONTROLLER.start());
-        pace.unconstrained_size = 0.01;
-        CONTROLLER.restart(&mut pace);
-        assert_eq!(pace.unconstrained_size, 0.01);
+        let mut state = StepSizeState { unconstrained_size: 3.0, error: Some(0.5), tries: 2 };
+        CONTROLLER.restart(&mut state);
+        assert_eq!(state, CONTROLLER.start());
+        state.unconstrained_size = 0.01;
+        CONTROLLER.restart(&mut state);
+        assert_eq!(state.unconstrained_size, 0.01);
     }
 }

@@ -40,11 +40,11 @@ impl CornerCrossings {
         let apart =
             |((start, middle), (whole, halves)): ((&Branch, &Branch), (&Branch, &Branch))| {
                 let is_struck = [middle, whole, halves].iter().any(|at| at.index != start.index);
-                let way = duration * (whole.rate - halves.rate).abs();
+                let displacement = duration * (whole.rate - halves.rate).abs();
                 match whole.along {
                     _ if !is_struck => 0.0,
-                    Along::Length => way / length,
-                    Along::Angle => way,
+                    Along::Length => displacement / length,
+                    Along::Angle => displacement,
                 }
             };
         all.map(apart).fold(0.0, larger)

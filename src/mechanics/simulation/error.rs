@@ -5,6 +5,7 @@ use crate::integrators::{MethodError, StepError};
 use crate::system::{SystemError, rounded};
 
 /// Run that could not start or continue. Its history up to the last successful step is kept.
+#[expect(missing_docs, reason = "the messages describe the variants and their fields")]
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum SimulationError {
     /// Scene that cannot be built.
@@ -23,13 +24,7 @@ pub enum SimulationError {
     #[error(
         "'{sensor}' is a mean force over a step, which the method {method} does not provide; record the instantaneous force, or use energy_momentum"
     )]
-    NoMeanForces {
-        /// Name of the column.
-        sensor: String,
-        /// Name of the method.
-        method: &'static str,
-    },
-    /// Controller with too many samples per step.
+    NoMeanForces { sensor: String, method: &'static str },
     #[error(
         "a controller with a sampling period of {period:e} would be sampled more than {most} times in a step of dt = {dt:e}"
     )]
@@ -38,15 +33,12 @@ pub enum SimulationError {
         period: f64,
         /// Step size [time].
         dt: f64,
-        /// Largest number of samples per step.
         most: f64,
     },
-    /// Equilibrium that holds a drive at a position different from its function.
     #[error(
         "the equilibrium has the prescribed motion '{drive}' at {}, but its function gives {} at t = {time}: the motion would jump", rounded(*rest_position), rounded(*function_value)
     )]
     StartMismatch {
-        /// Name of the drive.
         drive: String,
         /// Position in the equilibrium [length, rad].
         rest_position: f64,
@@ -55,7 +47,6 @@ pub enum SimulationError {
         /// Time of that value [time].
         time: f64,
     },
-    /// End of a run in the past.
     #[error("the simulation is already at t = {now} and cannot run to t = {end}")]
     End {
         /// Present time [time].
@@ -63,7 +54,6 @@ pub enum SimulationError {
         /// Requested end [time].
         end: f64,
     },
-    /// No step of any size was solved.
     #[error(
         "no step from t = {} converges, down to dt/{divisions} (dt = {dt:e}): {source}{conditions}", rounded(*time)
     )]
@@ -74,12 +64,10 @@ pub enum SimulationError {
         dt: f64,
         /// Largest number of parts into which the step was divided.
         divisions: u64,
-        /// Error of the last attempt.
         source: Box<StepError>,
         /// Extreme conditions before the step, appended to the message; may be empty.
         conditions: String,
     },
-    /// Tolerance that requires steps below the smallest size.
     #[error(
         "the tolerance {tolerance} requires steps below the smallest allowed one ({smallest:e}) at t = {}: the error of a step of dt = {dt:e} is {error:.3} times the allowed one", rounded(*time)
     )]
@@ -95,7 +83,6 @@ pub enum SimulationError {
         /// Smallest allowed step [time].
         smallest: f64,
     },
-    /// No variable step down to the smallest one was solved.
     #[error(
         "no step from t = {} converges, down to the smallest allowed one, {smallest:e} (dt = {dt:e}): {source}{conditions}", rounded(*time)
     )]
@@ -106,17 +93,14 @@ pub enum SimulationError {
         dt: f64,
         /// Smallest allowed step [time].
         smallest: f64,
-        /// Error of the last attempt.
         source: Box<StepError>,
         /// Extreme conditions before the step, appended to the message; may be empty.
         conditions: String,
     },
-    /// No step that ends at the arrival of a slider was found.
     #[error(
         "slider '{slider}' reaches the {end} of its beam shortly after t = {}, but no step that ends there converges, down to dt/{divisions} (dt = {dt:e}); use a smaller dt or a finer mesh{conditions}", rounded(*time)
     )]
     EventLocation {
-        /// Name of the slider.
         slider: String,
         /// End of its master: `start` or `end`.
         end: &'static str,
@@ -131,33 +115,17 @@ pub enum SimulationError {
     },
     /// Load without a finite value, or slider that is too fast for its rule. Smaller steps do not help.
     #[error("{source}")]
-    Load {
-        /// Load or slider, step and reason.
-        source: StepError,
-    },
-    /// Run ended by the arrival of a slider.
+    Load { source: StepError },
     #[error("the run has ended: {ending}")]
-    Ended {
-        /// Description of the arrival.
-        ending: String,
-    },
-    /// Slider that bounces too often within one step.
+    Ended { ending: String },
     #[error("{arrival}, the last of {most} arrivals within one step")]
     TooManyArrivals {
-        /// Description of the last arrival.
         arrival: String,
         /// Number of arrivals within one step.
         most: usize,
     },
-    /// Rewind by more steps than were taken.
     #[error("cannot go back {steps} steps: only {steps_taken} were taken")]
-    TooFewSteps {
-        /// Requested number of steps.
-        steps: usize,
-        /// Number of steps taken.
-        steps_taken: usize,
-    },
-    /// Rewind to a time outside the run.
+    TooFewSteps { steps: usize, steps_taken: usize },
     #[error("cannot go back to t = {time}: the simulation covers t = {} to {}", rounded(*start), rounded(*now))]
     OutsideRun {
         /// Requested time [time].
@@ -167,7 +135,6 @@ pub enum SimulationError {
         /// Present time [time].
         now: f64,
     },
-    /// Rewind without stored states.
     #[error(
         "cannot go back: this simulation stores no snapshots{}",
         if *limit > 0.0 { format!(", because a single one exceeds the memory limit of {limit} MB") } else { String::new() }
@@ -176,20 +143,16 @@ pub enum SimulationError {
         /// Memory limit of snapshots [10⁶ bytes].
         limit: f64,
     },
-    /// Rewind to a time before snapshots were enabled.
     #[error("cannot go back to {target}: snapshots are stored from t = {} on", rounded(*first))]
     BeforeFirst {
-        /// Description of the requested state.
         target: String,
         /// Time of the first snapshot [time].
         first: f64,
     },
-    /// Rewind to a snapshot that was discarded by the memory limit.
     #[error(
         "cannot go back to {target}: within the memory limit of {limit} MB only snapshots of the last {steps} steps (from t = {}) and of t = {} are stored", rounded(*oldest), rounded(*first)
     )]
     NoSnapshot {
-        /// Description of the requested state.
         target: String,
         /// Number of steps that can be undone.
         steps: usize,
@@ -200,7 +163,6 @@ pub enum SimulationError {
         /// Memory limit of snapshots [10⁶ bytes].
         limit: f64,
     },
-    /// Run stopped by its monitor.
     #[error("interrupted at t = {}; the history up to this time is kept", rounded(*time))]
     Interrupted {
         /// End of the last step [time].

@@ -17,8 +17,8 @@ pub(super) fn length_of(scene: &Scene) -> f64 {
     let is_length = |length: &f64| *length > 0.0 && length.is_finite();
     let extent = || Some(scene.extent()).filter(is_length);
     let on_the_way = || {
-        let way = square(start_speed(scene)) / scene.gravity.norm();
-        Some(way).filter(is_length).filter(|way| *way > SHORTEST_WAY)
+        let distance = square(start_speed(scene)) / scene.gravity.norm();
+        Some(distance).filter(is_length).filter(|distance| *distance > SHORTEST_WAY)
     };
     scene.longest_beam().or_else(extent).or_else(on_the_way).unwrap_or(1.0)
 }

@@ -210,7 +210,6 @@ impl History {
         self.samples.iter().map(relative).collect()
     }
 
-    /// Scale of the drift of an invariant.
     fn scale(&self, invariant: Invariant, first: &Measures) -> f64 {
         let largest = |value: &dyn Fn(&Measures) -> f64| {
             self.samples.iter().map(|row| value(&row.measures).abs()).fold(0.0, f64::max)

@@ -36,7 +36,6 @@ use crate::newton::Tolerance;
 use crate::statics::Equilibrium;
 use crate::system::{Scene, System};
 
-/// Largest number of steps of a dry run.
 const MOST_DRY_STEPS: usize = 10_000;
 
 /// Largest number of controller samples per step.
@@ -134,7 +133,7 @@ impl Simulation {
             return Err(SimulationError::TooManySamples { period, dt: first, most });
         }
         let grid = grid.with_beats(beats());
-        let pace = adaptive.as_ref().map(|adaptive| adaptive.controller.start());
+        let step_size = adaptive.as_ref().map(|adaptive| adaptive.controller.start());
         if !settings.method.entry().claims.momentum
             && let Some(sensor) = scene.sensors.iter().find(|sensor| sensor.is_of_step())
         {
@@ -143,7 +142,7 @@ impl Simulation {
         }
         Ok(Self {
             record: RunRecord::new(&scene, &mut model)?,
-            clock: StepClock::new(grid, pace),
+            clock: StepClock::new(grid, step_size),
             scene,
             settings,
             model,
@@ -320,11 +319,11 @@ impl Simulation {
             self.execute_due_releases()?;
         }
         let next = self.clock.grid.next(self.time(), limit);
-        let way = Interval::between(self.time(), next);
-        if self.model.apply_drive_jumps(way)
+        let interval = Interval::between(self.time(), next);
+        if self.model.apply_drive_jumps(interval)
             && let Some(sensitivities) = &mut self.stepper.sensitivities
         {
-            sensitivities.apply_drive_jumps(way);
+            sensitivities.apply_drive_jumps(interval);
         }
         let stepped = match self.adaptive.take() {
             None => self.step_on_grid(limit, monitor),
@@ -350,7 +349,7 @@ impl Simulation {
     ) -> Result<(), SimulationError> {
         let end = self.clock.grid.next(self.time(), limit);
         let begun_before = self.clock.retry.filter(|halving| halving.end() == end);
-        let way = Interval::between(self.time(), end);
-        self.cover_with_arrivals(begun_before.unwrap_or_else(|| StepRetry::new(way)), monitor)
+        let interval = Interval::between(self.time(), end);
+        self.cover_with_arrivals(begun_before.unwrap_or_else(|| StepRetry::new(interval)), monitor)
     }
 }

@@ -126,10 +126,10 @@ impl Sensitivities {
         Ok(leader)
     }
 
-    pub(super) fn apply_drive_jumps(&mut self, way: Interval) {
+    pub(super) fn apply_drive_jumps(&mut self, interval: Interval) {
         for twins in &mut self.parameters {
             for model in twins.models() {
-                model.apply_drive_jumps(way);
+                model.apply_drive_jumps(interval);
             }
             twins.differentiate();
         }
@@ -171,7 +171,6 @@ impl Sensitivities {
         self.each(Simulation::show_present);
     }
 
-    /// Advances the perturbed runs in a dry run.
     pub(super) fn dry_run_to(&mut self, end: f64) {
         self.each(|twin| {
             // The main run reports the same errors.

@@ -37,33 +37,18 @@ pub struct SpectrumPeak {
 }
 
 /// Reason why a column has no spectrum.
+#[expect(missing_docs, reason = "the messages describe the variants and their fields")]
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 pub enum SpectrumError {
-    /// Rows that are not evenly spaced.
     #[error(
         "a spectrum needs rows at equal time intervals, but the row at t = {} follows after {} and most others after {}",
         six_digits(*.time), six_digits(*.found), six_digits(*.expected)
     )]
-    Uneven {
-        /// Time of the row.
-        time: f64,
-        /// Spacing before this row.
-        found: f64,
-        /// Median spacing.
-        expected: f64,
-    },
-    /// Too few rows.
+    Uneven { time: f64, found: f64, expected: f64 },
     #[error("a spectrum needs at least {FEWEST} rows, there are {rows}")]
-    TooFewRows {
-        /// Number of rows.
-        rows: usize,
-    },
-    /// Value that is not a number.
+    TooFewRows { rows: usize },
     #[error("the value at t = {time} is not a finite number")]
-    NoNumber {
-        /// Time of the row.
-        time: f64,
-    },
+    NoNumber { time: f64 },
 }
 
 fn six_digits(number: f64) -> f64 {

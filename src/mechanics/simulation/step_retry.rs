@@ -2,7 +2,6 @@
 
 use crate::integrators::Interval;
 
-/// Largest number of halvings of a step.
 const MOST_HALVINGS: u32 = 12;
 
 /// Number of smallest parts of a step.

@@ -29,16 +29,15 @@ pub struct StepControl {
     pub largest: Option<f64>,
 }
 
-/// Number of a [`StepSize`] outside its range.
+/// Invalid step size, tolerance or bound.
+#[expect(missing_docs, reason = "the messages describe the variants and their fields")]
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum StepSizeError {
-    /// Fixed step size that is not positive.
     #[error("the step size dt is {dt}, but must be a positive finite number [time]")]
     Fixed {
         /// Rejected step size [time].
         dt: f64,
     },
-    /// Tolerance outside its range.
     #[error(
         "the tolerance of adaptive steps is {tolerance}, but must be from {} to {}; 1e-4 is a good start",
         StepControl::LEAST_TOLERANCE,
@@ -48,26 +47,21 @@ pub enum StepSizeError {
         /// Rejected tolerance [-].
         tolerance: f64,
     },
-    /// Bound of step sizes that is not positive.
     #[error(
         "the {name} step of adaptive steps is {value}, but must be a positive finite number [time]"
     )]
     Bound {
-        /// Name of the bound: smallest, first or largest.
         name: &'static str,
         /// Rejected value [time].
         value: f64,
     },
-    /// Bounds of step sizes in the wrong order.
     #[error(
         "the {name} step of adaptive steps is {value}, but the {next} one is {limit}: they must increase from smallest to first to largest"
     )]
     Order {
-        /// Name of the bound that should be smaller.
         name: &'static str,
         /// Value of this bound [time].
         value: f64,
-        /// Name of the bound that should be larger.
         next: &'static str,
         /// Value of the larger bound [time].
         limit: f64,
@@ -162,21 +156,21 @@ mod tests {
 
     #[test]
     fn numbers_out_of_range_are_refused_and_named() {
-        let told = |size: StepSize| size.check().unwrap_err().to_string();
+        let message = |size: StepSize| size.check().unwrap_err().to_string();
         assert!(StepSize::Fixed(0.1).check().is_ok());
         for dt in [0.0, -1.0, f64::NAN, f64::INFINITY] {
-            assert!(told(dt.into()).contains(&format!("dt is {dt}")));
+            assert!(message(dt.into()).contains(&format!("dt is {dt}")));
         }
         for tolerance in [0.0, 1e-12, 1.0, f64::NAN] {
-            assert!(told(StepControl::to(tolerance).into()).contains("from 0.000000001 to 0.1"));
+            assert!(message(StepControl::to(tolerance).into()).contains("from 0.000000001 to 0.1"));
         }
         let control = StepControl::to(1e-4);
         assert!(StepSize::from(control).check().is_ok());
         let first = StepControl { first: Some(-1.0), ..control };
-        assert!(told(first.into()).contains("the first step of adaptive steps is -1"));
+        assert!(message(first.into()).contains("the first step of adaptive steps is -1"));
         let wide = StepControl { smallest: Some(2.0), largest: Some(1.0), ..control };
         assert!(
-            told(wide.into()).contains("smallest step of adaptive steps is 2, but the largest")
+            message(wide.into()).contains("smallest step of adaptive steps is 2, but the largest")
         );
         let right = StepControl { smallest: Some(1e-3), first: Some(1e-3), ..control };
         assert!(StepSize::from(right).check().is_ok());

@@ -196,8 +196,9 @@ impl Warning {
     /// Severity of the warning. It is comparable between warnings of the same kind only.
     fn measure(&self) -> f64 {
         match self {
-            Self::Motion { unresolved_fraction: share, .. }
-            | Self::Beam { unresolved_fraction: share, .. } => *share,
+            Self::Motion { unresolved_fraction, .. } | Self::Beam { unresolved_fraction, .. } => {
+                *unresolved_fraction
+            }
             Self::Phase { lag, .. } => *lag,
             Self::Uneven { shortest, longest } => longest / shortest,
             Self::ManySteps { steps, .. } => *steps as f64,
@@ -236,8 +237,8 @@ impl Warning {
     }
 
     /// Returns true if the warning is new, or more severe than the warnings in `told`.
-    pub fn is_new_or_worse(&self, told: &[Self]) -> bool {
-        !told.iter().any(|other| {
+    pub fn is_new_or_worse(&self, reported: &[Self]) -> bool {
+        !reported.iter().any(|other| {
             std::mem::discriminant(other) == std::mem::discriminant(self)
                 && other.object_name() == self.object_name()
                 && self.measure() < REPEAT_FACTOR * other.measure()
@@ -248,14 +249,12 @@ impl Warning {
 impl fmt::Display for Warning {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::Motion { dt, unresolved_fraction: share, period, causes: suspects, .. }
-                if !suspects.is_empty() =>
-            {
-                let others: Vec<String> = suspects.iter().map(RateChangeCause::to_string).collect();
+            Self::Motion { dt, unresolved_fraction, period, causes, .. } if !causes.is_empty() => {
+                let others: Vec<String> = causes.iter().map(RateChangeCause::to_string).collect();
                 write!(
                     f,
                     "steps are too long for the motion: {} % of the kinetic energy changes within a step, which does not resolve it. Possible causes: vibration, {}. dt = {} is {} times the period of the change ({}); use dt below {}",
-                    short(100.0 * share),
+                    short(100.0 * unresolved_fraction),
                     others.join(", "),
                     short(*dt),
                     short(dt / period),
@@ -263,11 +262,11 @@ impl fmt::Display for Warning {
                     short(period / RESOLVED_STEPS_PER_PERIOD)
                 )
             }
-            Self::Motion { dt, unresolved_fraction: share, period, lowest, damping, .. } => {
+            Self::Motion { dt, unresolved_fraction, period, lowest, damping, .. } => {
                 write!(
                     f,
                     "steps are too long for the motion: {} % of the kinetic energy is in vibration that they do not resolve. dt = {} is ",
-                    short(100.0 * share),
+                    short(100.0 * unresolved_fraction),
                     short(*dt)
                 )?;
                 let known = lowest.filter(|lowest| lowest < dt);
@@ -294,10 +293,10 @@ impl fmt::Display for Warning {
                     None => Ok(()),
                 }
             }
-            Self::Beam { beam, dt, unresolved_fraction: share, period } => write!(
+            Self::Beam { beam, dt, unresolved_fraction, period } => write!(
                 f,
                 "steps are too long for the motion of beam '{beam}', whose material is damped: {} % of its kinetic energy changes within a step, which does not resolve it. dt = {} is {} times the period of the change ({}); use dt below {}. Until then velocities and forces of the beam alternate from step to step: average them over two steps",
-                short(100.0 * share),
+                short(100.0 * unresolved_fraction),
                 short(*dt),
                 short(dt / period),
                 short(*period),
@@ -460,17 +459,17 @@ mod tests {
 
     #[test]
     fn what_was_told_is_told_again_when_it_is_new_or_twice_as_bad() {
-        let way = |slider: &str, spans| Warning::SpansPerStep {
+        let spans_warning = |slider: &str, spans| Warning::SpansPerStep {
             slider: slider.to_owned(),
             dt: 1.0,
             spans,
         };
-        let told = [way("ring", 2.0)];
-        assert!(!way("ring", 3.9).is_new_or_worse(&told));
-        assert!(way("ring", 4.0).is_new_or_worse(&told));
-        assert!(way("bead", 1.1).is_new_or_worse(&told));
+        let reported = [spans_warning("ring", 2.0)];
+        assert!(!spans_warning("ring", 3.9).is_new_or_worse(&reported));
+        assert!(spans_warning("ring", 4.0).is_new_or_worse(&reported));
+        assert!(spans_warning("bead", 1.1).is_new_or_worse(&reported));
         let bounce = Warning::Bounce { slider: "ring".to_owned(), dt: 1.0, steps_per_impact: 1.1 };
-        assert!(bounce.is_new_or_worse(&told) && bounce.is_new_or_worse(&[]));
+        assert!(bounce.is_new_or_worse(&reported) && bounce.is_new_or_worse(&[]));
     }
 
     #[test]

@@ -88,8 +88,8 @@ pub(super) struct AlongPath<'a> {
 
 impl AlongPath<'_> {
     fn distance_from_plane(&self, movements: &[f64]) -> f64 {
-        let way: f64 = self.normal.iter().zip(movements).map(|(t, u)| t * u).sum();
-        way - self.distance
+        let projection: f64 = self.normal.iter().zip(movements).map(|(t, u)| t * u).sum();
+        projection - self.distance
     }
 
     fn add_forces_to(&self, residual: &mut [f64]) {

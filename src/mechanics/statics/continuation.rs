@@ -92,7 +92,7 @@ impl<'s> Continuation<'s> {
         let Loading { factor, steps, .. } = self.loading;
         self.begin(factor * (1.0 / steps as f64), hold, goes_on)?;
         for step in 2..=steps {
-            // The last load factor is exact.
+            // In the last step this is exactly the requested load factor.
             self.solve_for_factor(factor * (step as f64 / steps as f64), MOST_HALVINGS, goes_on)?;
         }
         Ok(())
@@ -158,10 +158,10 @@ impl<'s> Continuation<'s> {
                     return self.solve_for_factor(goal, MOST_HALVINGS, goes_on).map(|()| distance);
                 }
                 Ok(iterations) => {
-                    if let Some(way) =
+                    if let Some(farthest) =
                         self.distance_to_turning_point(goal, trial.factor(), distance)
                         && let Ok(iterations) = self.find(goal)
-                        && norm(&self.metric, &self.unknowns) <= way
+                        && norm(&self.metric, &self.unknowns) <= farthest
                     {
                         self.accept(goal, iterations);
                         return Ok(distance);

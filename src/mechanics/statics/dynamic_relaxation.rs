@@ -22,7 +22,6 @@ const HARDER: f64 = 4.0;
 /// Largest number of attempts at the first pass.
 const MOST_FIRST_PASSES: usize = 60;
 
-/// Largest number of passes.
 const MOST_PASSES: usize = 400;
 
 /// Sum of the displacements of all passes, relative to the size of the scene, above which the motion counts as endless.
@@ -44,7 +43,8 @@ impl Continuation<'_> {
         goes_on: &mut dyn FnMut(f64) -> bool,
     ) -> Result<(), StaticsError> {
         let mut rate = self.first_rate(factor, goes_on)?;
-        let (mut way, mut iterations, mut leaves, mut miss) = (0.0, 0, 0, StepFailure::FarSolution);
+        let (mut travelled, mut iterations, mut leaves, mut miss) =
+            (0.0, 0, 0, StepFailure::FarSolution);
         for _ in 0..MOST_PASSES {
             self.query_monitor(goes_on)?;
             let before = self.model.state();
@@ -52,13 +52,13 @@ impl Continuation<'_> {
                 Ok(work) if self.distance_moved() <= FAR => {
                     let moved = self.distance_moved();
                     self.model.move_by(&self.unknowns, factor);
-                    (way, iterations) = (way + moved, iterations + work);
+                    (travelled, iterations) = (travelled + moved, iterations + work);
                     if moved < NEAR && (moved < STATIONARY || self.unstable_directions() == 0) {
                         let near = self.model.state();
                         match self.balance_from(factor, 0.0) {
                             Ok(work) if self.distance_moved() <= NEAR => {
                                 self.model.move_by(&self.unknowns, factor);
-                                self.append_point(factor, way, iterations + work);
+                                self.append_point(factor, travelled, iterations + work);
                                 return Ok(());
                             }
                             found => miss = found.err().unwrap_or(StepFailure::FarSolution),
@@ -78,7 +78,7 @@ impl Continuation<'_> {
                     rate *= HARDER;
                 }
             }
-            if way > ENDLESS_MOVEMENT {
+            if travelled > ENDLESS_MOVEMENT {
                 miss = StepFailure::Mechanism;
                 break;
             }

@@ -22,8 +22,8 @@ pub use errors::{
     refusal as refusal_of_name,
 };
 pub use mechanism::{
-    Arriving, BodyEnergy, Energy, Instant, Measures, OrderAtRest, RESOLVED_IMPACT, Reactions,
-    StaticForces, System, SystemState, add_resistance,
+    Arriving, BodyEnergy, Energy, Instant, Measures, RESOLVED_IMPACT, Reactions, StaticForces,
+    StaticOrder, System, SystemState, add_resistance,
 };
 pub use queries::{
     BeamPlaces, BeamSample, CrossSection, Distance, Placement, SectionSample, SensorReader,

@@ -68,14 +68,18 @@ impl DampedMode {
         let squares: Vec<f64> = modes.iter().map(|mode| mode.square).collect();
         let least = NOTHING * squares.iter().copied().fold(0.0, larger).sqrt();
         let shapes: Vec<Vec<f64>> = modes.into_iter().map(|mode| mode.shape).collect();
-        let told = Quadratic::new(squares, dampers(model, &shapes)).slowest(count, goes_on)?;
-        Ok(told.into_iter().map(|at| Self::of_number(at, least)).collect())
+        let eigenvalues =
+            Quadratic::new(squares, dampers(model, &shapes)).slowest(count, goes_on)?;
+        Ok(eigenvalues.into_iter().map(|at| Self::of_number(at, least)).collect())
     }
 
     /// Vibration `exp(λ t)`; real and imaginary parts of `λ` up to `least` count as zero [1/time].
     fn of_number(at: Complex<f64>, least: f64) -> Self {
-        let told = |number: f64| if number.abs() > least { number } else { 0.0 };
-        Self { decay_rate: told(-at.re), angular_frequency: told(at.im.abs()) }
+        let without_rounding = |number: f64| if number.abs() > least { number } else { 0.0 };
+        Self {
+            decay_rate: without_rounding(-at.re),
+            angular_frequency: without_rounding(at.im.abs()),
+        }
     }
 }
 

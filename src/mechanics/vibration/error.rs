@@ -8,46 +8,27 @@ fn range(available: usize) -> String {
 }
 
 /// Failed search for modes.
+#[expect(missing_docs, reason = "the messages describe the variants and their fields")]
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum VibrationError {
-    /// Number of modes outside its range.
     #[error("{requested} modes requested, but the scene has {available}, one per degree of freedom with inertia{}", range(*available))]
-    Count {
-        /// Requested number of modes.
-        requested: usize,
-        /// Number of modes of the scene.
-        available: usize,
-    },
-    /// Follower load, which makes the stiffness unsymmetric.
+    Count { requested: usize, available: usize },
     #[error(
         "follower load '{load}' makes the stiffness unsymmetric, and vibration may be unstable (flutter); give the load a fixed direction, or simulate the motion"
     )]
-    Follower {
-        /// Name of the load.
-        load: String,
-    },
-    /// Search that did not converge.
+    Follower { load: String },
     #[error(
         "the modes did not converge in {restarts} restarts of the Lanczos method; request a few more or fewer modes, or use a coarser mesh"
     )]
-    NotConverged {
-        /// Number of restarts.
-        restarts: usize,
-    },
-    /// Damped modes of a large scene.
+    NotConverged { restarts: usize },
     #[error(
         "the scene has {unknowns} unknowns, but damped modes are available up to 240; use a coarser mesh, or damping_ratios of undamped modes (first order in the damping)"
     )]
-    LargeDamped {
-        /// Number of unknowns of the scene.
-        unknowns: usize,
-    },
-    /// Damped modes of a scene with a part without inertia.
+    LargeDamped { unknowns: usize },
     #[error(
         "the scene has degrees of freedom without inertia, or sliders, for which damped modes are not available; give every part inertia, or use damping_ratios of undamped modes (first order in the damping)"
     )]
     LightDamped,
-    /// Damped modes that were not found.
     #[error(
         "the damped modes were not found: damping and stiffness differ too much in magnitude; use a coarser mesh or less damping, replace very strong dampers by joints or supports, or use damping_ratios of undamped modes (first order in the damping)"
     )]
@@ -62,7 +43,6 @@ pub enum VibrationError {
         /// Residual of the first lost mode [-].
         residual: f64,
     },
-    /// Count of modes that rounding makes unreliable.
     #[error(
         "modes may be missing below those that were found, because of rounding; use a coarser mesh, or reduce the largest stiffness or increase the smallest inertia"
     )]
@@ -70,15 +50,12 @@ pub enum VibrationError {
     /// Forces of the present configuration that are undetermined.
     #[error("{0}")]
     NoForces(String),
-    /// Search stopped by the caller.
     #[error("interrupted during the search for modes")]
     Interrupted,
-    /// Stiffness that no multiple of the inertia makes positive definite.
     #[error(
         "a degree of freedom without inertia is unstable in this configuration, so that there are no modes; give sections a rotary inertia, or use a smaller load"
     )]
     Indefinite,
-    /// Stiffness or inertia that is not finite.
     #[error(
         "the stiffness or the inertia of the scene is not finite; check stiffness, masses and units"
     )]

@@ -28,7 +28,6 @@ const TRACE: f64 = 1e-8;
 /// Tolerance of scalar products of basis vectors.
 const ORTHONORMAL: f64 = 1e-14;
 
-/// Largest number of restarts.
 const MOST_RESTARTS: usize = 60;
 
 /// Pairs `(μ, φ)` with `M φ = μ (K + σ M) φ` and `φᵀ M φ = 1`, in decreasing order of `μ`.

@@ -3,7 +3,7 @@
 use super::VibrationError;
 use super::elastic::{Elastic, FourVectors};
 use crate::linalg::{LinearError, PreciseBand, STRIP_WIDTH, SymmetricFactors, SymmetricSparse};
-use crate::system::{OrderAtRest, System, add_resistance};
+use crate::system::{StaticOrder, System, add_resistance};
 
 /// Growth of an elimination above which it is rejected, because half of its 32 digits are lost.
 const MOST_GROWTH: f64 = 1e12;
@@ -13,7 +13,7 @@ pub(super) struct Pencil {
     stiffness: PreciseBand,
     pub(super) inertia: SymmetricSparse,
     pub(super) elastic: Elastic,
-    pub(super) order: OrderAtRest,
+    pub(super) order: StaticOrder,
     /// Estimate of the squared frequency of the lowest bending mode [1/time²].
     pub(super) scale: f64,
     /// Number of degrees of freedom with mass, which is the number of modes with a finite frequency.
@@ -22,7 +22,7 @@ pub(super) struct Pencil {
 
 impl Pencil {
     pub(super) fn of(model: &System) -> Result<Self, VibrationError> {
-        let order = model.order_at_rest();
+        let order = model.static_order();
         let size = order.count();
         let mut stiffness = PreciseBand::zeros(size, order.half_bandwidth());
         let mut elastic = Elastic::default();
@@ -51,7 +51,7 @@ impl Pencil {
 
     /// Approximate memory of the eigenvalue problem of a model [bytes].
     pub(super) fn memory(model: &System) -> usize {
-        let order = model.order_at_rest();
+        let order = model.static_order();
         let (size, reach) = (order.count(), order.half_bandwidth() + 1);
         // The stiffness in double-double arithmetic, its factors, the inertia during sorting, and about two strains per degree of freedom.
         size * reach * 8 * size_of::<f64>() + Elastic::memory(2 * size, reach)
@@ -84,7 +84,6 @@ impl Pencil {
         }
     }
 
-    /// Product `M x` of the inertia with four vectors.
     pub(super) fn inertia_times(&self, x: &[FourVectors]) -> Vec<FourVectors> {
         let mut product = self.zeros();
         self.inertia.times(x, &mut product);

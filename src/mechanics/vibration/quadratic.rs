@@ -73,9 +73,9 @@ impl Quadratic {
         let zeros = free + modes.filter(|mode| self.is_loose(*mode)).count();
         let all = 2 * self.squares.len() - zeros;
         let wanted = if count == 0 { usize::MAX } else { count.saturating_sub(zeros) };
-        let (mut known, mut told, mut shift) = (0, 0, self.slowest_shift());
+        let (mut known, mut found, mut shift) = (0, 0, self.slowest_shift());
         let mut seen: Vec<(Resolvent, Vec<ComplexNumber>)> = Vec::new();
-        while known < all && told < wanted {
+        while known < all && found < wanted {
             let resolvent = Resolvent::of(self, shift, goes_on)?;
             let numbers = resolvent.numbers()?;
             let reached = match shift >= self.fastest() {
@@ -90,10 +90,10 @@ impl Quadratic {
             }
             let new = numbers[known.min(reached)..reached].iter();
             let new: Vec<ComplexNumber> = new.copied().filter(|at| at.im >= 0.0).collect();
-            (known, told) = (known.max(reached), told + new.len());
+            (known, found) = (known.max(reached), found + new.len());
             seen.push((resolvent, new));
         }
-        let available = zeros + told;
+        let available = zeros + found;
         if count == 0 || count > available {
             return Err(VibrationError::Count { requested: count, available });
         }

@@ -9,7 +9,6 @@ use crate::linalg::{STRIP_WIDTH, SymmetricFactors, products, subtract_combinatio
 /// Residual below which `ω²` is accurate to all digits, because its error is of the order of the squared residual.
 const SMALL: f64 = 1e-8;
 
-/// Largest number of corrections.
 const MOST_CORRECTIONS: usize = 8;
 
 /// Ratio of two successive residuals above which the correction has stagnated.
@@ -236,7 +235,7 @@ impl OtherPairs<'_> {
     }
 }
 
-/// `r ← ω² r - Bᵀ (n + k m) - K_g x`
+/// Turns inertia forces `r` into residuals: `r ← ω² r - Bᵀ (n + k m) - K_g x`.
 fn subtract_restoring(r: &mut [FourVectors], squares: &FourVectors, shapes: &Shapes) {
     for (r, resisting) in r.iter_mut().zip(&shapes.internal_forces) {
         for ((r, resisting), square) in r.iter_mut().zip(resisting).zip(squares) {

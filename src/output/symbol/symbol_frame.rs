@@ -15,7 +15,6 @@ const THIN: f64 = 1.0;
 const SUPPORT: f64 = 11.0;
 const TRIANGLE: f64 = 12.0;
 const HATCH: f64 = 5.0;
-/// Radii of a joint and a slider.
 const JOINT: f64 = 4.0;
 const SLIDER: f64 = 6.5;
 /// Length of an arrow, of an arrow of a distributed load and of a head, and distance of the tip from the loaded point.

@@ -5,12 +5,9 @@ use crate::output::width::columns_of;
 
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum TerminalColour {
-    /// The default colour of the terminal.
     #[default]
     Plain,
-    /// Dimmed.
     Faint,
-    /// The colour of the series with this index.
     Series(usize),
 }
 

@@ -160,9 +160,9 @@ impl Layout {
             .map(|index| self.raster(&self.frame.x, &self.frame.y, chart, [index]))
             .collect();
         if rasters.iter().all(|dots| dots.drawn().next().is_none()) {
-            let told = glyphs.fit("no data", self.columns);
-            let start = left + (self.columns - columns(&told)) / 2;
-            sheet.write(start, top + self.rows / 2, &told, TerminalColour::Plain);
+            let message = glyphs.fit("no data", self.columns);
+            let start = left + (self.columns - columns(&message)) / 2;
+            sheet.write(start, top + self.rows / 2, &message, TerminalColour::Plain);
         }
         let all = self.raster(&self.frame.x, &self.frame.y, chart, 0..chart.series.len());
         for (column, row, mask, ink) in all.drawn() {

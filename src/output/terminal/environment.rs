@@ -37,9 +37,8 @@ impl TerminalStyle {
         style.on_terminal(columns, lines)
     }
 
-    /// Style for a terminal with the given number of columns and lines.
     #[must_use]
-    pub fn on_terminal(self, columns: usize, lines: usize) -> Self {
+    pub(crate) fn on_terminal(self, columns: usize, lines: usize) -> Self {
         let height = lines.saturating_sub(FREE_LINES).clamp(HEIGHTS.0, HEIGHTS.1);
         self.sized(columns.clamp(WIDTHS.0, WIDTHS.1), height)
     }

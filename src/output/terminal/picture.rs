@@ -9,14 +9,10 @@ use crate::output::number::significant;
 use crate::output::plane::AxisLimits;
 use crate::output::width::columns;
 
-/// Marks in a picture of a configuration.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum PictureMark {
-    /// A free point mass.
     Particle,
-    /// A point that slides along a beam.
     Slider,
-    /// A point where beams are joined.
     Joint,
     /// A support that fixes the position.
     Hinge,
@@ -64,18 +60,15 @@ struct PlaneWindow {
 }
 
 impl ConfigurationPicture {
-    /// A picture of a configuration with nothing in it.
     pub fn new(title: impl Into<String>) -> Self {
         Self { title: title.into(), ..Self::default() }
     }
 
-    /// Sets the time shown in the picture.
     pub fn time(mut self, time: f64) -> Self {
         self.time = Some(time);
         self
     }
 
-    /// Adds a beam to the picture.
     pub fn line(mut self, points: Vec<Point>) -> Self {
         self.lines.push(points);
         self
@@ -87,7 +80,6 @@ impl ConfigurationPicture {
         self
     }
 
-    /// Adds a mark to the picture.
     pub fn mark(mut self, mark: PictureMark, at: Point) -> Self {
         self.marks.push((mark, at));
         self

@@ -6,7 +6,6 @@ use crate::output::symbol::Symbol;
 /// A linear combination of points of a frame, such as control points.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct PointCombination {
-    /// Index of the first point in a frame.
     pub first: usize,
     /// Weights of the points from `first` on.
     pub weights: Vec<f64>,
@@ -22,10 +21,8 @@ impl PointCombination {
     }
 }
 
-/// A beam.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct BeamShape {
-    /// The name of the beam.
     pub name: String,
     /// Centre line of the beam, from start to end.
     pub line: Vec<PointCombination>,
@@ -35,23 +32,16 @@ pub struct BeamShape {
     pub stations: Vec<usize>,
 }
 
-/// A point mass.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ParticleShape {
-    /// Name of the point mass.
     pub name: String,
-    /// Position of the point mass.
     pub at: PointCombination,
 }
 
-/// A rigid body.
 #[derive(Clone, Debug, PartialEq)]
 pub struct BodyShape {
-    /// The name of the body.
     pub name: String,
-    /// Centre of mass.
     pub centre: PointCombination,
-    /// The points of the body, with their names.
     pub points: Vec<(String, PointCombination)>,
     /// Outline of the body: closed if it ends at its start, otherwise a line; empty without points.
     pub outline: Vec<PointCombination>,
@@ -63,11 +53,8 @@ pub struct BodyShape {
 /// A symbol at a point: a support, joint, slider or drive.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SymbolMark {
-    /// Kind of symbol.
     pub symbol: Symbol,
-    /// Name of the element.
     pub name: String,
-    /// The place of the symbol.
     pub at: PointCombination,
     /// Direction of the symbol [rad].
     pub angle: f64,
@@ -75,23 +62,16 @@ pub struct SymbolMark {
     pub until: Option<f64>,
 }
 
-/// Attachment of a spring.
 #[derive(Clone, Debug, PartialEq)]
 pub enum SpringEnd {
-    /// A point of a body.
     Moving(PointCombination),
-    /// A point of the ground.
     Ground(Point),
 }
 
-/// A spring, damper or tendon.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SpringShape {
-    /// Kind of symbol.
     pub symbol: Symbol,
-    /// Name of the element.
     pub name: String,
-    /// Attachments, in order.
     pub anchors: Vec<SpringEnd>,
     /// Time at which the element is released.
     pub until: Option<f64>,
@@ -102,18 +82,14 @@ pub struct SpringShape {
 pub struct Arrow {
     /// Kind of symbol. For a moment, only the first component of the value is used, positive counter-clockwise.
     pub symbol: Symbol,
-    /// Name of the load.
     pub name: String,
-    /// The place where the load acts.
     pub at: PointCombination,
-    /// The value of the load in each frame.
     pub values: Vec<Point>,
 }
 
 /// A point whose path is drawn.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Trail {
-    /// Name of the path.
     pub name: String,
     /// Point that draws the path.
     pub at: PointCombination,
@@ -122,7 +98,6 @@ pub struct Trail {
 /// A quantity along all beams that sets their colours.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ColourField {
-    /// The name of the field.
     pub name: String,
     /// Unit or dimension of the field; empty for a pure number.
     pub unit: String,
@@ -133,36 +108,25 @@ pub struct ColourField {
 /// A quantity over time, plotted below the motion.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TimeCurve {
-    /// The name of the column.
     pub name: String,
     /// Unit or dimension of the column. Columns with the same unit share a plot.
     pub unit: String,
-    /// Value in each row.
     pub values: Vec<f64>,
 }
 
-/// Motion of a mechanism.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ViewerData {
-    /// Label of the motion.
     pub label: String,
-    /// Time of each frame.
     pub times: Vec<f64>,
     /// Points of all bodies in each frame, in a fixed order.
     pub points: Vec<Vec<Point>>,
-    /// Beams.
     pub beams: Vec<BeamShape>,
-    /// Point masses.
     pub particles: Vec<ParticleShape>,
-    /// Rigid bodies.
     pub bodies: Vec<BodyShape>,
     /// Supports, joints, sliders, drives.
     pub signs: Vec<SymbolMark>,
-    /// Springs, dampers, tendons.
     pub springs: Vec<SpringShape>,
-    /// Loads.
     pub arrows: Vec<Arrow>,
-    /// Paths.
     pub trails: Vec<Trail>,
     /// Quantities that can colour the beams.
     pub fields: Vec<ColourField>,

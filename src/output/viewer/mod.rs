@@ -12,7 +12,7 @@ mod document;
 mod packing;
 mod thinning;
 
-pub use data::{
+pub(crate) use data::{
     Arrow, BeamShape, BodyShape, ColourField, ParticleShape, PointCombination, SpringEnd,
     SpringShape, SymbolMark, TimeCurve, Trail, ViewerData,
 };

@@ -43,10 +43,10 @@ pub fn help(shell: &mut Shell, operand: &str) -> CommandOutcome {
         Err(unknown) => {
             texts.extend(command.map(|command| drawn(shell, &explained(command))));
             if texts.is_empty() {
-                let told = Diagnostic::general(unknown.to_string());
+                let message = Diagnostic::general(unknown.to_string());
                 return shell.report_error(&match unknown.is_strange() {
-                    true => told.with_hint(":help topics lists all topics"),
-                    false => told.with_hint(unknown.hint()),
+                    true => message.with_hint(":help topics lists all topics"),
+                    false => message.with_hint(unknown.hint()),
                 });
             }
             if command.is_some() && !unknown.is_strange() {

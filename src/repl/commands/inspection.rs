@@ -107,9 +107,9 @@ pub fn show(shell: &mut Shell, operand: &str) -> CommandOutcome {
         (time, _) => match time.parse::<f64>() {
             Ok(time) => Some(time),
             Err(_) => {
-                let told = Diagnostic::general(format!("'{time}' is not a time"));
+                let message = Diagnostic::general(format!("'{time}' is not a time"));
                 let hint = "write :show, :show T with a time up to the present, or :show #{ … } with options of plot_motion";
-                return shell.report_error(&told.with_hint(hint));
+                return shell.report_error(&message.with_hint(hint));
             }
         },
     };
@@ -164,8 +164,8 @@ pub(super) fn options_of(
 ) -> Result<Map, CommandOutcome> {
     match shell.session_mut().evaluate_preview(text) {
         Reply::Value(value) => value.try_cast::<Map>().ok_or_else(|| {
-            let told = Diagnostic::general(format!("'{text}' is not a map of options"));
-            shell.report_error(&told.with_hint(format!("for example {example}")))
+            let message = Diagnostic::general(format!("'{text}' is not a map of options"));
+            shell.report_error(&message.with_hint(format!("for example {example}")))
         }),
         failed => Err(shell.print_reply(failed)),
     }
@@ -174,11 +174,11 @@ pub(super) fn options_of(
 pub fn along(shell: &mut Shell, operand: &str) -> CommandOutcome {
     let name = if operand.is_empty() { "M" } else { operand.trim_matches('"') };
     let Some(quantity) = BeamQuantity::named(name) else {
-        let told = Diagnostic::general(format!("there is no quantity '{name}' along beams"));
+        let message = Diagnostic::general(format!("there is no quantity '{name}' along beams"));
         let meant = nearest(name, NAMES.iter().copied());
         let meant = meant.map(|name| format!("did you mean {name}? ")).unwrap_or_default();
         return shell
-            .report_error(&told.with_hint(format!("{meant}quantities: {}", NAMES.join(", "))));
+            .report_error(&message.with_hint(format!("{meant}quantities: {}", NAMES.join(", "))));
     };
     draw(shell, |simulation, screen| {
         let inside = SectionForceProfile::of_simulation(simulation, &[])?;

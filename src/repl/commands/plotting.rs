@@ -151,16 +151,17 @@ fn plot_curves(shell: &mut Shell, found: Vec<PlotPart>, options: Option<Map>) ->
         return CommandOutcome::Success;
     };
     if let Some(empty) = curves.iter().find(|curve| !curve.has_points()) {
-        let told = format!("'{}' has no finite value", empty.name);
+        let message = format!("'{}' has no finite value", empty.name);
         return shell
-            .report_error(&Diagnostic::general(told).with_hint("there is nothing to draw"));
+            .report_error(&Diagnostic::general(message).with_hint("there is nothing to draw"));
     }
     if let Some(other) = curves.iter().find(|curve| curve.over != first) {
         let (one, two) = (first.in_words(), other.over.in_words());
-        let told =
+        let message =
             format!("'{}' is plotted over {one}, but '{}' over {two}", curves[0].name, other.name);
-        return shell
-            .report_error(&Diagnostic::general(told).with_hint("plot them one after the other"));
+        return shell.report_error(
+            &Diagnostic::general(message).with_hint("plot them one after the other"),
+        );
     }
     let is_one_state =
         |curve: &PlotCurve| curve.over == CurveAbscissa::Time && curve.points.len() == 1;
@@ -193,9 +194,9 @@ fn columns(shell: &mut Shell, names: &[String]) -> PlotData {
     let mut curves = Vec::new();
     for name in names {
         let Some(values) = history.column(name) else {
-            let told = format!("the history has no column {name:?}");
+            let message = format!("the history has no column {name:?}");
             let hint = plots::column_hint(history, name);
-            return Err(shell.report_error(&Diagnostic::general(told).with_hint(hint)));
+            return Err(shell.report_error(&Diagnostic::general(message).with_hint(hint)));
         };
         let times = history.samples().iter().map(|row| row.measures.time);
         let points = times.zip(values).collect();
@@ -224,9 +225,9 @@ fn expression(shell: &mut Shell, text: &str) -> PlotData {
     let value = match reply {
         Reply::Value(value) => value,
         Reply::Done => {
-            let told = format!("'{text}' has no value");
+            let message = format!("'{text}' has no value");
             let hint = "write it without a semicolon, and as an expression";
-            return Err(shell.report_error(&Diagnostic::general(told).with_hint(hint)));
+            return Err(shell.report_error(&Diagnostic::general(message).with_hint(hint)));
         }
         failed => return Err(shell.print_reply(failed)),
     };
@@ -236,28 +237,28 @@ fn expression(shell: &mut Shell, text: &str) -> PlotData {
             return Ok((vec![PlotCurve { name: text.to_owned(), over, points }], None));
         }
         PlotShape::None(why) => {
-            let told = format!("'{text}' cannot be plotted: {why}");
+            let message = format!("'{text}' cannot be plotted: {why}");
             let hint = match value.is_bool() {
                 true => "write if … { 1 } else { 0 }",
                 false => {
                     "plot a number or a vector over time, an array of numbers, a pair of arrays [x, y], or columns: :plot energy"
                 }
             };
-            return Err(shell.report_error(&Diagnostic::general(told).with_hint(hint)));
+            return Err(shell.report_error(&Diagnostic::general(message).with_hint(hint)));
         }
         point => point,
     };
     let alone = |shell: &Shell| {
-        let told = format!("'{text}' is a single number, not a curve");
-        shell.report_error(&Diagnostic::general(told).with_hint(
+        let message = format!("'{text}' is a single number, not a curve");
+        shell.report_error(&Diagnostic::general(message).with_hint(
                 "give an array of numbers, or an expression with a simulation, which is plotted over time",
             ))
     };
     let Some(subject) = subject else { return Err(alone(shell)) };
     let Followed { points, text: words } = evaluate_history(shell, &subject, text)?;
-    let asks = mentions(shell, text).next().is_some();
+    let names_simulation = mentions(shell, text).next().is_some();
     let is_flat = points.windows(2).all(|pair| pair[0].1 == pair[1].1);
-    if is_flat && !asks && points.len() > 1 {
+    if is_flat && !names_simulation && points.len() > 1 {
         return Err(alone(shell));
     }
     let curve = |name: String, read: fn(&PlotShape) -> f64| PlotCurve {
@@ -311,12 +312,12 @@ fn subject(shell: &Shell, text: &str) -> Result<Option<SimulationHandle>, Diagno
     let mut named = mentions(shell, text);
     match (named.next(), named.next()) {
         (Some(one), Some(other)) => {
-            let told = format!(
+            let message = format!(
                 "'{text}' uses two simulations, '{}' and '{}', whose states may have different times",
                 one.name(),
                 other.name()
             );
-            Err(Diagnostic::general(told).with_hint(
+            Err(Diagnostic::general(message).with_hint(
                 "separate them by a comma, :plot a.energy, b.energy, or subtract columns of their histories, which are arrays",
             ))
         }

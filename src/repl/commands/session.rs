@@ -10,14 +10,14 @@ use crate::script::source::program::Program;
 pub fn save(shell: &mut Shell, operand: &str) -> CommandOutcome {
     let operand = operand.trim_matches('"');
     if operand.is_empty() {
-        let told = Diagnostic::general("the name of a file is missing");
-        return shell.report_error(&told.with_hint("write :save FILE.rhai"));
+        let message = Diagnostic::general("the name of a file is missing");
+        return shell.report_error(&message.with_hint("write :save FILE.rhai"));
     }
     let path = Path::new(operand);
     // Files are not overwritten if this session did not write them, or if they were edited since.
     if !shell.may_write(path) {
-        let told = format!("'{operand}' exists and was not written by this session");
-        return shell.report_error(&Diagnostic::general(told).with_hint("choose another name"));
+        let message = format!("'{operand}' exists and was not written by this session");
+        return shell.report_error(&Diagnostic::general(message).with_hint("choose another name"));
     }
     let script = match shell.session().script() {
         Ok(script) => script,
@@ -49,8 +49,8 @@ pub fn save(shell: &mut Shell, operand: &str) -> CommandOutcome {
 pub fn load(shell: &mut Shell, operand: &str) -> CommandOutcome {
     let operand = operand.trim_matches('"');
     if operand.is_empty() {
-        let told = Diagnostic::general("the name of a file is missing");
-        return shell.report_error(&told.with_hint("write :load FILE.rhai"));
+        let message = Diagnostic::general("the name of a file is missing");
+        return shell.report_error(&message.with_hint("write :load FILE.rhai"));
     }
     match Program::load(Path::new(operand)) {
         Ok(program) => shell.run_program(program),

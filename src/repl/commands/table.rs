@@ -30,7 +30,6 @@ pub const HELP: Command = Command {
     body: help::help,
 };
 
-/// The command that leaves the prompt.
 pub const QUIT: Command = Command {
     name: ":quit",
     operand: CommandOperand::Nothing,
@@ -220,10 +219,10 @@ mod tests {
         assert_eq!(name(":inv"), Some(":invariants"));
         assert_eq!(name(":step"), Some(":step"));
         assert_eq!(name(":s"), None);
-        let told = find(":setp").err().map(|error| error.to_string()).unwrap_or_default();
-        assert!(told.contains("did you mean :step?"), "{told}");
-        let told = find(":sa").map(|command| command.name);
-        assert_eq!(told.ok(), Some(":save"));
+        let message = find(":setp").err().map(|error| error.to_string()).unwrap_or_default();
+        assert!(message.contains("did you mean :step?"), "{message}");
+        let message = find(":sa").map(|command| command.name);
+        assert_eq!(message.ok(), Some(":save"));
     }
 
     #[test]

@@ -10,8 +10,8 @@ use crate::script::diagnose::Diagnostic;
 
 pub fn time(shell: &mut Shell, operand: &str) -> CommandOutcome {
     if operand.is_empty() {
-        let told = Diagnostic::general("no input to time");
-        return shell.report_error(&told.with_hint("write :time followed by an input"));
+        let message = Diagnostic::general("no input to time");
+        return shell.report_error(&message.with_hint("write :time followed by an input"));
     }
     let before = SideEffects::of(shell.session());
     let earlier = shell.session().context().latest_simulation();

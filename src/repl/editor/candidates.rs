@@ -4,7 +4,6 @@ use crate::script::bindings::built_in::{BuiltIn, FunctionForm, NameSuffix};
 use crate::script::bindings::parameter::Parameter;
 use crate::script::bindings::table::{CallSyntax, FunctionBinding};
 
-/// A completion candidate.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Candidate {
     /// Text shown in the list.
@@ -16,7 +15,6 @@ pub struct Candidate {
 }
 
 impl Candidate {
-    /// Candidate of a word without arguments.
     pub fn word(word: &str, summary: &str) -> Self {
         Self { display: word.to_owned(), replacement: word.to_owned(), summary: summary.to_owned() }
     }
@@ -43,7 +41,6 @@ impl Candidate {
         }
     }
 
-    /// Candidate of a built-in function of Rhai.
     pub fn built_in((known, form): (&'static BuiltIn, FunctionForm)) -> Self {
         match form.ending {
             NameSuffix::Property => Self::word(form.name, known.summary),
@@ -53,7 +50,6 @@ impl Candidate {
         }
     }
 
-    /// Candidate of a key of an option map.
     pub fn key(key: &Parameter) -> Self {
         let summary = match key.doc {
             "" => key.expectation(),
@@ -62,7 +58,6 @@ impl Candidate {
         Self { display: key.name.to_owned(), replacement: format!("{}: ", key.name), summary }
     }
 
-    /// Completion candidate for an option key of a script function.
     pub fn option_candidate(name: &str, about: &str) -> Self {
         Self {
             display: name.to_owned(),

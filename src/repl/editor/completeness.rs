@@ -367,7 +367,7 @@ mod tests {
 
     #[test]
     fn the_scripts_of_the_repository_can_be_typed() {
-        let context = Context::new(RunSettings::silent(RunMode::DryBuild));
+        let context = Context::new(RunSettings::silent(RunMode::DryRun));
         let engine = engine::build(&language(), &context).expect("an engine");
         let scripts = concat!(env!("CARGO_MANIFEST_DIR"), "/scripts");
         let mut count = 0;

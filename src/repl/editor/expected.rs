@@ -28,7 +28,6 @@ impl<'a, 't> Expected<'a, 't> {
         Self { types: Types { input, context: surroundings }, levels: input.levels() }
     }
 
-    /// Innermost open bracket before the cursor.
     pub fn innermost(&self) -> Option<&OpenBracket<'t>> {
         self.levels.last()
     }

@@ -6,7 +6,6 @@ use std::path::PathBuf;
 /// Environment variable with the name of the history file. If it is empty, no history is stored.
 pub const VARIABLE: &str = "WITHY_HISTORY";
 
-/// Maximum number of history entries.
 pub const MOST_ENTRIES: usize = 5000;
 
 /// Maximum length of a stored entry [bytes]. Longer inputs are usually pasted.
@@ -24,7 +23,6 @@ pub fn file(setting: Option<OsString>) -> Option<PathBuf> {
     }
 }
 
-/// Returns true if an entry should be stored in the history.
 pub fn should_store(entry: &str) -> bool {
     !entry.trim().is_empty() && entry.len() <= LONGEST_ENTRY
 }

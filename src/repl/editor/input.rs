@@ -21,9 +21,7 @@ pub struct Input<'t> {
 #[derive(Clone, Copy, Debug)]
 pub struct OpenBracket<'t> {
     pub bracket: Bracket,
-    /// Token index of the bracket.
     pub opener: usize,
-    /// Number of commas in the bracket so far.
     pub commas: usize,
     /// Key whose value is being written, in a map.
     pub key: Option<&'t str>,
@@ -73,7 +71,6 @@ impl<'t> Input<'t> {
         }
     }
 
-    /// Number of tokens before the name at the cursor.
     pub fn count_before_name(&self) -> usize {
         self.tokens.len() - usize::from(!self.name().1.is_empty())
     }

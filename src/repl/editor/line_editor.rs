@@ -15,10 +15,8 @@ use super::keys::{self, Entries};
 use super::surroundings::CompletionContext;
 use crate::output::Colours;
 
-/// Editing mode.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Keys {
-    /// Emacs keys, as in most shells.
     #[default]
     Emacs,
     /// Keys of vi, starting in insert mode.
@@ -39,12 +37,9 @@ impl Keys {
     }
 }
 
-/// Options of the line editor.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct EditorOptions {
-    /// Editing mode.
     pub keys: Keys,
-    /// Use of colours.
     pub colours: Colours,
     /// File with the history of earlier sessions.
     pub history: Option<PathBuf>,
@@ -59,7 +54,6 @@ impl EditorOptions {
     }
 }
 
-/// Result of reading an input.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum EditorInput {
     /// A complete input of one or more lines.

@@ -4,24 +4,24 @@
 //! configures rustyline for the terminal.
 
 mod assistant;
-pub mod candidates;
+pub(crate) mod candidates;
 mod commands;
 pub mod completeness;
 pub mod completion;
 mod expected;
 pub mod highlight;
 pub mod hints;
-pub mod history;
+pub(crate) mod history;
 mod input;
 mod keys;
-pub mod line_editor;
+pub(crate) mod line_editor;
 mod members;
 mod paths;
 #[cfg(test)]
 mod samples;
 pub mod surroundings;
-pub mod typed_ahead;
+pub(crate) mod typed_ahead;
 mod types;
 
-pub use line_editor::{Editor, EditorInput, EditorOptions, Keys};
-pub use types::type_before;
+pub(crate) use line_editor::{Editor, EditorInput, EditorOptions, Keys};
+pub(crate) use types::type_before;

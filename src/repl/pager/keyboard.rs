@@ -2,18 +2,13 @@
 
 use std::io;
 
-/// Input from the keyboard.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Pressed {
-    /// A byte sent by a key.
     Byte(u8),
-    /// Ctrl-C.
     Interrupt,
-    /// End of input.
     End,
 }
 
-/// Source of keys for a pager.
 pub trait Keyboard {
     /// Waits for the next key.
     ///
@@ -46,7 +41,6 @@ mod of_system {
     /// Timeout for the rest of an escape sequence [ms].
     const ESCAPE_TIMEOUT: u8 = 30;
 
-    /// The terminal in raw input mode.
     pub struct KeyboardTerminal(());
 
     impl KeyboardTerminal {
@@ -55,7 +49,6 @@ mod of_system {
         }
     }
 
-    /// Returns true if unread keys are waiting.
     pub fn has_pending_keys() -> bool {
         has_keys(0).unwrap_or(false)
     }
@@ -119,7 +112,6 @@ mod of_system {
 
     use super::{Keyboard, Pressed};
 
-    /// The terminal of an unsupported system.
     pub struct KeyboardTerminal(());
 
     impl KeyboardTerminal {

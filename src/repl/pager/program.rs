@@ -7,7 +7,6 @@ use std::{env, thread};
 
 use crate::repl::editor::typed_ahead::TypedAhead;
 
-/// Polling interval for the end of the program.
 const POLLING_INTERVAL: Duration = Duration::from_millis(10);
 
 /// Default options of less: quit if the text fits on one screen, show colours, keep the text on the screen.

@@ -7,8 +7,7 @@ use crate::script::diagnose::Diagnostic;
 use crate::script::presentation::present::present;
 
 impl Shell {
-    /// Returns true if any expression is watched.
-    pub fn is_watching(&self) -> bool {
+    pub(crate) fn is_watching(&self) -> bool {
         !self.watched.is_empty()
     }
 
@@ -21,13 +20,11 @@ impl Shell {
         self.show_watched()
     }
 
-    /// Removes all watched expressions.
-    pub fn clear_watched(&mut self) {
+    pub(crate) fn clear_watched(&mut self) {
         self.watched.clear();
     }
 
-    /// Shows the values of the watched expressions in one line.
-    pub fn show_watched(&mut self) -> CommandOutcome {
+    pub(crate) fn show_watched(&mut self) -> CommandOutcome {
         let mut parts = Vec::new();
         if let Some(latest) = self.latest() {
             parts.push(format!("t = {}", significant(latest.time(), 10)));
@@ -36,11 +33,11 @@ impl Shell {
             let before = self.session.simulation_positions();
             let reply = self.session.evaluate_preview(&expression);
             let has_moved = self.session.record_movement(&before);
-            let told = match reply {
+            let message = match reply {
                 Reply::Value(_) | Reply::Done if has_moved => {
-                    let told =
+                    let message =
                         format!("the watched expression '{expression}' advances a simulation");
-                    Diagnostic::general(told).with_hint(
+                    Diagnostic::general(message).with_hint(
                         "it is no longer watched; watch an expression that changes nothing",
                     )
                 }
@@ -57,7 +54,7 @@ impl Shell {
                 other => return self.print_reply(other),
             };
             self.watched.retain(|other| *other != expression);
-            return self.report_error(&told);
+            return self.report_error(&message);
         }
         if !self.watched.is_empty() {
             self.print(&parts.join("   "));

@@ -4,7 +4,6 @@ use super::returns::Returns;
 
 /// Functions of Rhai for one kind of value.
 pub struct BuiltInTable {
-    /// Kind of value in the plural, used as a heading.
     pub name: &'static str,
     /// One or two sentences on the functions.
     pub doc: &'static str,
@@ -63,19 +62,16 @@ impl BuiltIn {
         self
     }
 
-    /// Sets the help text.
     pub const fn doc(mut self, doc: &'static str) -> Self {
         self.doc = doc;
         self
     }
 
-    /// Sets related names.
     pub const fn with_related(mut self, see: &'static [&'static str]) -> Self {
         self.related = see;
         self
     }
 
-    /// Name of the function in scripts.
     pub fn name(&self) -> &'static str {
         self.forms.first().map_or("", |form| written(form).name)
     }

@@ -16,7 +16,7 @@ use crate::script::messages::error::ScriptError;
 use crate::script::messages::numbers::describe;
 use crate::script::state::context::Context;
 
-/// A call of a binding in progress.
+/// Call of a native function by a script, with its arguments and the state of the run.
 pub struct Call<'c, 'r> {
     row: &'static FunctionBinding,
     context: &'c Context,

@@ -105,9 +105,9 @@ fn member(
     };
     let own = word(&receiver);
     let unknown = |what: &str| {
-        let told =
+        let message =
             format!("Unknown property '{name}' - a {what} is not registered for type '{own}'");
-        EvalAltResult::ErrorDotExpr(told, position)
+        EvalAltResult::ErrorDotExpr(message, position)
     };
     Err(match with {
         Use::Read => unknown("getter"),

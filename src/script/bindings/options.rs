@@ -54,9 +54,9 @@ impl Options {
         Ok(Self { arguments: Arguments::new(keys, values) })
     }
 
-    pub(super) fn missing(&self, owner: &str, name: &str, told: &str) -> ScriptError {
+    pub(super) fn missing(&self, owner: &str, name: &str, message: &str) -> ScriptError {
         match self.arguments.parameter(name) {
-            Some(key) => missing(owner, name, &format!("{}; {told}", expected_key_text(key))),
+            Some(key) => missing(owner, name, &format!("{}; {message}", expected_key_text(key))),
             None => ScriptError::internal_error(format!("{owner} has no option '{name}'")),
         }
     }

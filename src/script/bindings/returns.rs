@@ -122,7 +122,6 @@ impl Returns {
     pub const TEXT: Self = Self::of(ValueKind::Text);
     pub const CHARACTER: Self = Self::of(ValueKind::Character);
     pub const FUNCTION: Self = Self::of(ValueKind::Function);
-    /// A time of the clock.
     pub const TIMESTAMP: Self = Self::of(ValueKind::Timestamp);
     pub const MAP: Self = Self::of(ValueKind::Map);
     pub const ARRAY: Self = Self::of(ValueKind::ARRAY);
@@ -146,7 +145,6 @@ impl Returns {
         Self::of(ValueKind::OneOf(kinds))
     }
 
-    /// Sets the dimension.
     pub const fn unit(mut self, unit: &'static str) -> Self {
         self.unit = unit;
         self

@@ -43,13 +43,11 @@ fn is_library(source: Option<&str>) -> bool {
 }
 
 impl Sources {
-    /// Installs an empty register in an engine.
     pub fn install(engine: &mut Engine, catalog: &Catalog, reader: TokenReader) {
         let catalog = Some(Rc::new(catalog.clone()));
         engine.set_default_tag(rhai::Dynamic::from(Self { catalog, reader, ..Self::default() }));
     }
 
-    /// Catalog of the engine's language, if it has one.
     pub fn catalog(&self) -> Option<Rc<Catalog>> {
         self.catalog.clone()
     }

@@ -35,8 +35,8 @@ impl StoredFunction {
     pub fn call(&self, arguments: impl AsMut<[Dynamic]>) -> Result<Dynamic, Box<EvalAltResult>> {
         self.context.proceed().map_err(|error| error.into_engine(Position::NONE))?;
         let Some(engine) = self.context.engine() else {
-            let told = format!("{} is called after the end of its run", self.role);
-            return Err(EvalAltResult::ErrorSystem(told, BUG.into()).into());
+            let message = format!("{} is called after the end of its run", self.role);
+            return Err(EvalAltResult::ErrorSystem(message, BUG.into()).into());
         };
         let level = self.context.level();
         let mut raised = None;

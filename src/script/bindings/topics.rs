@@ -6,10 +6,8 @@ pub struct Topic {
     /// Keywords of the topic, and its other names.
     pub words: &'static [&'static str],
     pub summary: &'static str,
-    /// Help text.
     pub doc: &'static str,
     pub example: &'static str,
-    /// Related names.
     pub see: &'static [&'static str],
 }
 

@@ -36,14 +36,14 @@ impl UnknownName<'_> {
         if name.starts_with("anon$") {
             let file = self.sources.find(name, &self.program.name);
             if let Some(file) = file.filter(|file| *file != self.program.name) {
-                let told = format!("a closure of the file {file} cannot be called from here");
+                let message = format!("a closure of the file {file} cannot be called from here");
                 let hint = "let a function of that file return it in an object, such as schedule(|t| \
                     …), or write |x| file::function(x) here";
-                return (told, Some(hint.into()));
+                return (message, Some(hint.into()));
             }
             let got = types.len();
-            let told = format!("the function does not accept {got}");
-            return (told, Some("write |x| …, with a name for each argument".into()));
+            let message = format!("the function does not accept {got}");
+            return (message, Some("write |x| …, with a name for each argument".into()));
         }
         if !name.starts_with(|c: char| c.is_alphabetic() || c == '_')
             || operators::written(name) != name
@@ -88,8 +88,8 @@ impl UnknownName<'_> {
             |of: &ModuleFunction| format!("{module}::{}({})", of.name(), of.parameters.join(", "));
         if let Some(known) = page.named(name) {
             let takes = arguments(known.parameters.len());
-            let told = format!("{module}::{name} takes {takes}, got {got}");
-            return (told, Some(format!("write {}", written(known))));
+            let message = format!("{module}::{name} takes {takes}, got {got}");
+            return (message, Some(format!("write {}", written(known))));
         }
         let names = || page.functions.iter().map(ModuleFunction::name);
         let hint = match nearest(name, names()).and_then(|near| page.named(near)) {
@@ -166,9 +166,9 @@ impl UnknownName<'_> {
         }
         let built_ins: Vec<_> = self.catalog.built_ins_named(name).collect();
         if let Some(owner) = built_ins.iter().find_map(|known| known.written().next()?.receiver) {
-            let told =
+            let hint =
                 format!("'{name}' belongs to {}: {}", with_article(owner), forms(&built_ins));
-            return (message, Some(told));
+            return (message, Some(hint));
         }
         if is_variable {
             let hint = format!(

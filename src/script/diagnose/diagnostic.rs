@@ -99,10 +99,10 @@ impl Diagnostic {
 
     /// Message and location in one line, for tables.
     pub fn line(&self) -> String {
-        let told = self.message.split_whitespace().collect::<Vec<_>>().join(" ");
+        let message = self.message.split_whitespace().collect::<Vec<_>>().join(" ");
         match self.location.as_ref().filter(|at| !at.program.name.is_empty()) {
-            Some(at) => format!("{told} ({}, line {})", at.program.name, at.line),
-            None => told,
+            Some(at) => format!("{message} ({}, line {})", at.program.name, at.line),
+            None => message,
         }
     }
 
@@ -121,7 +121,7 @@ impl Diagnostic {
 
 impl From<Unreadable> for Diagnostic {
     fn from(refused: Unreadable) -> Self {
-        Self::general(refused.told).with_hint(refused.hint)
+        Self::general(refused.message).with_hint(refused.hint)
     }
 }
 

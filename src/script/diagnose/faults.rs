@@ -44,20 +44,20 @@ pub fn too_large(what: &str) -> String {
 
 pub fn arithmetic(what: &str) -> (String, Option<String>) {
     let quoted = what.split('\'').nth(1).unwrap_or_default();
-    let told = what.to_lowercase();
-    if told.starts_with("error parsing integer number") {
+    let message = what.to_lowercase();
+    if message.starts_with("error parsing integer number") {
         let hint = "parse_float(text) reads numbers with a decimal point, text.trim() removes white \
             space";
         return (format!("the text \"{quoted}\" is not a whole number"), Some(hint.into()));
     }
-    if told.starts_with("error parsing floating-point number") {
+    if message.starts_with("error parsing floating-point number") {
         let hint = "text.trim() removes white space, text.split(\",\") separates several numbers";
         return (format!("the text \"{quoted}\" is not a number"), Some(hint.into()));
     }
-    if told.starts_with("invalid radix") {
+    if message.starts_with("invalid radix") {
         return (format!("the base of a number must be from 2 to 36, got {quoted}"), None);
     }
-    match told {
+    match message {
         what if what.contains("by zero") => {
             ("the remainder of a division by zero is undefined".into(), None)
         }

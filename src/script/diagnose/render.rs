@@ -164,8 +164,8 @@ mod tests {
         let program =
             Program::named("long.rhai", &format!("\nlet a = [{}wrong];", "1, ".repeat(20_000)));
         let at = Location { program: Arc::new(program), line: 2, column: 60_010, length: 5 };
-        let told = Diagnostic { location: Some(at), ..Diagnostic::general("no such name") };
-        let shown = told.render(Colours::None);
+        let diagnostic = Diagnostic { location: Some(at), ..Diagnostic::general("no such name") };
+        let shown = diagnostic.render(Colours::None);
         assert!(shown.contains("at long.rhai:2:60010, in a long line: wrong];"), "{shown}");
         assert!(shown.len() < 500, "{shown}");
     }
@@ -177,8 +177,8 @@ mod tests {
         let column = line.chars().take_while(|letter| *letter != 'w').count() + 1;
         let at = Location { program: Arc::new(program), line: 1, column, length: 5 };
         let message = "no \r\u{1b}[31mname";
-        let told = Diagnostic { location: Some(at), ..Diagnostic::general(message) };
-        let shown = told.with_hint("\u{200b}hint\u{7f}").render(Colours::None);
+        let diagnostic = Diagnostic { location: Some(at), ..Diagnostic::general(message) };
+        let shown = diagnostic.with_hint("\u{200b}hint\u{7f}").render(Colours::None);
         let is_harmful = |letter: char| letter.is_control() && letter != '\n';
         assert!(
             !shown.contains(is_harmful) && !shown.contains(['\u{202e}', '\u{200b}']),
@@ -192,10 +192,11 @@ mod tests {
 
     #[test]
     fn hints_are_broken_between_words() {
-        let told = Diagnostic::general("wrong").with_hint(format!("{}\nend", "word ".repeat(12)));
-        let shown = told.render_within(Colours::None, 40);
+        let diagnostic =
+            Diagnostic::general("wrong").with_hint(format!("{}\nend", "word ".repeat(12)));
+        let shown = diagnostic.render_within(Colours::None, 40);
         assert!(shown.lines().all(|line| line.chars().count() <= 40), "{shown}");
         assert_eq!(shown.matches("word").count(), 12, "{shown}");
-        assert!(told.render(Colours::None).contains(&"word ".repeat(11)));
+        assert!(diagnostic.render(Colours::None).contains(&"word ".repeat(11)));
     }
 }

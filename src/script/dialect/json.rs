@@ -66,8 +66,8 @@ fn writable(
         true => "a function".to_owned(),
         false => describe(engine, &value),
     };
-    let told = format!("to_json: '{key}' is {own}, which has no JSON form");
+    let message = format!("to_json: '{key}' is {own}, which has no JSON form");
     let hint = "JSON allows numbers, texts, truth values, arrays and maps; give the numbers to be \
         written";
-    Err(ScriptError::new(told).hint(hint).into_engine(at))
+    Err(ScriptError::new(message).hint(hint).into_engine(at))
 }

@@ -76,8 +76,8 @@ impl NamedFunction<'_> {
             1 => "1 argument".to_owned(),
             _ => format!("{count} arguments"),
         };
-        let told = format!("the language has a function {name}(…) with {arguments}");
-        Err(ScriptError::new(told)
+        let message = format!("the language has a function {name}(…) with {arguments}");
+        Err(ScriptError::new(message)
             .hint("choose another name for your function")
             .into_engine(self.place(*at)))
     }
@@ -86,8 +86,8 @@ impl NamedFunction<'_> {
     fn refuse_hidden(&self, name: &str, line: usize) -> Result<(), Box<EvalAltResult>> {
         let used = self.names().find(|(used, _)| *used == name);
         let Some((_, at)) = used.filter(|_| !self.declares(name)) else { return Ok(()) };
-        let told = format!("there is no variable '{name}' here");
-        Err(ScriptError::new(told).hint(not_visible(name, line)).into_engine(self.place(at)))
+        let message = format!("there is no variable '{name}' here");
+        Err(ScriptError::new(message).hint(not_visible(name, line)).into_engine(self.place(at)))
     }
 
     fn place(&self, at: Position) -> Position {

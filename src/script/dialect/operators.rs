@@ -113,9 +113,9 @@ fn whole_power(base: INT, exponent: INT) -> EngineResult<Dynamic> {
     };
     whole.map(Dynamic::from).ok_or_else(|| {
         let written = if base < 0 { format!("({base}.0)") } else { format!("{base}.0") };
-        let told = format!("{base}^{exponent} is too large for a whole number of 64 bits");
+        let message = format!("{base}^{exponent} is too large for a whole number of 64 bits");
         let hint = format!("write {written}^{exponent} for the nearest number");
-        ScriptError::new(told).hint(hint).into_engine(Position::NONE)
+        ScriptError::new(message).hint(hint).into_engine(Position::NONE)
     })
 }
 
@@ -125,9 +125,10 @@ fn shifted_up(number: INT, places: INT) -> EngineResult<INT> {
     match shifted >> places == number {
         true => Ok(shifted),
         false => {
-            let told = format!("{number} << {places} is too large for a whole number of 64 bits");
+            let message =
+                format!("{number} << {places} is too large for a whole number of 64 bits");
             let hint = format!("write {number}.0 * 2^{places} for the nearest number");
-            Err(ScriptError::new(told).hint(hint).into_engine(Position::NONE))
+            Err(ScriptError::new(message).hint(hint).into_engine(Position::NONE))
         }
     }
 }
@@ -140,8 +141,8 @@ fn shift(places: INT) -> EngineResult<INT> {
     match places {
         0..=63 => Ok(places),
         _ => {
-            let told = format!("the shift of bits must be 0 to 63 places, got {places}");
-            Err(ScriptError::new(told).into_engine(Position::NONE))
+            let message = format!("the shift of bits must be 0 to 63 places, got {places}");
+            Err(ScriptError::new(message).into_engine(Position::NONE))
         }
     }
 }

@@ -40,17 +40,17 @@ fn refuse_uncountable(source: &str) -> Result<(), ScriptError> {
         // The number of bytes is an upper bound of the number of characters.
         let length = if line.len() > MOST { line.chars().count() } else { 0 };
         if length > MOST {
-            let told =
+            let message =
                 format!("line {lines} of the script has {length} characters; the limit is {MOST}");
-            return Err(ScriptError::new(told).hint(
+            return Err(ScriptError::new(message).hint(
                 "break the line: an array or a call may continue on the next line after each \
                 comma",
             ));
         }
     }
     if lines > MOST {
-        let told = format!("the script has {lines} lines; the limit is {MOST}");
-        return Err(ScriptError::new(told).hint(
+        let message = format!("the script has {lines} lines; the limit is {MOST}");
+        return Err(ScriptError::new(message).hint(
             "move parts of it to files of their own, which import \"NAME\" as name; reads, or \
             use loops for repeated lines",
         ));
@@ -76,7 +76,7 @@ mod tests {
             .and_then(|ast| engine.eval_ast::<rhai::Dynamic>(&ast))
             .map(|value| value.to_string())
             .map_err(|error| match *error {
-                EvalAltResult::ErrorRuntime(told, _) => told
+                EvalAltResult::ErrorRuntime(message, _) => message
                     .try_cast::<crate::script::messages::error::Failure>()
                     .map(|failure| failure.message)
                     .unwrap_or_default(),
@@ -88,11 +88,11 @@ mod tests {
     fn what_cannot_be_counted_is_refused() {
         let engine = engine();
         let long = format!("let a = [{}]; 2^3^2", "1, ".repeat(25_000));
-        let told = value(&engine, &long).expect_err("a line of 75 000 characters");
-        assert!(told.contains("line 1 of the script has 75017 characters"), "{told}");
+        let message = value(&engine, &long).expect_err("a line of 75 000 characters");
+        assert!(message.contains("line 1 of the script has 75017 characters"), "{message}");
         let made = "let made = []; for i in 0..3 { made.push(|| i); } made.map(|f| f.call())";
-        let told = value(&engine, &format!("{}{made}", "\n".repeat(70_000)));
-        assert!(told.expect_err("70 001 lines").contains("the script has 70001 lines"));
+        let message = value(&engine, &format!("{}{made}", "\n".repeat(70_000)));
+        assert!(message.expect_err("70 001 lines").contains("the script has 70001 lines"));
     }
 
     #[test]

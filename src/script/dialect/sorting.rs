@@ -63,9 +63,9 @@ fn sorted_naturally(
     if let Some(stranger) = others.iter().find(|other| natural_order(first, other).is_none()) {
         let engine = native.engine();
         let (first, stranger) = (describe(engine, first), describe(engine, stranger));
-        let told = format!("{first} and {stranger} cannot be compared for sorting");
+        let message = format!("{first} and {stranger} cannot be compared for sorting");
         let hint = "give the order: sort(|a, b| a.x - b.x)";
-        return Err(ScriptError::new(told).hint(hint).into_engine(native.call_position()));
+        return Err(ScriptError::new(message).hint(hint).into_engine(native.call_position()));
     }
     // Beyond 2^53 integers are more exact than floats, so both comparisons must not be mixed.
     let order: fn(&Dynamic, &Dynamic) -> Ordering = match array.iter().all(Dynamic::is_int) {
@@ -113,10 +113,10 @@ fn is_after(native: &NativeCallContext, order: &Dynamic) -> EngineResult<bool> {
     VariantValue::number(order).filter(|order| !order.is_nan()).map(|order| order > 0.0).ok_or_else(
         || {
             let got = describe(native.engine(), order);
-            let told = format!(
+            let message = format!(
                 "the function that compares must return a number or true or false, got {got}"
             );
-            let refusal = ScriptError::new(told);
+            let refusal = ScriptError::new(message);
             refusal
                 .hint("write |x, y| x - y for ascending order")
                 .into_engine(native.call_position())

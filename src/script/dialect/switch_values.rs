@@ -8,7 +8,6 @@ use crate::script::messages::error::ScriptError;
 use crate::script::messages::numbers::describe;
 use crate::script::source::switch_rewrite;
 
-/// Registers the check.
 pub fn install(engine: &mut Engine) {
     switch_rewrite::install(engine, |engine, value, at| {
         // While a variant is evaluated, a value that depends on parameters is replaced by its value in this variant.
@@ -23,18 +22,18 @@ pub fn install(engine: &mut Engine) {
 
 fn judge(engine: &Engine, value: &Dynamic) -> Result<(), ScriptError> {
     if VariantValue::parameter_set_of(value).is_some() {
-        let told = "switch cannot compare a value that depends on a parameter of a scene";
+        let message = "switch cannot compare a value that depends on a parameter of a scene";
         let hint = "use switch int(x) { … } for a whole number, or switch value_of(x) for the number \
             without derivatives; the derivatives ignore the choice";
-        return Err(ScriptError::new(told).hint(hint));
+        return Err(ScriptError::new(message).hint(hint));
     }
     match unusual_value(value) {
         None => Ok(()),
         Some(odd) => {
-            let told = format!("switch cannot compare {}", describe(engine, &odd));
+            let message = format!("switch cannot compare {}", describe(engine, &odd));
             let hint = "switch compares numbers, texts, truth values, (), and arrays and maps of \
                 these; use if for other conditions";
-            Err(ScriptError::new(told).hint(hint))
+            Err(ScriptError::new(message).hint(hint))
         }
     }
 }

@@ -82,8 +82,8 @@ impl FolderResolver {
                 .hint("move the common parts of both files to a third one"));
         }
         if being_read.len() >= LONGEST_CHAIN {
-            let told = format!("more than {LONGEST_CHAIN} files import each other in a chain");
-            return Err(ScriptError::new(told).hint("import them beside each other"));
+            let message = format!("more than {LONGEST_CHAIN} files import each other in a chain");
+            return Err(ScriptError::new(message).hint("import them beside each other"));
         }
         Ok(())
     }
@@ -98,7 +98,7 @@ impl FolderResolver {
     ) -> Result<Shared<Module>, Box<EvalAltResult>> {
         Sources::of(engine).record_import(&file.display().to_string(), &content);
         let program = Program::from_bytes(file, content).map_err(|refused| {
-            let refusal = ScriptError::new(refused.told);
+            let refusal = ScriptError::new(refused.message);
             refusal.into_engine(position)
         })?;
         let module = parse(engine, &program)

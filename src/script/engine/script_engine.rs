@@ -62,8 +62,8 @@ impl ScriptEngine {
     /// Fails if no thread can be started.
     pub fn watch(&self) -> Result<Watchdog, Halt> {
         self.context.meter().watch().map_err(|error| {
-            let told = format!("cannot start a thread that keeps the limits: {error}");
-            Halt::Failed(Diagnostic::general(told))
+            let message = format!("cannot start a thread that keeps the limits: {error}");
+            Halt::Failed(Diagnostic::general(message))
         })
     }
 
@@ -85,8 +85,8 @@ impl ScriptEngine {
         }
         match (outcome, self.context.meter().passed()) {
             (Ok(Ok(_)), Some(lost @ Stop::OutputLost(_))) => {
-                let (told, hint) = lost.message_and_hint();
-                Err(Halt::Failed(Diagnostic { hint, ..Diagnostic::general(told) }))
+                let (message, hint) = lost.message_and_hint();
+                Err(Halt::Failed(Diagnostic { hint, ..Diagnostic::general(message) }))
             }
             (Ok(Ok(value)), _) => Ok(value),
             (Ok(Err(error)), _) if is_interrupt(&error) => Err(Halt::Interrupted),

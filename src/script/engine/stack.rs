@@ -37,8 +37,8 @@ pub fn on_stack<T: Send>(
                 Ok(running) => break running,
                 Err(_) if bytes > least => bytes = (bytes / 2).max(least),
                 Err(error) => {
-                    let told = format!("cannot start a thread for the script: {error}");
-                    return Err(Diagnostic::general(told));
+                    let message = format!("cannot start a thread for the script: {error}");
+                    return Err(Diagnostic::general(message));
                 }
             }
         };

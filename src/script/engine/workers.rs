@@ -93,22 +93,18 @@ impl Worker {
         self.host.engine().call_fn_with_options(options, &mut scope, &self.script, name, arguments)
     }
 
-    /// Function value by name and number of parameters.
     pub fn function(&self, name: &str, parameters: usize) -> Option<FnPtr> {
         self.script.shared_lib().get_script_fn(name, parameters).cloned().map(FnPtr::from)
     }
 
-    /// State shared by the calls of the engine.
     pub fn context(&self) -> &Context {
         self.host.context()
     }
 
-    /// Diagnostic of an error of the script.
     pub fn explain(&self, error: &rhai::EvalAltResult) -> Diagnostic {
         self.host.explain(error, &self.program)
     }
 
-    /// Returns true if the job was stopped.
     pub fn is_stopped(&self) -> bool {
         self.interrupt.load(Ordering::Relaxed)
     }
@@ -135,7 +131,6 @@ impl WorkerState {
     }
 }
 
-/// Pool of worker threads that receives jobs and returns results.
 pub struct WorkerPool<'c, J, R> {
     posts: &'c [WorkerState],
     jobs: mpsc::Sender<(usize, J)>,
@@ -144,18 +139,14 @@ pub struct WorkerPool<'c, J, R> {
     wall: Duration,
 }
 
-/// Event of a worker pool.
 pub enum WorkerEvent<R> {
-    /// Result of the job with this number.
     Done(usize, R),
     /// Timeout, for checks of interruption.
     Timeout,
-    /// No workers are left.
     NoWorkers,
 }
 
 impl<J, R> WorkerPool<'_, J, R> {
-    /// Number of workers.
     pub fn size(&self) -> usize {
         self.posts.len()
     }

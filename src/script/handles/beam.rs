@@ -17,7 +17,6 @@ pub struct BeamHandle {
 }
 
 impl BeamHandle {
-    /// Returns the index of the beam if it belongs to the given scene.
     pub fn index_in(&self, scene: &SceneHandle) -> Result<usize, ScriptError> {
         scene.expect_same(&self.scene, "beam")?;
         Ok(self.index)

@@ -29,7 +29,6 @@ impl EquilibriumHandle {
         &self.0.scene
     }
 
-    /// Read access to the equilibrium.
     pub fn equilibrium(&self) -> Ref<'_, Equilibrium> {
         self.0.rest.borrow()
     }

@@ -27,7 +27,6 @@ impl HistoryHandle {
         self.of.read_history((self.from, self.to), read)
     }
 
-    /// Error of a section without recorded rows.
     pub fn no_rows(&self, call: &Call) -> ScriptError {
         let now = format_number(self.of.time());
         let recording = self.of.simulation().recording();

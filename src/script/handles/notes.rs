@@ -15,17 +15,15 @@ pub enum Printing {
     Never,
 }
 
-/// Reported warnings of a simulation.
 #[derive(Debug, Clone, Default)]
 pub struct Notes {
     printing: Printing,
-    told: RefCell<Vec<Warning>>,
+    reported: RefCell<Vec<Warning>>,
 }
 
 impl Notes {
-    /// Creates an empty record.
     pub fn new(printing: Printing) -> Self {
-        Self { printing, told: RefCell::default() }
+        Self { printing, reported: RefCell::default() }
     }
 
     /// Reports the new warnings of a simulation. A warning is repeated only if it gets worse.
@@ -33,11 +31,11 @@ impl Notes {
         if self.printing == Printing::Never || context.is_stopped() {
             return;
         }
-        let mut told = self.told.borrow_mut();
+        let mut reported = self.reported.borrow_mut();
         for note in simulation.warnings() {
-            if note.is_new_or_worse(&told) {
+            if note.is_new_or_worse(&reported) {
                 context.print_message(&format!("note: simulation '{name}': {note}"));
-                told.push(note);
+                reported.push(note);
             }
         }
     }

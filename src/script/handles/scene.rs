@@ -155,10 +155,10 @@ impl SceneHandle {
             return Ok(Vec::new());
         };
         if !self.functions.borrow().is_empty() {
-            let told = "columns of functions |q| … have no derivatives by parameters of a scene";
+            let message = "columns of functions |q| … have no derivatives by parameters of a scene";
             let hint = "omit scene.record(name, |q| …), and read the simulation at the required time: \
                 sim.position(…), sim.history.column(…)";
-            return Err(ScriptError::new(told).hint(hint));
+            return Err(ScriptError::new(message).hint(hint));
         }
         self.expect_no_callbacks_with()?;
         let own = self.variants.scene.borrow();
@@ -166,8 +166,8 @@ impl SceneHandle {
             let is_one = |(one, other): (&Station, &Station)| one.is_at(other, own.length_at(one));
             let mut pairs = own.stations.iter().zip(&scene.stations);
             if own.stations.len() != scene.stations.len() || !pairs.all(is_one) {
-                let told = "a place on a beam depends on a parameter";
-                return Err(ScriptError::new(told).hint(SHAPED));
+                let message = "a place on a beam depends on a parameter";
+                return Err(ScriptError::new(message).hint(SHAPED));
             }
         }
         let mut pairs = scenes.chunks_exact(2);
@@ -198,8 +198,8 @@ impl SceneHandle {
             apart > ROUNDING_OF_PLACES * length
         };
         if scenes.iter().any(is_other) {
-            let told = format!("the length of beam '{}' depends on a parameter", own.name);
-            return Err(ScriptError::new(told).hint(SHAPED));
+            let message = format!("the length of beam '{}' depends on a parameter", own.name);
+            return Err(ScriptError::new(message).hint(SHAPED));
         }
         Ok(())
     }
@@ -213,11 +213,11 @@ impl SceneHandle {
         if self.controllers.borrow().is_empty() && self.conditions.borrow().is_empty() {
             return Ok(());
         }
-        let told = "functions of the simulation, |t, q| … of a controller or when: |q| … of a release, \
+        let message = "functions of the simulation, |t, q| … of a controller or when: |q| … of a release, \
             have no derivatives by parameters of a scene";
         let hint = "use functions of time, |t| …, or plain numbers in place of scene.parameter(…) with \
             central differences, as fit does";
-        Err(ScriptError::new(told).hint(hint))
+        Err(ScriptError::new(message).hint(hint))
     }
 
     /// Stores the function of the last defined column.
@@ -262,14 +262,13 @@ impl SceneHandle {
         if self.controllers.borrow().is_empty() && self.conditions.borrow().is_empty() {
             return Ok(());
         }
-        let told = "functions of the simulation, |t, q| … of a controller or when: |q| … of a release, \
+        let message = "functions of the simulation, |t, q| … of a controller or when: |q| … of a release, \
             are called between steps; a study does not support this";
         let hint = "use functions of time, |t| …, and a time for the release, or step the scene in a \
             loop of your own";
-        Err(ScriptError::new(told).hint(hint).at(CallPart::Key("scene".into())))
+        Err(ScriptError::new(message).hint(hint).at(CallPart::Key("scene".into())))
     }
 
-    /// Controllers of loads and drives.
     pub fn controllers(&self) -> Vec<Rc<Controller>> {
         self.controllers.borrow().clone()
     }
@@ -291,11 +290,11 @@ impl SceneHandle {
             return Ok(());
         }
         let (mine, other) = (&self.scene().borrow().name, &other.scene().borrow().name);
-        let told = match mine == other {
+        let message = match mine == other {
             true => format!("the {what} belongs to another scene with the same name '{other}'"),
             false => format!("the {what} belongs to the scene '{other}', not to '{mine}'"),
         };
-        Err(ScriptError::new(told).hint(format!("use a {what} of this scene")))
+        Err(ScriptError::new(message).hint(format!("use a {what} of this scene")))
     }
 }
 

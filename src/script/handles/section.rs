@@ -10,7 +10,6 @@ const DIGITS: usize = 7;
 /// A constant or tapered cross section, and its material damping.
 #[derive(Clone)]
 pub struct SectionHandle {
-    /// Stiffness and inertia along a beam.
     pub variation: SectionVariation,
     /// Material and shape from which the section was computed; needed for tapers.
     pub solid: Option<Solid>,

@@ -51,7 +51,6 @@ struct Live {
     sensing: ColumnReader,
 }
 
-/// Target of a forward or backward run.
 pub enum RunTarget {
     Steps(usize),
     Time(f64),
@@ -143,10 +142,10 @@ impl SimulationHandle {
     /// Independent copy of the simulation in its current state, with its scheduled functions.
     pub fn fork(&self, name: String, context: &Context) -> Result<Self, ScriptError> {
         if self.simulation().parameters().next().is_some() {
-            let told = "a copy of the simulation would have no derivatives by the parameters of its \
+            let message = "a copy of the simulation would have no derivatives by the parameters of its \
                 scene";
             let hint = "build the scene with plain numbers in place of scene.parameter(…)";
-            return Err(ScriptError::new(told).hint(hint));
+            return Err(ScriptError::new(message).hint(hint));
         }
         let simulation = self.simulation().fork()?;
         let (scene, notes) = (self.0.scene.clone(), self.0.notes.clone());
@@ -184,7 +183,6 @@ impl SimulationHandle {
         &self.0.scene
     }
 
-    /// Returns true if both handles refer to the same simulation.
     pub fn is_same(&self, other: &Self) -> bool {
         Rc::ptr_eq(&self.0, &other.0)
     }
@@ -221,8 +219,8 @@ impl SimulationHandle {
         match (call.context().mode(), goal) {
             (RunMode::Run, RunTarget::Steps(steps)) => simulation.back(*steps)?,
             (RunMode::Run, RunTarget::Time(time)) => simulation.rewind(*time)?,
-            (RunMode::DryBuild, RunTarget::Steps(steps)) => simulation.dry_run_back(*steps),
-            (RunMode::DryBuild, RunTarget::Time(time)) => simulation.dry_run_rewind(*time),
+            (RunMode::DryRun, RunTarget::Steps(steps)) => simulation.dry_run_back(*steps),
+            (RunMode::DryRun, RunTarget::Time(time)) => simulation.dry_run_rewind(*time),
         }
         drop(simulation);
         self.evaluate_columns()?;
@@ -256,7 +254,7 @@ impl SimulationHandle {
         }
         context.progress().begin(&self.0.name, now, end);
         let outcome = match (context.mode(), goal) {
-            (RunMode::DryBuild, _) => self.dry_run(context, end),
+            (RunMode::DryRun, _) => self.dry_run(context, end),
             (RunMode::Run, RunTarget::Steps(steps)) => self.take_steps(context, *steps),
             (RunMode::Run, RunTarget::Time(_)) => {
                 let ran = self.run_to(context, end);

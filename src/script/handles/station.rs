@@ -43,8 +43,8 @@ impl StationHandle {
             BodyIndex::Rigid(body, _) => body < built.rigid_bodies.len(),
         };
         if !known {
-            let told = format!("{} was added after the scene was started", self.show());
-            return Err(ScriptError::new(told)
+            let message = format!("{} was added after the scene was started", self.show());
+            return Err(ScriptError::new(message)
                 .hint("add everything before scene.start(…), or start the scene again"));
         }
         Ok(built.place(&self.station, meshes)?)

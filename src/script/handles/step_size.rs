@@ -12,5 +12,4 @@ pub fn step_size(value: &Dynamic) -> Option<StepSize> {
     fixed.map(StepSize::from).or_else(control)
 }
 
-/// Hint on step sizes.
 pub const STEP_SIZE: &str = "give positive numbers, or adaptive(#{ tolerance: 1e-4 })";

@@ -18,7 +18,6 @@ pub struct TrackHandle {
 }
 
 impl TrackHandle {
-    /// Returns the index of the track if it belongs to the given scene.
     pub fn index_in(&self, scene: &SceneHandle) -> Result<usize, ScriptError> {
         scene.expect_same(&self.scene, "track")?;
         Ok(self.index)

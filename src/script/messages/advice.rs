@@ -286,7 +286,10 @@ mod tests {
             &StaticsError::Model(empty()),
             &ArchiveError::Scene(SimulationError::Model(empty())),
         ] {
-            assert!(hint_for(error).is_some_and(|told| told.contains("scene.beam(")), "{error}");
+            assert!(
+                hint_for(error).is_some_and(|message| message.contains("scene.beam(")),
+                "{error}"
+            );
         }
         assert_eq!(hint_for(&LinearError::Singular { unknown: 1, size: 2 }), None);
     }

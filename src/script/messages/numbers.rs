@@ -3,7 +3,7 @@
 use rhai::{Array, Dynamic, Engine, INT, ImmutableString, Map};
 
 use super::nouns::with_article;
-pub use crate::output::format_number;
+pub(crate) use crate::output::format_number;
 
 /// Largest integer up to which all integers are exact in `f64`.
 const LARGEST_EXACT: f64 = 9_007_199_254_740_992.0;

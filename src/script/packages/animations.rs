@@ -100,9 +100,9 @@ impl FrameSource {
 fn write_animation(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let file = call.text("file")?;
     if ![".png", ".apng"].iter().any(|ending| file.ends_with(ending)) {
-        let told = format!("\"{file}\" does not end in .png");
+        let message = format!("\"{file}\" does not end in .png");
         return Err(call
-            .error(told)
+            .error(message)
             .hint("an animation is a PNG file: \"motion.png\"")
             .at(CallPart::Argument(1)));
     }

@@ -133,8 +133,8 @@ fn points_of(options: &Options) -> Result<Vec<(String, Vec2)>, ScriptError> {
     if !options.has("points") {
         return Ok(Vec::new());
     }
-    let wrong = |told: String| {
-        ScriptError::new(told).at(CallPart::Key("points".into())).hint(
+    let wrong = |message: String| {
+        ScriptError::new(message).at(CallPart::Key("points".into())).hint(
             "write points: #{ pin: [0.1, 0] }: names with positions relative to the centre \
                 of mass",
         )

@@ -92,7 +92,7 @@ fn check_close(call: &mut Call) -> Result<Dynamic, ScriptError> {
 }
 
 fn record(call: &Call, holds: bool, detail: &str) {
-    if call.context().mode() == RunMode::DryBuild {
+    if call.context().mode() == RunMode::DryRun {
         return;
     }
     if holds {

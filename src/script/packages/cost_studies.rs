@@ -78,11 +78,11 @@ fn study(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let options = CostOptions::of(&call.options("options")?)?;
     let context = call.context();
     let method = options.integrator.unwrap_or_default();
-    let way = CostStepping { method, dt: options.dt, steps: options.steps };
-    let cases = cases(call, &options, way)?;
+    let stepping = CostStepping { method, dt: options.dt, steps: options.steps };
+    let cases = cases(call, &options, stepping)?;
     let name = study_name(call, &options.name)?;
     let repeats = match context.mode() {
-        RunMode::DryBuild => {
+        RunMode::DryRun => {
             let pretended = |case| StepCost::unmeasured(case, CaseOutcome::Finished);
             let costs = cases.iter().map(pretended).collect();
             return Ok(Dynamic::from(CostTable::new(name, costs)));

@@ -93,12 +93,12 @@ fn declare(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let distance = call.options_or_defaults("options")?.optional_number("distance");
     if let Some(distance) = distance.filter(|by| *by < LEAST_DISTANCE * value.abs()) {
         let [distance, value] = [distance, value].map(format_number);
-        let told = format!(
+        let message = format!(
             "the distance {distance} is too small: {value} plus or minus the distance is \
             rounded to {value}"
         );
         let hint = "use 1e-5 of the value, or 1e-7 to 1e-3 of it";
-        return Err(call.error(told).hint(hint).at(CallPart::Key("distance".into())));
+        return Err(call.error(message).hint(hint).at(CallPart::Key("distance".into())));
     }
     let scene = call.receiver::<SceneHandle>()?;
     Ok(Dynamic::from(scene.declare(&name, value, distance)?))
@@ -117,9 +117,9 @@ fn derivative(call: &Call, value: &Dynamic, name: &str) -> Result<Dynamic, Scrip
                 family.parameters().into_iter().map(|(name, _)| name).collect();
             let meant = nearest(name, names.iter().map(String::as_str));
             let meant = meant.map(|name| format!("did you mean \"{name}\"? ")).unwrap_or_default();
-            let told = format!("there is no parameter '{name}'");
+            let message = format!("there is no parameter '{name}'");
             let hint = format!("{meant}parameters: {}", names.join(", "));
-            return Err(call.error(told).hint(hint).at(CallPart::Argument(1)));
+            return Err(call.error(message).hint(hint).at(CallPart::Argument(1)));
         };
         return varied.derivative(number);
     }
@@ -133,9 +133,9 @@ fn derivative(call: &Call, value: &Dynamic, name: &str) -> Result<Dynamic, Scrip
     match value.is::<Vec2>() {
         true => Ok(Dynamic::from(Vec2::zeros())),
         false => {
-            let told = format!("{} has no derivatives", call.describe(value));
+            let message = format!("{} has no derivatives", call.describe(value));
             Err(call
-                .error(told)
+                .error(message)
                 .hint("derivatives exist of numbers, vectors and arrays of them")
                 .at(CallPart::Argument(0)))
         }

@@ -111,9 +111,9 @@ fn of_beam(call: &Call, beam: usize, options: &Options) -> Result<Dragged, Scrip
         "give normal, tangent, or quadratic: #{ normal: …, tangent: … }",
     )?;
     if call_number(options, "quadratic").is_some() {
-        let told = "quadratic is a number, but a beam needs one coefficient for each direction";
+        let message = "quadratic is a number, but a beam needs one coefficient for each direction";
         let hint = "give quadratic: #{ normal: …, tangent: … }";
-        return Err(call.error(told).hint(hint).at(CallPart::Key("quadratic".into())));
+        return Err(call.error(message).hint(hint).at(CallPart::Key("quadratic".into())));
     }
     let quadratic = options.get_if::<Options>("quadratic");
     let along = |name: &str| SpeedLaw {
@@ -128,9 +128,9 @@ fn of_point(call: &Call, scene: &SceneHandle, options: &Options) -> Result<Dragg
     refuse(call, options, &["normal", "tangent"], advice)?;
     expect_one(call, options, &["linear", "quadratic"], "give linear, quadratic or both")?;
     if options.get_if::<Options>("quadratic").is_some() {
-        let told = "quadratic has directions, but drag on a point has none";
+        let message = "quadratic has directions, but drag on a point has none";
         let hint = "give quadratic: a number";
-        return Err(call.error(told).hint(hint).at(CallPart::Key("quadratic".into())));
+        return Err(call.error(message).hint(hint).at(CallPart::Key("quadratic".into())));
     }
     let station = scene.own_station(&call.get::<StationHandle>("on")?)?;
     let law = SpeedLaw {
@@ -153,15 +153,15 @@ fn expect_one(
     if ways.iter().any(|key| options.has(key)) {
         return Ok(());
     }
-    let told = "a drag coefficient is missing";
-    Err(call.error(told).hint(hint).at(CallPart::Argument(1)))
+    let message = "a drag coefficient is missing";
+    Err(call.error(message).hint(hint).at(CallPart::Argument(1)))
 }
 
 fn refuse(call: &Call, options: &Options, odd: &[&str], advice: &str) -> Result<(), ScriptError> {
     match odd.iter().find(|key| options.has(key)) {
         Some(key) => {
-            let told = format!("'{key}' has no effect here");
-            Err(call.error(told).hint(advice).at(CallPart::Key((*key).into())))
+            let message = format!("'{key}' has no effect here");
+            Err(call.error(message).hint(advice).at(CallPart::Key((*key).into())))
         }
         None => Ok(()),
     }

@@ -129,14 +129,14 @@ fn support(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let held = match options.has("along") {
         true => {
             if let Some(odd) = ["x", "y"].into_iter().find(|key| options.has(key)) {
-                let told =
+                let message =
                     format!("{odd} is given together with along; along already determines x and y");
-                return Err(call.error(told).at(CallPart::Key(odd.into())));
+                return Err(call.error(message).at(CallPart::Key(odd.into())));
             }
             let kind = if is_held("angle") { JointKind::guide } else { JointKind::roller };
-            let told = "along has no direction: it is [0, 0]";
+            let message = "along has no direction: it is [0, 0]";
             let hint = "write along: [1, 1], or another direction in which the station can move";
-            let refused = || call.error(told).hint(hint).at(CallPart::Key("along".into()));
+            let refused = || call.error(message).hint(hint).at(CallPart::Key("along".into()));
             Some(kind(options.point("along")?).ok_or_else(refused)?)
         }
         false => Components::among(|at| is_held(at.name())).map(JointKind::Support),
@@ -168,9 +168,9 @@ fn drive(call: &mut Call) -> Result<Dynamic, ScriptError> {
     for (motion, key) in motions.iter_mut().zip(SPEEDS).filter(|(_, key)| options.has(key)) {
         if motion.is_some() {
             let place = key.trim_end_matches("_speed");
-            let told = format!("both {place} and {key} are given");
+            let message = format!("both {place} and {key} are given");
             let hint = format!("leave out {place} or {key}");
-            return Err(call.error(told).hint(hint).at(CallPart::Key(key.into())));
+            return Err(call.error(message).hint(hint).at(CallPart::Key(key.into())));
         }
         let scene = call.receiver::<SceneHandle>()?;
         let rate = controlled_schedule_of(call, &options, key, &scene, beat)?;
@@ -195,12 +195,12 @@ fn place_of(
 ) -> Result<Schedule, ScriptError> {
     let function = options.get_if::<FnPtr>(key);
     if function.is_some_and(|function| call.arguments_of(&function) == Some(2)) {
-        let told = format!(
+        let message = format!(
             "{key} is a position; a controller must not set it, because it would jump at every \
             call"
         );
         let hint = format!("prescribe the rate instead: {rate}");
-        return Err(call.error(told).hint(hint).at(CallPart::Key(key.into())));
+        return Err(call.error(message).hint(hint).at(CallPart::Key(key.into())));
     }
     schedule_of(call, options, key)
 }
@@ -209,14 +209,14 @@ fn motor(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let options = call.options("options")?;
     let mut given = ["angle", "speed", "torque"].into_iter().filter(|key| options.has(key));
     let Some(key) = given.next() else {
-        let told = "the angle, speed or torque is missing";
+        let message = "the angle, speed or torque is missing";
         let hint = "give one of angle, speed and torque: #{ angle: |t| 3 * t * t }";
-        return Err(call.error(told).hint(hint).at(CallPart::Argument(1)));
+        return Err(call.error(message).hint(hint).at(CallPart::Argument(1)));
     };
     if let Some(odd) = given.next() {
-        let told = format!("both {key} and {odd} are given");
+        let message = format!("both {key} and {odd} are given");
         return Err(call
-            .error(told)
+            .error(message)
             .hint(format!("leave out {odd}"))
             .at(CallPart::Key(odd.into())));
     }
@@ -243,9 +243,9 @@ fn motor(call: &mut Call) -> Result<Dynamic, ScriptError> {
             let (station, scene) = here(call, "station")?;
             if scene.borrow().is_held(&station, Component::Rotation) {
                 let place = scene.borrow().describe(&station);
-                let told = format!("the angle of {place} is fixed, so a torque has no effect");
+                let message = format!("the angle of {place} is fixed, so a torque has no effect");
                 return Err(call
-                    .error(told)
+                    .error(message)
                     .hint("use scene.hinge in place of scene.clamp")
                     .at(CallPart::Argument(0)));
             }

@@ -308,7 +308,7 @@ fn find(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let description = scene.scene().borrow().clone();
     let context = call.context();
     let found = match context.mode() {
-        RunMode::DryBuild => Equilibrium::dry_run(description, loading),
+        RunMode::DryRun => Equilibrium::dry_run(description, loading),
         RunMode::Run => {
             let name = description.name.clone();
             context.progress().begin(&name, 0.0, loading.factor);

@@ -128,9 +128,9 @@ const FRAMES_UNLESS_GIVEN: usize = 101;
 fn named(call: &Call, ending: &str) -> Result<String, ScriptError> {
     let file = call.text("file")?;
     if file.strip_suffix(ending).is_none_or(|stem| stem.is_empty() || stem.ends_with('/')) {
-        let told = format!("\"{file}\" does not end in {ending}, with a name before it");
+        let message = format!("\"{file}\" does not end in {ending}, with a name before it");
         let hint = format!("for example \"run{ending}\"");
-        return Err(call.error(told).hint(hint).at(CallPart::Argument(1)));
+        return Err(call.error(message).hint(hint).at(CallPart::Argument(1)));
     }
     call.context().output().path_of(&file).map_err(|error| error.at(CallPart::Argument(1)))?;
     Ok(file.to_string())
@@ -165,7 +165,7 @@ fn write_vtk(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let of = call.get::<SimulationHandle>("of")?;
     let options = call.options_or_defaults("options")?;
     let frames = frames(call, &of, &options)?;
-    if call.context().mode() == RunMode::DryBuild {
+    if call.context().mode() == RunMode::DryRun {
         return Ok(Dynamic::UNIT);
     }
     let files = VtkFiles::of(&collection, frames.len());
@@ -227,8 +227,8 @@ fn frames(
     let end = trajectory.times().partition_point(|time| *time <= to + slack);
     let Some(last) = end.checked_sub(1).filter(|last| *last >= first) else {
         let [from, to, now] = [from, to, simulation.time()].map(format_number);
-        let told = format!("'{}' has no recorded state from t = {from} to {to}", of.name());
-        return Err(call.error(told).hint(format!("it has run from t = 0 to {now}")));
+        let message = format!("'{}' has no recorded state from t = {from} to {to}", of.name());
+        return Err(call.error(message).hint(format!("it has run from t = 0 to {now}")));
     };
     let at = |index: usize| trajectory.times()[index];
     let span = at(last) - at(first);

@@ -197,7 +197,6 @@ const PATIENCE: Parameter = number("patience")
     .doc("longest time of a run by the clock");
 
 option_set! {
-    /// The options of `fit`.
     pub struct FitOptions {
         name: String = name("name").or(Presence::Text("fit")).doc("name of the fit and its files"),
         parameters: Dynamic = RANGES,
@@ -216,7 +215,6 @@ option_set! {
 }
 
 option_set! {
-    /// The options of `minimise`.
     pub struct DesignOptions {
         parameters: Dynamic = RANGES,
         run: FnPtr = callback("run").doc("|p| …, returns a map of numbers"),
@@ -297,12 +295,12 @@ fn make_fit(call: &mut Call) -> Result<Dynamic, ScriptError> {
         (Some(residuals), None, None) => ("residuals", residuals, Compared::Residuals),
         (None, Some(model), Some(measured)) => {
             if let Some(over) = options.over.as_ref().filter(|over| over.len() != measured.len()) {
-                let told =
+                let message =
                     format!("over has {} numbers, but measured has {}", over.len(), measured.len());
                 return Err(at_key(
                     call,
                     "over",
-                    told,
+                    message,
                     "give one number of over for each measured value",
                 ));
             }
@@ -330,13 +328,18 @@ fn make_fit(call: &mut Call) -> Result<Dynamic, ScriptError> {
     if let (Some(weights), Compared::Model { measured, .. }) = (&options.weights, &compared)
         && weights.len() != measured.len()
     {
-        let told =
+        let message =
             format!("weights has {} numbers, but measured has {}", weights.len(), measured.len());
-        return Err(at_key(call, "weights", told, "give one weight for each measured value"));
+        return Err(at_key(call, "weights", message, "give one weight for each measured value"));
     }
     if let Some(wrong) = options.weights.iter().flatten().find(|weight| **weight <= 0.0) {
-        let told = format!("weights hold {}", format_number(*wrong));
-        return Err(at_key(call, "weights", told, "weights must be positive: 1 over the variance"));
+        let message = format!("weights hold {}", format_number(*wrong));
+        return Err(at_key(
+            call,
+            "weights",
+            message,
+            "weights must be positive: 1 over the variance",
+        ));
     }
     let name = study_name(call, &options.name)?;
     call.context().output().path_of(&format!("{name}-fit.svg"))?;
@@ -355,7 +358,7 @@ fn make_fit(call: &mut Call) -> Result<Dynamic, ScriptError> {
     };
     let fit = match call.context().mode() {
         RunMode::Run => order.run(call)?,
-        RunMode::DryBuild => order.dry_run(call)?,
+        RunMode::DryRun => order.dry_run(call)?,
     };
     print_table(call.context(), &fit.text());
     Ok(Dynamic::from(FitHandle(Rc::new(fit))))
@@ -393,7 +396,7 @@ fn minimise(call: &mut Call) -> Result<Dynamic, ScriptError> {
     };
     let design = match call.context().mode() {
         RunMode::Run => order.run(call)?,
-        RunMode::DryBuild => order.dry_run(call)?,
+        RunMode::DryRun => order.dry_run(call)?,
     };
     print_table(call.context(), &design.text());
     Ok(Dynamic::from(DesignHandle(Rc::new(design))))

@@ -116,12 +116,12 @@ fn window(
 ) -> Result<Dynamic, ScriptError> {
     let (from, to) = range(call)?;
     if to < from {
-        let told = format!(
+        let message = format!(
             "the interval from t = {} to {} is reversed",
             format_number(from),
             format_number(to)
         );
-        return Err(call.error(told).hint("give the earlier time first"));
+        return Err(call.error(message).hint("give the earlier time first"));
     }
     Ok(Dynamic::from(call.receiver::<HistoryHandle>()?.between(from, to)))
 }

@@ -131,11 +131,12 @@ mod tests {
                 [Parameter { kind: Kind::Options(keys), .. }] => *keys,
                 _ => &[],
             };
-            let told: Vec<_> = keys.iter().map(|key| (key.name, key.doc, key.presence)).collect();
+            let options: Vec<_> =
+                keys.iter().map(|key| (key.name, key.doc, key.presence)).collect();
             let known = entry.parameter.iter();
             let known: Vec<_> =
                 known.map(|of| (of.name, of.meaning, Presence::Number(of.default))).collect();
-            assert_eq!(told, known, "{}", entry.name);
+            assert_eq!(options, known, "{}", entry.name);
         }
     }
 }

@@ -35,16 +35,17 @@ fn read_csv(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let file = call.text("file")?;
     let at = |error: ScriptError| error.at(CallPart::Argument(0));
     let bytes = call.context().read_file(&file).map_err(at)?;
-    let told = |why: String| call.error(format!("\"{file}\": {why}")).at(CallPart::Argument(0));
-    let text = String::from_utf8(bytes).map_err(|_| told("the file is not UTF-8 text".into()))?;
-    let sheet = ParsedCsv::parse(&text).map_err(|error| told(error.to_string()))?;
+    let failure = |why: String| call.error(format!("\"{file}\": {why}")).at(CallPart::Argument(0));
+    let text =
+        String::from_utf8(bytes).map_err(|_| failure("the file is not UTF-8 text".into()))?;
+    let sheet = ParsedCsv::parse(&text).map_err(|error| failure(error.to_string()))?;
     if sheet.is_empty() {
-        return Err(told("the file has no rows".into()));
+        return Err(failure("the file has no rows".into()));
     }
     let column = |name: &String| {
         let number = |row| sheet.number(row, name).map(Dynamic::from);
         let numbers = (0..sheet.len()).map(number).collect::<Result<Array, _>>();
-        let numbers = numbers.map_err(|error| told(error.to_string()))?;
+        let numbers = numbers.map_err(|error| failure(error.to_string()))?;
         Ok((name.as_str().into(), numbers.into()))
     };
     Ok(sheet.columns().iter().map(column).collect::<Result<Map, ScriptError>>()?.into())

@@ -142,8 +142,8 @@ pub const TABLE: BindingTable = BindingTable {
             let handle = modes(call)?;
             let (mode, count) = (call.count("mode")?, handle.0.modes.all().len());
             if mode >= count {
-                let told = format!("mode {mode} does not exist: there are {count} modes, counted from 0");
-                return Err(call.error(told).hint(format!("give 0 to {}", count - 1)).at(CallPart::Argument(0)));
+                let mode_map = format!("mode {mode} does not exist: there are {count} modes, counted from 0");
+                return Err(call.error(mode_map).hint(format!("give 0 to {}", count - 1)).at(CallPart::Argument(0)));
             }
             let station = call.get::<StationHandle>("station")?;
             let place = station.within(&handle.0.of, &handle.0.scene, handle.0.modes.meshes())?;
@@ -165,7 +165,6 @@ pub(super) const COUNT: Parameter = integer("count").positive().or(Presence::Int
 
 pub const MODES: Type = Type::of::<ModesHandle>();
 
-/// Handle of modes with their scene.
 #[derive(Clone)]
 pub struct ModesHandle(Rc<ModesData>);
 
@@ -295,7 +294,7 @@ pub(super) fn damped_modes(call: &Call, model: &System) -> Result<Dynamic, Scrip
         }
         found => found?,
     };
-    let told = |mode: &DampedMode| {
+    let mode_map = |mode: &DampedMode| {
         let numbers = [
             ("decay_rate", mode.decay_rate),
             ("angular_frequency", mode.angular_frequency),
@@ -304,7 +303,7 @@ pub(super) fn damped_modes(call: &Call, model: &System) -> Result<Dynamic, Scrip
         let map: Map = numbers.into_iter().map(|(key, value)| (key.into(), value.into())).collect();
         Dynamic::from(map)
     };
-    Ok(found.iter().map(told).collect::<Array>().into())
+    Ok(found.iter().map(mode_map).collect::<Array>().into())
 }
 
 const fn binding(name: &'static str, returns: Returns, body: NativeFunction) -> FunctionBinding {

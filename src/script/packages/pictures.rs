@@ -21,7 +21,6 @@ use crate::script::bindings::kind::Kind;
 use crate::script::bindings::parameter::{either, options};
 use crate::script::bindings::table::{BindingTable, function};
 
-/// Domain of pictures and files.
 pub const TABLE: BindingTable = BindingTable {
     name: "pictures",
     doc: "Pictures of simulations. Pictures are SVG or PNG, depending on the ending of the file \

@@ -183,7 +183,7 @@ fn cheapest(call: &mut Call) -> Result<Dynamic, ScriptError> {
         };
     };
     // In a dry run the first row replaces the result, because no row has run.
-    let pretended = study.rows.first().filter(|_| call.context().mode() == RunMode::DryBuild);
+    let pretended = study.rows.first().filter(|_| call.context().mode() == RunMode::DryRun);
     let row = pretended.or_else(|| study.cheapest(error));
     Ok(row.map_or(Dynamic::UNIT, |row| map_of(&study, row).into()))
 }

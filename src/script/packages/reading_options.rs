@@ -12,7 +12,6 @@ use crate::script::messages::error::{CallPart, ScriptError};
 use crate::script::messages::nouns::with_article;
 use crate::script::messages::suggest::nearest;
 
-/// Domain of options and arguments of script functions.
 pub const TABLE: BindingTable = BindingTable {
     name: "options of functions",
     doc: "Functions for scripts that check options and arguments in the same way as the \
@@ -96,7 +95,6 @@ const KINDS: &[(&str, Kind)] = &[
     ("a function", Kind::Function),
 ];
 
-/// An option as described by a script.
 struct OptionInfo {
     name: String,
     wanted: String,
@@ -108,7 +106,9 @@ fn read_options(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let owner = call.text("owner")?;
     let mut given = map(call, "options", &owner)?;
     let known = map(call, "known", "read_options")?;
-    let known = known.into_iter().map(|(name, told)| described(call, name.to_string(), &told));
+    let known = known
+        .into_iter()
+        .map(|(name, description)| described(call, name.to_string(), &description));
     let known: Vec<OptionInfo> = known.collect::<Result<_, _>>()?;
     if let Some(unknown) = given.keys().find(|name| !known.iter().any(|key| key.name == **name)) {
         return Err(unknown_option(&owner, unknown, &known));
@@ -121,8 +121,8 @@ fn read_options(call: &mut Call) -> Result<Dynamic, ScriptError> {
                 .map_err(|error| error.at(CallPart::Key(name.clone())))?,
             (None, Some(default)) => default,
             (None, None) => {
-                let told = format!("{owner}: the option '{name}' is missing");
-                return Err(ScriptError::new(told).hint(format!("add {name}: {wanted}")));
+                let message = format!("{owner}: the option '{name}' is missing");
+                return Err(ScriptError::new(message).hint(format!("add {name}: {wanted}")));
             }
         };
         options.insert(name.into(), value);
@@ -136,14 +136,14 @@ fn read_argument(call: &mut Call) -> Result<Dynamic, ScriptError> {
 }
 
 /// Parses `"a number"` and `["a number", default]`.
-fn described(call: &Call, name: String, told: &Dynamic) -> Result<OptionInfo, ScriptError> {
-    let parts = told.read_lock::<Array>();
+fn described(call: &Call, name: String, description: &Dynamic) -> Result<OptionInfo, ScriptError> {
+    let parts = description.read_lock::<Array>();
     let (wanted, default) = match parts.as_deref().map(Vec::as_slice) {
         Some([wanted, default]) => (wanted, Some(default.clone())),
-        _ => (told, None),
+        _ => (description, None),
     };
     let wanted = wanted.as_immutable_string_ref().map_err(|_| {
-        let got = call.describe(told);
+        let got = call.describe(description);
         call.error(format!("'{name}' must be given in words or as [words, default], got {got}"))
     })?;
     Ok(OptionInfo { name, wanted: wanted.to_string(), default })
@@ -209,7 +209,7 @@ fn written(accepted: Dynamic) -> Dynamic {
 fn map(call: &Call, name: &str, owner: &str) -> Result<Map, ScriptError> {
     let value = call.value(name)?;
     value.clone().try_cast::<Map>().ok_or_else(|| {
-        let told = format!("{owner}: '{name}' must be a map, got {}", call.describe(&value));
-        ScriptError::new(told).hint("write #{ key: value, … }")
+        let message = format!("{owner}: '{name}' must be a map, got {}", call.describe(&value));
+        ScriptError::new(message).hint("write #{ key: value, … }")
     })
 }

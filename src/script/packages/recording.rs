@@ -63,12 +63,12 @@ pub(super) fn expect_all_rows(
     if simulation.has_all_rows() {
         return Ok(());
     }
-    let told = format!(
+    let message = format!(
         "{what} needs every step, but '{}' recorded {}",
         of.name(),
         simulation.recording().describe()
     );
-    Err(call.error(told).hint("start it without the option record: scene.start(#{ dt: … })"))
+    Err(call.error(message).hint("start it without the option record: scene.start(#{ dt: … })"))
 }
 
 pub(super) fn expect_rows_between(call: &Call, of: &SimulationHandle) -> Result<(), ScriptError> {
@@ -76,9 +76,9 @@ pub(super) fn expect_rows_between(call: &Call, of: &SimulationHandle) -> Result<
     if simulation.recording() != Recording::Nothing || simulation.has_all_rows() {
         return Ok(());
     }
-    let told = format!("'{}' recorded {}", of.name(), simulation.recording().describe());
+    let message = format!("'{}' recorded {}", of.name(), simulation.recording().describe());
     Err(call
-        .error(told)
+        .error(message)
         .hint("start it with the option record: every(100), or without this option"))
 }
 
@@ -97,17 +97,17 @@ pub(super) fn report_diverged_rerun(
     (missing, is_asked): (Missing, bool),
 ) -> Result<(), ScriptError> {
     let (name, time) = (of.name(), format_number(time));
-    let told = format!(
+    let message = format!(
         "the earlier states of '{name}' are no longer stored, and the repeated run differs at \
         t = {time} or before"
     );
     let more = "start it with the option snapshots: 1000 to store more states";
     if is_asked {
         let hint = format!("{more}, or write #{{ {} }}", missing.instead);
-        return Err(call.error(told).hint(hint).at(CallPart::Key("fields".into())));
+        return Err(call.error(message).hint(hint).at(CallPart::Key("fields".into())));
     }
     call.context()
-        .print_message(&format!("note: {told}: {} are not written; {more}", missing.what));
+        .print_message(&format!("note: {message}: {} are not written; {more}", missing.what));
     Ok(())
 }
 
@@ -122,7 +122,7 @@ pub(super) fn expect_near(
     if simulation.has_all_rows() || (time - recorded).abs() <= 0.5 * apart {
         return Ok(());
     }
-    let told = format!(
+    let message = format!(
         "'{}' recorded {}: the recorded configuration nearest to t = {} is at t = {}",
         of.name(),
         simulation.recording().describe(),
@@ -131,5 +131,5 @@ pub(super) fn expect_near(
     );
     let hint = "start it with the option record: every(n) and a smaller n, or plot with a larger \
         `every`";
-    Err(call.error(told).hint(hint))
+    Err(call.error(message).hint(hint))
 }

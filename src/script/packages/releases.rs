@@ -140,9 +140,9 @@ fn hold(call: &Call, handle: &SceneHandle) -> Result<Releasable, ScriptError> {
         .loads()
         .any(|load| load.title.as_ref().unwrap_or(&load.name) == name.as_str());
     if is_load {
-        let told = format!("'{name}' is a load, which cannot be released");
+        let rows = format!("'{name}' is a load, which cannot be released");
         return Err(call
-            .error(told)
+            .error(rows)
             .hint("end a force or torque by its schedule: hold_for(0.5)")
             .at(CallPart::Argument(0)));
     }
@@ -154,18 +154,18 @@ fn hold(call: &Call, handle: &SceneHandle) -> Result<Releasable, ScriptError> {
             format!("available: {}", all.join(", "))
         }
     };
-    let told = format!("there is no joint, slider, spring or drive '{name}'");
-    Err(call.error(told).hint(hint).at(CallPart::Argument(0)))
+    let rows = format!("there is no joint, slider, spring or drive '{name}'");
+    Err(call.error(rows).hint(hint).at(CallPart::Argument(0)))
 }
 
 fn releases(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let handle = call.receiver::<SimulationHandle>()?;
     let simulation = handle.simulation();
     let scene = simulation.scene();
-    let told = simulation.releases().iter().map(|gone| {
+    let rows = simulation.releases().iter().map(|gone| {
         let name = scene.releasable_name(scene.releases[gone.release].object);
         let entries = [("t", Dynamic::from(gone.time)), ("name", name.into())];
         Dynamic::from(entries.into_iter().map(|(key, value)| (key.into(), value)).collect::<Map>())
     });
-    Ok(told.collect::<Array>().into())
+    Ok(rows.collect::<Array>().into())
 }

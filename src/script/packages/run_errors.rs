@@ -165,7 +165,7 @@ fn solve(call: &mut Call) -> Result<Dynamic, ScriptError> {
         max_time: options.number("max_time")?,
     };
     let found = match call.context().mode() {
-        RunMode::DryBuild => Refinement::dry_run(&scene, &request, call.context()),
+        RunMode::DryRun => Refinement::dry_run(&scene, &request, call.context()),
         RunMode::Run => Refinement::run(&scene, &request, call.context()),
     };
     Ok(Dynamic::from(found?))
@@ -191,7 +191,7 @@ fn estimate(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let limit = call.options_or_defaults("options")?.optional_number("max_time");
     let limit = limit.map(|seconds| Duration::from_secs_f64(seconds.min(1e9)));
     let error = match call.context().mode() {
-        RunMode::DryBuild => RunError::not_estimated(&handle, "the script is only checked"),
+        RunMode::DryRun => RunError::not_estimated(&handle, "the script is only checked"),
         RunMode::Run => RunError::estimate(&handle, call.context(), limit)?,
     };
     Ok(Dynamic::from(error))
@@ -202,7 +202,7 @@ fn of(call: &mut Call) -> Result<Dynamic, ScriptError> {
     if let Some(quantity) = error.of(&name) {
         return Ok(Dynamic::from(row(quantity)));
     }
-    if call.context().mode() == RunMode::DryBuild {
+    if call.context().mode() == RunMode::DryRun {
         return Ok(Dynamic::from(row(&QuantityError::unknown(&name))));
     }
     let known = || error.quantities.iter().map(|quantity| quantity.name.as_str());

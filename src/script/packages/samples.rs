@@ -61,10 +61,10 @@ pub const TABLE: BindingTable = BindingTable {
                 true => Ok(Dynamic::from(Distribution::Triangular { from, mode, to })),
                 false => {
                     let [mode, from, to] = [mode, from, to].map(format_number);
-                    let told =
+                    let message =
                         format!("the likeliest number {mode} is not between {from} and {to}");
                     Err(call
-                        .error(told)
+                        .error(message)
                         .hint("write triangular(from, likeliest, to)")
                         .at(CallPart::Argument(1)))
                 }
@@ -177,9 +177,9 @@ fn ends(call: &Call) -> Result<(f64, f64), ScriptError> {
     match from < to {
         true => Ok((from, to)),
         false => {
-            let told =
+            let message =
                 format!("the range from {} to {} is empty", format_number(from), format_number(to));
-            Err(call.error(told).hint("give the smaller number first").at(CallPart::Argument(0)))
+            Err(call.error(message).hint("give the smaller number first").at(CallPart::Argument(0)))
         }
     }
 }

@@ -266,13 +266,13 @@ fn warn_about_taper(call: &Call, scene: &SceneHandle, index: usize) -> Result<()
         ("bending stiffness", seen.bending),
     ];
     let off = parts.into_iter().filter(|(_, part)| *part >= TAPER_TOLERANCE);
-    let told: Vec<String> =
+    let deviations: Vec<String> =
         off.map(|(what, part)| format!("{what} by {} %", significant(100.0 * part, 2))).collect();
     call.context().print_message(&format!(
         "note: the mesh of beam '{name}' is too coarse for its varying section; errors at the \
         quadrature points: {}. Place knots where the section jumps or bends, knots(3, […]), \
         use more spans, or join separate beams there",
-        told.join(", ")
+        deviations.join(", ")
     ));
     Ok(())
 }
@@ -281,15 +281,15 @@ fn warn_about_taper(call: &Call, scene: &SceneHandle, index: usize) -> Result<()
 fn warn_about_length(call: &Call, scene: &SceneHandle, index: usize) -> Result<(), ScriptError> {
     let scene = scene.scene().borrow();
     let beam = &scene.beams[index];
-    let share = beam.meshed_length()? / beam.axis.length();
-    if (share - 1.0).abs() <= MISSED_LENGTH {
+    let ratio = beam.meshed_length()? / beam.axis.length();
+    if (ratio - 1.0).abs() <= MISSED_LENGTH {
         return Ok(());
     }
     call.context().print_message(&format!(
         "note: the mesh of beam '{}' is too coarse for its curved axis: its length and mass are \
         {} of those of the axis; use more spans or a higher degree",
         beam.name,
-        significant(share, 3)
+        significant(ratio, 3)
     ));
     Ok(())
 }

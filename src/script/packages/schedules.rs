@@ -290,7 +290,7 @@ pub(super) fn expect_controller<'a>(
     if beat.is_none() || schedules.any(Schedule::is_sampled) {
         return Ok(());
     }
-    let told = "the option sample is given without a controller";
+    let message = "the option sample is given without a controller";
     let hint = "give a function of time and simulation, |t, q| …, or leave out sample";
-    Err(call.error(told).hint(hint).at(CallPart::Key("sample".into())))
+    Err(call.error(message).hint(hint).at(CallPart::Key("sample".into())))
 }

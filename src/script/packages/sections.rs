@@ -225,9 +225,9 @@ fn of_uniform(call: &Call, number: fn(&Section) -> f64) -> Result<Dynamic, Scrip
         SectionVariation::Uniform(section) => Ok(number(section).into()),
         tapered => {
             let [start, end] = [0.0, 1.0].map(|part| number(&tapered.at(part)));
-            let told =
+            let message =
                 format!("this value varies along a taper: {start} at its start, {end} at its end");
-            Err(call.error(told).hint("read the section at one place: taper.at(0.5).EI"))
+            Err(call.error(message).hint("read the section at one place: taper.at(0.5).EI"))
         }
     }
 }

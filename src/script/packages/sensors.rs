@@ -216,8 +216,8 @@ pub const TABLE: BindingTable = BindingTable {
             let (handle, station) = (call.receiver::<SimulationHandle>()?, call.get::<StationHandle>("station")?);
             let place = station.place_in(&handle)?;
             if !station.station.turns() {
-                let told = format!("{} has no spin, because a particle does not rotate", station.show());
-                return Err(call.error(told).hint("read the spin at a station of a beam or a body"));
+                let error = format!("{} has no spin, because a particle does not rotate", station.show());
+                return Err(call.error(error).hint("read the spin at a station of a beam or a body"));
             }
             Ok(handle.simulation().model().spin(&place).into())
         })
@@ -290,10 +290,10 @@ fn record(call: &mut Call) -> Result<Dynamic, ScriptError> {
     recorded.map_err(|error| {
         let names = scene.scene().borrow().sensor_names();
         let meant = nearest(&column, names.iter().map(String::as_str));
-        let told = ScriptError::from(error).at(CallPart::Argument(0));
+        let error = ScriptError::from(error).at(CallPart::Argument(0));
         match meant {
-            Some(meant) => told.hint(format!("did you mean \"{meant}\"?")),
-            None => told.hint(format!(
+            Some(meant) => error.hint(format!("did you mean \"{meant}\"?")),
+            None => error.hint(format!(
                 "or give a function: scene.record(\"{column}\", |q| q.position(rod.end).x)"
             )),
         }
@@ -358,8 +358,8 @@ fn known(call: &Call, built: &Scene, index: usize, beam: &BeamHandle) -> Result<
     if index < built.beams.len() {
         return Ok(());
     }
-    let told = format!("{} was added after the scene was started", beam.show());
-    Err(call.error(told).hint("add everything before scene.start(…), or start the scene again"))
+    let error = format!("{} was added after the scene was started", beam.show());
+    Err(call.error(error).hint("add everything before scene.start(…), or start the scene again"))
 }
 
 fn wanted(call: &Call, scene: &Scene, beam: usize) -> Result<Option<Station>, ScriptError> {

@@ -335,8 +335,9 @@ pub(super) fn tracked_angle(
     angle: Option<f64>,
 ) -> Result<Dynamic, ScriptError> {
     if !station.station.turns() {
-        let told = format!("{} has no angle, because a particle does not rotate", station.show());
-        return Err(call.error(told).hint("read the angle at a station of a beam or a body"));
+        let message =
+            format!("{} has no angle, because a particle does not rotate", station.show());
+        return Err(call.error(message).hint("read the angle at a station of a beam or a body"));
     }
     angle.map(Dynamic::from).ok_or_else(|| {
         call.error(format!(

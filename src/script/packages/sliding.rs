@@ -252,8 +252,8 @@ impl SliderHandle {
         if self.index < copy.sliders.len() {
             return Ok(self.index);
         }
-        let told = format!("the slider '{}' was added after the scene was started", self.name());
-        Err(ScriptError::new(told)
+        let message = format!("the slider '{}' was added after the scene was started", self.name());
+        Err(ScriptError::new(message)
             .hint("add all sliders before scene.start(…), or start the scene again"))
     }
 }
@@ -319,8 +319,8 @@ fn slider(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let ends = meant(&ENDS, &options.text("ends")?);
     let restitution = options.optional_number("restitution");
     if restitution.is_some() && ends != EndAction::Bounce {
-        let told = "slider: 'restitution' is allowed only with ends: \"bounce\"";
-        return Err(ScriptError::new(told).at(CallPart::Key("restitution".into())));
+        let message = "slider: 'restitution' is allowed only with ends: \"bounce\"";
+        return Err(ScriptError::new(message).at(CallPart::Key("restitution".into())));
     }
     let restitution = restitution.unwrap_or(1.0);
     let (master, arc_length) = guide.start(&scene.borrow(), slave, at)?;

@@ -44,10 +44,10 @@ pub(super) fn law(
             Acts::Pull | Acts::Push => Some("acts"),
         };
         if let Some(odd) = odd {
-            let told =
+            let message =
                 format!("both a table and {odd} are given, but the table determines the force");
             let hint = format!("leave out {odd}, or the table");
-            return Err(call.error(told).hint(hint).at(CallPart::Key(odd.into())));
+            return Err(call.error(message).hint(hint).at(CallPart::Key(odd.into())));
         }
         let points = options.points("table")?.iter().map(|at: &Vec2| (at.x, at.y)).collect();
         return Ok((Some(SpringLaw::Table { points }), Origin::Zero));
@@ -77,8 +77,11 @@ pub(super) fn law(
 pub(super) fn damping(call: &Call, options: &Options) -> Result<DampingLaw, ScriptError> {
     let Some(function) = options.get_if::<FnPtr>("damping") else {
         if options.has("rates") {
-            let told = "rates are given, but damping is not a function";
-            return Err(call.error(told).hint("leave out rates").at(CallPart::Key("rates".into())));
+            let message = "rates are given, but damping is not a function";
+            return Err(call
+                .error(message)
+                .hint("leave out rates")
+                .at(CallPart::Key("rates".into())));
         }
         return Ok(match options.get_if::<Vec<Vec2>>("damping") {
             Some(points) => {
@@ -90,15 +93,15 @@ pub(super) fn damping(call: &Call, options: &Options) -> Result<DampingLaw, Scri
     };
     call.expect_arguments(&function, 1, "damping: |rate| 3 * rate * abs(rate)")?;
     if !options.has("rates") {
-        let told = "the range of rates for the damping function is missing";
+        let message = "the range of rates for the damping function is missing";
         let hint = "give rates: [-10, 10], from the fastest approach to the fastest separation";
-        return Err(call.error(told).hint(hint).at(CallPart::Key("damping".into())));
+        return Err(call.error(message).hint(hint).at(CallPart::Key("damping".into())));
     }
     let rates = options.point("rates")?;
     if !(rates.x < 0.0 && rates.y > 0.0) {
-        let told = format!("the rates [{}, {}] do not contain 0 between them", rates.x, rates.y);
+        let message = format!("the rates [{}, {}] do not contain 0 between them", rates.x, rates.y);
         let hint = "give a negative and a positive rate: [-10, 10]";
-        return Err(call.error(told).hint(hint).at(CallPart::Key("rates".into())));
+        return Err(call.error(message).hint(hint).at(CallPart::Key("rates".into())));
     }
     let force = force_of(call, &function, ("damping", "rate"));
     let law = DampingLaw::sampled((rates.x, rates.y), force)?;
@@ -115,20 +118,20 @@ fn sampled(call: &Call, options: &Options, ease: &str) -> Result<ParsedLaw, Scri
     call.expect_arguments(&function, 1, "law: |e| 100 * e, where e is the elongation")?;
     let odd = options.present_names().find(|key| ["stiffness", "table"].contains(key));
     if let Some(odd) = odd {
-        let told = format!("both a law and {odd} are given, but the law determines the force");
+        let message = format!("both a law and {odd} are given, but the law determines the force");
         let hint = format!("leave out {odd}, or the law");
-        return Err(call.error(told).hint(hint).at(CallPart::Key(odd.into())));
+        return Err(call.error(message).hint(hint).at(CallPart::Key(odd.into())));
     }
     if !options.has("range") {
-        let told = "the range of elongations for the law is missing";
+        let message = "the range of elongations for the law is missing";
         let hint = "give range: [-0.1, 0.1], from the shortest to the longest";
-        return Err(call.error(told).hint(hint).at(CallPart::Key("law".into())));
+        return Err(call.error(message).hint(hint).at(CallPart::Key("law".into())));
     }
     let range = options.point("range")?;
     if range.x >= range.y {
-        let told = format!("the range [{}, {}] is not ascending", range.x, range.y);
+        let message = format!("the range [{}, {}] is not ascending", range.x, range.y);
         let hint = "give the smaller elongation first";
-        return Err(call.error(told).hint(hint).at(CallPart::Key("range".into())));
+        return Err(call.error(message).hint(hint).at(CallPart::Key("range".into())));
     }
     let force = force_of(call, &function, ("law", "elongation"));
     let law = SpringLaw::sampled((range.x, range.y), force)?;
@@ -147,8 +150,8 @@ fn force_of<'a>(
     move |at| {
         let value = call.invoke(function, [Dynamic::from(at)])?;
         as_number(&value).filter(|force| force.is_finite()).ok_or_else(|| {
-            let told = format!("the {key} does not return a finite number at the {over} {at}");
-            call.error(told).at(CallPart::Key(key.into()))
+            let message = format!("the {key} does not return a finite number at the {over} {at}");
+            call.error(message).at(CallPart::Key(key.into()))
         })
     }
 }
@@ -161,9 +164,9 @@ fn expect_smooth(
 ) -> Result<(), ScriptError> {
     let Some((error, largest)) = polygon.sampling_error() else { return Ok(()) };
     let [error, largest] = [error, largest].map(|force| significant(force, 3));
-    let told = format!(
+    let message = format!(
         "the {key} has a jump or varies too fast: the finest polygon has an error of {error} at \
         a largest force of {largest}"
     );
-    Err(call.error(told).hint(hint).at(CallPart::Key(key.into())))
+    Err(call.error(message).hint(hint).at(CallPart::Key(key.into())))
 }

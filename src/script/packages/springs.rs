@@ -327,9 +327,10 @@ fn tendon(call: &mut Call) -> Result<Dynamic, ScriptError> {
         });
     }
     if anchors.len() < 3 {
-        let told = format!("a tendon needs three or more places, but {} are given", anchors.len());
+        let message =
+            format!("a tendon needs three or more places, but {} are given", anchors.len());
         return Err(call
-            .error(told)
+            .error(message)
             .hint("use scene.spring between two places")
             .at(CallPart::Argument(0)));
     }
@@ -380,9 +381,9 @@ fn spring_value(
     match simulation.model().springs().nth(spring.index) {
         Some(state) => Ok(ask(&state).into()),
         None => {
-            let told = format!("'{}' was added after the scene was started", spring.name());
+            let message = format!("'{}' was added after the scene was started", spring.name());
             Err(call
-                .error(told)
+                .error(message)
                 .hint("add everything before scene.start(…), or start the scene again"))
         }
     }

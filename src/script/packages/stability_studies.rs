@@ -89,7 +89,7 @@ fn study(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let shown = shown.map_or(MapColouring::EnergyGrowth, |(_, shown)| *shown);
     let desk = CaseRunner::open(context, &plan.name)?;
     let verdicts = match context.mode() {
-        RunMode::DryBuild => {
+        RunMode::DryRun => {
             vec![StabilityVerdict::not_started(CaseOutcome::Finished); made.len()]
         }
         RunMode::Run => {

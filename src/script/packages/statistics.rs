@@ -104,9 +104,9 @@ fn spectrum(call: &mut Call) -> Result<Dynamic, ScriptError> {
             every(n), no shortened steps";
         call.error(error).hint(hint)
     })?;
-    let told =
+    let peak_map =
         |peak: SpectrumPeak| map(&[("frequency", peak.frequency), ("amplitude", peak.amplitude)]);
-    Ok(peaks.into_iter().map(told).collect::<Array>().into())
+    Ok(peaks.into_iter().map(peak_map).collect::<Array>().into())
 }
 
 pub(super) fn map(entries: &[(&str, f64)]) -> Dynamic {

@@ -127,9 +127,9 @@ fn expect_rows(call: &Call, picture: &Picture, names: &[&str]) -> Result<(), Scr
         0 => "no row was selected: change the condition of where(…)",
         _ => "failed rows have no results: print(sweep.failures) shows the reasons",
     };
-    let told =
+    let message =
         format!("{count} of the {all} rows of the sweep are selected, and none can be plotted");
-    Err(call.error(told).hint(hint))
+    Err(call.error(message).hint(hint))
 }
 
 fn expect_columns(call: &Call, table: &SweepTable, names: &[&str]) -> Result<(), ScriptError> {
@@ -148,9 +148,9 @@ fn expect_columns(call: &Call, table: &SweepTable, names: &[&str]) -> Result<(),
     };
     let name = names[at];
     let few: Vec<&str> = labels.iter().take(3).map(String::as_str).collect();
-    let told = format!("\"{name}\" has values that are not numbers: {}", few.join(", "));
+    let message = format!("\"{name}\" has values that are not numbers: {}", few.join(", "));
     Err(call
-        .error(told)
+        .error(message)
         .hint(format!(
             "plot over a numeric parameter for one curve per value, or select the rows of one \
             value with where(|row| row.{name} == …)"

@@ -130,7 +130,6 @@ const KEYS: &[Parameter] = SweepOptions::KEYS;
 const BYTES_OF_A_ROW: u64 = 500;
 
 option_set! {
-    /// The options of `study_sweep`.
     pub struct SweepOptions {
         name: String = name("name").doc("name of the study and its files"),
         parameters: Dynamic = of_any_type("parameters").doc("names with values or distributions: #{ speed: linspace(0.1, 2, 20), mass: [1, 2] }"),
@@ -207,11 +206,11 @@ fn study(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let given: Options = call.options("options")?;
     let options = SweepOptions::of(&given)?;
     let Some(parameters) = options.parameters.read_lock::<Map>().map(|map| map.clone()) else {
-        let told = format!("parameters are {}", call.describe(&options.parameters));
+        let message = format!("parameters are {}", call.describe(&options.parameters));
         return Err(at_key(
             call,
             "parameters",
-            told,
+            message,
             "for example parameters: #{ speed: linspace(0.1, 2, 20) }",
         ));
     };
@@ -237,7 +236,7 @@ fn study(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let wall = Duration::from_secs_f64(options.patience.min(1e9));
     let order = SweepRequest { name, plan, function: &options.run, wall };
     let swept = match context.mode() {
-        RunMode::DryBuild => dry_run(call, order)?,
+        RunMode::DryRun => dry_run(call, order)?,
         RunMode::Run => order.run(call)?,
     };
     expect_other_names(call, &swept.sweep)?;
@@ -253,11 +252,12 @@ fn expect_other_names(call: &Call, sweep: &Sweep) -> Result<(), ScriptError> {
     let own = |name: &&String| sweep.design.parameters.iter().any(|of| of.name == **name);
     let wrong = sweep.results.names.iter().find(|name| own(name) || *name == FAILURE);
     wrong.map_or(Ok(()), |name| {
-        let told = format!("run: the name '{name}' of a result is already a column of the table");
+        let message =
+            format!("run: the name '{name}' of a result is already a column of the table");
         Err(at_key(
             call,
             "run",
-            told,
+            message,
             "choose another name: parameters and results share one table",
         ))
     })
@@ -277,9 +277,9 @@ fn dry_run(call: &Call, order: SweepRequest) -> Result<FinishedSweep, ScriptErro
                 .unwrap_or_default(),
             Vec::new(),
         ),
-        RowOutcome::Wrong(told) => {
+        RowOutcome::Wrong(message) => {
             let hint = "its last expression must be a map of numbers: #{ peak: peak }";
-            return Err(at_key(call, "run", format!("run: {told}"), hint));
+            return Err(at_key(call, "run", format!("run: {message}"), hint));
         }
     };
     let SweepRequest { name, plan, .. } = order;
@@ -306,17 +306,17 @@ fn sensitivity(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let names = sweep.design.parameters.iter().map(|of| of.name.as_str());
     let Some(shares) = sweep.variance_fractions(&result) else {
         // A dry run has no runs.
-        if call.context().mode() == RunMode::DryBuild {
+        if call.context().mode() == RunMode::DryRun {
             let none = VarianceShare { first: 0.0, total: Some(0.0) };
             return Ok(names.map(|name| of((name, none))).collect::<Array>().into());
         }
         let (failed, rows) = (sweep.results.failures().len(), sweep.design.rows);
         if failed > 0 && matches!(sweep.design.arrangement, RowLayout::Grid) {
-            let told =
+            let message =
                 format!("{failed} of {rows} runs failed, but all runs of a grid must finish");
             let hint = "leave out the values of the failed runs, or use sampled points: samples: \
                 saltelli(1024)";
-            return Err(call.error(told).hint(hint).at(CallPart::Argument(0)));
+            return Err(call.error(message).hint(hint).at(CallPart::Argument(0)));
         }
         return Err(call
             .error(format!("the sensitivity of '{result}' cannot be computed from these runs"))
@@ -330,7 +330,7 @@ fn sensitivity(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let (used, rows) = (sweep.telling_rows(&result), sweep.design.rows);
     if used < rows && call.context().mode() == RunMode::Run {
         let failed = sweep.results.failures().len();
-        let told = format!(
+        let message = format!(
             "note: the sensitivity of '{result}' is computed from {used} of {rows} rows: \
             {failed} failed"
         );
@@ -338,7 +338,7 @@ fn sensitivity(call: &mut Call) -> Result<Dynamic, ScriptError> {
             RowLayout::Saltelli => ", and their blocks are left out",
             RowLayout::Grid | RowLayout::Points => "",
         };
-        call.context().print_message(&(told + blocks));
+        call.context().print_message(&(message + blocks));
     }
     let mut shares: Vec<(&str, VarianceShare)> = names.zip(shares).collect();
     let size = |share: &VarianceShare| share.total.unwrap_or(share.first);
@@ -356,9 +356,9 @@ fn rows_where(call: &mut Call) -> Result<Dynamic, ScriptError> {
             Ok(true) => chosen.push(row as u32),
             Ok(false) => (),
             Err(_) => {
-                let told = format!("the function returns {} for a row", call.describe(&given));
+                let message = format!("the function returns {} for a row", call.describe(&given));
                 return Err(call
-                    .error(told)
+                    .error(message)
                     .hint("it must return true or false: |row| row.peak > 1")
                     .at(CallPart::Argument(0)));
             }

@@ -56,9 +56,10 @@ fn taper(call: &mut Call) -> Result<Dynamic, ScriptError> {
     }
     let relaxation = all.first().and_then(|(_, section)| section.relaxation);
     if let Some((place, _)) = all.iter().find(|(_, section)| section.relaxation != relaxation) {
-        let told = format!("the damping of the section at {place} differs from that at the start");
+        let message =
+            format!("the damping of the section at {place} differs from that at the start");
         let hint = "give the sections of a taper the same damping";
-        return Err(call.error(told).hint(hint).at(CallPart::Argument(0)));
+        return Err(call.error(message).hint(hint).at(CallPart::Argument(0)));
     }
     let variation = variation(&all).validated().map_err(|error| match error {
         BeamError::SectionValue { .. } => ScriptError::from(error),
@@ -93,8 +94,8 @@ fn place(call: &Call, index: usize, given: Dynamic) -> Result<(f64, SectionHandl
         matches!(section.variation, SectionVariation::Uniform(_)).then_some((place, section))
     };
     read(given).ok_or_else(|| {
-        let told = format!("place {} is not a fraction of the length with a section", index + 1);
-        call.error(told)
+        let message = format!("place {} is not a fraction of the length with a section", index + 1);
+        call.error(message)
             .hint("write [0.5, section], where 0.5 is the middle")
             .at(CallPart::Argument(0))
     })

@@ -57,8 +57,8 @@ fn tabulate(call: &mut Call) -> Result<Dynamic, ScriptError> {
     for (number, row) in call.array("rows")?.into_iter().enumerate() {
         let row = row.try_cast::<Array>().filter(|row| row.len() == headings.len());
         let row = row.ok_or_else(|| {
-            let told = format!("row {number} is not an array of {} cells", headings.len());
-            call.error(told).hint("give one cell for each heading").at(CallPart::Argument(1))
+            let message = format!("row {number} is not an array of {} cells", headings.len());
+            call.error(message).hint("give one cell for each heading").at(CallPart::Argument(1))
         })?;
         table.row(row.iter().map(|cell| {
             let text = words(cell);

@@ -89,9 +89,9 @@ const LEDGER: [&str; 5] = ["kinetic", "strain", "potential", "energy", "work"];
 fn write_viewer(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let file = call.text("file")?;
     if !file.ends_with(".html") {
-        let told = format!("\"{file}\" does not end in .html");
+        let message = format!("\"{file}\" does not end in .html");
         return Err(call
-            .error(told)
+            .error(message)
             .hint("a viewer is a page: \"run.html\"")
             .at(CallPart::Argument(1)));
     }
@@ -138,7 +138,7 @@ fn inside(
     (names, is_asked): (&[&str], bool),
 ) -> Result<Vec<ColourField>, ScriptError> {
     let taken = FieldReader::of(&of.simulation(), frames.len(), names)?;
-    let Some(mut taken) = taken.filter(|_| call.context().mode() != RunMode::DryBuild) else {
+    let Some(mut taken) = taken.filter(|_| call.context().mode() != RunMode::DryRun) else {
         return Ok(Vec::new());
     };
     let times = of.simulation().trajectory().times().to_vec();
@@ -167,9 +167,9 @@ fn labels(
     };
     if given.len() != simulations.len() {
         let (labels, of) = (given.len(), simulations.len());
-        let told = format!("{labels} labels are given for {of} simulations");
+        let message = format!("{labels} labels are given for {of} simulations");
         return Err(call
-            .error(told)
+            .error(message)
             .hint("give one label for each simulation")
             .at(CallPart::Key("labels".into())));
     }
@@ -186,8 +186,8 @@ pub(super) fn span(
     let to = options.optional_number("to").unwrap_or(f64::INFINITY).min(simulation.time());
     if simulation.frames_between(from, to, 2).is_empty() {
         let [from, to, now] = [from, to, simulation.time()].map(format_number);
-        let told = format!("'{}' has no recorded state from t = {from} to {to}", of.name());
-        return Err(call.error(told).hint(format!("it has run from t = 0 to {now}")));
+        let message = format!("'{}' has no recorded state from t = {from} to {to}", of.name());
+        return Err(call.error(message).hint(format!("it has run from t = 0 to {now}")));
     }
     Ok((from, to))
 }
@@ -223,9 +223,9 @@ fn columns(
         if simulation.history().dimension(&name).is_some() {
             return Ok(name);
         }
-        let told = format!("the history of '{}' has no column {}", of.name(), call.show(value));
+        let message = format!("the history of '{}' has no column {}", of.name(), call.show(value));
         let hint = column_hint(simulation.history(), &name);
-        Err(call.error(told).hint(hint).at(CallPart::Key("columns".into())))
+        Err(call.error(message).hint(hint).at(CallPart::Key("columns".into())))
     };
     given.iter().map(column).collect()
 }
@@ -241,9 +241,9 @@ fn fields(call: &Call, options: &Options) -> Result<Vec<String>, ScriptError> {
         }
         let meant = nearest(&name, FIELDS.iter().copied());
         let suggestion = meant.map(|name| format!("did you mean \"{name}\"? ")).unwrap_or_default();
-        let told = format!("there is no field {}", call.show(value));
+        let message = format!("there is no field {}", call.show(value));
         let hint = format!("{suggestion}fields: {}", FIELDS.join(", "));
-        Err(call.error(told).hint(hint).at(CallPart::Key("fields".into())))
+        Err(call.error(message).hint(hint).at(CallPart::Key("fields".into())))
     };
     given.iter().map(field).collect()
 }

@@ -80,7 +80,6 @@ impl SectionForceProfile {
         self
     }
 
-    /// Removes the symbols of supports and loads.
     pub fn hide_symbols(mut self) -> Self {
         self.scenery.symbols.clear();
         self

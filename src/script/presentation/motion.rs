@@ -33,11 +33,9 @@ pub struct MotionOptions {
     /// Marks at knots or nodes. If `None`, they are shown for a small number of spans.
     pub dots: Option<bool>,
     pub symbols: Visibility,
-    /// Ends of the axes.
     pub limits: AxisLimits,
 }
 
-/// Display of symbols.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Visibility {
     Yes,
@@ -46,7 +44,6 @@ pub enum Visibility {
     None,
 }
 
-/// Content of a motion picture.
 pub struct MotionView {
     beams: Vec<String>,
     snapshots: Vec<MotionFrame>,

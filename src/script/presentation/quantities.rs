@@ -12,7 +12,6 @@ pub struct BeamQuantity {
     pub dimension: &'static str,
     /// Evaluates the quantity at a sample of a beam.
     pub of: fn(&BeamSample) -> f64,
-    /// Side of the beam for strips with positive values.
     pub side: BeamSide,
 }
 

@@ -125,7 +125,7 @@ fn of_spring(spring: &Spring, found: &mut impl Iterator<Item = Vec2>) -> Vec<Pla
         Anchor::Station(_) => found.next(),
         Anchor::Ground(at) => Some(*at),
     };
-    let way: Vec<Vec2> = spring.anchors().iter().filter_map(place).collect();
+    let path: Vec<Vec2> = spring.anchors().iter().filter_map(place).collect();
     let plain = |vector: Vec2| (vector.x, vector.y);
     let placed = |symbol, at: Vec2, direction: Vec2| PlacedSymbol {
         symbol,
@@ -135,10 +135,10 @@ fn of_spring(spring: &Spring, found: &mut impl Iterator<Item = Vec2>) -> Vec<Pla
     let symbol = of_spring_kind(spring);
     if let SpringKind::Torsion(anchors) = &spring.kind {
         let moving = anchors.iter().rposition(|anchor| matches!(anchor, Anchor::Station(_)));
-        let at = moving.and_then(|index| way.get(index));
+        let at = moving.and_then(|index| path.get(index));
         return at.map(|at| placed(symbol, *at, Vec2::zeros())).into_iter().collect();
     }
-    let parts = way.windows(2).map(|part| placed(symbol, part[0], part[1] - part[0]));
+    let parts = path.windows(2).map(|part| placed(symbol, part[0], part[1] - part[0]));
     let on_ground = spring.anchors().iter().filter_map(|anchor| match anchor {
         Anchor::Ground(at) => Some(placed(Symbol::Joint, *at, Vec2::zeros())),
         Anchor::Station(_) => None,
@@ -153,11 +153,10 @@ fn around(scene: &Scene, at: &Station) -> [Station; 3] {
     [*at, moved(-AROUND), moved(AROUND)]
 }
 
-/// Symbol of a spring, damper or tendon.
 pub fn of_spring_kind(spring: &Spring) -> Symbol {
     match (&spring.kind, &spring.law) {
         (SpringKind::Torsion(_), _) => Symbol::TorsionSpring,
-        (SpringKind::Length(way), _) if way.len() > 2 => Symbol::Tendon,
+        (SpringKind::Length(path), _) if path.len() > 2 => Symbol::Tendon,
         (SpringKind::Length(_), None) => Symbol::Damper,
         (SpringKind::Length(_), Some(_)) => Symbol::Spring,
     }

@@ -2,8 +2,9 @@
 
 mod fields;
 
+pub(crate) use fields::FIELDS;
+pub use fields::FieldReader;
 use fields::fields;
-pub use fields::{FIELDS, FieldReader};
 
 use super::symbols::{of_sliders, of_spring_kind, of_supports};
 use crate::beams::{self, Station};

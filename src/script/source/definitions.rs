@@ -4,7 +4,6 @@ use rhai::Token;
 
 use super::text::{Lexeme, name_of};
 
-/// A function definition in a token stream.
 #[derive(Clone, Copy, Debug)]
 pub struct Definition<'t> {
     tokens: &'t [Lexeme],

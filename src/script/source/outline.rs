@@ -5,23 +5,19 @@ use rhai::{Position, Token};
 use super::definitions::{Definition, definitions};
 use super::text::{Lexeme, Source, name_of};
 
-/// Names declared by a script.
 #[derive(Debug, Default)]
 pub struct ScriptOutline {
     /// Variables and constants outside functions and blocks, with the lines of their declarations.
     pub top_level: Vec<(String, usize)>,
-    /// Names of all variables, loop variables and parameters.
     pub variables: Vec<String>,
     /// Functions with their numbers of parameters.
     pub functions: Vec<(String, usize)>,
-    /// Keys of map literals.
     pub keys: Vec<String>,
     /// Imported paths, with their names.
     pub imports: Vec<(String, String)>,
 }
 
 impl ScriptOutline {
-    /// Outline of `source`, which may contain errors.
     pub fn of(source: &Source) -> Self {
         let tokens = source.tokens();
         let mut outline = Self::default();

@@ -21,10 +21,10 @@ pub struct Program {
 
 /// Error of reading a script.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
-#[error("{told}")]
+#[error("{message}")]
 pub struct Unreadable {
     /// Message that names the file.
-    pub told: String,
+    pub message: String,
     /// Suggestion for the user.
     pub hint: String,
 }
@@ -39,7 +39,7 @@ impl Program {
     pub fn load(path: &Path) -> Result<Self, Unreadable> {
         let name = path.display().to_string();
         let refused = |why: String, hint: &str| Unreadable {
-            told: format!("cannot read the script '{name}': {why}"),
+            message: format!("cannot read the script '{name}': {why}"),
             hint: hint.into(),
         };
         if path.is_dir() {
@@ -65,8 +65,8 @@ impl Program {
             let line = error.as_bytes()[..error.utf8_error().valid_up_to()]
                 .split(|byte| *byte == b'\n')
                 .count();
-            let told = format!("cannot read the script '{name}': line {line} is not UTF-8 text");
-            Unreadable { told, hint: "save the file as UTF-8".into() }
+            let message = format!("cannot read the script '{name}': line {line} is not UTF-8 text");
+            Unreadable { message, hint: "save the file as UTF-8".into() }
         })?;
         let folder =
             path.parent().filter(|parent| !parent.as_os_str().is_empty()).unwrap_or(Path::new("."));

@@ -28,7 +28,6 @@ pub enum TokenKind {
     Piece,
     /// A string in backticks or a raw string that is not closed.
     OpenPiece,
-    /// A name or keyword.
     Word,
     Number,
     Open(Bracket),

@@ -51,7 +51,6 @@ impl Source {
         })
     }
 
-    /// Returns true if the last token is a semicolon.
     pub fn ends_in_semicolon(&self) -> bool {
         matches!(self.tokens().last(), Some((Token::SemiColon, _)))
     }

@@ -36,7 +36,7 @@ struct ContextData {
     interrupt: Arc<AtomicBool>,
     meter: Meter,
     printed: RefCell<Box<dyn Write + Send>>,
-    told: RefCell<Box<dyn Write + Send>>,
+    diagnostics: RefCell<Box<dyn Write + Send>>,
     pipe_closed: Cell<bool>,
     progress: Box<dyn Progress + Send>,
     studies: StudyPreferences,
@@ -61,13 +61,13 @@ impl Context {
     /// State at the start of a run.
     pub fn new(settings: RunSettings) -> Self {
         // A run that computes a part of studies writes no other files.
-        let writing = settings.studies.part.map_or(settings.mode, |_| RunMode::DryBuild);
+        let writing = settings.studies.part.map_or(settings.mode, |_| RunMode::DryRun);
         Self(Rc::new(ContextData {
             mode: settings.mode,
             interrupt: settings.interrupt,
             meter: Meter::guarded(settings.limits, settings.last_resort),
             printed: RefCell::new(settings.printed),
-            told: RefCell::new(settings.told),
+            diagnostics: RefCell::new(settings.diagnostics),
             pipe_closed: Cell::new(false),
             progress: settings.progress,
             studies: settings.studies,
@@ -137,15 +137,16 @@ impl Context {
             None => Ok(()),
             Some(limit) => {
                 let (needed, limit) = (bytes / MEGABYTE, limit / MEGABYTE);
-                let told = format!(
+                let message = format!(
                     "{what} take about {needed} MB of memory, and a run may use {limit} MB"
                 );
-                Err(ScriptError::new(told).hint("request less, or allow more with --max-memory MB"))
+                Err(ScriptError::new(message)
+                    .hint("request less, or allow more with --max-memory MB"))
             }
         }
     }
 
-    /// Reason for which a loop was stopped: a limit or an interrupt. It is an internal error if `what` stopped without a reason.
+    /// Reason for which a loop was stopped: a limit or an interrupt. An internal error is reported if `what` stopped without a reason.
     pub fn why_stopped(&self, what: &str) -> ScriptError {
         match self.proceed() {
             Err(stopped) => stopped,
@@ -214,7 +215,7 @@ impl Context {
         }
         self.0.progress.without_progress_bar(&mut || {
             // Errors are ignored, because the exit code still reports the result.
-            let _ = writeln!(self.0.told.borrow_mut(), "{}", printable_in_colours(text));
+            let _ = writeln!(self.0.diagnostics.borrow_mut(), "{}", printable_in_colours(text));
         });
     }
 

@@ -66,7 +66,7 @@ impl OutputFolder {
         write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
     ) -> Result<WrittenFile, ScriptError> {
         let path = self.path_of(name)?;
-        if self.mode == RunMode::DryBuild {
+        if self.mode == RunMode::DryRun {
             return Ok(WrittenFile { path, kept: None });
         }
         let kept = self.open_folder(name, write).map_err(|source| {
@@ -115,8 +115,9 @@ impl OutputFolder {
             return Err(match &kept {
                 Some(kept) if folder.restore_name(kept, path).is_err() => {
                     let kept = self.folder.join(kept);
-                    let told = format!("{error}; what was there is kept as '{}'", kept.display());
-                    io::Error::new(error.kind(), told)
+                    let message =
+                        format!("{error}; what was there is kept as '{}'", kept.display());
+                    io::Error::new(error.kind(), message)
                 }
                 _ => error,
             });
@@ -130,7 +131,7 @@ impl OutputFolder {
     /// Fails if the name leads out of the folder, or writing fails.
     pub fn write_to_read(&self, name: &str, content: Vec<u8>) -> Result<WrittenFile, ScriptError> {
         let written = self.write(name, &content)?;
-        if self.mode == RunMode::DryBuild {
+        if self.mode == RunMode::DryRun {
             self.pretended.borrow_mut().insert(written.path.clone(), content);
         }
         Ok(written)
@@ -151,13 +152,12 @@ impl OutputFolder {
         let most = most.unwrap_or(LARGEST_INPUT).min(LARGEST_INPUT);
         InputFolders::new(folders).read(name, most).map_err(|error| match self.mode {
             RunMode::Run => error,
-            RunMode::DryBuild => {
+            RunMode::DryRun => {
                 error.hint("first run the script that writes it; a check writes no files")
             }
         })
     }
 
-    /// Files written to the output folder so far.
     pub fn written(&self) -> Vec<PathBuf> {
         self.written.borrow().clone()
     }
@@ -199,7 +199,6 @@ fn kept_name(path: &Path, number: usize) -> PathBuf {
     kept.into()
 }
 
-/// A folder that a script may read.
 pub struct InputFolder {
     /// Name of the folder in messages.
     pub word: &'static str,
@@ -214,7 +213,6 @@ impl InputFolder {
     }
 }
 
-/// Folders that a script may read.
 pub struct InputFolders(Vec<InputFolder>);
 
 impl InputFolders {

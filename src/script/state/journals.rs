@@ -163,7 +163,6 @@ impl Journals {
     }
 }
 
-/// Journal of a running sweep.
 #[derive(Debug)]
 pub struct RowKeeper {
     path: PathBuf,

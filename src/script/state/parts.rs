@@ -14,7 +14,6 @@ pub struct StudyPart {
     pub number: u32,
 }
 
-/// Error of parsing a part.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("write a part as 3/16: its number, from 1, and the number of parts")]
 pub struct InvalidStudyPart;
@@ -35,7 +34,6 @@ impl FromStr for StudyPart {
 impl StudyPart {
     pub const WHOLE: Self = Self { of: 1, number: 1 };
 
-    /// Returns true if a case belongs to the part.
     pub fn has(self, case: usize) -> bool {
         case % self.of as usize == self.number as usize - 1
     }
@@ -77,23 +75,23 @@ pub fn find_parts(
     }
     found.sort();
     let Some((StudyPart { of, .. }, _)) = found.first().cloned() else {
-        let told = format!("the folders to be merged contain no part of the study '{study}'");
-        return Err(ScriptError::new(told)
+        let message = format!("the folders to be merged contain no part of the study '{study}'");
+        return Err(ScriptError::new(message)
             .hint("create parts with withy study FILE --part 1/4 --out DIR, and so on"));
     };
     if let Some((other, path)) = found.iter().find(|(part, _)| part.of != of) {
-        let told =
+        let message =
             format!("'{}' is one of {} parts, but others are of {of}", path.display(), other.of);
-        return Err(ScriptError::new(told).hint("give only folders of the same number of parts"));
+        return Err(ScriptError::new(message).hint("give only folders of the same number of parts"));
     }
     if let Some(pair) = found.windows(2).find(|pair| pair[0].0 == pair[1].0) {
         let ((part, first), (_, second)) = (&pair[0], &pair[1]);
         let (number, first, second) = (part.number, first.display(), second.display());
-        let told = format!(
+        let message = format!(
             "part {number} of {of} of the study '{study}' exists twice: '{first}' and \
             '{second}'"
         );
-        return Err(ScriptError::new(told).hint("give only one of their folders"));
+        return Err(ScriptError::new(message).hint("give only one of their folders"));
     }
     match of as usize - found.len() {
         0 => Ok(found),
@@ -105,11 +103,11 @@ pub fn find_parts(
             if missing > MOST_LISTED {
                 first.push(format!("and {} more", missing - MOST_LISTED));
             }
-            let told = format!(
+            let message = format!(
                 "of the {of} parts of the study '{study}' these are missing: {}",
                 first.join(", ")
             );
-            Err(ScriptError::new(told)
+            Err(ScriptError::new(message)
                 .hint("create them with the same command and --part, or add their folders"))
         }
     }
@@ -149,7 +147,7 @@ mod tests {
             std::fs::create_dir_all(folder(place)).unwrap();
             std::fs::write(folder(place).join(StudyPart { of, number }.file("crane")), "").unwrap();
         };
-        let told = |places: &[&str]| {
+        let merged = |places: &[&str]| {
             let folders: Vec<PathBuf> = places.iter().map(|place| folder(place)).collect();
             match find_parts("crane", &folders) {
                 Ok(found) => found
@@ -161,22 +159,22 @@ mod tests {
                 Err(other) => format!("{other:?}"),
             }
         };
-        assert!(told(&["a"]).contains("no part of the study 'crane'"));
+        assert!(merged(&["a"]).contains("no part of the study 'crane'"));
         lay("a", 1, 3);
         lay("a", 3, 3);
-        assert!(told(&["a"]).ends_with("these are missing: 2"), "{}", told(&["a"]));
+        assert!(merged(&["a"]).ends_with("these are missing: 2"), "{}", merged(&["a"]));
         lay("b", 2, 3);
-        assert_eq!(told(&["a", "b"]), "1 2 3");
+        assert_eq!(merged(&["a", "b"]), "1 2 3");
         lay("c", 3, 3);
-        assert!(told(&["a", "b", "c"]).contains("part 3 of 3 of the study 'crane' exists twice"));
+        assert!(merged(&["a", "b", "c"]).contains("part 3 of 3 of the study 'crane' exists twice"));
         lay("e", 1, 1_000_000_000);
         let few = "these are missing: 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, and 999999989 more";
-        assert!(told(&["e"]).ends_with(few), "{}", told(&["e"]));
+        assert!(merged(&["e"]).ends_with(few), "{}", merged(&["e"]));
         lay("d", 1, 2);
         assert!(
-            told(&["a", "b", "d"]).contains("is one of 3 parts, but others are of 2"),
+            merged(&["a", "b", "d"]).contains("is one of 3 parts, but others are of 2"),
             "{}",
-            told(&["a", "b", "d"])
+            merged(&["a", "b", "d"])
         );
     }
 }

@@ -16,7 +16,7 @@ pub enum RunMode {
     /// Full execution.
     Run,
     /// Scenes are built and checked. Nothing is stepped, printed, judged or written (dry run).
-    DryBuild,
+    DryRun,
 }
 
 /// Settings of a run, from the command line, the prompt or a test.
@@ -36,7 +36,7 @@ pub struct RunSettings {
     /// Writer for `print`.
     pub printed: Box<dyn Write + Send>,
     /// Writer for failed checks and `debug`.
-    pub told: Box<dyn Write + Send>,
+    pub diagnostics: Box<dyn Write + Send>,
     /// Progress display.
     pub progress: Box<dyn Progress + Send>,
     /// Options of the studies.
@@ -99,7 +99,7 @@ impl RunSettings {
             interrupt: Arc::default(),
             limits: Limits::default(),
             printed: Box::new(io::sink()),
-            told: Box::new(io::sink()),
+            diagnostics: Box::new(io::sink()),
             progress: Box::new(NoProgress),
             studies: StudyPreferences::default(),
             errors: ErrorEstimation::Never,

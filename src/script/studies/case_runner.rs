@@ -46,7 +46,6 @@ pub fn print_table(context: &Context, table: &str) {
     }
 }
 
-/// Execution of a study.
 pub struct CaseRunner<'c> {
     context: &'c Context,
     name: String,
@@ -85,7 +84,7 @@ impl<'c> CaseRunner<'c> {
                 let kept = (wishes.journal, JournalLifetime::Run);
                 context.journals().open(path(format!("{name}.journal"))?, kept)?
             }
-            (None, _) if context.mode() == RunMode::DryBuild => None,
+            (None, _) if context.mode() == RunMode::DryRun => None,
             (None, folders) => {
                 let files = find_parts(name, folders)?.into_iter().map(|(_, file)| file);
                 Some(context.journals().open_parts(files)?)
@@ -211,11 +210,11 @@ impl<'c> CaseRunner<'c> {
             (0, _) => Ok(()),
             (missing, all) => {
                 let (name, what) = (&self.name, task.name);
-                let told = format!(
+                let message = format!(
                     "of the {all} {what} of the study '{name}' {missing} are missing in all \
                         parts"
                 );
-                Err(ScriptError::new(told).hint(
+                Err(ScriptError::new(message).hint(
                     "these parts are of another script or another build of withy, or not \
                     finished: continue with the same command with --part",
                 ))
@@ -252,11 +251,11 @@ impl<'c> CaseRunner<'c> {
         if known > 0 {
             let name = &self.name;
             let what = task.name;
-            let told = format!(
+            let message = format!(
                 "study '{name}' continues: {known} of {all} {what} are known from an earlier \
                 run"
             );
-            self.context.print_message(&told);
+            self.context.print_message(&message);
         }
     }
 }

@@ -102,10 +102,10 @@ fn expect_no_other_value(call: &Call, own: &Map, values: &Map) -> Result<(), Scr
     ];
     let Some((name, (own, labelled))) = other.into_iter().flatten().next() else { return Ok(()) };
     let (own, labelled) = (label(call, own), label(call, labelled));
-    let told =
+    let message =
         format!("the function returns {name}: {own} for the cell with the value {name} {labelled}");
     let hint = format!("omit '{name}' in its result, or give the values of the cells another name");
-    Err(call.error(told).hint(hint).at(CallPart::Key("scene".into())))
+    Err(call.error(message).hint(hint).at(CallPart::Key("scene".into())))
 }
 
 fn expect_known_keys(call: &Call, given: &Map) -> Result<(), ScriptError> {

@@ -32,7 +32,7 @@ pub fn study(call: &Call, options: &ErrorOptions) -> Result<Convergence, ScriptE
     let cases: Vec<Case> =
         combinations.iter().map(|of| of.case(&plan.subjects, &plan.times)).collect();
     let found = match call.context().mode() {
-        RunMode::DryBuild => None,
+        RunMode::DryRun => None,
         RunMode::Run => reference.trials(call, &desk, &plan, &cases)?,
     };
     let (trials, truth) = found.unwrap_or_else(|| Reference::no_trials(&cases));
@@ -79,9 +79,9 @@ fn refined(call: &Call, plan: &ErrorStudyPlan) -> Result<RefinedParameter, Scrip
         (1, 2..) => Ok(RefinedParameter::Step),
         (2.., 1) => Ok(RefinedParameter::Mesh),
         (meshes, dts) => {
-            let told = format!("{meshes} mesh(es) and {dts} step size(s) are given");
+            let message = format!("{meshes} mesh(es) and {dts} step size(s) are given");
             let hint = "give several step sizes and one mesh, or several meshes and one step size";
-            Err(at_key(call, "dts", told, hint))
+            Err(at_key(call, "dts", message, hint))
         }
     }
 }
@@ -134,16 +134,16 @@ pub fn map_of(study: &Convergence, ladder: &Refinement) -> Map {
         values.into_iter().map(Dynamic::from).collect::<rhai::Array>().into()
     };
     let rungs = 0..ladder.sizes.len();
-    let told = |value: Option<f64>| value.unwrap_or(f64::NAN);
+    let or_nan = |value: Option<f64>| value.unwrap_or(f64::NAN);
     let claimed = study.claimed_order(&ladder.method).map(f64::from);
     let facts: [(&str, Dynamic); 7] = [
         ("quantity", ladder.quantity.clone().into()),
         ("integrator", labels::method(&ladder.method).into()),
         ("sizes", array(ladder.sizes.clone())),
-        ("errors", array(rungs.clone().map(|rung| told(ladder.error(rung))).collect())),
-        ("orders", array(rungs.skip(1).map(|rung| told(ladder.order(rung))).collect())),
-        ("order", told(ladder.fitted_order()).into()),
-        ("claimed", told(claimed).into()),
+        ("errors", array(rungs.clone().map(|rung| or_nan(ladder.error(rung))).collect())),
+        ("orders", array(rungs.skip(1).map(|rung| or_nan(ladder.order(rung))).collect())),
+        ("order", or_nan(ladder.fitted_order()).into()),
+        ("claimed", or_nan(claimed).into()),
     ];
     facts.into_iter().map(|(name, value)| (name.into(), value)).collect()
 }
@@ -155,11 +155,11 @@ pub fn expect_quantity(
     quantity: &str,
 ) -> Result<(), ScriptError> {
     let known = study.quantities();
-    if known.contains(&quantity) || call.context().mode() == RunMode::DryBuild {
+    if known.contains(&quantity) || call.context().mode() == RunMode::DryRun {
         return Ok(());
     }
-    let told = format!("the study '{}' has no quantity \"{quantity}\"", study.name);
-    Err(call.error(told).hint(format!("quantities: {}", known.join(", "))))
+    let message = format!("the study '{}' has no quantity \"{quantity}\"", study.name);
+    Err(call.error(message).hint(format!("quantities: {}", known.join(", "))))
 }
 
 /// Errors of a quantity with an integrator; `None` in a dry run.
@@ -174,12 +174,12 @@ pub fn find<'s>(
 ) -> Result<Option<&'s Refinement>, ScriptError> {
     expect_quantity(call, study, quantity)?;
     if !study.ladders.iter().any(|of| of.method == *method) {
-        let told =
+        let message =
             format!("the study '{}' has no runs with {}", study.name, labels::method(method));
         let mut known: Vec<String> =
             study.ladders.iter().map(|of| labels::method(&of.method)).collect();
         known.dedup();
-        return Err(call.error(told).hint(format!("integrators: {}", known.join(", "))));
+        return Err(call.error(message).hint(format!("integrators: {}", known.join(", "))));
     }
     Ok(study.ladders_with(quantity).find(|of| of.method == *method))
 }

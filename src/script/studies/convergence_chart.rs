@@ -9,7 +9,7 @@ use crate::output::{AxisScale, LineChart, Marker, Series, SeriesColour, Stroke};
 const SAME_ORDER: f64 = 0.3;
 
 struct Slope {
-    told: String,
+    label: String,
     ends: [(f64, f64); 2],
 }
 
@@ -47,15 +47,15 @@ pub fn chart(study: &Convergence, quantity: &str) -> LineChart {
         let name = labels::method(&ladder.method);
         chart =
             chart.series(Series::new(name, points).ink(ink).marker(marker).stroke(Stroke::Marked));
-        let Some(Slope { told, ends }) = slope else { continue };
+        let Some(Slope { label, ends }) = slope else { continue };
         let [(coarse, large), (fine, small)] = ends;
         // Overlapping lines of the same order share one label.
         let is_near =
-            |(other, error): &(String, f64)| *other == told && ln(error / large).abs() < 0.4;
+            |(other, error): &(String, f64)| *other == label && ln(error / large).abs() < 0.4;
         if !noted.iter().any(is_near) {
-            noted.push((told.clone(), large));
+            noted.push((label.clone(), large));
             let middle = ((coarse * fine).sqrt(), (large * small).sqrt());
-            chart = chart.annotate(middle, told);
+            chart = chart.annotate(middle, label);
         }
         chart = chart.series(Series::new("", ends.to_vec()).ink(ink).stroke(Stroke::Dotted).thin());
     }
@@ -72,7 +72,7 @@ fn claimed(ladder: &Refinement, order: u32, points: &[(f64, f64)]) -> Option<Slo
     let last = usable_rungs(ladder).next_back()?;
     let line = through(ladder, last, f64::from(order));
     Some(Slope {
-        told: format!("order {order}"),
+        label: format!("order {order}"),
         ends: [line(points.first()?.0)?, line(ladder.sizes[last])?],
     })
 }
@@ -96,7 +96,7 @@ fn observed_order_line(ladder: &Refinement) -> Option<Slope> {
     let line = through(ladder, last, order);
     let coarsest = ladder.sizes[last - orders.len()];
     Some(Slope {
-        told: format!("order {order:.1}"),
+        label: format!("order {order:.1}"),
         ends: [line(coarsest)?, line(ladder.sizes[last])?],
     })
 }
@@ -134,7 +134,7 @@ mod tests {
         assert!(observed_order_line(&ladder(&[6.8, 4.6, 3.5])).is_none(), "not yet at any order");
         assert!(observed_order_line(&ladder(&[1.0])).is_none(), "a single order agrees with none");
         let slope = observed_order_line(&ladder(&[0.71, 1.08, 0.9])).unwrap();
-        assert_eq!(slope.told, "order 1.0");
+        assert_eq!(slope.label, "order 1.0");
         let [(coarse, large), (fine, small)] = slope.ends;
         assert_eq!((coarse, fine), (0.5, 0.125));
         assert!(((large / small).log2() - 2.0 * 0.99).abs() < 1e-12);
@@ -145,7 +145,10 @@ mod tests {
         let ladder = ladder(&[0.3, 1.9]);
         let points = [(1.0, 1.0)];
         let slope = claimed(&ladder, 2, &points).unwrap();
-        assert_eq!((slope.told.as_str(), slope.ends[0].0, slope.ends[1].0), ("order 2", 1.0, 0.25));
+        assert_eq!(
+            (slope.label.as_str(), slope.ends[0].0, slope.ends[1].0),
+            ("order 2", 1.0, 0.25)
+        );
         assert!((slope.ends[0].1 / slope.ends[1].1 - 16.0).abs() < 1e-9);
     }
 }

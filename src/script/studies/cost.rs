@@ -32,7 +32,6 @@ pub struct CostStepping {
     pub steps: usize,
 }
 
-/// Cost of the features of a scene.
 #[derive(Clone)]
 pub struct CostTable {
     name: String,
@@ -55,7 +54,7 @@ impl CostStepping {
 pub fn cases(
     call: &Call,
     options: &CostOptions,
-    way: CostStepping,
+    stepping: CostStepping,
 ) -> Result<Vec<CostCase>, ScriptError> {
     let make = &options.scene;
     call.expect_arguments(make, 0, "|| …, a function that makes the scene")?;
@@ -75,7 +74,7 @@ pub fn cases(
     };
     let mut cases = Vec::new();
     for name in PLAIN {
-        cases.push(way.case(name, fresh()?));
+        cases.push(stepping.case(name, fresh()?));
     }
     match &options.features {
         Some(features) => {
@@ -94,7 +93,7 @@ pub fn cases(
                 call.expect_arguments(&add, 1, "|scene| …, a function that adds the feature")?;
                 let _ = call.invoke(&add, [Dynamic::from(handle.clone())])?;
                 let scene = handle.scene().borrow().clone();
-                cases.push(way.case(name.as_str(), scene));
+                cases.push(stepping.case(name.as_str(), scene));
             }
         }
         None => {
@@ -103,17 +102,17 @@ pub fn cases(
                 let mut scene = fresh()?;
                 // Features that the scene cannot have, such as a second hinge at the same station, give no row.
                 if (feature.add)(&mut scene).is_ok() {
-                    cases.push(way.case(feature.name, scene));
+                    cases.push(stepping.case(feature.name, scene));
                 }
             }
         }
     }
-    let quiet = way.case("nothing recorded", fresh()?);
+    let quiet = stepping.case("nothing recorded", fresh()?);
     cases.push(CostCase { recording: Recording::Nothing, ..quiet });
-    cases.push(CostCase { snapshots: SNAPSHOTS, ..way.case("snapshots", fresh()?) });
-    for entry in INTEGRATORS.iter().filter(|entry| entry.method != way.method) {
+    cases.push(CostCase { snapshots: SNAPSHOTS, ..stepping.case("snapshots", fresh()?) });
+    for entry in INTEGRATORS.iter().filter(|entry| entry.method != stepping.method) {
         cases.push(
-            CostStepping { method: entry.method, ..way }
+            CostStepping { method: entry.method, ..stepping }
                 .case(labels::method(&entry.method), fresh()?),
         );
     }

@@ -26,10 +26,10 @@ pub fn step_size(settings: &SimulationSettings) -> String {
 /// Label of an error: `3.4e-5`, or `≤ 2.1e-6` if the error of the reference is not small enough.
 pub fn deviation(deviation: Option<Deviation>) -> String {
     let Some(of) = deviation else { return "-".to_owned() };
-    let told = scientific(of.error(), ERROR_DIGITS);
-    match told == scientific(of.distance, ERROR_DIGITS) {
-        true => told,
-        false => format!("≤ {told}"),
+    let text = scientific(of.error(), ERROR_DIGITS);
+    match text == scientific(of.distance, ERROR_DIGITS) {
+        true => text,
+        false => format!("≤ {text}"),
     }
 }
 
@@ -71,15 +71,15 @@ mod tests {
 
     #[test]
     fn bounds_are_marked_where_the_reference_does_not_tell_the_digits() {
-        let told = |distance, trusted, is_of_own_run| {
+        let label = |distance, trusted, is_of_own_run| {
             deviation(Some(Deviation { distance, estimated_error: trusted, is_of_own_run }))
         };
-        assert_eq!(told(3.4e-5, 1e-9, true), "3.4e-5");
-        assert_eq!(told(3.4e-5, 1e-5, true), "≤ 4.4e-5");
-        assert_eq!(told(3.4e-5, 1e-5, false), "3.4e-5");
-        assert_eq!(told(3.4e-5, 4e-5, false), "≤ 7.4e-5");
-        assert_eq!((told(0.0, 0.0, true), deviation(None)), ("0".into(), "-".into()));
-        assert_eq!(told(f64::NAN, 1.0, true), "nan");
+        assert_eq!(label(3.4e-5, 1e-9, true), "3.4e-5");
+        assert_eq!(label(3.4e-5, 1e-5, true), "≤ 4.4e-5");
+        assert_eq!(label(3.4e-5, 1e-5, false), "3.4e-5");
+        assert_eq!(label(3.4e-5, 4e-5, false), "≤ 7.4e-5");
+        assert_eq!((label(0.0, 0.0, true), deviation(None)), ("0".into(), "-".into()));
+        assert_eq!(label(f64::NAN, 1.0, true), "nan");
     }
 
     #[test]

@@ -17,7 +17,6 @@ const INTEGRATOR: Type = Type::of::<Method>();
 const FINEST_RUN: Type = Type::of::<FinestRun>();
 
 option_set! {
-    /// The options of `study_stability`.
     pub struct StabilityOptions {
         name: String = name("name").doc("name of the study and its files"),
         scene: FnPtr = callback("scene").doc("|cell| …, a function that returns the scene of a cell"),
@@ -49,7 +48,6 @@ option_set! {
 }
 
 option_set! {
-    /// The options of `study_cost`.
     pub struct CostOptions {
         name: String = name("name").doc("name of the study and its files"),
         scene: FnPtr = callback("scene").doc("|| …, a function that returns the scene"),
@@ -62,7 +60,6 @@ option_set! {
         integrator: Option<Method> =
             object("integrator", INTEGRATOR).doc("integrator; default: energy_momentum()").optional(),
         steps: usize = integer("steps").positive().or(Presence::Integer(200)).doc("number of steps of each run"),
-        /// Number of timed repetitions.
         repeats: usize = integer("repeats")
             .positive()
             .or(Presence::Integer(5))
@@ -76,7 +73,6 @@ option_set! {
         scene: FnPtr = callback("scene").doc("|mesh| …, returns the scene on a mesh"),
         meshes: Array = array("meshes").doc("meshes, the arguments of `scene`"),
         integrators: Array = array("integrators").doc("at least one integrator"),
-        /// Step sizes.
         dts: Array =
             array("dts").unit("time").doc("step sizes, including adaptive(#{ tolerance: 1e-4 })"),
         /// Times of the comparison [time].
@@ -117,11 +113,9 @@ option_set! {
     }
 }
 
-/// The keys of `study_work_precision`.
 pub const PRECISION_KEYS: &[Parameter] = &both::<12>(ErrorOptions::KEYS, TimedOptions::KEYS);
 
 option_set! {
-    /// Options of `finest_run`.
     pub struct FinestOptions {
         mesh: Option<Dynamic> = of_any_type("mesh").doc("mesh, the argument of `scene`").optional(),
         /// Step size [time].
@@ -130,7 +124,6 @@ option_set! {
     }
 }
 
-/// Reference that a script requests.
 #[derive(Clone)]
 pub enum ReferenceOption {
     Table(String),

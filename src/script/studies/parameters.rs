@@ -23,8 +23,8 @@ pub struct StudyParameter {
 impl StudyParameter {
     /// Reads the option `key`, a map with one name, such as `#{ dt: [0.1, 0.2] }`.
     pub fn read(call: &Call, key: &str, given: &Dynamic) -> Result<Self, ScriptError> {
-        let wrong = |told: String| {
-            call.error(told)
+        let wrong = |message: String| {
+            call.error(message)
                 .hint(format!("write {key}: #{{ dt: [0.1, 0.2] }}, a name and its values"))
                 .at(CallPart::Key(key.to_owned()))
         };

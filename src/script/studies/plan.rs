@@ -137,20 +137,20 @@ fn column_of(
         _ => (None, None),
     };
     let (Some(column), Some(factor)) = (column, factor) else {
-        let told = format!("columns: '{name}' is {}", call.describe(meant));
+        let message = format!("columns: '{name}' is {}", call.describe(meant));
         let hint = "write the name of a column of the history, or that and a factor: [\"slider1.position\", 3.2]";
-        return Err(at_key(call, "columns", told, hint));
+        return Err(at_key(call, "columns", message, hint));
     };
     if factor == 0.0 || !factor.is_finite() {
-        let told = format!("columns: the factor of '{name}' is {}", format_number(factor));
+        let message = format!("columns: the factor of '{name}' is {}", format_number(factor));
         let hint = "it converts the column of the history to that of the reference: give a number \
             other than zero";
-        return Err(at_key(call, "columns", told, hint));
+        return Err(at_key(call, "columns", message, hint));
     }
     if history.dimension(&column).is_none() {
-        let told = format!("columns: the history has no column \"{column}\"");
+        let message = format!("columns: the history has no column \"{column}\"");
         let names: Vec<_> = history.columns().map(|(name, _)| name).collect();
-        return Err(at_key(call, "columns", told, format!("columns: {}", names.join(", "))));
+        return Err(at_key(call, "columns", message, format!("columns: {}", names.join(", "))));
     }
     Ok(Observable::of_column(name, &column, factor))
 }
@@ -158,9 +158,9 @@ fn column_of(
 /// Checks the name of a study and of its files, which must be unique in the run.
 pub fn study_name(call: &Call, name: &str) -> Result<String, ScriptError> {
     if !call.context().claim_study(name) {
-        let told = format!("this run already has a study '{name}'");
+        let message = format!("this run already has a study '{name}'");
         let hint = "give each study its own name, otherwise its files are overwritten";
-        return Err(at_key(call, "name", told, hint));
+        return Err(at_key(call, "name", message, hint));
     }
     Ok(name.to_owned())
 }
@@ -173,18 +173,18 @@ fn expect_all_different<T: PartialEq>(
 ) -> Result<(), ScriptError> {
     let again = (1..values.len()).find(|at| values[..*at].contains(&values[*at]));
     again.map_or(Ok(()), |at| {
-        let told = format!("{key} holds {} twice", show(&values[at]));
-        Err(at_key(call, key, told, "give each once"))
+        let message = format!("{key} holds {} twice", show(&values[at]));
+        Err(at_key(call, key, message, "give each once"))
     })
 }
 
 pub fn at_key(
     call: &Call,
     key: &str,
-    told: impl std::fmt::Display,
+    message: impl std::fmt::Display,
     hint: impl Into<String>,
 ) -> ScriptError {
-    call.error(told).hint(hint).at(CallPart::Key(key.to_owned()))
+    call.error(message).hint(hint).at(CallPart::Key(key.to_owned()))
 }
 
 /// Elements of a non-empty array that must all have one type.
@@ -196,8 +196,8 @@ fn all_of<T: Clone + 'static>(
 ) -> Result<Vec<T>, ScriptError> {
     let one = |value: &Dynamic| {
         value.clone().try_cast::<T>().ok_or_else(|| {
-            let told = format!("{key} must hold {what} each, got {}", call.describe(value));
-            at_key(call, key, told, "for example [energy_momentum(), fourth_order()]")
+            let message = format!("{key} must hold {what} each, got {}", call.describe(value));
+            at_key(call, key, message, "for example [energy_momentum(), fourth_order()]")
         })
     };
     match array {
@@ -233,8 +233,8 @@ fn expect_positive(call: &Call, key: &str, numbers: &[f64]) -> Result<(), Script
             Err(at_key(call, key, format!("{key} is empty"), "give one positive number or more"))
         }
         Some(wrong) => {
-            let told = format!("{key} holds {}", format_number(*wrong));
-            Err(at_key(call, key, told, "give positive numbers"))
+            let message = format!("{key} holds {}", format_number(*wrong));
+            Err(at_key(call, key, message, "give positive numbers"))
         }
         None => Ok(()),
     }
@@ -257,8 +257,8 @@ pub fn scene_on_mesh(
 fn subject(call: &Call, mesh: String, made: &Dynamic) -> Result<ObservedScene, ScriptError> {
     let hint = "it must return the scene, or #{ scene: scene, stations: #{ tip: rod.end } }";
     let refused = || {
-        let told = format!("the function `scene` returns {}", call.describe(made));
-        at_key(call, "scene", told, hint)
+        let message = format!("the function `scene` returns {}", call.describe(made));
+        at_key(call, "scene", message, hint)
     };
     let map = made.read_lock::<Map>().map(|map| map.clone());
     let handle = match &map {
@@ -270,8 +270,9 @@ fn subject(call: &Call, mesh: String, made: &Dynamic) -> Result<ObservedScene, S
     if let Some(unknown) =
         map.iter().flat_map(Map::keys).find(|key| !["scene", "stations"].contains(&key.as_str()))
     {
-        let told = format!("the function `scene` returns a map with the unknown key '{unknown}'");
-        return Err(at_key(call, "scene", told, hint));
+        let message =
+            format!("the function `scene` returns a map with the unknown key '{unknown}'");
+        return Err(at_key(call, "scene", message, hint));
     }
     let stations = map.and_then(|map| map.get("stations").cloned());
     let named: Vec<(String, Station)> = match stations {
@@ -280,8 +281,8 @@ fn subject(call: &Call, mesh: String, made: &Dynamic) -> Result<ObservedScene, S
             let stations = stations.try_cast::<Map>().ok_or_else(refused)?;
             let own = |(name, station): (&rhai::Identifier, &Dynamic)| {
                 let station = station.clone().try_cast::<StationHandle>().ok_or_else(|| {
-                    let told = format!("station '{name}' is {}", call.describe(station));
-                    at_key(call, "scene", told, hint)
+                    let message = format!("station '{name}' is {}", call.describe(station));
+                    at_key(call, "scene", message, hint)
                 })?;
                 let name = readable("stations", name)
                     .map_err(|error| error.at(CallPart::Key("scene".into())))?;
@@ -322,11 +323,11 @@ pub fn expect_same_observables(
 ) -> Result<(), ScriptError> {
     let other = others.iter().find(|of| of.observables != first.observables);
     other.map_or(Ok(()), |other| {
-        let told = format!(
+        let message = format!(
             "the stations with the mesh '{}' differ from those with '{}'",
             other.mesh, first.mesh
         );
-        Err(at_key(call, "scene", told, "a study compares the same stations on all meshes"))
+        Err(at_key(call, "scene", message, "a study compares the same stations on all meshes"))
     })
 }
 

@@ -42,7 +42,7 @@ pub fn study(
         combinations.iter().map(|of| of.case(&plan.subjects, &plan.times)).collect();
     let repeats = call.context().studies().repeats.unwrap_or(timed.repeats);
     let found = match call.context().mode() {
-        RunMode::DryBuild => None,
+        RunMode::DryRun => None,
         RunMode::Run => reference.trials(call, &desk, &plan, &cases)?,
     };
     let is_found = found.is_some();

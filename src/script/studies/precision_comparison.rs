@@ -68,13 +68,13 @@ pub fn comparison(study: &Precision, errors: &[f64]) -> String {
 /// Note on the fastest combination that smaller steps confirm, if the fastest combination may be accurate by chance.
 fn confirmation(study: &Precision, error: f64) -> Option<String> {
     let fastest = study.cheapest(error)?;
-    let told = match study.cheapest_confirmed(error) {
+    let message = match study.cheapest_confirmed(error) {
         Some(row) if row == fastest => return None,
         Some(row) => format!("{} ms, {}", labels::milliseconds(row.cost_and_error().0), with(row)),
         None => "none".to_owned(),
     };
     let error = format_number(error);
-    Some(format!("\n{error} also at all smaller steps of the mesh, confirmed: {told}"))
+    Some(format!("\n{error} also at all smaller steps of the mesh, confirmed: {message}"))
 }
 
 /// Other programs with a run of at most this error, or the first other program if there is no such run.

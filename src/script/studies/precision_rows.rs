@@ -122,7 +122,6 @@ pub fn records(study: &Precision) -> CsvRecords {
     CsvRecords { comments, names: names.unwrap_or_default(), rows }
 }
 
-/// Description of the settings of a row.
 pub fn with(row: &PrecisionRow) -> String {
     let (method, dt) = (labels::method(&row.settings.method), labels::step_size(&row.settings));
     format!("{}, {method}, dt = {dt}", row.mesh)

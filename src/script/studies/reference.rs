@@ -38,8 +38,9 @@ impl Scripted for FinestRun {
         let dt = self.dt.map(|dt| format!(", dt = {}", format_number(dt)));
         let method = self.method.map(|method| format!(", {}", labels::method(&method)));
         let mesh = self.mesh.as_ref().map(|_| ", on a mesh of its own");
-        let told = [mesh.unwrap_or_default(), &method.unwrap_or_default(), &dt.unwrap_or_default()];
-        format!("reference: own finest run{}", told.concat())
+        let settings =
+            [mesh.unwrap_or_default(), &method.unwrap_or_default(), &dt.unwrap_or_default()];
+        format!("reference: own finest run{}", settings.concat())
     }
 }
 
@@ -100,9 +101,10 @@ pub fn expect_finer_than_all_meshes(
         Some(ReferenceOption::Run(run)) if run.mesh.is_some() => return Ok(()),
         _ => (),
     }
-    let told = "a run on the finest mesh of the study cannot be the reference for errors of meshes";
+    let message =
+        "a run on the finest mesh of the study cannot be the reference for errors of meshes";
     let hint = "add reference: finest_run(#{ mesh: … }) with a finer mesh, or the name of a table";
-    Err(at_key(call, "meshes", told, hint))
+    Err(at_key(call, "meshes", message, hint))
 }
 
 /// Rejects a reference whose steps are not finer than those of the compared runs. `is_of_a_mesh` is true if the reference is on a mesh of the study.
@@ -130,7 +132,7 @@ fn expect_finer_steps(
         format_number(smallest),
         format_number(PART_OF_THE_SMALLEST_STEP * smallest),
     );
-    let told = format!(
+    let message = format!(
         "the reference must be finer than the finest run of the study: it has dt = {own}, but \
         the study has {smallest}"
     );
@@ -138,7 +140,7 @@ fn expect_finer_steps(
         "omit dt in finest_run(…), default: {usual}; or give a smaller one, or the name of a \
         table"
     );
-    Err(at_key(call, "reference", told, hint))
+    Err(at_key(call, "reference", message, hint))
 }
 
 /// Rejects a reference whose steps stay the same if the step size is doubled, because its error cannot be estimated.
@@ -146,12 +148,12 @@ fn expect_other_steps_if_doubled(call: &Call, finest: &Case) -> Result<(), Scrip
     match finest.settings.dt {
         StepSize::Fixed(dt) if finest.is_one_step_from_stop_to_stop(dt) => {
             let dt = format_number(dt);
-            let told = format!(
+            let message = format!(
                 "the reference, dt = {dt}, takes the same steps with twice the step size, so \
                 that its error is unknown"
             );
             let hint = "choose step sizes smaller than the times of the study: reference: finest_run(#{ dt: … }), or smaller dts";
-            Err(at_key(call, "reference", told, hint))
+            Err(at_key(call, "reference", message, hint))
         }
         _ => Ok(()),
     }
@@ -199,7 +201,8 @@ impl Reference {
         };
         plan.add_columns(call, columns, None)?;
         let (method_name, mesh) = (labels::method(&method), subject.mesh.clone());
-        let told = format!("own finest run ({mesh}, {method_name}, {dt}), no independent solution");
+        let source =
+            format!("own finest run ({mesh}, {method_name}, {dt}), no independent solution");
         let case = |dt| {
             let settings = ErrorStudyPlan::settings(method, dt);
             Case { scene: subject.scene.clone(), settings, stops: plan.times.clone() }
@@ -212,7 +215,7 @@ impl Reference {
             expect_other_steps_if_doubled(call, &finest)?;
         }
         let coarser = (!is_common).then(|| case(doubled_step(dt)));
-        Ok(Self::ReferenceRun(told, [finest].into_iter().chain(coarser).collect()))
+        Ok(Self::ReferenceRun(source, [finest].into_iter().chain(coarser).collect()))
     }
 
     fn cases(&self) -> &[Case] {
@@ -239,15 +242,15 @@ impl Reference {
                     },
                 )
             }
-            (Self::ReferenceRun(told, _), [finest, coarser @ ..]) => {
+            (Self::ReferenceRun(source, _), [finest, coarser @ ..]) => {
                 if let Some(failed) = own.iter().find(|trial| !trial.outcome.is_finished()) {
                     let why = failed.outcome.describe();
                     let hint =
                         "choose another reference: finest_run(#{ … }) or the name of a table";
-                    let told = format!("the reference failed: {told}: {why}");
-                    return Err(at_key(call, "reference", told, hint));
+                    let message = format!("the reference failed: {source}: {why}");
+                    return Err(at_key(call, "reference", message, hint));
                 }
-                let truth = ReferenceSolution::of_run(told, &finest.readings);
+                let truth = ReferenceSolution::of_run(source, &finest.readings);
                 Ok(coarser.iter().fold(truth, |truth, other| truth.as_far_as(&other.readings)))
             }
             (Self::ReferenceRun(..), []) => {
@@ -264,9 +267,9 @@ impl Reference {
     ) -> Result<ReferenceSolution, ScriptError> {
         match self {
             Self::Table(..) => self.truth(call, plan, &[]),
-            Self::ReferenceRun(told, _) => {
+            Self::ReferenceRun(source, _) => {
                 let nothing = vec![vec![Vec2::zeros(); plan.observables().len()]; plan.times.len()];
-                Ok(ReferenceSolution::of_run(told, &nothing))
+                Ok(ReferenceSolution::of_run(source, &nothing))
             }
         }
     }
@@ -294,7 +297,6 @@ impl Reference {
         Ok(Some((trials, truth)))
     }
 
-    /// Results of a dry run.
     pub fn no_trials(cases: &[Case]) -> (Vec<RunResult>, ReferenceSolution) {
         let reason = "nothing is run here".to_owned();
         let trial = RunResult::not_started(CaseOutcome::Failed { time: 0.0, reason });

@@ -27,7 +27,6 @@ pub enum MapColouring {
     EnergyGrowth,
     /// Average number of Newton iterations per step.
     Iterations,
-    /// Number of retried steps.
     Retries,
 }
 
@@ -86,14 +85,14 @@ impl StabilityPlan {
         for (at, (key, axis)) in axes.iter().enumerate() {
             let name = &axis.name;
             if RESULTS.contains(&name.as_str()) {
-                let told = format!("{key}: the name '{name}' is used for results of a cell");
+                let message = format!("{key}: the name '{name}' is used for results of a cell");
                 let hint =
                     format!("choose another name; results have the names {}", RESULTS.join(", "));
-                return Err(at_key(call, key, told, hint));
+                return Err(at_key(call, key, message, hint));
             }
             if let Some((other, _)) = axes[..at].iter().find(|(_, of)| of.name == *name) {
-                let told = format!("{other} and {key} both have the name '{name}'");
-                return Err(at_key(call, key, told, "a cell has one value under each name"));
+                let message = format!("{other} and {key} both have the name '{name}'");
+                return Err(at_key(call, key, message, "a cell has one value under each name"));
             }
         }
         Ok(Self { name: study_name(call, &options.name)?, maps, rows, columns })
@@ -264,7 +263,6 @@ impl StabilityMap {
         format!("{} {}{halved}", self.coloured(verdict), significant(verdict.mean_iterations, 2))
     }
 
-    /// All maps of the study on one page.
     pub fn page(&self) -> Page {
         let maps = self.heat_maps(Self::in_lines);
         let page = Page::grid(COLUMNS.min(maps.len()));
@@ -291,8 +289,8 @@ impl StabilityMap {
         text.push_str(&format!("\nin a cell: {shows}, Newton iterations a step, halved steps (h)"));
         if missing > 0 {
             let file = format!("{}.csv", self.plan.name);
-            let told = format!("{missing} of {all} cells did not finish; details are in {file}");
-            text.push_str(&format!("\n\n{told}"));
+            let message = format!("{missing} of {all} cells did not finish; details are in {file}");
+            text.push_str(&format!("\n\n{message}"));
             let mut table = TextTable::new(&["cell", "what happened"]);
             for (at, verdict) in early {
                 let labels = self.plan.labels(at);

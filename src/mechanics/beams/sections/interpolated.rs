@@ -4,10 +4,8 @@ use crate::beams::Section;
 
 /// Section at a place between points, from weights whose sum is one.
 pub(in crate::beams) trait Interpolation: Default {
-    /// Adds a weighted section.
-    fn add(&mut self, section: &Section, share: f64);
+    fn add(&mut self, section: &Section, weight: f64);
 
-    /// Returns the interpolated section.
     fn section<'a>(&'a self, uniform: &'a Section) -> &'a Section;
 }
 
@@ -23,8 +21,8 @@ impl Interpolation for () {
 pub(in crate::beams) struct Interpolated(Section);
 
 impl Interpolation for Interpolated {
-    fn add(&mut self, section: &Section, share: f64) {
-        self.0 = self.0.plus(section, share);
+    fn add(&mut self, section: &Section, weight: f64) {
+        self.0 = self.0.plus(section, weight);
     }
 
     fn section<'a>(&'a self, _uniform: &'a Section) -> &'a Section {

@@ -14,13 +14,11 @@ use crate::beams::simd::{LANES, LaneChunk, Lanes, Vector};
 pub(in crate::beams) trait Sections: Clone + Debug + Send + Sync {
     /// Integral of a product of two shape functions; if the inertia varies along the beam, also weighted with the inertia.
     type MassIntegral: MassIntegral;
-    /// Section at a place between points.
+    /// Type of a section interpolated between the quadrature points.
     type Interpolation: Interpolation;
 
-    /// Creates the sections at the points for `Γ` and for `κ`.
     fn new(at_force: Vec<Section>, at_moment: Vec<Section>) -> Self;
 
-    /// Section of a point for `Γ`.
     fn of_force<'a>(&'a self, uniform: &'a Section, point: usize) -> &'a Section;
 
     /// Cross section at a quadrature point of the curvature `κ`.

@@ -75,9 +75,10 @@ fn the_quotient_of_a_cube_is_exact_near_and_far_and_beyond_the_domain() {
     for basis in [spline(5, 3, 2), spline(5, 3, 1), spline(4, 3, 0), lagrange(4, 3)] {
         let coefficients = cube(&basis);
         for from in [0.0, 0.1, 0.2, 0.25, 0.5, 0.77, 1.0] {
-            for way in [0.0, 1e-300, 1e-17, 1e-13, -1e-9, 1e-5, -0.01, 0.02, 0.3, -0.55, 1.3, -1.2]
+            for increment in
+                [0.0, 1e-300, 1e-17, 1e-13, -1e-9, 1e-5, -0.01, 0.02, 0.3, -0.55, 1.3, -1.2]
             {
-                let to = from + way;
+                let to = from + increment;
                 let on = passage(&basis, from, to);
                 let context = format!("{basis:?} from {from} to {to}");
                 let value = combine(&on, on.difference(), &coefficients);
@@ -87,7 +88,7 @@ fn the_quotient_of_a_cube_is_exact_near_and_far_and_beyond_the_domain() {
                 assert!((slope - 3.0 * to * to).abs() < 1e-13 * largest(on.slope()), "{context}");
                 // Across kinks, the rounding of the quotient is divided by the path.
                 let kinks = basis.continuity() == 0;
-                if !kinks || way == 0.0 || way.abs() >= 0.01 {
+                if !kinks || increment == 0.0 || increment.abs() >= 0.01 {
                     let change = combine(&on, on.change(), &coefficients);
                     let error = (change - (from + 2.0 * to)).abs();
                     assert!(error < if kinks { 1e-11 } else { 2e-12 }, "{context}: {error}");
@@ -249,8 +250,8 @@ proptest! {
         let (_, xi) = inside(&basis, t);
         let at = basis.evaluate(xi).unwrap();
         let size = largest(at.slopes()) + largest(at.derivatives(2));
-        for way in [1e-13, -1e-13] {
-            let on = passage(&basis, xi, xi + way);
+        for increment in [1e-13, -1e-13] {
+            let on = passage(&basis, xi, xi + increment);
             prop_assert_eq!(on.first(), at.first);
             prop_assert!(distance(on.difference(), at.slopes()) < 1e-12 * size);
             let half: Vec<f64> = at.derivatives(2).iter().map(|n| 0.5 * n).collect();
@@ -266,8 +267,8 @@ proptest! {
         let xi = place(&basis, t);
         // Paths from a place and from all breaks, forward and starting slightly before.
         for from in basis.breaks().into_iter().chain([xi]) {
-            let way = (place(&basis, u) - from) * 10f64.powi(-nearness);
-            for (a, b) in [(from, from + way), (from - 0.3 * way, from + way)] {
+            let increment = (place(&basis, u) - from) * 10f64.powi(-nearness);
+            for (a, b) in [(from, from + increment), (from - 0.3 * increment, from + increment)] {
                 if a == b {
                     continue;
                 }

@@ -25,7 +25,7 @@ impl SlidingLaw for Relaxed {
     }
 }
 
-/// `½ (x_s0 + x_s1) = Σ B̄_i x̄_i`
+/// Closed gap in the middle of the step: `½ (x_s0 + x_s1) = Σ B̄_i x̄_i`.
 fn closed_mean(contact: &Contact<'_>) -> [Equation; 2] {
     let point = contact.mean_point();
     let gap = contact.slave_movement * 0.5 - point.value;

@@ -121,8 +121,8 @@ mod tests {
         let mut newer = file.clone();
         newer[8] += 1;
         let message = unwrap(&newer).unwrap_err().to_string();
-        let told = format!("written by withy {PROGRAM} in format {}", FORMAT + 1);
-        assert!(message.contains(&told), "{message}");
+        let expected = format!("written by withy {PROGRAM} in format {}", FORMAT + 1);
+        assert!(message.contains(&expected), "{message}");
     }
 
     #[test]

@@ -21,7 +21,7 @@ impl Simulation {
         let now = self.time();
         let stop = self.clock.grid.next(now, limit);
         let planned = self.adaptive.as_ref().zip(self.clock.step_size);
-        planned.map_or(stop, |(adaptive, pace)| adaptive.plan(&pace, now, stop).interval.end)
+        planned.map_or(stop, |(adaptive, state)| adaptive.plan(&state, now, stop).interval.end)
     }
 
     /// Takes two equal steps within the tolerance. After a rejection they are repeated with a smaller size.
@@ -36,21 +36,21 @@ impl Simulation {
             return self.cover_uncompared(halving, controller.first, monitor);
         }
         self.clock.retry = None;
-        let mut pace = self.clock.step_size.unwrap_or_else(|| controller.start());
-        if pace.tries == 0 && self.model.loads_may_jump() {
-            controller.restart(&mut pace);
+        let mut state = self.clock.step_size.unwrap_or_else(|| controller.start());
+        if state.tries == 0 && self.model.loads_may_jump() {
+            controller.restart(&mut state);
         }
         loop {
             let (plan, tried) = match self.finish_paused_step(adaptive) {
                 Some(ended) => ended,
                 None => {
                     let now = self.time();
-                    let plan = adaptive.plan(&pace, now, self.clock.grid.next(now, limit));
+                    let plan = adaptive.plan(&state, now, self.clock.grid.next(now, limit));
                     let tried = self.try_step(adaptive, &plan);
                     match (tried, &mut adaptive.resampling) {
                         (Ok(doubled), Some(resampling)) if doubled.tried_step.error <= 1.0 => {
                             resampling.pause_at_middle(&mut self.model, plan, doubled);
-                            self.clock.step_size = Some(pace);
+                            self.clock.step_size = Some(state);
                             self.query_monitor(monitor)?;
                             continue;
                         }
@@ -62,12 +62,12 @@ impl Simulation {
             let dt = interval.duration();
             match tried {
                 Ok(DoubledStep { report, tried_step: trial, .. }) if trial.error <= 1.0 => {
-                    let tries = pace.tries;
+                    let tries = state.tries;
                     match is_cut {
-                        true => controller.accept_cut(&mut pace, trial),
-                        false => controller.accept(&mut pace, trial),
+                        true => controller.accept_cut(&mut state, trial),
+                        false => controller.accept(&mut state, trial),
                     }
-                    self.clock.step_size = Some(pace);
+                    self.clock.step_size = Some(state);
                     self.count_step(interval, report, tries);
                     self.store_present();
                     return self.query_monitor(monitor);
@@ -75,7 +75,7 @@ impl Simulation {
                 Ok(DoubledStep { report, tried_step: trial, .. }) => {
                     adaptive.doubling.restore_start(&mut self.model);
                     self.progress.count_rejection(report.iterations);
-                    controller.reject(&mut pace, trial);
+                    controller.reject(&mut state, trial);
                     if is_least {
                         return Err(SimulationError::Tolerance {
                             time: interval.start,
@@ -89,7 +89,7 @@ impl Simulation {
                 Err(FailedStep { source: StepError::Overshoot { iterations, .. }, before }) => {
                     self.progress.count_try(before + iterations);
                     // The error before the event does not apply to the motion after it.
-                    self.clock.step_size = Some(StepSizeState { error: None, tries: 0, ..pace });
+                    self.clock.step_size = Some(StepSizeState { error: None, tries: 0, ..state });
                     let start = interval.start;
                     let half = StepRetry::new(Interval::between(start, start + 0.5 * dt));
                     return self.cover_uncompared(half, controller.first, monitor);
@@ -99,7 +99,7 @@ impl Simulation {
                 }
                 Err(FailedStep { source, before }) => {
                     self.progress.count_failure(before + source.factorisations());
-                    controller.fail(&mut pace, dt);
+                    controller.fail(&mut state, dt);
                     if is_least {
                         let (time, smallest) = (interval.start, controller.smallest);
                         let (source, plight) = (Box::new(self.with_name(source)), self.plight());
@@ -113,7 +113,7 @@ impl Simulation {
                     }
                 }
             }
-            self.clock.step_size = Some(pace);
+            self.clock.step_size = Some(state);
             self.query_monitor(monitor)?;
         }
     }

@@ -192,7 +192,7 @@ impl Content<'_> {
         };
         let bounds = simulation.adaptive.as_ref().map(|adaptive| adaptive.controller);
         if self.step_size.is_some() != bounds.is_some()
-            || bounds.zip(self.step_size).is_some_and(|(bounds, pace)| !bounds.allows(&pace))
+            || bounds.zip(self.step_size).is_some_and(|(bounds, state)| !bounds.allows(&state))
         {
             return Err(refused("the size of its next step is invalid"));
         }

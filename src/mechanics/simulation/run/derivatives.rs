@@ -109,9 +109,9 @@ impl Simulation {
         }
     }
 
-    pub(super) fn end_derivatives(&mut self, way: &'static str) {
+    pub(super) fn end_derivatives(&mut self, change: &'static str) {
         if let Some(sensitivities) = &mut self.stepper.sensitivities {
-            sensitivities.disable(DerivativeError::NotSupported { change: way });
+            sensitivities.disable(DerivativeError::NotSupported { change });
         }
     }
 }

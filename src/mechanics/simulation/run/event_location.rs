@@ -33,7 +33,6 @@ pub(super) struct EventStep {
     event: Event,
 }
 
-/// Event that shortens or prevents a step.
 enum Event {
     Arrival(MasterLimit),
     /// A slider would jump past a limit, so the step ends just before it.

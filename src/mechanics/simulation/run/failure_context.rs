@@ -26,7 +26,7 @@ impl Simulation {
     pub(super) fn plight(&self) -> String {
         let extreme = self.extreme_axes().chain(self.extreme_contacts());
         let others = self.bodies_without_inertia().chain(self.driven_backwards());
-        extreme.chain(others).map(|told| format!("; {told}")).collect()
+        extreme.chain(others).map(|message| format!("; {message}")).collect()
     }
 
     fn bodies_without_inertia(&self) -> impl Iterator<Item = String> {

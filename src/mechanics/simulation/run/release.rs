@@ -46,8 +46,8 @@ impl Simulation {
         let gone = ReleaseEvent { release, time: self.time() };
         self.progress.releases = self.releases().iter().copied().chain([gone]).collect();
         self.adapt_to_model()?;
-        if let (Some(adaptive), Some(pace)) = (&self.adaptive, &mut self.clock.step_size) {
-            adaptive.controller.restart(pace);
+        if let (Some(adaptive), Some(state)) = (&self.adaptive, &mut self.clock.step_size) {
+            adaptive.controller.restart(state);
         }
         let Self { settings, model, stepper, .. } = self;
         match &mut stepper.sensitivities {

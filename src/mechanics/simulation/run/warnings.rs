@@ -43,7 +43,6 @@ const MOST_UNKNOWNS: usize = 1200;
 /// Numbers of modes that are computed until one of them is not a rigid-body mode.
 const MODES: [usize; 3] = [4, 8, 16];
 
-/// Number of recent steps examined for alternating lengths.
 const RECENT_STEPS: usize = 200;
 
 /// Difference of successive step lengths, relative to them, above which they alternate.
@@ -70,16 +69,16 @@ impl Simulation {
         let (dt, resolution) = (self.longest_step(), self.model.resolution());
         let mut notes = Vec::new();
         if self.is_unresolved(resolution) {
-            let share = resolution.unresolved_share();
+            let unresolved_fraction = resolution.unresolved_share();
             let period = TAU / resolution.angular_frequency();
-            let (lowest, suspects) = (self.lowest_period(), self.possible_causes());
+            let (lowest, causes) = (self.lowest_period(), self.possible_causes());
             let damping = self.damping_method();
             notes.push(Warning::Motion {
                 dt,
-                unresolved_fraction: share,
+                unresolved_fraction,
                 period,
                 lowest,
-                causes: suspects,
+                causes,
                 damping,
             });
         }
@@ -121,11 +120,11 @@ impl Simulation {
         notes.extend(
             bends.map(|(drive, bend)| Warning::Bend { drive: drive.to_owned(), curvature: bend }),
         );
-        let told = |(name, change)| {
+        let warning = |(name, change)| {
             let owner = self.scene.source_of_schedule(name);
             Warning::Schedule { owner: owner.trim_end_matches(',').to_owned(), dt, change }
         };
-        notes.extend(self.model.missed_changes().map(told));
+        notes.extend(self.model.missed_changes().map(warning));
         notes.extend(self.model.outside_laws().into_iter().filter_map(|(index, outside)| {
             let spring = self.scene.springs().nth(index)?.object();
             let kind = match outside.argument {
@@ -136,19 +135,20 @@ impl Simulation {
         }));
         let bounces = self.model.short_bounces();
         let tolerance = self.adaptive.as_ref().map(|adaptive| adaptive.tolerance);
-        let told = |(spring, bounce): (&str, _)| Warning::Contact {
+        let warning = |(spring, bounce): (&str, _)| Warning::Contact {
             spring: spring.to_owned(),
             tolerance,
             bounce,
         };
-        notes.extend(bounces.map(told));
+        notes.extend(bounces.map(warning));
         notes
     }
 
     fn is_unresolved(&self, resolution: &Resolution) -> bool {
-        let share = resolution.unresolved_share();
+        let unresolved_fraction = resolution.unresolved_share();
         let turn = resolution.angular_frequency() * self.dt();
-        share > LARGEST_SHARE || (share > HIDDEN_SHARE && turn > HIDDEN_TURN)
+        unresolved_fraction > LARGEST_SHARE
+            || (unresolved_fraction > HIDDEN_SHARE && turn > HIDDEN_TURN)
     }
 
     /// Damped beams whose motion is unresolved at a step size [time], although the motion of the scene as a whole is resolved.

@@ -4,7 +4,6 @@ use super::{DerivativeError, PerturbedSide, Variation};
 use crate::simulation::{Simulation, SimulationError};
 use crate::system::{Scene, System, SystemState};
 
-/// Two perturbed runs, and the derivative of the state.
 pub struct PerturbedRuns {
     pub(super) name: String,
     pub(super) distance: f64,

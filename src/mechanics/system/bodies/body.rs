@@ -127,9 +127,9 @@ impl Body {
     /// Displacement and rotation of a place [length, length, rad], from values of the unknowns.
     pub fn at(&self, place: &BodyPoint, values: &[f64]) -> Movement {
         let mut sum = [0.0; 3];
-        for (point, share) in place.weights() {
+        for (point, weight) in place.weights() {
             for (sum, &at) in sum.iter_mut().zip(&self.degrees_of_freedom[point]) {
-                *sum += share * values.get(at).copied().unwrap_or(0.0);
+                *sum += weight * values.get(at).copied().unwrap_or(0.0);
             }
         }
         sum

@@ -99,7 +99,6 @@ pub enum BuiltElement {
 
 /// Scene queries available to the check of an element.
 pub trait SceneChecks {
-    /// Describes a station for messages.
     fn describe(&self, station: &Station) -> String;
 
     /// Checks that a station exists; `object` describes the object there.
@@ -123,7 +122,6 @@ pub trait AssemblyContext {
     /// Fails if the parameter lies outside the mesh.
     fn place_at(&self, beam: usize, parameter: f64) -> Result<BodyPoint, SystemError>;
 
-    /// Mesh of a beam.
     fn mesh(&self, beam: usize) -> &Mesh;
 
     /// Sections along a beam.

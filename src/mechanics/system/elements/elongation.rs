@@ -64,7 +64,7 @@ enum Measure {
 pub struct Elongation {
     measure: Measure,
     terminals: Vec<ElongationEnd>,
-    /// Shares of the degrees of freedom in the coordinates, in the numbering of the last call of `locate`.
+    /// Coefficients of the degrees of freedom in the coordinates, in the numbering of the last call of `locate`.
     shares: Vec<CoordinateShare>,
     /// Value in the scene as built [length, rad].
     initial: f64,
@@ -83,7 +83,7 @@ pub struct Elongation {
     pub slope: Vec<f64>,
     /// Derivative `∂g/∂u` of the secant, row by row, in the iterate of its last evaluation [1/length, 1/rad].
     pub secant_slope: Vec<f64>,
-    /// Difference between the direction at the time within the step given to [`balance`](Self::balance), and the secant [-].
+    /// Difference between the direction at the time given to [`balance`](Self::balance) and the secant [-].
     pub lag: Vec<f64>,
     /// Derivative of the lag with respect to the coordinates, row by row [1/length].
     pub lag_slope: Vec<f64>,

@@ -27,7 +27,7 @@ impl Follower {
         &bodies[self.tracker.place.body]
     }
 
-    /// Rotations at `τ` and at the end of the step, and `Δω`.
+    /// Rotations of the section at the stage `τ` and at the end of the step, and its rotation increment `Δω`.
     fn rotations(&self, at: TrialState<'_>) -> (Rotation, Rotation, f64) {
         let [.., increment] = self.body(at.bodies).at(&self.tracker.place, at.increments);
         let collocation = collocation(at.stage);
@@ -45,10 +45,10 @@ impl Follower {
         let force = rotation.to_space(self.force) * factor;
         *(if at.stage == Stage::Start { &mut self.force_parts } else { &mut self.current }) = force;
         let body = self.body(at.bodies);
-        for (point, share) in self.tracker.place.weights() {
+        for (point, weight) in self.tracker.place.weights() {
             let [x, y, _] = body.degrees_of_freedom[point];
-            out[x] -= share * force.x;
-            out[y] -= share * force.y;
+            out[x] -= weight * force.x;
+            out[y] -= weight * force.y;
         }
     }
 
@@ -88,13 +88,13 @@ impl Follower {
     pub fn add_exchange(&self, bodies: &[Body], duration: f64, sum: &mut WorkAndImpulse) {
         let body = self.body(bodies);
         let force = self.force_parts + self.current;
-        for (point, share) in self.tracker.place.weights() {
+        for (point, weight) in self.tracker.place.weights() {
             let [x, y, _] = body.moved()[point];
-            let moved = Vec2::new(x, y) * share;
-            let middle = body.dynamics.control_points()[point] * share + moved * 0.5;
+            let moved = Vec2::new(x, y) * weight;
+            let middle = body.dynamics.control_points()[point] * weight + moved * 0.5;
             *sum += WorkAndImpulse::of(
                 force.dot(&moved),
-                force * (share * duration),
+                force * (weight * duration),
                 cross(middle, force) * duration,
             );
         }

@@ -49,7 +49,6 @@ pub trait InternalForce {
     /// Adds `weight` times the forces that would remove the current force mismatch, with the directions of the last linearisation.
     fn add_mismatch_forces(&self, bodies: &[Body], weight: f64, out: &mut [f64]);
 
-    /// Updates the force after a correction of the increments.
     fn correct(&mut self, bodies: &[Body], correction: &[f64]);
 
     /// Work and impulse from the ground in the step whose increments the bodies gathered last.

@@ -29,7 +29,6 @@ pub struct OutsideLaw {
 #[derive(Debug, Clone, Copy)]
 pub struct LawRange {
     farthest: OutsideLaw,
-    /// Distance of that value from the range.
     beyond: f64,
 }
 

@@ -20,8 +20,8 @@ impl LoadVector {
     }
 
     pub fn push_at(&mut self, place: &BodyPoint, force: Movement) {
-        for (point, share) in place.weights() {
-            self.push(place.body, point, force.map(|value| share * value));
+        for (point, weight) in place.weights() {
+            self.push(place.body, point, force.map(|value| weight * value));
         }
     }
 

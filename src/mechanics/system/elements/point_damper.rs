@@ -118,12 +118,12 @@ impl PointDamper {
 
     fn evaluate(&self, at: TrialState<'_>, rates: RateCollocation) -> DamperTrial {
         let moved = self.relative_velocity_of(at.bodies, at.increments);
-        let (way, velocity) = (
+        let (separation, velocity) = (
             self.distance + moved * rates.fraction,
             moved * rates.by_change - self.last_velocity * rates.by_last,
         );
-        let length = way.norm();
-        let direction = direction(way, moved);
+        let length = separation.norm();
+        let direction = direction(separation, moved);
         let rate = direction.dot(&velocity);
         let turn = if length > 0.0 { rates.fraction / length } else { 0.0 };
         DamperTrial {
@@ -139,10 +139,10 @@ impl PointDamper {
     fn scatter(&self, bodies: &[Body], force: Vec2, out: &mut [f64]) {
         for (terminal, sign) in self.terminals.iter().zip([-1.0, 1.0]) {
             let ElongationEnd::Moving(place) = terminal else { continue };
-            for (point, share) in place.weights() {
+            for (point, weight) in place.weights() {
                 let [x, y, _] = bodies[place.body].degrees_of_freedom[point];
-                out[x] += sign * share * force.x;
-                out[y] += sign * share * force.y;
+                out[x] += sign * weight * force.x;
+                out[y] += sign * weight * force.y;
             }
         }
     }
@@ -154,8 +154,8 @@ impl PointDamper {
     }
 }
 
-fn direction(way: Vec2, moved: Vec2) -> Vec2 {
-    let along = if way == Vec2::zeros() { moved } else { way };
+fn direction(separation: Vec2, moved: Vec2) -> Vec2 {
+    let along = if separation == Vec2::zeros() { moved } else { separation };
     let length = along.norm();
     if length > 0.0 { along / length } else { Vec2::zeros() }
 }
@@ -228,8 +228,8 @@ impl InternalForce for PointDamper {
                             for (b, share_b) in from.weights() {
                                 let column = at.bodies[from.body].degrees_of_freedom[b][by];
                                 if row < unknowns && column < unknowns {
-                                    let share = share_a * share_b * sign * other;
-                                    tangent.add(row, column, share * value);
+                                    let weight = share_a * share_b * sign * other;
+                                    tangent.add(row, column, weight * value);
                                 }
                             }
                         }
@@ -329,8 +329,8 @@ impl InternalForce for PointDamper {
 
     fn save(&self, state: &mut Vec<f64>) {
         self.rate_history.save(state);
-        let Self { distance: way, last_velocity: v, .. } = self;
-        state.extend([way.x, way.y, v.x, v.y, self.force.last, self.dissipated]);
+        let Self { distance: separation, last_velocity: v, .. } = self;
+        state.extend([separation.x, separation.y, v.x, v.y, self.force.last, self.dissipated]);
         self.range.iter().for_each(|range| range.save(state));
     }
 

@@ -41,7 +41,6 @@ impl ScheduleCheck {
         self.in_step = MissedInStep { time: 0.5 * (interval.start + interval.end), mean };
     }
 
-    /// Accepts the step.
     pub fn advance(&mut self) {
         let MissedInStep { time, mean: StepMean { sampling_error: missed, largest, .. } } =
             self.in_step;

@@ -32,8 +32,8 @@ impl Weight {
     }
 
     pub fn add(&mut self, mass: &NodalMass) {
-        for (point, share) in mass.place.weights() {
-            let force = self.gravity * (share * mass.mass);
+        for (point, weight) in mass.place.weights() {
+            let force = self.gravity * (weight * mass.mass);
             self.forces.push(mass.place.body, point, [force.x, force.y, 0.0]);
         }
     }

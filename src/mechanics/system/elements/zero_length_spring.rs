@@ -52,8 +52,10 @@ impl ZeroLengthSpring {
         law: (SpringLaw, f64),
         damping: DampingLaw,
     ) -> Self {
-        let (way, none) = (Elongation::path_length(terminals.to_vec(), &at), DampingLaw::default());
-        let along = SpringDamper::new(name.to_owned(), way, grounds.to_vec(), Some(law), none);
+        let (elongation, none) =
+            (Elongation::path_length(terminals.to_vec(), &at), DampingLaw::default());
+        let along =
+            SpringDamper::new(name.to_owned(), elongation, grounds.to_vec(), Some(law), none);
         Self::beside(name, vec![along], terminals, at, grounds, damping)
     }
 

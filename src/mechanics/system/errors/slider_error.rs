@@ -54,83 +54,64 @@ impl fmt::Display for Approach {
 }
 
 /// Sliding joint that cannot be described or built.
+#[expect(missing_docs, reason = "the messages describe the variants and their fields")]
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum SliderError {
-    /// Slave that is a part of its master.
     #[error(
         "slider '{}': {} is a part of the {}; a beam cannot slide on itself, choose another beam",
         _0.slider, _0.slave, _0.guide
     )]
     SlaveOnMaster(SliderParts),
-    /// Slave that is not on its master.
     #[error(
         "slider '{}': {} is at {from}, {gap:.3e} from its place {to} on the {}; {nearest}",
         parts.slider, parts.slave, parts.guide
     )]
     Open {
-        /// Description of the slider.
         parts: SliderParts,
-        /// Description of the place of the slave.
         from: String,
-        /// Description of the intended place on the master.
         to: String,
         /// Distance between both places [length].
         gap: f64,
-        /// Place of the master nearest to the slave.
         nearest: Approach,
     },
-    /// Slave that slides on the same master already.
     #[error(
         "slider '{}': {} already slides on the {}; remove one of the two sliders",
         _0.slider, _0.slave, _0.guide
     )]
     Duplicate(SliderParts),
-    /// Slave that is also joined to its master.
     #[error(
         "slider '{}': {} is also joined to the {} and cannot slide on it; remove the joint or the slider",
         _0.slider, _0.slave, _0.guide
     )]
     AlreadyJoined(SliderParts),
-    /// Slider on a track with a rule for single beams.
     #[error("slider '{}': the {rule} rule is available for single beams only: at the seams of the {} {behaviour}", parts.slider, parts.guide)]
     RuleOfOneBeam {
-        /// Description of the slider.
         parts: SliderParts,
-        /// Name of the rule.
         rule: &'static str,
         /// Behaviour at seams under that rule.
         behaviour: &'static str,
     },
-    /// Coefficient of restitution outside its range.
     #[error("slider '{slider}': restitution is {restitution}, but must be from 0 to 1")]
     Restitution {
-        /// Name of the slider.
         slider: String,
         /// Rejected coefficient [-].
         restitution: f64,
     },
-    /// Start velocities across the master.
     #[error(
         "slider '{slider}': at the start its point moves across its beam with a velocity of {}", rounded(*speed)
     )]
     LeavesMaster {
-        /// Name of the slider.
         slider: String,
         /// Velocity of the slave relative to the master, across it [length/time].
         speed: f64,
     },
-    /// Slider between places that are both supported.
     #[error(
         "slider '{}': {} and its place on the {} are both fixed, so that the contact force is undetermined; remove the slider or a support",
         _0.slider, _0.slave, _0.guide
     )]
     OverConstrained(SliderParts),
-    /// Sliders with undetermined contact forces.
     #[error(
         "the sliders '{sliders}' restrain the same movement: their contact forces are undetermined; remove one of them, or a support"
     )]
-    Overdetermined {
-        /// Names of the sliders.
-        sliders: String,
-    },
+    Overdetermined { sliders: String },
 }

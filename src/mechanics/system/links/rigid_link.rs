@@ -70,7 +70,6 @@ pub struct RigidLink {
     size: f64,
 }
 
-/// Rigid link in an iterate of a step.
 struct Iterated {
     /// Arms `a0`, `a1`, and the arm of the force [length].
     start: Vec2,

@@ -115,8 +115,8 @@ impl System {
     /// [enabled](Self::sum_up_impulses).
     pub fn mean_reactions(&self) -> Option<Reactions> {
         let Impulses { last, duration, .. } = &**self.exchanged.impulses.as_ref()?;
-        let share = if *duration == 0.0 { 0.0 } else { 1.0 / duration };
-        let mean: Vec<f64> = last.iter().map(|impulse| share * impulse).collect();
+        let weight = if *duration == 0.0 { 0.0 } else { 1.0 / duration };
+        let mean: Vec<f64> = last.iter().map(|impulse| weight * impulse).collect();
         let (left, across) = mean.split_at(mean.len() - self.links.all_rollers().len());
         Some(self.reactions_from_residuals(left, across))
     }
@@ -134,10 +134,10 @@ impl System {
         self.exchange_numbers(&mut impulses);
         self.separate_values(&mut impulses, |at| increments[at], increments.len());
         self.exchange_numbers(&mut impulses);
-        for (stage, share) in balanced {
+        for (stage, weight) in balanced {
             let moved = if *stage == Stage::Start { &[] } else { &*impulses.values };
-            self.add_internal_forces(*stage, moved, *share, &mut impulses.residual);
-            self.subtract_loads(*stage, moved, *share, &mut impulses.residual);
+            self.add_internal_forces(*stage, moved, *weight, &mut impulses.residual);
+            self.subtract_loads(*stage, moved, *weight, &mut impulses.residual);
         }
         let (moved, left) = (&impulses.values, &mut impulses.residual);
         self.sliders.add::<InStep>(&self.bodies, moved.len(), moved, constraints, left);

@@ -275,7 +275,7 @@ struct TurnSearch {
     own: Response,
     /// Required angle [rad].
     required_angle: f64,
-    /// Parameter angle of `γ` [rad], and the angle error of the previous parameter.
+    /// Angle that parametrises `γ` [rad], and the error of the rotation angle at the previous parameter.
     angle: f64,
     before: Option<(f64, f64)>,
 }

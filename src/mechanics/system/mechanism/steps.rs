@@ -13,7 +13,7 @@ use crate::system::elements::{TrialState, WorkAndImpulse, collocation};
 use crate::system::links::ArmRule;
 use crate::system::sliders::InStep;
 
-/// Fraction of the step at which the arms of rigid links are taken, for a method with a stage and a weight: the time at which the method balances
+/// Rule for the lever arms of rigid links: they are evaluated at the fraction of the step at which a method with this stage and weight balances
 /// forces. With another fraction the method would be of first order.
 fn arm_rule(stage: Stage, weight: f64) -> ArmRule {
     let Collocation { rotations, configuration, .. } = collocation(stage);

@@ -3,7 +3,7 @@
 //! Rotations are increments of the angle itself, so that the stiffness is the Hessian of the strain energy. Loads of fixed direction have no
 //! stiffness; the stiffness of follower loads is neglected.
 
-use super::{OrderAtRest, System};
+use super::{StaticOrder, System};
 use crate::beams::SpanStiffness;
 use crate::elementary::square;
 use crate::geometry::larger;
@@ -20,7 +20,7 @@ impl System {
     /// unknowns.
     pub fn for_each_static_span(
         &self,
-        order: &OrderAtRest,
+        order: &StaticOrder,
         take: &mut dyn FnMut(&[usize], &SpanStiffness),
     ) {
         self.each_span(&mut in_order(order, take));
@@ -75,7 +75,7 @@ impl System {
     /// queried by place [force/length, force·length].
     pub fn for_each_static_constraint(
         &self,
-        order: &OrderAtRest,
+        order: &StaticOrder,
         stiffness: impl Fn(usize) -> f64,
         take: &mut dyn FnMut(&[usize], &SpanStiffness),
     ) {
@@ -100,11 +100,11 @@ impl System {
     }
 
     /// Number of degrees of freedom with mass that rigid links and contacts remove.
-    pub fn constrained_movements(&self, order: &OrderAtRest, inertia: &SymmetricSparse) -> usize {
+    pub fn constrained_movements(&self, order: &StaticOrder, inertia: &SymmetricSparse) -> usize {
         self.held_by_links(order, inertia) + self.sliders.movements_held()
     }
 
-    fn held_by_links(&self, order: &OrderAtRest, inertia: &SymmetricSparse) -> usize {
+    fn held_by_links(&self, order: &StaticOrder, inertia: &SymmetricSparse) -> usize {
         if self.links.forces() == 0 {
             return 0;
         }
@@ -133,7 +133,7 @@ impl System {
 
     /// Number of negative eigenvalues of the stiffness plus `rate` times the inertia [1/time²].
     pub fn negative_stiffness_count_with_inertia(&self, rate: f64) -> usize {
-        let order = self.order_at_rest();
+        let order = self.static_order();
         let inertia = match rate > 0.0 {
             true => self.sparse_inertia(&order),
             false => SymmetricSparse::new(order.count(), |_| {}),
@@ -152,7 +152,7 @@ impl System {
 
 /// Wraps a callback so that it receives places instead of unknowns.
 fn in_order<'t>(
-    order: &'t OrderAtRest,
+    order: &'t StaticOrder,
     take: &'t mut dyn FnMut(&[usize], &SpanStiffness),
 ) -> impl FnMut(&[usize], &SpanStiffness) {
     move |unknowns, span| match order.is_step_order() {

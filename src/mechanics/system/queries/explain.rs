@@ -320,7 +320,7 @@ fn explain_drive(scene: &Scene, drive: &Drive) -> SystemFeature {
 }
 
 fn explain_releases(scene: &Scene) -> Option<SystemFeature> {
-    let told = scene.releases.iter().map(|release| {
+    let descriptions = scene.releases.iter().map(|release| {
         let name = scene.releasable_name(release.object);
         match release.trigger {
             Trigger::Time(time) => format!("'{name}' at t = {time}"),
@@ -329,8 +329,8 @@ fn explain_releases(scene: &Scene) -> Option<SystemFeature> {
             }
         }
     });
-    let told: Vec<String> = told.collect();
-    (!told.is_empty()).then(|| SystemFeature::used("releases", told.join("; ")))
+    let descriptions: Vec<String> = descriptions.collect();
+    (!descriptions.is_empty()).then(|| SystemFeature::used("releases", descriptions.join("; ")))
 }
 
 fn explain_start(scene: &Scene) -> SystemFeature {

@@ -165,7 +165,7 @@ impl Sensor {
         matches!(&self.probe, SensorSource::Joint(_, quantity) if quantity.value.is_of_step())
     }
 
-    /// Returns true if the sensor can be stored, that is, if its name defines it.
+    /// Returns true if the sensor can be stored, that is, if it can be created again from its name.
     pub fn can_be_stored(&self) -> bool {
         self.probe != SensorSource::External
     }

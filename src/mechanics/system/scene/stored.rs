@@ -15,10 +15,8 @@ use crate::system::errors::{check_name, finite};
 /// Largest number of sliders in a stored scene. The matrix of a step grows with its square.
 const MOST_SLIDERS: usize = 2000;
 
-/// Largest number of tracks in a stored scene.
 const MOST_TRACKS: usize = 1000;
 
-/// Largest number of sensors in a stored scene.
 const MOST_SENSORS: usize = 10_000;
 
 /// Unchecked [`Scene`] as read from a file.

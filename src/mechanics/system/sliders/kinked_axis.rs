@@ -133,14 +133,14 @@ impl KinkedAxis {
         self.stretch = passage.at_end(&self.arc)[1];
     }
 
-    /// Accepts the jump, as a force [force], and the speed [length/time] at the end of a step with a mean contact force `λ` [force], after
-    /// [`accept_end`](Self::accept_end). On a rigid axis the force is the mean of the step.
+    /// Accepts the state of the kink at the end of a step with a mean contact force `λ` [force], after [`accept_end`](Self::accept_end). The jump of
+    /// the tangent is stored as the force that causes it statically; on a rigid axis it is the mean force of the step.
     pub fn advance(&mut self, mean: Vec2, KinkState { jump, speed }: KinkState) {
         self.jump = if self.is_compliant() { jump } else { mean };
         self.speed = speed;
     }
 
-    /// Accepts the jump, as a force [force], and the speed [length/time] at the end of a step with a fixed kink.
+    /// Accepts the state of the kink at the end of a step with a fixed kink.
     pub fn accept_frozen_jump(&mut self, KinkState { jump, speed }: KinkState) {
         (self.jump, self.speed) = (jump, speed);
     }

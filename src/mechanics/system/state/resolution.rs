@@ -10,7 +10,7 @@ pub struct GuessErrors {
     pub by_start: f64,
     /// Error `Σ m (v̄ - v̄₋)²` of the mean rates `v̄₋` of the previous step [energy].
     pub by_mean: f64,
-    /// Motion `Σ m v̄²` of the step itself [energy].
+    /// Size `Σ m v̄²` of the mean rates, to which the errors are compared [energy].
     pub motion: f64,
 }
 

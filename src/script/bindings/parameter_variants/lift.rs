@@ -49,10 +49,10 @@ pub fn evaluate_variants(
             return evaluate_at(0, receiver, &given, make);
         }
         (Lifting::Refused, _) => {
-            let told = format!("{} does not support parameters of a scene", row.name);
+            let message = format!("{} does not support parameters of a scene", row.name);
             let hint = "build the scene twice with plain numbers in place of scene.parameter(…), and \
                 take the difference";
-            return Err(ScriptError::new(told).hint(hint));
+            return Err(ScriptError::new(message).hint(hint));
         }
     }
     family.use_variants();
@@ -125,12 +125,12 @@ fn expect_plain_whole_numbers(
     match pairs.enumerate().find(|(_, pair)| is_wrong(pair)) {
         None => Ok(()),
         Some((number, (parameter, _))) => {
-            let told = format!(
+            let message = format!(
                 "{}: '{}' is a whole number, and cannot depend on a parameter of a scene",
                 row.name, parameter.name
             );
             let hint = "int(x) and round(x) return a whole number without derivatives";
-            Err(ScriptError::new(told).hint(hint).at(CallPart::Argument(number)))
+            Err(ScriptError::new(message).hint(hint).at(CallPart::Argument(number)))
         }
     }
 }
@@ -149,7 +149,7 @@ fn refusal(
             (name, given.clone(), CallPart::Argument(number))
         }
     };
-    let told = format!("{}: '{name}' may not depend on parameters of a scene", row.name);
+    let message = format!("{}: '{name}' may not depend on parameters of a scene", row.name);
     let hint = match value.is::<FnPtr>() {
         true => {
             "the function uses a variable from outside that depends on a parameter: let plain = \
@@ -157,7 +157,7 @@ fn refusal(
         }
         false => "value_of(x) is the number without its derivatives",
     };
-    ScriptError::new(told).hint(hint).at(place)
+    ScriptError::new(message).hint(hint).at(place)
 }
 
 fn option_in(options: &Dynamic) -> Option<(String, Dynamic)> {
@@ -209,12 +209,12 @@ impl ParameterSet {
                             of.parameters().into_iter().map(|(name, _)| format!("'{name}'"));
                         names.collect::<Vec<_>>().join(", ")
                     });
-                    let told = format!(
+                    let message = format!(
                         "parameters of two scenes are combined: {} and {}",
                         names[0], names[1]
                     );
                     let hint = "use value_of(x) for the one whose derivatives are not required";
-                    return Err(ScriptError::new(told).hint(hint));
+                    return Err(ScriptError::new(message).hint(hint));
                 }
                 _ => found = Some(family),
             }

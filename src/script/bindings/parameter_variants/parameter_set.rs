@@ -22,7 +22,7 @@ pub struct ParameterSet {
     /// True once variants are in use. Then no parameter may be added.
     is_in_use: Cell<bool>,
     /// Script positions (line and column) at which a branch that depends on a parameter was reported.
-    told: RefCell<BTreeSet<(usize, usize)>>,
+    reported: RefCell<BTreeSet<(usize, usize)>>,
 }
 
 #[derive(Clone)]
@@ -31,7 +31,6 @@ struct DeclaredParameter {
     distance: f64,
 }
 
-/// Variant for which the current call is evaluated.
 #[derive(Clone)]
 pub struct CurrentVariant {
     pub family: Rc<ParameterSet>,
@@ -48,10 +47,8 @@ thread_local! {
     static LOST: RefCell<Option<Rc<str>>> = const { RefCell::new(None) };
 }
 
-/// Returns the parameter set of a scene object.
 type SceneParameters = fn(&Dynamic) -> Option<Rc<ParameterSet>>;
 
-/// Registers the name of a type, and the function that returns the parameter set of its values.
 pub fn register_type(id: TypeId, name: &'static str, family_of: SceneParameters) {
     THINGS.with_borrow_mut(|known| {
         known.insert(id, (name, family_of));
@@ -124,18 +121,18 @@ impl ParameterSet {
         distance: Option<f64>,
     ) -> Result<VariantValue, ScriptError> {
         if self.number_of(name).is_some() {
-            let told = format!("the parameter '{name}' already exists");
+            let reported = format!("the parameter '{name}' already exists");
             let hint = "store the number that scene.parameter returns in a variable and use it, or \
                 choose another name";
-            return Err(ScriptError::new(told).hint(hint).at(CallPart::Argument(0)));
+            return Err(ScriptError::new(reported).hint(hint).at(CallPart::Argument(0)));
         }
         if self.is_in_use.get() {
-            let told = format!(
+            let reported = format!(
                 "the parameter '{name}' is declared after other parameters of its scene were \
                 used"
             );
             let hint = "declare all parameters of a scene first";
-            return Err(ScriptError::new(told).hint(hint).at(CallPart::Argument(0)));
+            return Err(ScriptError::new(reported).hint(hint).at(CallPart::Argument(0)));
         }
         let size = if value == 0.0 { 1.0 } else { value.abs() };
         let distance = distance.unwrap_or(RELATIVE_DISTANCE * size);
@@ -149,12 +146,12 @@ impl ParameterSet {
 
     /// Returns true on the first call for a position of the script.
     pub fn is_first_report(&self, line: usize, column: usize) -> bool {
-        self.told.borrow_mut().insert((line, column))
+        self.reported.borrow_mut().insert((line, column))
     }
 
     /// Returns true if a function of the scene branches on a parameter, so that derivatives are wrong at its jumps.
     pub fn branches_on_parameter(&self) -> bool {
-        !self.told.borrow().is_empty()
+        !self.reported.borrow().is_empty()
     }
 
     /// Disallows further parameters.
@@ -172,7 +169,6 @@ impl ParameterSet {
         parameters.iter().map(|of| (of.name.clone(), of.distance)).collect()
     }
 
-    /// Perturbation of a parameter in its variants.
     pub fn distance(&self, parameter: usize) -> Option<f64> {
         self.parameters.borrow().get(parameter).map(|of| of.distance)
     }

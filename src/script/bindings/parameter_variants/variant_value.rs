@@ -14,7 +14,6 @@ use crate::script::messages::numbers::{as_number, format_number};
 
 const DIGITS: usize = 5;
 
-/// A value that depends on parameters.
 #[derive(Clone)]
 pub struct VariantValue {
     family: Rc<ParameterSet>,
@@ -146,11 +145,11 @@ impl Scripted for VariantValue {
         }
         let by = |(at, (name, _)): (usize, (String, f64))| {
             let derivative = self.derivative(at).ok()?;
-            let told = match as_number(&derivative) {
+            let shown = match as_number(&derivative) {
                 Some(number) => significant(number, DIGITS),
                 None => vector(&derivative)?,
             };
-            Some(format!("d/d{name} {told}"))
+            Some(format!("d/d{name} {shown}"))
         };
         let all: Vec<String> =
             self.family.parameters().into_iter().enumerate().filter_map(by).collect();

@@ -10,8 +10,8 @@ pub const PATTERNS: &[ForeignSyntax] =
 
 fn else_if(spot: &TokenWindow) -> Option<SyntaxFix> {
     let (at, word) = spot.find_word(&["elif", "elseif", "elsif", "elseIf"])?;
-    let told = format!("'{word}' is not a word of the language");
-    spot.explain(at, told, "write else if … { … }")
+    let message = format!("'{word}' is not a word of the language");
+    spot.explain(at, message, "write else if … { … }")
 }
 
 /// `and`, `or`, `not`, `is`.
@@ -79,7 +79,7 @@ fn body(spot: &TokenWindow) -> Option<SyntaxFix> {
     let (token, why) = spot.missing();
     let is_body = token == "{" && why.contains("block");
     is_body.then_some(())?;
-    let told = match spot.word(0) {
+    let message = match spot.word(0) {
         "then" | "do" => format!("'{}' does not begin a block", spot.word(0)),
         _ => "the body of if, else, for and while needs braces".into(),
     };
@@ -90,14 +90,14 @@ fn body(spot: &TokenWindow) -> Option<SyntaxFix> {
         "fn" => "fn f(x) { … }",
         _ => "if condition { … }",
     };
-    spot.explain(0, told, format!("write {head}"))
+    spot.explain(0, message, format!("write {head}"))
 }
 
 /// `raise …`, `except …`.
 fn handler(spot: &TokenWindow) -> Option<SyntaxFix> {
     if matches!(spot.in_statement(0), "raise" | "error") && spot.count() == 1 {
-        let told = format!("'{}' is not a word of the language", spot.in_statement(0));
-        return spot.explain(spot.first(), told, "write throw \"what is wrong\";");
+        let message = format!("'{}' is not a word of the language", spot.in_statement(0));
+        return spot.explain(spot.first(), message, "write throw \"what is wrong\";");
     }
     let is_handler = matches!(spot.word(0), "except" | "finally" | "rescue" | "otherwise");
     is_handler.then_some(())?;
@@ -124,15 +124,15 @@ fn end(spot: &TokenWindow) -> Option<SyntaxFix> {
         spot.word(0),
         "end" | "endif" | "endfor" | "endwhile" | "endfunction" | "fi" | "done"
     ) {
-        let told = format!("'{}' does not end a block", spot.word(0));
-        return spot.explain(0, told, "a block is written in braces: if a == 1 { … }");
+        let message = format!("'{}' does not end a block", spot.word(0));
+        return spot.explain(0, message, "a block is written in braces: if a == 1 { … }");
     }
     let closes = matches!(spot.word(0), ")" | "]" | "}");
     let is_unexpected =
         matches!(spot.error, ParseErrorType::MissingToken(token, _) if token == ";");
     if closes && is_unexpected {
-        let told = format!("this '{}' has no opening bracket", spot.word(0));
-        return spot.explain(0, told, "remove it, or add the opening bracket before it");
+        let message = format!("this '{}' has no opening bracket", spot.word(0));
+        return spot.explain(0, message, "remove it, or add the opening bracket before it");
     }
     None
 }

@@ -79,8 +79,8 @@ fn unnamed_function(spot: &TokenWindow) -> Option<SyntaxFix> {
         );
     }
     let back = (-12..0).find(|at| FUNCTION_WORDS.contains(&spot.word(*at)) && is_value(at - 1))?;
-    let told = format!("'{}' is not a word of the language", spot.word(back));
-    spot.explain(back, told, hint)
+    let message = format!("'{}' is not a word of the language", spot.word(back));
+    spot.explain(back, message, hint)
 }
 
 /// `var x = 3`, `int x = 3`.

@@ -30,7 +30,7 @@ fn choice(spot: &TokenWindow) -> Option<SyntaxFix> {
     spot.explain(0, "a condition must be written before its branches", hint)
 }
 
-/// `7 // 2`, which makes the rest of the line a comment.
+/// `7 // 2`, where `//` starts a comment.
 fn whole_division(spot: &TokenWindow) -> Option<SyntaxFix> {
     let is_operand = spot.is_number(-1) || spot.is_name(-1) || matches!(spot.word(-1), ")" | "]");
     (spot.missing().0 == ";" && is_operand && spot.has_comment_before()).then_some(())?;
@@ -84,8 +84,8 @@ fn call_without_parentheses(spot: &TokenWindow) -> Option<SyntaxFix> {
                 return spot.explain(0, "'new' is not part of the language", hint);
             }
             "null" | "nil" | "void" => {
-                let told = format!("'{word}' is not a value");
-                return spot.explain(0, told, "the value nothing is written (): x == ()");
+                let message = format!("'{word}' is not a value");
+                return spot.explain(0, message, "the value nothing is written (): x == ()");
             }
             "print" | "debug" if spot.is_value(1) => {
                 let hint = format!("write {word}({})", spot.word(1));

@@ -45,14 +45,14 @@ mod tests {
         for (time, command) in [(0.0, 1.0), (0.1, 1.0), (0.2, 3.0), (0.3, 4.0)] {
             commands.record(0, time, command);
         }
-        let told =
+        let outputs =
             |commands: &Commands| [0.0, 0.15, 0.2, 0.25, 9.0].map(|time| commands.before(0, time));
-        assert_eq!(told(&commands), [0.0, 1.0, 1.0, 3.0, 4.0]);
+        assert_eq!(outputs(&commands), [0.0, 1.0, 1.0, 3.0, 4.0]);
         let copy = Commands::new(2);
         copy.copy_from(&commands);
         commands.record(0, 0.2, 5.0);
-        assert_eq!(told(&commands), [0.0, 1.0, 1.0, 5.0, 5.0]);
-        assert_eq!(told(&copy), [0.0, 1.0, 1.0, 3.0, 4.0]);
+        assert_eq!(outputs(&commands), [0.0, 1.0, 1.0, 5.0, 5.0]);
+        assert_eq!(outputs(&copy), [0.0, 1.0, 1.0, 3.0, 4.0]);
         assert_eq!(commands.before(1, 9.0), 0.0);
     }
 }

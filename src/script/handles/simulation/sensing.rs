@@ -21,12 +21,12 @@ use crate::simulation::{Simulation, StepSize};
 pub(super) struct ColumnReader {
     functions: Vec<Rc<StoredFunction>>,
     /// Step count at the last evaluation of the columns.
-    looked: Cell<Option<usize>>,
+    evaluated_at: Cell<Option<usize>>,
     controllers: Vec<Rc<Controller>>,
     /// Outputs of sampled controllers by sample number. Outputs up to the present are kept in a rewind.
     commands: RefCell<Vec<BTreeMap<u64, f64>>>,
     /// Outputs of all controllers over time.
-    told: Commands,
+    outputs: Commands,
     conditions: Vec<Condition>,
     is_looking: Cell<bool>,
 }
@@ -37,15 +37,15 @@ impl ColumnReader {
         controllers: Vec<Rc<Controller>>,
         conditions: Vec<Condition>,
     ) -> Self {
-        let (looked, is_looking) = (Cell::new(None), Cell::new(false));
+        let (evaluated_at, is_looking) = (Cell::new(None), Cell::new(false));
         let commands = RefCell::new(vec![BTreeMap::new(); controllers.len()]);
-        let told = Commands::new(controllers.len());
-        Self { functions, looked, controllers, commands, told, conditions, is_looking }
+        let outputs = Commands::new(controllers.len());
+        Self { functions, evaluated_at, controllers, commands, outputs, conditions, is_looking }
     }
 
     pub(super) fn copy_from(&self, other: &Self) {
         self.commands.replace(other.commands.borrow().clone());
-        self.told.copy_from(&other.told);
+        self.outputs.copy_from(&other.outputs);
     }
 
     /// All script functions that are called between steps.
@@ -69,7 +69,7 @@ impl ColumnReader {
     /// Restores the outputs of the controllers of this simulation before a time, because another simulation may have changed the shared cells.
     fn recall(&self, time: f64) {
         for (number, controller) in self.controllers.iter().enumerate() {
-            controller.value.set(self.told.before(number, time));
+            controller.value.set(self.outputs.before(number, time));
         }
     }
 
@@ -103,9 +103,9 @@ impl SimulationHandle {
     /// # Errors
     /// Errors of the functions; also fails if a function does not return a number.
     pub fn evaluate_columns(&self) -> Result<(), ScriptError> {
-        let ColumnReader { functions, looked, is_looking, .. } = &self.0.sensing;
+        let ColumnReader { functions, evaluated_at, is_looking, .. } = &self.0.sensing;
         let steps = self.simulation().counts().steps;
-        if functions.is_empty() || looked.replace(Some(steps)) == Some(steps) {
+        if functions.is_empty() || evaluated_at.replace(Some(steps)) == Some(steps) {
             return Ok(());
         }
         let mut values = Vec::with_capacity(functions.len());
@@ -169,7 +169,7 @@ impl SimulationHandle {
                 Some(beat) => self.sampled_command(number, controller, beat)?,
                 None => self.call_controller(controller)?,
             };
-            sensing.told.record(number, time, value);
+            sensing.outputs.record(number, time, value);
         }
         // All outputs take effect together, so that every controller reads the previous outputs of the others.
         sensing.recall(time.next_up());
@@ -219,8 +219,8 @@ impl SimulationHandle {
         let simulation = self.simulation();
         let is_own = |schedule: &Schedule| matches!(schedule, Schedule::Sampled(value) | Schedule::DigitalController { value, .. } if Rc::ptr_eq(value, &controller.value));
         let scene = simulation.scene();
-        let told = scene.schedules().find(|(_, schedule)| is_own(schedule));
-        match told {
+        let own = scene.schedules().find(|(_, schedule)| is_own(schedule));
+        match own {
             Some((name, _)) => format!("the controller of {}", scene.source_of_schedule(name)),
             None => controller.function.role().to_string(),
         }

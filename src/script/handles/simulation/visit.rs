@@ -8,7 +8,6 @@ use crate::simulation::Simulation;
 /// Callback for a state: index of its time, and the simulation.
 pub type Look<'l> = &'l mut dyn FnMut(usize, &Simulation) -> Result<(), ScriptError>;
 
-/// Result of the iteration.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Visited {
     /// All states were reproduced.

@@ -173,9 +173,9 @@ fn describe_built_ins(page: &mut HelpPage, table: &BuiltInTable) {
 }
 
 fn describe_option(page: &mut HelpPage, options: &[(&FunctionBinding, &Parameter)]) {
-    let mut told: Vec<(&Parameter, Vec<String>)> = Vec::new();
+    let mut listed: Vec<(&Parameter, Vec<String>)> = Vec::new();
     for (row, key) in options {
-        let same = told.iter_mut().find(|(other, _)| {
+        let same = listed.iter_mut().find(|(other, _)| {
             other.doc == key.doc
                 && other.expectation() == key.expectation()
                 && other.presence == key.presence
@@ -183,10 +183,10 @@ fn describe_option(page: &mut HelpPage, options: &[(&FunctionBinding, &Parameter
         match same {
             Some((_, rows)) if rows.contains(&row.signature()) => (),
             Some((_, rows)) => rows.push(row.signature()),
-            None => told.push((*key, vec![row.signature()])),
+            None => listed.push((*key, vec![row.signature()])),
         }
     }
-    for (key, rows) in told {
+    for (key, rows) in listed {
         page.words(0, vec![StyledText::plain(format!("An option of {}:", rows.join(", ")))]);
         rows::parameter(page, key, 2);
     }

@@ -10,28 +10,20 @@ use crate::script::bindings::table::{BindingTable, CallSyntax, Constant, Functio
 use crate::script::bindings::topics::{TOPICS, Topic};
 use crate::script::library::{ModuleFunction, ModulePage, page_of, pages};
 
-/// A help subject.
 #[derive(Clone, Copy)]
 pub enum HelpSubject {
-    /// A topic of the language.
     Topic(&'static Topic),
     /// A function, method, property or operator of a domain.
     Row(&'static BindingTable, &'static FunctionBinding),
-    /// A function of Rhai.
     BuiltIn(&'static BuiltIn),
-    /// A native type.
     Type(Type),
-    /// A constant.
     Constant(&'static Constant),
-    /// An option of a function.
     Option(&'static FunctionBinding, &'static Parameter),
     /// A domain.
     Table(&'static BindingTable),
     /// Functions of Rhai for one kind of value.
     BuiltIns(&'static BuiltInTable),
-    /// A module of the standard library.
     Module(&'static ModulePage),
-    /// A function of the standard library.
     ModuleFunction(&'static ModuleFunction),
 }
 

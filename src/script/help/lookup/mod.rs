@@ -8,10 +8,11 @@ mod rows;
 mod unknown;
 
 pub use compose::page;
-pub use find::{HelpSubject, find, names};
-pub use page::{HelpPage, HelpSection, HelpStyle, StyledText, WIDTH};
-pub use rows::{maps, presence};
-pub use unknown::UnknownTopic;
+pub(crate) use find::find;
+pub use find::names;
+pub use page::WIDTH;
+pub(crate) use page::{HelpPage, StyledText};
+pub(crate) use rows::{maps, presence};
 
 #[cfg(test)]
 mod tests;

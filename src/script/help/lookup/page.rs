@@ -7,44 +7,34 @@ pub const WIDTH: usize = 80;
 
 const NARROWEST: usize = 24;
 
-/// A help page.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct HelpPage {
-    /// Parts of the page, from top to bottom.
     pub parts: Vec<HelpSection>,
 }
 
-/// A part of a help page.
 #[derive(Clone, Debug, PartialEq)]
 pub enum HelpSection {
     /// An empty line.
     Gap,
     /// Wrapped text: the first line starts at `indent`, the others at `hang`.
     Words {
-        /// Indentation of the first line.
         indent: usize,
         /// Indentation of further lines.
         hang: usize,
-        /// Text with styles.
         spans: Vec<StyledText>,
     },
     /// A script. Long lines are broken where this does not change the meaning.
     Code(String),
 }
 
-/// Text with one style.
 #[derive(Clone, Debug, PartialEq)]
 pub struct StyledText {
-    /// Style.
     pub style: HelpStyle,
-    /// Text.
     pub text: String,
 }
 
-/// Style of text on a help page.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum HelpStyle {
-    /// Normal.
     Plain,
     /// Heading or name: bold.
     Name,
@@ -53,29 +43,24 @@ pub enum HelpStyle {
 }
 
 impl StyledText {
-    /// Text in normal style.
     pub fn plain(text: impl Into<String>) -> Self {
         Self { style: HelpStyle::Plain, text: text.into() }
     }
 
-    /// Heading or name.
     pub fn name(text: impl Into<String>) -> Self {
         Self { style: HelpStyle::Name, text: text.into() }
     }
 
-    /// Dimension or remark.
     pub fn remark(text: impl Into<String>) -> Self {
         Self { style: HelpStyle::Remark, text: text.into() }
     }
 }
 
 impl HelpPage {
-    /// Appends an empty line.
     pub fn gap(&mut self) {
         self.parts.push(HelpSection::Gap);
     }
 
-    /// Appends a heading.
     pub fn heading(&mut self, text: impl Into<String>) {
         self.words(0, vec![StyledText::name(text)]);
     }
@@ -85,14 +70,12 @@ impl HelpPage {
         self.parts.push(HelpSection::Words { indent, hang: indent + 4, spans });
     }
 
-    /// Appends a paragraph.
     pub fn paragraph(&mut self, text: &str) {
         // Backquotes mark code in Markdown. They are removed for terminals.
         let spans = vec![StyledText::plain(text.replace('`', ""))];
         self.parts.push(HelpSection::Words { indent: 0, hang: 0, spans });
     }
 
-    /// Appends a script.
     pub fn code(&mut self, script: impl Into<String>) {
         self.parts.push(HelpSection::Code(script.into()));
     }

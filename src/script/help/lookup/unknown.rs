@@ -9,10 +9,8 @@ use crate::script::messages::suggest::{nearest, related};
 
 const MOST_MENTIONS: usize = 8;
 
-/// A name without help.
 #[derive(Clone, Debug, PartialEq)]
 pub struct UnknownTopic {
-    /// The name.
     pub name: String,
     /// Most similar name with help, if one is similar enough.
     pub meant: Option<&'static str>,
@@ -32,7 +30,6 @@ impl UnknownTopic {
         Self { name: name.to_owned(), meant, related, mentions: mentions(catalog, name) }
     }
 
-    /// Text of the suggestions.
     pub fn hint(&self) -> String {
         let related =
             (!self.related.is_empty()).then(|| format!("there is {}", self.related.join(", ")));

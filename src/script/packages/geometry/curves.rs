@@ -17,7 +17,6 @@ use crate::script::messages::error::ScriptError;
 use crate::script::messages::nouns::with_article;
 use crate::script::presentation::details;
 
-/// Domain of planar curves.
 pub const TABLE: BindingTable = BindingTable {
     name: "curves",
     doc: "Curves of the plane with a parameter ξ: from 0 to 1, or over the domain of the knots. \

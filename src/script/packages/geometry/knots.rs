@@ -15,7 +15,6 @@ use crate::script::bindings::table::{BindingTable, function, method, operator, p
 use crate::script::messages::error::{CallPart, ScriptError};
 use crate::script::presentation::details;
 
-/// Domain of knots and basis functions.
 pub const TABLE: BindingTable = BindingTable {
     name: "knots",
     doc: "Knot vectors define the polynomial pieces of a spline and their smoothness. They are \

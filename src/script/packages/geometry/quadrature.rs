@@ -10,7 +10,6 @@ use crate::script::bindings::returns::Returns;
 use crate::script::bindings::table::{BindingTable, function};
 use crate::script::messages::error::ScriptError;
 
-/// Domain of numerical integration.
 pub const TABLE: BindingTable = BindingTable {
     name: "quadrature",
     doc: "Points and weights for numerical integration.",

@@ -22,7 +22,6 @@ use crate::script::presentation::along::SectionForceProfile;
 use crate::script::presentation::motion::Visibility;
 use crate::script::presentation::quantities::{BeamQuantity, NAMES};
 
-/// Domain of pictures along beams.
 pub const TABLE: BindingTable = BindingTable {
     name: "pictures along beams",
     doc: "Quantities along beams, of a simulation at the present time or of an equilibrium: N \
@@ -104,9 +103,9 @@ fn quantity(call: &Call, name: &str) -> Result<&'static BeamQuantity, ScriptErro
 fn quantities(call: &Call) -> Result<Vec<&'static BeamQuantity>, ScriptError> {
     if let Some(names) = call.get_if::<Array>("quantity") {
         if names.is_empty() || names.len() > NAMES.len() {
-            let told = format!("{} quantities are given", names.len());
+            let message = format!("{} quantities are given", names.len());
             let hint = format!("give one or several of {}", NAMES.join(", "));
-            return Err(call.error(told).hint(hint).at(CallPart::Argument(1)));
+            return Err(call.error(message).hint(hint).at(CallPart::Argument(1)));
         }
         return names.iter().map(|name| quantity(call, &name.to_string())).collect();
     }

@@ -14,7 +14,6 @@ use crate::script::bindings::parameter::{Parameter, array, options};
 use crate::script::bindings::table::{BindingTable, function};
 use crate::script::messages::error::{CallPart, ScriptError};
 
-/// Domain of charts of arrays.
 pub const TABLE: BindingTable = BindingTable {
     name: "pictures of arrays",
     doc: "Charts of arrays of numbers: SVG or PNG, depending on the ending of the file name, in \
@@ -61,14 +60,14 @@ fn plot(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let options = call.options_or_defaults("options")?;
     let (x, y) = (curves(call, "x", 0)?, curves(call, "y", 1)?);
     if y.len() > MOST_CURVES {
-        let told =
+        let message =
             format!("{} curves are too many for a picture; the limit is {MOST_CURVES}", y.len());
-        return Err(call.error(told).at(CallPart::Argument(1)));
+        return Err(call.error(message).at(CallPart::Argument(1)));
     }
     if x.len() != 1 && x.len() != y.len() {
-        let told = format!("x holds {} arrays, but y holds {}", x.len(), y.len());
+        let message = format!("x holds {} arrays, but y holds {}", x.len(), y.len());
         let hint = "give one x for all curves, or one for each curve";
-        return Err(call.error(told).hint(hint).at(CallPart::Argument(0)));
+        return Err(call.error(message).hint(hint).at(CallPart::Argument(0)));
     }
     let title = options.optional_text("title")?.unwrap_or_default();
     let count = y.len();
@@ -77,9 +76,9 @@ fn plot(call: &mut Call) -> Result<Dynamic, ScriptError> {
         let x = &x[index.min(x.len() - 1)];
         if x.len() != y.len() {
             let which = if count == 1 { String::new() } else { format!("curve {index}: ") };
-            let told = format!("{which}x has {} numbers, but y has {}", x.len(), y.len());
+            let message = format!("{which}x has {} numbers, but y has {}", x.len(), y.len());
             let hint = "give as many numbers in y as in x";
-            return Err(call.error(told).hint(hint).at(CallPart::Argument(1)));
+            return Err(call.error(message).hint(hint).at(CallPart::Argument(1)));
         }
         let name = if count == 1 { String::new() } else { format!("curve {}", index + 1) };
         curves.push((name, x.iter().copied().zip(y).collect()));

@@ -16,7 +16,6 @@ use crate::script::messages::error::{CallPart, ScriptError};
 use crate::script::packages::recording::expect_near;
 use crate::script::presentation::motion::{MotionOptions, MotionView, Times};
 
-/// Options of a picture of motion.
 pub const MOTION: &[Parameter] = &[
     number("every")
         .positive()

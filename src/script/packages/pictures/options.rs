@@ -13,22 +13,17 @@ use crate::script::presentation::motion::Visibility;
 pub const TITLE: Parameter = text("title").doc("title above the picture").optional();
 pub const X_LABEL: Parameter = text("x_label").doc("label of the horizontal axis").optional();
 pub const Y_LABEL: Parameter = text("y_label").doc("label of the vertical axis").optional();
-/// Option for a logarithmic horizontal axis.
 pub const X_LOG: Parameter =
     boolean("x_log").doc("true for a logarithmic horizontal axis").optional();
-/// Option for a logarithmic vertical axis.
 pub const Y_LOG: Parameter =
     boolean("y_log").doc("true for a logarithmic vertical axis").optional();
-/// Option for the limits of the horizontal axis.
 pub const X_LIMITS: Parameter =
     numbers("x_limits").doc("[low, high]: limits of the horizontal axis").optional();
-/// Option for the limits of the vertical axis.
 pub const Y_LIMITS: Parameter =
     numbers("y_limits").doc("[low, high]: limits of the vertical axis").optional();
 pub const MARKERS: Parameter = choice("markers", &["on_lines", "alone"])
     .doc("marks at every point, on the lines or without lines; default: no marks")
     .optional();
-/// Option for the names of the curves.
 pub const LABELS: Parameter =
     array("labels").doc("names of the curves in the legend, texts or numbers").optional();
 
@@ -44,17 +39,17 @@ const DIGITS: usize = 6;
 /// Error of an option of a call or of a command at the prompt.
 pub struct OptionError {
     key: String,
-    told: String,
+    message: String,
     hint: &'static str,
 }
 
 impl OptionError {
     pub fn in_call(self, call: &Call) -> ScriptError {
-        call.error(self.told).hint(self.hint).at(CallPart::Key(self.key))
+        call.error(self.message).hint(self.hint).at(CallPart::Key(self.key))
     }
 
     pub fn in_command(self, command: &str) -> ScriptError {
-        ScriptError::new(format!("{command}: {}", self.told)).hint(self.hint)
+        ScriptError::new(format!("{command}: {}", self.message)).hint(self.hint)
     }
 }
 
@@ -72,10 +67,10 @@ pub fn limits(options: &Options) -> Result<AxisLimits, OptionError> {
         Some([low, high]) if low < high => Ok(Some((*low, *high))),
         Some(other) => {
             let got: Vec<String> = other.iter().map(|end| format_number(*end)).collect();
-            let told = format!("'{name}' must be [low, high], got [{}]", got.join(", "));
+            let message = format!("'{name}' must be [low, high], got [{}]", got.join(", "));
             Err(OptionError {
                 key: name.to_owned(),
-                told,
+                message,
                 hint: "give two numbers, the smaller one first",
             })
         }
@@ -91,9 +86,9 @@ pub fn with_options(options: &Options, mut chart: LineChart) -> Result<LineChart
         if let Some((low, _)) = ends.filter(|(low, _)| *low <= 0.0)
             && is_asked(&format!("{axis}_log"))
         {
-            let told = format!("a logarithmic axis cannot begin at {}", format_number(low));
+            let message = format!("a logarithmic axis cannot begin at {}", format_number(low));
             let key = format!("{axis}_limits");
-            return Err(OptionError { key, told, hint: "give limits above zero" });
+            return Err(OptionError { key, message, hint: "give limits above zero" });
         }
     }
     if let Ok(label) = options.text("x_label") {
@@ -111,7 +106,6 @@ pub fn with_options(options: &Options, mut chart: LineChart) -> Result<LineChart
     Ok(chart.limits(limits))
 }
 
-/// Applies the marker options to a curve.
 pub fn marked(options: &Options, index: usize, series: Series) -> Series {
     match options.text("markers").as_deref() {
         Ok("alone") => series.stroke(Stroke::MarkersOnly).marker(Marker::of_index(index)),
@@ -120,22 +114,21 @@ pub fn marked(options: &Options, index: usize, series: Series) -> Series {
     }
 }
 
-/// Names of the curves from the options.
 pub fn labels(options: &Options, count: usize) -> Result<Option<Vec<String>>, OptionError> {
     let Ok(given) = options.array("labels") else { return Ok(None) };
-    let wrong = |told: String, hint| OptionError { key: "labels".to_owned(), told, hint };
+    let wrong = |message: String, hint| OptionError { key: "labels".to_owned(), message, hint };
     if given.len() != count {
         let plural = if count == 1 { "" } else { "s" };
-        let told = format!("there are {count} curve{plural}, but {} labels", given.len());
-        return Err(wrong(told, "give one label for each curve"));
+        let message = format!("there are {count} curve{plural}, but {} labels", given.len());
+        return Err(wrong(message, "give one label for each curve"));
     }
     let label = |value: &Dynamic| {
         let number = as_number(value).map(|number| significant(number, DIGITS));
         value.clone().into_string().ok().or(number)
     };
     let labels: Option<Vec<String>> = given.iter().map(label).collect();
-    let told = || "the labels must be texts or numbers".to_owned();
-    labels.map(Some).ok_or_else(|| wrong(told(), "for example labels: [\"first\", \"second\"]"))
+    let message = || "the labels must be texts or numbers".to_owned();
+    labels.map(Some).ok_or_else(|| wrong(message(), "for example labels: [\"first\", \"second\"]"))
 }
 
 /// Curves from an argument: an array of numbers is one curve, an array of arrays several. Values that are not finite become gaps.

@@ -22,7 +22,6 @@ use crate::script::presentation::motion::snapshot;
 use crate::script::presentation::symbols::SceneAt;
 use crate::simulation::Outline;
 
-/// Domain of pictures of equilibria and modes.
 pub const TABLE: BindingTable = BindingTable {
     name: "pictures of equilibria and modes",
     doc: "Pictures of equilibria and modes: SVG or PNG, depending on the ending of the file \

@@ -16,7 +16,6 @@ use crate::script::packages::simulations::SIMULATION;
 
 pub const MOVING: Parameter = either("of", &[Kind::Object(SIMULATION), Kind::Array])
     .doc("a simulation, or an array of simulations");
-/// Parameter for simulations or histories.
 pub const RECORDED: Parameter =
     either("of", &[Kind::Object(SIMULATION), Kind::Object(HISTORY), Kind::Array])
         .doc("a simulation or history, or an array of them");
@@ -30,11 +29,11 @@ fn things<T: Scripted>(
     let of = call.value("of")?;
     let values = of.read_lock::<Array>().map_or_else(|| vec![of.clone()], |array| array.clone());
     if values.len() > MOST_SIDE_BY_SIDE {
-        let told = format!(
+        let message = format!(
             "{} pictures side by side are too many; the limit is {MOST_SIDE_BY_SIDE}",
             values.len()
         );
-        return Err(call.error(told).hint("plot fewer of them").at(CallPart::Argument(0)));
+        return Err(call.error(message).hint("plot fewer of them").at(CallPart::Argument(0)));
     }
     let things: Option<Vec<T>> = values.iter().map(convert).collect();
     things.filter(|things| !things.is_empty()).ok_or_else(|| {

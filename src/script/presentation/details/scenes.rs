@@ -133,7 +133,6 @@ pub fn guide_of(scene: &Scene, slider: &Slider) -> (String, f64) {
     }
 }
 
-/// Summary of a track: its beams.
 pub fn of_track(scene: &Scene, index: usize) -> Details {
     let track = &scene.tracks[index];
     let leg = |leg: &TrackBeam| {

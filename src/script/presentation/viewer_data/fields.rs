@@ -36,8 +36,8 @@ const KINDS: [FieldKind; 7] = [
     kind("curvature", FieldSource::Axis(AxisStation::curvature, "1/length")),
 ];
 
-/// Names of the fields.
-pub const FIELDS: [&str; 7] = ["speed", "M", "strain_energy", "N", "Q", "stretch", "curvature"];
+pub(crate) const FIELDS: [&str; 7] =
+    ["speed", "M", "strain_energy", "N", "Q", "stretch", "curvature"];
 
 /// Fields computed from the states of a simulation, frame by frame.
 pub struct FieldReader {
@@ -83,7 +83,7 @@ impl FieldReader {
         }
     }
 
-    /// The fields of the viewer data.
+    /// Fields of the viewer data.
     pub fn fields(self) -> Vec<ColourField> {
         let field = |(quantity, values): (&BeamQuantity, _)| ColourField {
             name: quantity.words.to_owned(),

@@ -82,7 +82,7 @@ impl Context {
         if let Some(refusal) = self.0.refuses_files.get() {
             return Err(ScriptError::new("no file is written here").hint(refusal));
         }
-        match self.mode() == RunMode::DryBuild || self.meter().allows_a_file(content.len() as u64) {
+        match self.mode() == RunMode::DryRun || self.meter().allows_a_file(content.len() as u64) {
             true => Ok(()),
             false => self.proceed(),
         }
@@ -103,9 +103,9 @@ impl Context {
     pub(super) fn write_remains(&self, name: &str, content: &[u8]) -> Result<PathBuf, ScriptError> {
         let bytes = content.len() as u64;
         if self.mode() == RunMode::Run && bytes > self.meter().rescue_budget() {
-            let told =
+            let message =
                 format!("note: '{name}' was not written: the limit on written bytes is reached");
-            return Err(ScriptError::new(told));
+            return Err(ScriptError::new(message));
         }
         self.meter().allows_to_write(bytes);
         self.output().write(name, content).map(|written| self.report_kept(written))

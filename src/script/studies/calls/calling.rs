@@ -37,12 +37,12 @@ pub fn call<R>(
     let (before, failed) = (context.meter().steps(), failed_checks());
     let function_of = |name: &str, parameters| worker.function(name, parameters);
     let called = called(worker, function, &function_of, values(&function_of));
-    let told =
+    let message =
         context.with_checks(|checks| checks.failed().get(failed).map(|of| of.message.clone()));
-    let called = match (told, called) {
+    let called = match (message, called) {
         _ if worker.is_stopped() => CallOutcome::Failed(format!("it took more than {wall}")),
-        (Some(told), CallOutcome::Returned(_)) => {
-            CallOutcome::Failed(shortened(&format!("a check failed: {told}")))
+        (Some(message), CallOutcome::Returned(_)) => {
+            CallOutcome::Failed(shortened(&format!("a check failed: {message}")))
         }
         (_, called) => called,
     };

@@ -17,7 +17,6 @@ const NO_FILES: &str = "a run of a study cannot write files: return the data as 
 
 pub enum FunctionResult {
     Numbers(Vec<f64>),
-    /// Failure for this reason.
     Failed(String),
     /// The script seems to be wrong, for this reason.
     Wrong(String),
@@ -103,8 +102,8 @@ impl FunctionQuery<'_> {
                 |called| self.record_result(&point, called),
             )
         };
-        let panicked = |told: String| CallWork {
-            result: FunctionResult::Failed(format!("internal error of withy: {told}")),
+        let panicked = |message: String| CallWork {
+            result: FunctionResult::Failed(format!("internal error of withy: {message}")),
             steps: 0,
         };
         with_crew(&blueprint, self.wall, work, panicked, |crew| {

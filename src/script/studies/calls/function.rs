@@ -13,7 +13,6 @@ use crate::script::messages::nouns::with_article;
 #[derive(Clone, Debug)]
 pub struct RunFunction {
     pub name: String,
-    /// Names and values of the captured variables.
     pub captured: Vec<(String, Portable)>,
     /// Further arguments, which follow the map of values.
     pub besides: Vec<Portable>,
@@ -40,12 +39,12 @@ impl RunFunction {
     /// Fails if it has captured a value that cannot be sent to other threads. The error has the position at which the value is used.
     pub fn read(call: &Call, key: &str, function: &FnPtr) -> Result<Self, ScriptError> {
         let Some(definition) = call.definition(function) else {
-            let told = format!(
+            let message = format!(
                 "{key} is the function '{}', which is not one of this script",
                 function.fn_name()
             );
             let hint = format!("write {key}: |p| …, and call the function in it");
-            return Err(call.error(told).hint(hint).at(CallPart::Key(key.to_owned())));
+            return Err(call.error(message).hint(hint).at(CallPart::Key(key.to_owned())));
         };
         let parameters_of = |function: &FnPtr| call.definition(function).map(|of| of.params.len());
         let named = definition.params.iter().zip(function.curry());
@@ -156,12 +155,12 @@ impl RunFunction {
         names: impl IntoIterator<Item = &'n str>,
     ) -> Result<(), ScriptError> {
         let Some(unread) = Self::unread(call, function, names) else { return Ok(()) };
-        let told = format!("the function of '{key}' does not use the parameter '{unread}'");
+        let message = format!("the function of '{key}' does not use the parameter '{unread}'");
         let hint = format!(
             "use p.{unread} in it, or omit the parameter: all of its values would give the \
                 same result"
         );
-        Err(call.error(told).hint(hint).at(CallPart::Key(unread.to_owned())))
+        Err(call.error(message).hint(hint).at(CallPart::Key(unread.to_owned())))
     }
 
     /// First name that the function does not read from its map. A function that passes on the map may read any name.

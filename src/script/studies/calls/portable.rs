@@ -47,7 +47,6 @@ pub enum DataKind {
     Schedule,
 }
 
-/// A value that cannot be sent to another thread.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct NotPortable {
     /// Name of its type.

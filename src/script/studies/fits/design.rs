@@ -28,7 +28,6 @@ pub enum Objective {
     Largest(String),
 }
 
-/// Bounds of a result.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Limit {
     pub name: String,
@@ -36,7 +35,6 @@ pub struct Limit {
     pub high: Option<f64>,
 }
 
-/// Specification of a design optimisation.
 pub struct DesignRequest<'o> {
     pub ranges: Ranges,
     pub function: &'o FnPtr,
@@ -76,20 +74,19 @@ impl Objective {
 }
 
 impl Limit {
-    /// Reads the option `constraints`.
     pub fn read_all(call: &Call, given: &Dynamic) -> Result<Vec<Self>, ScriptError> {
         let shape = "write constraints: #{ sag: [-1e-3, 1e-3], mass: [(), 5] }: lower and upper limit, \
             () for none";
         let Some(map) = given.read_lock::<Map>() else {
-            let told = format!("constraints are {}", call.describe(given));
-            return Err(at_key(call, "constraints", told, shape));
+            let message = format!("constraints are {}", call.describe(given));
+            return Err(at_key(call, "constraints", message, shape));
         };
         let limit = |(name, value): (&rhai::Identifier, &Dynamic)| {
             let wrong = |what: String| {
-                let told = format!("the constraint on '{name}' {what}");
+                let message = format!("the constraint on '{name}' {what}");
                 let hint = if value.is_bool() { CONSTRAINT_HINT } else { shape };
                 // The name also occurs in the function, but the error must have the position of the option.
-                at_key(call, "constraints", told, hint)
+                at_key(call, "constraints", message, hint)
             };
             let Some(array) = value.clone().try_cast::<Array>() else {
                 return Err(wrong(format!("is {}", call.describe(value))));
@@ -134,7 +131,6 @@ impl Limit {
         low.into_iter().chain(self.high.map(|_| along(-1.0)))
     }
 
-    /// Scale of the bounds.
     fn size(&self) -> f64 {
         let size = [self.low, self.high].into_iter().flatten().map(f64::abs).fold(0.0, f64::max);
         if size > 0.0 { size } else { 1.0 }
@@ -210,8 +206,8 @@ impl DesignRequest<'_> {
         let results = names(&call.context().silently(|| question.here(call, &start))?);
         let place = |name: &str| {
             results.iter().position(|known| known == name).ok_or_else(|| {
-                let told = format!("the function of 'run' returns no '{name}'");
-                call.error(told)
+                let message = format!("the function of 'run' returns no '{name}'");
+                call.error(message)
                     .hint(format!("it returns {}", results.join(", ")))
                     .at(CallPart::Key("run".into()))
             })
@@ -259,18 +255,18 @@ impl DesignRequest<'_> {
         })?;
         let Some((found, again)) = found else {
             let reason = failure.into_inner().map_or_else(String::new, |of| format!(": {of}"));
-            let told = format!("it fails, as at all other designs tried{reason}");
-            return Err(question.located_error(call, &start, &told));
+            let message = format!("it fails, as at all other designs tried{reason}");
+            return Err(question.located_error(call, &start, &message));
         };
         if !found.is_feasible {
             let wanted: Vec<String> = self.limits.iter().map(Limit::describe).collect();
-            let told = format!(
+            let message = format!(
                 "none of {} runs satisfies the constraints {}",
                 found.runs,
                 wanted.join(", ")
             );
             let hint = "start at parameters that satisfy them, or widen the limits";
-            return Err(at_key(call, "constraints", told, hint));
+            return Err(at_key(call, "constraints", message, hint));
         }
         let numbers = again.into_iter().next().and_then(Result::ok).unwrap_or_default();
         Ok(BestDesign {

@@ -42,7 +42,6 @@ pub struct FitRequest<'o> {
     pub compared: Compared,
     /// Weights of the squares; `None` if all are one.
     pub weights: Option<Vec<f64>>,
-    /// Confidence level of the intervals.
     pub confidence: f64,
     /// Perturbation for finite differences, relative to the size of a parameter.
     pub step: f64,
@@ -62,14 +61,12 @@ pub enum Derivatives {
 #[derive(Clone)]
 pub struct Fit {
     pub name: String,
-    /// Names of the parameters, in order.
     pub names: Vec<String>,
     /// Result, with weighted residuals.
     pub fitted: Fitted,
     pub residuals: Vec<f64>,
     /// Meaning of the function's return value.
     pub compared: Compared,
-    /// Confidence level of the intervals.
     pub confidence: f64,
 }
 
@@ -159,14 +156,14 @@ impl FitRequest<'_> {
         let pairs = self.ranges.names.iter().zip(point);
         let at: Vec<String> =
             pairs.map(|(name, x)| format!("{name} = {}", format_number(*x))).collect();
-        let told = format!(
+        let message = format!(
             "{}: with {} it returns {count} numbers, but at the start it returned {before}",
             self.key,
             at.join(", ")
         );
         let hint = "it must return the same number of values for all parameters: one for each measured \
             value";
-        Err(at_key(call, self.key, told, hint))
+        Err(at_key(call, self.key, message, hint))
     }
 
     /// Result of a dry run: the start values, at which the function is called once.
@@ -283,8 +280,9 @@ impl Fit {
 
     pub fn text(&self) -> String {
         let Fitted { parameters, estimate, runs, .. } = &self.fitted;
-        let share = format!("± at {} %", significant(100.0 * self.confidence, 3));
-        let mut table = TextTable::new(&["parameter", "value", "standard error", &share]);
+        let interval_heading = format!("± at {} %", significant(100.0 * self.confidence, 3));
+        let mut table =
+            TextTable::new(&["parameter", "value", "standard error", &interval_heading]);
         for (at, name) in self.names.iter().enumerate() {
             let error = |x: Option<f64>| {
                 Cell::Number(x.map_or("-".to_owned(), |x| significant(x, ERROR_DIGITS)))

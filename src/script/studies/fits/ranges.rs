@@ -12,7 +12,6 @@ use crate::script::studies::plan::at_key;
 /// Search parameters, in the order of their names.
 pub struct Ranges {
     pub names: Vec<String>,
-    /// Start values and bounds.
     pub ranges: Vec<SearchRange>,
 }
 
@@ -20,12 +19,11 @@ const SHAPE: &str = "write EI: [10, 1, 100] with the initial, lowest and highest
     bounds";
 
 impl Ranges {
-    /// Reads the option `parameters`.
     pub fn read(call: &Call, given: &Dynamic) -> Result<Self, ScriptError> {
         let map = given.read_lock::<Map>().filter(|map| !map.is_empty());
         let Some(map) = map else {
-            let told = "parameters must be a map with at least one name";
-            return Err(at_key(call, "parameters", told, SHAPE));
+            let message = "parameters must be a map with at least one name";
+            return Err(at_key(call, "parameters", message, SHAPE));
         };
         let (mut names, mut ranges) = (Vec::new(), Vec::new());
         for (name, value) in map.iter() {
@@ -43,7 +41,7 @@ impl Ranges {
 }
 
 fn range(call: &Call, name: &str, value: &Dynamic) -> Result<SearchRange, ScriptError> {
-    let wrong = |told: String| call.error(told).hint(SHAPE);
+    let wrong = |message: String| call.error(message).hint(SHAPE);
     let finite = |value: &Dynamic| as_number(value).filter(|x| x.is_finite());
     if let Some(start) = finite(value) {
         return Ok(SearchRange { start, low: f64::NEG_INFINITY, high: f64::INFINITY });

@@ -22,28 +22,29 @@ pub fn find_root(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let value = |x: f64| {
         let given = call.invoke(&function, [Dynamic::from(x)])?;
         VariantValue::number(&given).ok_or_else(|| {
-            let told =
+            let message =
                 format!("the function returns {} at {}", call.describe(&given), format_number(x));
             let hint = match given.is_bool() {
                 true => "return a number that changes its sign: x - 2 in place of x > 2",
                 false => "its last expression must be a number",
             };
-            call.error(told).hint(hint).at(CallPart::Argument(0))
+            call.error(message).hint(hint).at(CallPart::Argument(0))
         })
     };
-    if call.context().mode() == RunMode::DryBuild {
+    if call.context().mode() == RunMode::DryRun {
         // The signs of the results of a dry run have no meaning.
         value(from)?;
         return Ok(from.into());
     }
-    let wrong = |told: String, hint: &str| call.error(told).hint(hint).at(CallPart::Argument(0));
+    let wrong =
+        |message: String, hint: &str| call.error(message).hint(hint).at(CallPart::Argument(0));
     match root((from, to), tolerance, value) {
         Ok(found) => Ok(found.at.into()),
         Err(RootError::Function(error)) => Err(error),
         Err(RootError::SameSign(low, high)) => {
             let [from, to, low, high] = [from, to, low, high].map(format_number);
-            let told = format!("the function is {low} at {from} and {high} at {to}");
-            Err(wrong(told, "give two arguments at which the signs differ"))
+            let message = format!("the function is {low} at {from} and {high} at {to}");
+            Err(wrong(message, "give two arguments at which the signs differ"))
         }
         Err(RootError::NotFinite(x, value)) => {
             let [x, value] = [x, value].map(format_number);

@@ -67,7 +67,7 @@ impl SweepPlan {
         parameters: &Map,
         samples: Option<Samples>,
     ) -> Result<Self, ScriptError> {
-        let wrong = |told: String, hint: &str| at_key(call, "parameters", told, hint);
+        let wrong = |message: String, hint: &str| at_key(call, "parameters", message, hint);
         if parameters.is_empty() {
             return Err(wrong("there are no parameters".into(), EXAMPLE));
         }
@@ -80,9 +80,9 @@ impl SweepPlan {
             None => {
                 let spread = given.iter().find(|of| matches!(of.spread, Spread::Distribution(_)));
                 if let Some(ParameterInput { name, .. }) = spread {
-                    let told = format!("'{name}' is a distribution, but samples are not given");
+                    let message = format!("'{name}' is a distribution, but samples are not given");
                     return Err(wrong(
-                        told,
+                        message,
                         "add samples: latin_hypercube(1000), or give an array of values",
                     ));
                 }
@@ -91,19 +91,22 @@ impl SweepPlan {
             }
         };
         if rows > MOST_ROWS {
-            let told = format!("the sweep has {rows} rows; the limit is {MOST_ROWS}");
-            return Err(wrong(told, "use fewer values, or sampled points: samples: sobol(100000)"));
+            let message = format!("the sweep has {rows} rows; the limit is {MOST_ROWS}");
+            return Err(wrong(
+                message,
+                "use fewer values, or sampled points: samples: sobol(100000)",
+            ));
         }
         if let Some(Samples { kind, .. }) = samples {
             let dimensions =
                 if kind == SampleKind::Saltelli { 2 * given.len() } else { given.len() };
             if kind != SampleKind::LatinHypercube && dimensions > MOST_DIMENSIONS {
-                let told = format!(
+                let message = format!(
                     "a Sobol' sequence for {} parameters has {dimensions} coordinates; the \
                     limit is {MOST_DIMENSIONS}",
                     given.len()
                 );
-                return Err(at_key(call, "samples", told, "use latin_hypercube(…)"));
+                return Err(at_key(call, "samples", message, "use latin_hypercube(…)"));
             }
         }
         let columns = samples.map(|Samples { kind, count, seed }| match kind {
@@ -171,8 +174,8 @@ fn given(call: &Call, name: &str, value: &Dynamic) -> Result<ParameterInput, Scr
     if let Some(distribution) = value.read_lock::<Distribution>() {
         return Ok(ParameterInput { name, spread: Spread::Distribution(distribution.clone()) });
     }
-    let wrong = |told: String| {
-        call.error(told)
+    let wrong = |message: String| {
+        call.error(message)
             .hint("give an array of values, such as linspace(0.1, 2, 20), or a distribution, such as uniform(0.1, 2)")
             .at(CallPart::Key(name.clone()))
     };

@@ -62,22 +62,22 @@ impl SweepRequest<'_> {
                 ScriptError::new(format!("cannot read the part '{file}': {error}"))
             })?;
             if is_same != Some(true) {
-                let told = format!(
+                let message = format!(
                     "'{file}' is not a part of this study: it is of another script, of other \
                     parameters, or of another build of withy"
                 );
-                return Err(ScriptError::new(told)
+                return Err(ScriptError::new(message)
                     .hint("run the part again with this script and this withy"));
             }
             let is_missing = |row: &usize| part.has(*row) && !ledger.knows(*row);
             let missing = (0..ledger.rows).filter(is_missing).count();
             if missing > 0 {
                 let name = &self.name;
-                let told = format!(
+                let message = format!(
                     "part {number} of {of} of the study '{name}' is not finished: {missing} rows are missing in '{file}'"
                 );
                 return Err(
-                    ScriptError::new(told).hint("continue with the same command with --part")
+                    ScriptError::new(message).hint("continue with the same command with --part")
                 );
             }
         }
@@ -86,11 +86,11 @@ impl SweepRequest<'_> {
 
     /// Fingerprint of everything on which the rows depend: program, script and imports, captured values, and parameters.
     fn fingerprint(&self, call: &Call, function: &RunFunction) -> u64 {
-        let told = format!("{:?} {:?}", function.captured, self.wall);
+        let captured = format!("{:?} {:?}", function.captured, self.wall);
         let script = call.context().program().map(|program| program.text.to_string());
         let imports = Sources::of(call.engine()).checksum().to_le_bytes();
         let parameters = self.plan.checksum_data();
         let script = script.unwrap_or_default();
-        Journal::fingerprint(&[script.as_bytes(), told.as_bytes(), &imports, &parameters])
+        Journal::fingerprint(&[script.as_bytes(), captured.as_bytes(), &imports, &parameters])
     }
 }

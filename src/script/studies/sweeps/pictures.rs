@@ -109,12 +109,12 @@ impl Picture<'_> {
             false => {
                 let points: Vec<(f64, f64)> = found.iter().map(|(_, x, y)| (*x, *y)).collect();
                 let shown = thinned(&points, MOST_POINTS);
-                let told =
+                let message =
                     format!("{} of {} points, selected at random", shown.len(), points.len());
                 let series =
                     Series::new("", shown).stroke(Stroke::MarkersOnly).marker(Marker::Ring).thin();
                 let chart = empty.series(series);
-                if points.len() > MOST_POINTS { chart.caption(told) } else { chart }
+                if points.len() > MOST_POINTS { chart.caption(message) } else { chart }
             }
         })
     }

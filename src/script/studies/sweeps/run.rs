@@ -63,8 +63,8 @@ impl SweepRequest<'_> {
         }
         match outcome {
             Err(SweepError::Other(error)) => return Err(error),
-            Err(SweepError::Row(row, told)) => {
-                return Err(self.located_error(call, &ledger, row, &told));
+            Err(SweepError::Row(row, message)) => {
+                return Err(self.located_error(call, &ledger, row, &message));
             }
             Ok(()) if ledger.done < rows => return Err(context.why_stopped("a sweep")),
             Ok(()) => (),
@@ -77,11 +77,13 @@ impl SweepRequest<'_> {
             && part.is_none()
             && let Some((row, reason)) = results.failures().next()
         {
-            let told = format!("no run finished; the first one failed: {reason}");
+            let message = format!("no run finished; the first one failed: {reason}");
             return Err(context
                 .without_output_or_files(NO_FILES, || self.invoked(call, row))
                 .err()
-                .unwrap_or_else(|| at_key(call, "run", told, "check the errors of the function")));
+                .unwrap_or_else(|| {
+                    at_key(call, "run", message, "check the errors of the function")
+                }));
         }
         let sweep = Sweep { name: self.name, design: self.plan.design.clone(), results };
         Ok(FinishedSweep { sweep, plan: self.plan })
@@ -101,8 +103,8 @@ impl SweepRequest<'_> {
                 |function_of: &dyn Fn(&str, usize) -> Option<FnPtr>| plan.values(row, function_of);
             call(worker, function, values, &wall, RowOutcome::of)
         };
-        let panicked = |told: String| CallWork {
-            result: RowOutcome::Failed(format!("internal error of withy: {told}")),
+        let panicked = |message: String| CallWork {
+            result: RowOutcome::Failed(format!("internal error of withy: {message}")),
             steps: 0,
         };
         let driven = with_crew(blueprint, self.wall, work, panicked, |crew| {
@@ -158,7 +160,7 @@ impl SweepRequest<'_> {
         call: &Call,
         ledger: &SweepProgress,
         row: usize,
-        told: &str,
+        message: &str,
     ) -> ScriptError {
         let found = call.context().without_output_or_files(NO_FILES, || self.invoked(call, row));
         match found {
@@ -169,11 +171,11 @@ impl SweepRequest<'_> {
                     let names = listed(&ledger.results.names);
                     format!("; the run with {} returned {names}", self.row_in_words(model))
                 });
-                let told = format!("run: with {values}, {told}{other}");
+                let message = format!("run: with {values}, {message}{other}");
                 at_key(
                     call,
                     "run",
-                    told,
+                    message,
                     "its last expression must be a map of numbers, with the same names in all \
                     runs: #{ peak: peak }",
                 )

@@ -5,7 +5,6 @@ use crate::analysis::{RowEntry, SweepResults};
 use crate::script::messages::error::ScriptError;
 use crate::script::state::parts::StudyPart;
 
-/// State of the rows.
 pub struct SweepProgress {
     pub results: SweepResults,
     /// True for rows with a result, and for rows of other parts.
@@ -17,7 +16,6 @@ pub struct SweepProgress {
     pub model: Option<usize>,
 }
 
-/// Reason for aborting a sweep.
 pub enum SweepError {
     /// The function seems to be wrong: row and message.
     Row(usize, String),
@@ -25,7 +23,6 @@ pub enum SweepError {
 }
 
 impl SweepProgress {
-    /// State without results.
     pub fn new(rows: usize) -> Self {
         let results = SweepResults::default();
         Self { results, is_known: vec![false; rows], done: 0, rows, model: None }
@@ -107,8 +104,8 @@ impl SweepProgress {
                     self.results.begin(names.to_vec(), self.rows);
                     entries.push(RowEntry::Names(names.to_vec()));
                 } else if *names != *self.results.names {
-                    let told = format!("it returns {} here", listed(&names));
-                    return Err(SweepError::Row(at, told));
+                    let message = format!("it returns {} here", listed(&names));
+                    return Err(SweepError::Row(at, message));
                 }
                 self.restore_row(at);
                 self.results.find(at, &values);
@@ -116,7 +113,7 @@ impl SweepProgress {
                 Ok(entries)
             }
             // Before the first completed row, the function may be wrong for all rows.
-            RowOutcome::Wrong(told) if self.model.is_none() => Err(SweepError::Row(at, told)),
+            RowOutcome::Wrong(message) if self.model.is_none() => Err(SweepError::Row(at, message)),
             RowOutcome::Failed(reason) | RowOutcome::Wrong(reason) => {
                 self.restore_row(at);
                 self.results.fail(at, &reason);

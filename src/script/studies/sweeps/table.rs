@@ -57,7 +57,6 @@ impl SweepTable {
         Self { swept: Rc::clone(&self.swept), chosen: Some(Rc::new(rows)) }
     }
 
-    /// Table of the failed rows.
     pub fn failures(&self) -> Self {
         let results = &self.sweep().results;
         self.of_rows(

@@ -20,7 +20,6 @@ impl SpringDamper {
         law.as_ref().is_some_and(SpringLaw::may_be_slack)
     }
 
-    /// Target force of the spring in an iterate.
     pub(super) fn restoring(&self, stage: Stage) -> ForceTarget {
         self.restoring_after(stage, self.elongation.change)
     }

@@ -6,14 +6,14 @@ use crate::linalg::reverse_cuthill_mckee;
 /// Order of the unknowns in static and modal matrices. Without sliders it is the order of the time steps. With sliders, the slider positions are
 /// additional unknowns, and all unknowns are reordered for a narrow band.
 #[derive(Debug, Clone)]
-pub struct OrderAtRest {
+pub struct StaticOrder {
     count: usize,
     half_bandwidth: usize,
     /// Position of each unknown in the order of elimination; `None` if it is the order used in time steps.
     position: Option<Vec<usize>>,
 }
 
-impl OrderAtRest {
+impl StaticOrder {
     /// Number of unknowns, including slider positions.
     pub fn count(&self) -> usize {
         self.count
@@ -49,15 +49,15 @@ impl OrderAtRest {
 
 impl System {
     /// Order of the unknowns for the present configuration.
-    pub fn order_at_rest(&self) -> OrderAtRest {
+    pub fn static_order(&self) -> StaticOrder {
         let movements = self.unknowns.count();
         if self.sliders.is_empty() {
             let half_bandwidth = self.half_bandwidth_at_rest();
-            return OrderAtRest { count: movements, half_bandwidth, position: None };
+            return StaticOrder { count: movements, half_bandwidth, position: None };
         }
         let count = movements + self.sliders.len();
         let mut groups: Vec<Vec<usize>> = Vec::new();
-        let given = OrderAtRest { count, half_bandwidth: 0, position: None };
+        let given = StaticOrder { count, half_bandwidth: 0, position: None };
         self.for_each_static_span(&given, &mut |degrees, _| groups.push(degrees.to_vec()));
         self.for_each_static_constraint(&given, |_| 1.0, &mut |degrees, _| {
             groups.push(degrees.to_vec())
@@ -70,6 +70,6 @@ impl System {
         groups.iter_mut().for_each(|group| group.retain(|at| *at < count));
         let order = reverse_cuthill_mckee(count, &groups);
         let half_bandwidth = order.half_bandwidth;
-        OrderAtRest { count, half_bandwidth, position: Some(order.position) }
+        StaticOrder { count, half_bandwidth, position: Some(order.position) }
     }
 }
