@@ -21,6 +21,9 @@ const LEAST_ORDER: f64 = 0.7;
 /// Error, relative to the scale of a quantity, above which an observed order proves nothing.
 const TOO_LARGE: f64 = 0.3;
 
+/// Smallest part of a run that converges before chaotic motion. Less is a coarse run that soon fails.
+const LEAST_CONVERGED_PART: f64 = 1.0 / 3.0;
+
 /// Growth of the distance of two runs after the time of the last convergence that indicates chaotic motion.
 const GROWTH_OF_CHAOS: f64 = 10.0;
 
@@ -161,7 +164,8 @@ impl Levels<'_> {
         let until = times.take_while(|time| converges(*time)).last()?;
         let (then, now) = (within(near, until), within(near, end));
         let is_accurate = then < TOO_LARGE / GROWTH_OF_CHAOS * self.scale;
-        (is_accurate && now > GROWTH_OF_CHAOS * then).then_some(until)
+        let is_late = until - start >= LEAST_CONVERGED_PART * (end - start);
+        (is_late && is_accurate && now > GROWTH_OF_CHAOS * then).then_some(until)
     }
 }
 

@@ -63,7 +63,8 @@ fn error_estimation(options: &RunOptions) -> ErrorEstimation {
     match options.error {
         ErrorChoice::Always => ErrorEstimation::Always,
         ErrorChoice::Auto if !options.quiet && stderr().is_terminal() => ErrorEstimation::Auto,
-        ErrorChoice::Auto | ErrorChoice::Never => ErrorEstimation::Never,
+        ErrorChoice::Auto => ErrorEstimation::Remark,
+        ErrorChoice::Never => ErrorEstimation::Never,
     }
 }
 

@@ -146,6 +146,7 @@ fn estimated_errors(
         context.simulations().into_iter().filter(|of| steps(of) > 0).collect();
     let has_limit = context.meter().limits().steps.is_some();
     let options = match estimation {
+        ErrorEstimation::Never => return Vec::new(),
         _ if ran.is_empty() => return Vec::new(),
         ErrorEstimation::Always => String::new(),
         ErrorEstimation::Auto if elapsed < BRIEF && !has_limit => {

@@ -59,8 +59,8 @@ pub const TABLE: BindingTable = BindingTable {
                 two where their part of the error is too large. The result has the last run, \
                 `simulation`, and all runs as `rows`: the error against run time of the scene. The \
                 tolerance applies to the largest error of positions in the run, relative to the \
-                length of the longest beam. The search ends after 12 runs, after max_time, or if \
-                nearby runs separate; `reached` then is false.")
+                length of the longest beam. The search ends after 12 runs or after \
+                max_time; `reached` then is false.")
             .example("let found = scene.solve(#{ to: 1, error: 1e-4 });\nprint(found.simulation);\n\
                       check(found.reached && found.simulation.t == 1);\n\
                       for run in found.rows { print(`${run.spans} spans, dt = ${run.dt}: ${run.in_time + run.in_space}`); }")

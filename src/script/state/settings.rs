@@ -70,6 +70,8 @@ pub enum ErrorEstimation {
     /// No estimate.
     #[default]
     Never,
+    /// No estimate, but a remark on how to request one.
+    Remark,
     /// Estimate after runs of less than a second, within about the time of the run.
     Auto,
     /// Estimate after every run.

@@ -157,11 +157,11 @@ impl Refinement {
             let finer_mesh = next(in_space, MOST_REFINEMENT[1]);
             let is_within = finer_steps == 1.0 && finer_mesh == 1.0 && in_time.is_some();
             rows.push(row);
-            let failure = match (is_within, positions.is_some(), is_chaotic, may_refine) {
+            let failure = match (is_within, positions.is_some(), may_refine) {
                 (true, ..) => None,
-                (_, false, ..) => Some("the error cannot be estimated".to_owned()),
-                (_, _, true, _) => Some("nearby runs separate".to_owned()),
-                (_, _, _, false) => Some(format!(
+                (_, false, _) => Some("the error cannot be estimated".to_owned()),
+                (.., false) if is_chaotic => Some("nearby runs separate".to_owned()),
+                (.., false) => Some(format!(
                     "not reached in {} runs and {} s",
                     rows.len(),
                     significant(begun.elapsed().as_secs_f64(), 3)
