@@ -223,7 +223,7 @@ impl ReferenceSolution {
     }
 
     /// Sets the estimated error of each value to its difference from a coarser run.
-    pub fn as_far_as(mut self, coarser: &Readings) -> Self {
+    pub fn with_errors_from(mut self, coarser: &Readings) -> Self {
         for (known, other) in self.known.iter_mut().zip(coarser) {
             for (known, other) in known.iter_mut().zip(other) {
                 *known = known.map(|known| KnownValue {
@@ -333,8 +333,8 @@ mod tests {
     #[test]
     fn a_run_of_our_own_knows_what_a_coarser_one_confirms() {
         let readings = |x: f64, angle: f64| vec![vec![Vec2::new(x, 0.0), Vec2::new(angle, 0.0)]];
-        let own =
-            ReferenceSolution::of_run("own", &readings(1.0, 0.5)).as_far_as(&readings(1.0, 0.51));
+        let own = ReferenceSolution::of_run("own", &readings(1.0, 0.5))
+            .with_errors_from(&readings(1.0, 0.51));
         let deviation = |x, angle, of| own.deviation(of, &readings(x, angle)).unwrap();
         assert!(deviation(1.0 + 1e-12, 0.5, 0).is_resolved());
         assert!(!deviation(1.0 + 1e-14, 0.5, 0).is_resolved(), "rounding is no error");
@@ -346,7 +346,7 @@ mod tests {
     #[test]
     fn who_is_nearer_to_a_run_of_our_own_has_the_smaller_error() {
         let readings = |x: f64| vec![vec![Vec2::new(x, 0.0)]];
-        let own = ReferenceSolution::of_run("own", &readings(1.0)).as_far_as(&readings(1.1));
+        let own = ReferenceSolution::of_run("own", &readings(1.0)).with_errors_from(&readings(1.1));
         let error = |x| own.deviation(0, &readings(x)).unwrap().error();
         assert!(error(1.099) < error(1.101), "the one beyond the difference is not the better one");
     }

@@ -7,7 +7,7 @@
 //!                                          └→ integrators → newton → linalg
 //! ```
 //!
-//! At the bottom are [`elementary`], functions with identical results on every machine, and [`threads`] for concurrent work on beams, bands and
+//! At the bottom are [`elementary`], functions with identical results on every machine, and `threads` for concurrent work on beams, bands and
 //! bodies.
 
 #![forbid(unsafe_code)]
@@ -24,5 +24,5 @@ pub mod newton;
 pub mod simulation;
 pub mod statics;
 pub mod system;
-pub mod threads;
+pub(crate) mod threads;
 pub mod vibration;

@@ -30,7 +30,7 @@ pub struct Relaxation {
 
 impl Relaxation {
     /// Description of allowed relaxation times.
-    pub const ALLOWED: &'static str = "zero or a positive finite number [time]";
+    pub(crate) const ALLOWED: &'static str = "zero or a positive finite number [time]";
 
     /// Checks that all times are finite and not negative.
     ///
@@ -156,7 +156,7 @@ impl Dashpots {
     }
 
     /// Prepares an increment of zero duration without damping.
-    pub fn rest_without_damping(&mut self) {
+    pub(crate) fn rest_without_damping(&mut self) {
         for span in &mut self.spans {
             span.forces.iter_mut().for_each(ForceDashpot::rest_without_damping);
             span.moments.iter_mut().for_each(MomentDashpot::rest_without_damping);
@@ -164,7 +164,7 @@ impl Dashpots {
     }
 
     /// Discards the rate history after a jump of the rates.
-    pub fn clear_rate_history(&mut self) {
+    pub(crate) fn clear_rate_history(&mut self) {
         self.resolution = RateResolution::default();
     }
 
@@ -219,7 +219,7 @@ impl Dashpots {
     }
 
     /// Updates the forces after a correction of the increments.
-    pub fn correct(&mut self, correction: &[Movement]) {
+    pub(crate) fn correct(&mut self, correction: &[Movement]) {
         for SpanDashpots { first, forces, moments } in &mut self.spans {
             let correction = &correction[*first..*first + self.order];
             forces.iter_mut().for_each(|dashpot| dashpot.correct(correction));
@@ -260,7 +260,11 @@ impl Dashpots {
 
     /// Calls `give` with the dashpot forces for the given rates at the start of the step. Rates that the steps do not resolve are extrapolated from
     /// the means of the last two steps.
-    pub fn emit_dashpot_forces(&self, rates: &[Movement], give: &mut dyn FnMut(usize, Movement)) {
+    pub(crate) fn emit_dashpot_forces(
+        &self,
+        rates: &[Movement],
+        give: &mut dyn FnMut(usize, Movement),
+    ) {
         for SpanDashpots { first, forces, moments } in &self.spans {
             let rates = self.resolution.selected(&rates[*first..*first + self.order]);
             forces.iter().for_each(|dashpot| dashpot.emit_dashpot_forces(rates, *first, give));
@@ -270,7 +274,7 @@ impl Dashpots {
 
     /// Calls `take` with the rates of strain and curvature for the given rates of the control points at the start of the step, each with its damping
     /// coefficient times the quadrature weight. The sum of coefficient times squared rate is a power [energy/time].
-    pub fn each_damped_rate(&self, rates: &[Movement], take: &mut dyn FnMut(f64, f64)) {
+    pub(crate) fn each_damped_rate(&self, rates: &[Movement], take: &mut dyn FnMut(f64, f64)) {
         for SpanDashpots { first, forces, moments } in &self.spans {
             let rates = &rates[*first..*first + self.order];
             forces.iter().for_each(|dashpot| dashpot.each_damped_rate(rates, take));
@@ -280,7 +284,7 @@ impl Dashpots {
 
     /// Dashpot force in space [force] and moment [force·length] at a place at the start of the step, interpolated like section forces. Rates that the
     /// steps do not resolve are extrapolated from the means of the last two steps.
-    pub fn transmitted(&self, place: &SectionPlace, rates: &[Movement]) -> (Vec2, f64) {
+    pub(crate) fn transmitted(&self, place: &SectionPlace, rates: &[Movement]) -> (Vec2, f64) {
         let of_span = |span: usize| {
             let span = &self.spans[span];
             (span, self.resolution.selected(&rates[span.first..span.first + self.order]))

@@ -35,7 +35,7 @@ mod station;
 mod taper_quadrature;
 
 pub use dashpots::{Dashpots, RateCollocation, Relaxation};
-pub use discrete::discretise;
+pub(crate) use discrete::discretise;
 pub use dynamics::{BlockSink, BodyDynamics, Collocation, ForceSummary, Movement};
 pub use error::BeamError;
 pub use kink::{MissedKink, unresolved_kink};

@@ -62,7 +62,7 @@ impl RotationIncrement {
     }
 
     /// Increment of an angle `Δθ` [rad].
-    pub fn of_angle(self, angle: f64) -> f64 {
+    pub(crate) fn of_angle(self, angle: f64) -> f64 {
         match self {
             Self::TangentScaled => 2.0 * tan(0.5 * angle),
             Self::Angle => angle,
@@ -70,7 +70,7 @@ impl RotationIncrement {
     }
 
     /// Tangent-scaled increment `2 tan(Δθ/2)` of the angle of an increment, with `Λ1 - Λ0 = 2 tan(Δθ/2) J (Λ0 + Λ1)/2` [-].
-    pub fn tangent_scaled(self, increment: f64) -> f64 {
+    pub(crate) fn tangent_scaled(self, increment: f64) -> f64 {
         match self {
             Self::TangentScaled => increment,
             Self::Angle => 2.0 * tan(0.5 * increment),
@@ -118,7 +118,7 @@ impl<T: Number> Rotation<T> {
 
     /// Normalises a rotation whose determinant differs from one because of rounding.
     #[inline(always)]
-    pub fn normalised(self) -> Self {
+    pub(crate) fn normalised(self) -> Self {
         let square = self.cos * self.cos + self.sin * self.sin;
         let correction = square.same(1.5) - square.same(0.5) * square;
         Self { cos: self.cos * correction, sin: self.sin * correction }
@@ -135,14 +135,14 @@ impl<T: Number> Rotation<T> {
 
     /// Vector `Λ a`: transforms `a` from the section frame to space.
     #[inline(always)]
-    pub fn to_space<P: Planar<T>>(self, a: P) -> P {
+    pub(crate) fn to_space<P: Planar<T>>(self, a: P) -> P {
         let (x, y) = a.components();
         P::of(self.cos * x - self.sin * y, self.sin * x + self.cos * y)
     }
 
     /// Vector `Λᵀ a`: transforms `a` from space to the section frame.
     #[inline(always)]
-    pub fn to_section<P: Planar<T>>(self, a: P) -> P {
+    pub(crate) fn to_section<P: Planar<T>>(self, a: P) -> P {
         let (x, y) = a.components();
         P::of(self.cos * x + self.sin * y, self.cos * y - self.sin * x)
     }

@@ -212,7 +212,7 @@ impl SectionShape {
     }
 
     /// Cowper's shear correction factor (1966, table 1) [-].
-    pub fn shear_correction(&self, poisson: f64) -> f64 {
+    pub(crate) fn shear_correction(&self, poisson: f64) -> f64 {
         let nu = poisson;
         match *self {
             Self::Rectangle { .. } => 10.0 * (1.0 + nu) / (12.0 + 11.0 * nu),

@@ -66,7 +66,7 @@ impl SectionForces {
     }
 
     /// Adds a viscous force in space [force] and moment [force·length]. Strains are unchanged.
-    pub fn with_viscous(self, (force, moment): (Vec2, f64)) -> Self {
+    pub(crate) fn with_viscous(self, (force, moment): (Vec2, f64)) -> Self {
         Self {
             axial: self.axial + self.normal.dot(&force),
             shear: self.shear + cross(self.normal, force),

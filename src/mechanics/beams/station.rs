@@ -125,7 +125,7 @@ impl BodyPoint {
     }
 
     /// Control point whose basis function is largest at the station. At a break of the mesh it lies at the station.
-    pub fn nearest_control_point(&self) -> usize {
+    pub(crate) fn nearest_control_point(&self) -> usize {
         self.weights()
             .max_by(|(_, a), (_, b)| a.total_cmp(b))
             .map_or(self.first, |(index, _)| index)

@@ -89,7 +89,7 @@ impl Basis {
     ///
     /// # Panics
     /// May panic if the span belongs to another basis.
-    pub fn evaluate_in(&self, span: &Span, xi: f64) -> BasisValues {
+    pub(crate) fn evaluate_in(&self, span: &Span, xi: f64) -> BasisValues {
         match self {
             Self::BSpline(knots) => bspline::evaluate(knots, span, xi),
             Self::Lagrange(lagrange) => lagrange.evaluate_in(span, xi),
@@ -128,7 +128,7 @@ impl Basis {
 
     /// Interpolation parameter of each function: Greville abscissae of splines, nodes of Lagrange elements. They are strictly increasing and include
     /// the ends.
-    pub fn abscissae(&self) -> Vec<f64> {
+    pub(crate) fn abscissae(&self) -> Vec<f64> {
         match self {
             Self::BSpline(knots) => knots.greville(),
             Self::Lagrange(lagrange) => lagrange.nodes(),
@@ -174,7 +174,7 @@ impl Basis {
     ///
     /// # Errors
     /// Fails if `xi` is outside the domain or NaN, or there are too many spans.
-    pub fn with_break(&self, xi: f64) -> Result<Self, GeometryError> {
+    pub(crate) fn with_break(&self, xi: f64) -> Result<Self, GeometryError> {
         let (start, end) = self.domain();
         check_inside(xi, start, end)?;
         let breaks = self.breaks();

@@ -191,7 +191,7 @@ impl ContactPath {
     }
 
     /// Number of spans between two parameters, including fractions. For a short path it is the length of the path over the length of its span.
-    pub fn spans_between(&self, from: f64, to: f64) -> f64 {
+    pub(crate) fn spans_between(&self, from: f64, to: f64) -> f64 {
         let (from, to) = if from <= to { (from, to) } else { (to, from) };
         let PathInterval { departure, arrival, .. } = self.interval(from, to);
         let part = |span: &Span| {

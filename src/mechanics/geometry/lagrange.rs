@@ -120,7 +120,7 @@ impl LagrangeBasis {
     }
 
     /// Polynomials of the element `span` with all derivatives at any `xi`.
-    pub fn evaluate_in(&self, span: &Span, xi: f64) -> BasisValues {
+    pub(crate) fn evaluate_in(&self, span: &Span, xi: f64) -> BasisValues {
         let mut basis = BasisValues::zeros(span.first, self.degree);
         self.fill(span, xi, basis.rows_mut());
         basis

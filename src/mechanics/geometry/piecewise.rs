@@ -73,14 +73,14 @@ impl PiecewisePolynomial {
     }
 
     /// Largest of the values in the middle of the spans.
-    pub fn largest_in_middle(&self) -> f64 {
+    pub(crate) fn largest_in_middle(&self) -> f64 {
         let middles = self.spans.iter().enumerate();
         middles.map(|(span, (middle, _))| self.in_span(span, *middle)[0]).fold(0.0, larger)
     }
 
     /// Value, first and second derivative with respect to ξ of the polynomial of a span, also outside the span.
     #[inline]
-    pub fn in_span(&self, span: usize, xi: f64) -> [f64; 3] {
+    pub(crate) fn in_span(&self, span: usize, xi: f64) -> [f64; 3] {
         let (middle, half) = self.spans[span];
         let t = (xi - middle) / half;
         let own = &self.coefficients[span * self.count..][..self.count];

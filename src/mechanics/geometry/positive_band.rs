@@ -29,7 +29,7 @@ impl PositiveBand {
     }
 
     /// Adds `factor · vᵢ vⱼ` to the rows and columns from `first` on, one for each entry of `v`.
-    pub fn add_square(&mut self, first: usize, factor: f64, v: &[f64]) {
+    pub(crate) fn add_square(&mut self, first: usize, factor: f64, v: &[f64]) {
         for (row, (left, a)) in self.rows[first..].iter_mut().zip(v.iter().enumerate()) {
             row.iter_mut().zip(&v[left..]).for_each(|(entry, b)| *entry += factor * a * b);
         }

@@ -115,12 +115,12 @@ impl LowerSplines {
 
 impl Reproduction<'_> {
     /// Kernel `ρ` at a parameter of a span.
-    pub fn kernel(&self, span: &Span, xi: f64) -> f64 {
+    pub(crate) fn kernel(&self, span: &Span, xi: f64) -> f64 {
         self.combine(&self.kernel, span, &self.splines.basis.evaluate_in(span, xi))
     }
 
     /// Difference `Π v - v` at a parameter of a span: the projection error of the integral of the kernel `ρ`.
-    pub fn projection_error(&self, span: &Span, xi: f64) -> f64 {
+    pub(crate) fn projection_error(&self, span: &Span, xi: f64) -> f64 {
         let values = self.splines.basis.evaluate_in(span, xi);
         let functions = values.values().iter().zip(&self.integral[self.splines.first(span)..]);
         let v: f64 = functions.map(|(n, y)| n * y).sum();

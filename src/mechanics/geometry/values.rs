@@ -51,7 +51,7 @@ impl BasisValues {
     ///
     /// # Panics
     /// Panics if there are fewer points than basis functions.
-    pub fn combine(&self, order: usize, points: &[Vec2]) -> Vec2 {
+    pub(crate) fn combine(&self, order: usize, points: &[Vec2]) -> Vec2 {
         let points = &points[self.first..=self.first + self.degree];
         // The derivatives sum to zero, so another origin changes nothing but rounding, which is smallest for a near origin.
         let origin = if order == 0 { Vec2::zeros() } else { points[0] };

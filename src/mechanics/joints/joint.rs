@@ -176,7 +176,7 @@ impl JointKind {
     }
 
     /// Returns true if rotations are tied, so that moments are transmitted.
-    pub fn ties_rotation(self) -> bool {
+    pub(crate) fn ties_rotation(self) -> bool {
         self.components().contains(&Component::Rotation)
     }
 

@@ -62,7 +62,7 @@ pub enum EndAction {
 
 impl EndAction {
     /// Returns true if a stop at the end keeps the slider on its master.
-    pub fn has_stop(self) -> bool {
+    pub(crate) fn has_stop(self) -> bool {
         matches!(self, Self::Bounce | Self::Contact)
     }
 }

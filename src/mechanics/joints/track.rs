@@ -49,7 +49,7 @@ impl Track {
 
 impl TrackDirection {
     /// Opposite direction.
-    pub fn reversed(self) -> Self {
+    pub(crate) fn reversed(self) -> Self {
         match self {
             Self::Forward => Self::Backward,
             Self::Backward => Self::Forward,

@@ -40,7 +40,7 @@ impl BandRows<'_> {
     }
 
     /// Reborrows the same rows.
-    pub fn reborrow(&mut self) -> BandRows<'_> {
+    pub(crate) fn reborrow(&mut self) -> BandRows<'_> {
         BandRows { rows: self.rows.clone(), entries: self.entries, ..*self }
     }
 
@@ -86,7 +86,7 @@ impl BandRows<'_> {
     }
 
     /// Adds a `width` by `width` block, row by row, to the rows and columns from `first` on.
-    pub fn add_block(&mut self, first: usize, width: usize, values: &[f64]) {
+    pub(crate) fn add_block(&mut self, first: usize, width: usize, values: &[f64]) {
         // The widths of spans of degree 1 to 3 are compile-time constants.
         match width {
             6 => self.add_fixed_block::<6>(first, values),
@@ -107,7 +107,7 @@ impl BandRows<'_> {
 
     /// Adds values to the diagonal with an `offset` of columns (negative below the main diagonal), from `row` on.
     #[inline]
-    pub fn add_to_diagonal(&mut self, row: usize, offset: isize, values: &[f64]) {
+    pub(crate) fn add_to_diagonal(&mut self, row: usize, offset: isize, values: &[f64]) {
         if !values.is_empty() {
             let at = self.offset(row, row.strict_add_signed(offset));
             let entries = self.entries[at..].iter_mut().step_by(self.stride);

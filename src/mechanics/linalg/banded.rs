@@ -47,7 +47,7 @@ impl BandedMatrix {
 
     /// All rows, for the assembly of entries.
     #[inline]
-    pub fn rows_mut(&mut self) -> BandRows<'_> {
+    pub(crate) fn rows_mut(&mut self) -> BandRows<'_> {
         let (stride, centre) = (self.storage.stride(), self.storage.centre());
         let (rows, half_bandwidth) = (0..self.size, self.half_bandwidth);
         BandRows { rows, entries: &mut self.storage.rows, stride, centre, half_bandwidth }
@@ -84,7 +84,7 @@ impl BandedMatrix {
     }
 
     /// Makes rows of different units comparable in row exchanges, by the diagonal.
-    pub fn weigh_rows(&mut self) {
+    pub(crate) fn weigh_rows(&mut self) {
         self.storage.weigh_rows();
     }
 
@@ -112,7 +112,7 @@ impl BandedLu<'_> {
     /// Replaces `W` right-hand sides with interleaved entries by their solutions.
     ///
     /// Rows before `first` must be zero.
-    pub fn solve_strip<const W: usize>(&self, x: &mut [[f64; W]], first: usize) {
+    pub(crate) fn solve_strip<const W: usize>(&self, x: &mut [[f64; W]], first: usize) {
         Arch::new().dispatch(StripSubstitution { factors: self.factors, x, first });
     }
 }

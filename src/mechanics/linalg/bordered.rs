@@ -129,7 +129,7 @@ impl Border {
     }
 
     /// Sets the units of the row and of the unknown at an index of the border. Row exchanges and pivots depend on them.
-    pub fn set_units(&mut self, at: usize, row: BorderUnit, unknown: BorderUnit) {
+    pub(crate) fn set_units(&mut self, at: usize, row: BorderUnit, unknown: BorderUnit) {
         match self {
             Self::Full(border) => border.set_units(at, row, unknown),
             Self::Local(border) => {
@@ -177,7 +177,7 @@ impl BorderedMatrix {
 
     /// Returns the matrix with joint elimination of its dense border and the band, for bands that alone may be singular. The last `full` rows and
     /// columns couple with all others and remain a border.
-    pub fn with_joint_elimination(self, full: usize) -> Self {
+    pub(crate) fn with_joint_elimination(self, full: usize) -> Self {
         Self {
             joint_elimination: Some(JointElimination::new(self.size(), full)),
             ends: None,

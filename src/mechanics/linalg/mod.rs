@@ -24,15 +24,17 @@ mod substitution;
 mod symmetric_factors;
 mod two_ended;
 
-pub use band_rows::BandRows;
+pub(crate) use band_rows::BandRows;
 pub use banded::{BandedLu, BandedMatrix};
 pub use bordered::{Border, BorderShape, BorderUnit, BorderedLu, BorderedMatrix};
-pub use complementarity::{Pairing, complementary};
+pub(crate) use complementarity::{Pairing, complementary};
 pub use error::LinearError;
-pub use full_border::FullBorder;
-pub use local_border::{BlockLayout, LocalBorder};
-pub use ordering::{Ordering, reverse_cuthill_mckee};
-pub use precise_band::PreciseBand;
-pub use sparse::SymmetricSparse;
-pub use strips::{STRIP_WIDTH, Square4, VectorStrip, combine, products, subtract_combination};
-pub use symmetric_factors::{Pivots, SymmetricFactors};
+pub(crate) use full_border::FullBorder;
+pub(crate) use local_border::{BlockLayout, LocalBorder};
+pub(crate) use ordering::reverse_cuthill_mckee;
+pub(crate) use precise_band::PreciseBand;
+pub(crate) use sparse::SymmetricSparse;
+pub(crate) use strips::{
+    STRIP_WIDTH, Square4, VectorStrip, combine, products, subtract_combination,
+};
+pub(crate) use symmetric_factors::SymmetricFactors;

@@ -44,12 +44,12 @@ impl PreciseBand {
     }
 
     /// Diagonal entry of a row, rounded to 16 digits.
-    pub fn diagonal(&self, row: usize) -> f64 {
+    pub(crate) fn diagonal(&self, row: usize) -> f64 {
         self.high[row * self.stride()]
     }
 
     /// Adds `factor r rᵀ`. Entry `k` of `r` belongs to the unknown `unknowns[k]`, and is ignored if `unknowns[k]` is at least the size.
-    pub fn add_square(&mut self, unknowns: &[usize], factor: f64, r: &[f64]) {
+    pub(crate) fn add_square(&mut self, unknowns: &[usize], factor: f64, r: &[f64]) {
         let is_consecutive = unknowns.windows(2).all(|pair| pair[1] == pair[0] + 1);
         if is_consecutive && unknowns.last().is_some_and(|last| *last < self.size) {
             return Arch::new().dispatch(PreciseSquare {
@@ -73,7 +73,7 @@ impl PreciseBand {
     }
 
     /// Adds `p qᵀ + q pᵀ`. Entries `k` of `p` and `q` belong to the unknown `unknowns[k]`, and are ignored if `unknowns[k]` is at least the size.
-    pub fn add_product(&mut self, unknowns: &[usize], p: &[f64], q: &[f64]) {
+    pub(crate) fn add_product(&mut self, unknowns: &[usize], p: &[f64], q: &[f64]) {
         for ((&row, &p_a), &q_a) in unknowns.iter().zip(p).zip(q) {
             for ((&column, &p_b), &q_b) in unknowns.iter().zip(p).zip(q) {
                 if row <= column && column < self.size {
@@ -107,7 +107,11 @@ impl PreciseBand {
     ///
     /// # Errors
     /// Fails if the pivot of a nonzero row is zero, or a pivot is not finite.
-    pub fn pivots(&self, shift: f64, other: &SymmetricSparse) -> Result<Pivots, LinearError> {
+    pub(crate) fn pivots(
+        &self,
+        shift: f64,
+        other: &SymmetricSparse,
+    ) -> Result<Pivots, LinearError> {
         eliminate(self, shift, other, None)
     }
 }

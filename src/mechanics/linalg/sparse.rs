@@ -77,7 +77,7 @@ impl SymmetricSparse {
     }
 
     /// Diagonal entry of a row.
-    pub fn diagonal(&self, row: usize) -> f64 {
+    pub(crate) fn diagonal(&self, row: usize) -> f64 {
         self.row(row).find(|(column, _)| *column == row).map_or(0.0, |(_, value)| value)
     }
 

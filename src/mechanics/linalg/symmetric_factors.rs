@@ -46,7 +46,7 @@ impl SymmetricFactors {
     }
 
     /// Number of negative pivots and growth.
-    pub fn pivots(&self) -> Pivots {
+    pub(crate) fn pivots(&self) -> Pivots {
         self.pivots
     }
 

@@ -74,7 +74,7 @@ impl PrescribedMotion {
     }
 
     /// Number of calls of script functions by [`over`](Self::over), without those that follow a jump.
-    pub fn calls_in_step(&self) -> usize {
+    pub(crate) fn calls_in_step(&self) -> usize {
         let schedule = self.schedule();
         match self {
             Self::Position(_) => NODES.len() * schedule.functions(),
@@ -145,7 +145,7 @@ impl PrescribedMotion {
     ///
     /// # Errors
     /// Fails if the function fails or a value is not finite.
-    pub fn jump_of_rate(
+    pub(crate) fn jump_of_rate(
         &self,
         start: f64,
         end: f64,
@@ -170,7 +170,7 @@ impl PrescribedMotion {
     ///
     /// # Errors
     /// Fails if there is a jump, the function fails, or a value is not finite.
-    pub fn check_start(&self) -> Result<(), LoadError> {
+    pub(crate) fn check_start(&self) -> Result<(), LoadError> {
         match jump_at_start(self.schedule())? {
             Some(jump) if matches!(self, Self::Position(_)) || jump.is_jump => Err(jump.refused()),
             _ => Ok(()),

@@ -70,7 +70,7 @@ impl SampleClock {
     }
 
     /// Returns true if a command starts to act at a time.
-    pub fn is_active_at(&self, time: f64) -> bool {
+    pub(crate) fn is_active_at(&self, time: f64) -> bool {
         self.sample_at(time - self.delay, SAME * self.period).is_some()
     }
 

@@ -234,7 +234,7 @@ impl Schedule {
     }
 
     /// Returns true if the schedule contains a controller that is sampled at every step.
-    pub fn is_sampled_every_step(&self) -> bool {
+    pub(crate) fn is_sampled_every_step(&self) -> bool {
         match self {
             Self::Sampled(_) => true,
             Self::Combined { parts, .. } => {

@@ -137,7 +137,7 @@ impl Newton {
     ///
     /// # Errors
     /// Errors of [`solve`](Self::solve). In this case `then` is not called.
-    pub fn solve_and(
+    pub(crate) fn solve_and(
         &mut self,
         equations: &mut impl Equations,
         u: &mut [f64],
@@ -187,7 +187,7 @@ impl Newton {
     ///
     /// # Errors
     /// Errors of [`solve`](Self::solve).
-    pub fn solve_with_shared_factors(
+    pub(crate) fn solve_with_shared_factors(
         &mut self,
         equations: &mut impl Equations,
         factors: &mut BorderedLu<'_>,

@@ -96,7 +96,7 @@ impl History {
     }
 
     /// Reserves memory for further rows.
-    pub fn reserve(&mut self, rows: usize) {
+    pub(crate) fn reserve(&mut self, rows: usize) {
         self.samples.reserve(rows);
         self.extra.reserve(rows * self.extra_columns.len());
     }

@@ -33,12 +33,12 @@ impl TimeGrid {
     }
 
     /// Creates a grid of cuts only, for variable steps that start with the size `first` [time].
-    pub fn of_cuts(start: f64, first: f64, cuts: Vec<f64>) -> Self {
+    pub(crate) fn of_cuts(start: f64, first: f64, cuts: Vec<f64>) -> Self {
         Self { dt: f64::INFINITY, ..Self::new(start, first, cuts) }
     }
 
     /// Adds cuts at the samples and actions of digital controllers.
-    pub fn with_beats(self, beats: impl Iterator<Item = SampleClock>) -> Self {
+    pub(crate) fn with_beats(self, beats: impl Iterator<Item = SampleClock>) -> Self {
         Self { clocks: beats.collect(), ..self }
     }
 
@@ -115,7 +115,7 @@ impl TimeGrid {
     }
 
     /// Records that a time is reached, so that the next search starts there.
-    pub fn mark_reached(&mut self, now: f64) {
+    pub(crate) fn mark_reached(&mut self, now: f64) {
         self.passed = self.points_up_to(now);
     }
 

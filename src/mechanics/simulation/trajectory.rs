@@ -20,7 +20,7 @@ impl Trajectory {
     }
 
     /// Reserves memory for further configurations.
-    pub fn reserve(&mut self, configurations: usize) {
+    pub(crate) fn reserve(&mut self, configurations: usize) {
         let room = configurations.min(MOST_NUMBERS / self.stride + 1);
         self.times.reserve(room);
         self.numbers.reserve(room * self.stride);

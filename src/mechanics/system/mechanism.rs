@@ -144,12 +144,12 @@ impl System {
     }
 
     /// Resolution of the motion of each beam with material damping, by index; empty if the scene has only one body.
-    pub fn resolution_by_beam(&self) -> impl Iterator<Item = (usize, &Resolution)> {
+    pub(crate) fn resolution_by_beam(&self) -> impl Iterator<Item = (usize, &Resolution)> {
         self.motion.watched().iter().map(|one| (one.body, one.resolution()))
     }
 
     /// Returns true if forces of rigid links are among the unknowns.
-    pub fn has_rigid_links(&self) -> bool {
+    pub(crate) fn has_rigid_links(&self) -> bool {
         self.links.count() > 0
     }
 
@@ -164,7 +164,7 @@ impl System {
     }
 
     /// Sets the time without changing the state of motion.
-    pub fn set_time(&mut self, time: f64) {
+    pub(crate) fn set_time(&mut self, time: f64) {
         self.motion.time = time;
     }
 
@@ -172,13 +172,13 @@ impl System {
     ///
     /// # Errors
     /// Name of the element without a finite value, and the reason.
-    pub fn evaluate_loads_at(&mut self, time: f64) -> Result<(), (String, LoadError)> {
+    pub(crate) fn evaluate_loads_at(&mut self, time: f64) -> Result<(), (String, LoadError)> {
         self.supports.prescribed_mut().evaluate_after(time)?;
         self.elements.evaluate_after(time)
     }
 
     /// Makes the next step end where a slider reaches a limit; `None` for a regular step.
-    pub fn set_target_limit(&mut self, limit: Option<MasterLimit>) {
+    pub(crate) fn set_target_limit(&mut self, limit: Option<MasterLimit>) {
         self.sliders.set_target_limit(limit);
     }
 
@@ -197,7 +197,7 @@ impl System {
     }
 
     /// Returns true if the present velocity of a slider at a limit is directed beyond the limit.
-    pub fn leads_beyond(&self, limit: MasterLimit) -> bool {
+    pub(crate) fn leads_beyond(&self, limit: MasterLimit) -> bool {
         let rate = self.sliders[limit.slider].rate(&self.bodies, &self.motion.rates);
         rate * limit.end.outward() > 0.0
     }

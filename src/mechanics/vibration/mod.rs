@@ -14,4 +14,5 @@ mod search;
 
 pub use damped::DampedMode;
 pub use error::VibrationError;
-pub use modes::{Mode, Modes, loose_movements};
+pub(crate) use modes::loose_movements;
+pub use modes::{Mode, Modes};

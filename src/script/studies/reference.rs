@@ -251,7 +251,9 @@ impl Reference {
                     return Err(at_key(call, "reference", message, hint));
                 }
                 let truth = ReferenceSolution::of_run(source, &finest.readings);
-                Ok(coarser.iter().fold(truth, |truth, other| truth.as_far_as(&other.readings)))
+                Ok(coarser
+                    .iter()
+                    .fold(truth, |truth, other| truth.with_errors_from(&other.readings)))
             }
             (Self::ReferenceRun(..), []) => {
                 Err(ScriptError::internal_error("a study has lost its reference"))

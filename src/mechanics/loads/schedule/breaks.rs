@@ -20,7 +20,7 @@ impl Schedule {
 
     /// Clock of a digital controller; `None` for other schedules. Steps should end at its samples and actions. Controllers cannot be combined with
     /// other schedules.
-    pub fn sample_clock(&self) -> Option<SampleClock> {
+    pub(crate) fn sample_clock(&self) -> Option<SampleClock> {
         if let Self::DigitalController { clock, .. } = self { Some(*clock) } else { None }
     }
 
@@ -37,7 +37,7 @@ impl Schedule {
     }
 
     /// Returns true if the values just before and just after a time may differ.
-    pub fn may_jump_at(&self, time: f64) -> bool {
+    pub(crate) fn may_jump_at(&self, time: f64) -> bool {
         match self {
             Self::Constant(_) | Self::Sine { .. } | Self::SmoothPulse { .. } | Self::Sampled(_) => {
                 false

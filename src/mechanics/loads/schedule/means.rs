@@ -96,7 +96,7 @@ impl Schedule {
     }
 
     /// Returns true if means of the schedule are sampled, so that they may miss fast changes.
-    pub fn is_sampled_in_steps(&self) -> bool {
+    pub(crate) fn is_sampled_in_steps(&self) -> bool {
         !self.shape().is_some_and(|shape| shape.suits_points() || shape.suits_waves())
     }
 

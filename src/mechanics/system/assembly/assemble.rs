@@ -42,7 +42,7 @@ impl System {
     ///
     /// # Errors
     /// Errors of [`assemble`](Self::assemble), or a function without a value at that time.
-    pub fn assemble_at_rest(
+    pub(crate) fn assemble_at_rest(
         scene: &Scene,
         state: &SystemState,
         time: f64,

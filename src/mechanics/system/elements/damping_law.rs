@@ -101,7 +101,7 @@ impl DampingLaw {
     }
 
     /// Range in which the law adds energy or has a force at zero rate; `None` if it dissipates at every rate, including its extrapolation.
-    pub fn active_range(&self) -> Option<NegativeDamping> {
+    pub(crate) fn active_range(&self) -> Option<NegativeDamping> {
         let corners = self.corners();
         let (Some(first), Some(last)) = (corners.first(), corners.last()) else { return None };
         let largest = corners.iter().map(|(_, force)| force.abs()).fold(0.0, larger);
@@ -123,7 +123,7 @@ impl DampingLaw {
     }
 
     /// Returns the law with a table point of zero force at zero rate, where its slope may change.
-    pub fn with_corner_at_rest(&self) -> Self {
+    pub(crate) fn with_corner_at_rest(&self) -> Self {
         let mut law = self.clone();
         if let Self::Curve(SpringLaw::Table { points } | SpringLaw::Sampled { points, .. }) =
             &mut law
@@ -155,7 +155,12 @@ impl DampingLaw {
 
     /// Force and slope for Newton's method. With an impedance of the loaded system, they belong to the segment that intersects the line of this
     /// impedance through `rate` and `force`. Without it, the iteration could alternate between two steep segments.
-    pub fn linearised_target(&self, rate: f64, force: f64, impedance: Option<f64>) -> (f64, f64) {
+    pub(crate) fn linearised_target(
+        &self,
+        rate: f64,
+        force: f64,
+        impedance: Option<f64>,
+    ) -> (f64, f64) {
         let at_rate = (self.force(rate), self.slope(rate));
         let (Some(impedance), corners) = (impedance, self.corners()) else { return at_rate };
         let above = |at: f64| self.force(at) - force + impedance * (at - rate);
@@ -170,7 +175,7 @@ impl DampingLaw {
     }
 
     /// Damping coefficient for small vibrations: the slope at zero rate, averaged over both sides [force·time/length, force·length·time/rad].
-    pub fn slope_at_rest(&self) -> f64 {
+    pub(crate) fn slope_at_rest(&self) -> f64 {
         match self {
             Self::Linear(constant) => *constant,
             Self::Curve(curve) => 0.5 * (curve.slope(-f64::MIN_POSITIVE) + curve.slope(0.0)),

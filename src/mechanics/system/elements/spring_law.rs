@@ -71,7 +71,7 @@ impl SpringLaw {
     }
 
     /// Largest absolute stiffness [force/length, force·length/rad].
-    pub fn largest_slope(&self) -> f64 {
+    pub(crate) fn largest_slope(&self) -> f64 {
         match self {
             Self::Linear { stiffness, .. } => stiffness.abs(),
             Self::Table { points } | Self::Sampled { points, .. } => {
@@ -81,7 +81,7 @@ impl SpringLaw {
     }
 
     /// Returns true if the law has corners and its force never decreases.
-    pub fn rises_with_corners(&self) -> bool {
+    pub(crate) fn rises_with_corners(&self) -> bool {
         match self {
             Self::Linear { .. } => false,
             Self::Table { points } | Self::Sampled { points, .. } => {
@@ -114,7 +114,7 @@ impl SpringLaw {
     }
 
     /// Elongations at which the stiffness jumps by more than half of its largest value [length, rad].
-    pub fn sharp_corners(&self) -> Vec<f64> {
+    pub(crate) fn sharp_corners(&self) -> Vec<f64> {
         match self {
             Self::Linear { .. } => Vec::new(),
             Self::Table { points } | Self::Sampled { points, .. } => {
@@ -130,7 +130,7 @@ impl SpringLaw {
     }
 
     /// Returns true if the force is zero in a whole segment (slack, or no contact).
-    pub fn may_be_slack(&self) -> bool {
+    pub(crate) fn may_be_slack(&self) -> bool {
         match self {
             Self::Linear { .. } => false,
             Self::Table { points } | Self::Sampled { points, .. } => {
@@ -140,7 +140,7 @@ impl SpringLaw {
     }
 
     /// Returns true if the force is zero at an elongation, within rounding and sampling error.
-    pub fn is_unloaded_at(&self, q: f64) -> bool {
+    pub(crate) fn is_unloaded_at(&self, q: f64) -> bool {
         let off = match self {
             Self::Linear { stiffness, natural } => ROUNDING * (stiffness * natural).abs(),
             Self::Table { points } => ROUNDING * largest(points),
@@ -203,7 +203,7 @@ impl SpringLaw {
     }
 
     /// Returns the law with a corner at each zero of its force, so that small forces there are exact.
-    pub fn with_corners_at_zeros(mut self) -> Self {
+    pub(crate) fn with_corners_at_zeros(mut self) -> Self {
         if let Self::Table { points } | Self::Sampled { points, .. } = &mut self {
             let crossing = |pair: &[(f64, f64)]| {
                 let at = zero(pair[0], pair[1]);

@@ -199,7 +199,7 @@ impl System {
     /// Transmits jumps of prescribed rates at the start of a step to rigid links and sliders by an impact. Otherwise the violated velocity
     /// constraints would alternate from step to step permanently. The impact conserves energy except for the work of drives, because it reverses the
     /// constraint violation (theory.md 9.5). Returns true if there was a jump.
-    pub fn apply_drive_jumps(&mut self, interval: Interval) -> bool {
+    pub(crate) fn apply_drive_jumps(&mut self, interval: Interval) -> bool {
         if self.links.count() == 0 && self.sliders.iter().next().is_none() {
             return false;
         }

@@ -81,7 +81,7 @@ impl ExchangeLedger {
 
 impl System {
     /// Enables the accumulation of impulses of joints and supports.
-    pub fn sum_up_impulses(&mut self) {
+    pub(crate) fn sum_up_impulses(&mut self) {
         if self.exchanged.impulses.is_some() {
             return;
         }
@@ -103,7 +103,7 @@ impl System {
     }
 
     /// Ends a step of a duration [time]. Later impulses belong to the next one.
-    pub fn end_step(&mut self, duration: f64) {
+    pub(crate) fn end_step(&mut self, duration: f64) {
         let Some(impulses) = &mut self.exchanged.impulses else { return };
         let Impulses { present, last, .. } = &mut **impulses;
         std::mem::swap(present, last);

@@ -25,7 +25,7 @@ impl System {
     }
 
     /// Inertia matrix in the given order of unknowns [mass, mass·length, mass·length²].
-    pub fn sparse_inertia(&self, order: &StaticOrder) -> SymmetricSparse {
+    pub(crate) fn sparse_inertia(&self, order: &StaticOrder) -> SymmetricSparse {
         SymmetricSparse::new(order.count(), |add| {
             self.inertia_entries(&mut |row, column, value| {
                 add(order.place(row), order.place(column), value);

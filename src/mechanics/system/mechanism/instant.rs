@@ -112,7 +112,7 @@ impl System {
     ///
     /// # Errors
     /// Errors of [`instant`](Self::instant), for models with rigid links.
-    pub fn with_present_link_forces<T>(
+    pub(crate) fn with_present_link_forces<T>(
         &mut self,
         look: impl FnOnce(&Self) -> T,
     ) -> Result<T, SystemError> {

@@ -23,7 +23,7 @@ impl Reactions {
     }
 
     /// Force of an inclined roller [force].
-    pub fn by_roller(&self, roller: usize) -> Vec2 {
+    pub(crate) fn by_roller(&self, roller: usize) -> Vec2 {
         self.roller_forces[roller]
     }
 }

@@ -31,7 +31,7 @@ impl System {
     }
 
     /// Predicts zero displacement between two equilibria, with unchanged contacts. Contact unknowns follow the degrees of freedom.
-    pub fn predict_unchanged(&self, unknowns: &mut [f64]) {
+    pub(crate) fn predict_unchanged(&self, unknowns: &mut [f64]) {
         unknowns.fill(0.0);
         self.sliders.predict_unchanged(&mut unknowns[self.unknowns.count()..]);
     }
@@ -76,7 +76,7 @@ impl System {
     }
 
     /// Largest violation of a rigid link or contact equation in a static iterate, relative to a force scale or to the lengths involved [-].
-    pub fn violation_at_rest(&self, residual: &[f64], force: f64) -> f64 {
+    pub(crate) fn violation_at_rest(&self, residual: &[f64], force: f64) -> f64 {
         let equations = &residual[self.unknowns.count()..];
         let relative = |off: f64| if off == 0.0 { 0.0 } else { off / force };
         larger(self.sliders.violation(equations, relative), self.links.violation(residual))
@@ -87,7 +87,7 @@ impl System {
     ///
     /// # Errors
     /// Slider and end of its master, if a slider would leave its master.
-    pub fn update_stop_contacts(
+    pub(crate) fn update_stop_contacts(
         &mut self,
         unknowns: &[f64],
         load_factor: f64,
@@ -98,7 +98,7 @@ impl System {
     }
 
     /// Subtracts `load_factor` times loads and weight. Returns the largest force and moment on a control point.
-    pub fn subtract_static_loads(
+    pub(crate) fn subtract_static_loads(
         &mut self,
         movements: &[f64],
         load_factor: f64,
@@ -109,7 +109,7 @@ impl System {
 
     /// Moves the model by displacements and rotations [length, rad], followed by contact unknowns, to the prescribed positions under a fraction of
     /// the load. All velocities are then zero.
-    pub fn move_by(&mut self, unknowns: &[f64], load_factor: f64) {
+    pub(crate) fn move_by(&mut self, unknowns: &[f64], load_factor: f64) {
         let (movements, contacts) = unknowns.split_at(self.unknowns.count());
         let movements = self.supports.prescribed().at_rest(movements, load_factor);
         self.bodies.gather(&movements);
@@ -123,14 +123,14 @@ impl System {
     }
 
     /// Returns true if prescribed positions must be applied together with the loads.
-    pub fn has_prescribed_positions(&self) -> bool {
+    pub(crate) fn has_prescribed_positions(&self) -> bool {
         self.supports.prescribed().has_positions()
     }
 
     /// Support force at a place in equilibrium: force [force] and moment [force·length]; `None` without a support there.
     ///
     /// If several bodies are joined at the place, the force acts on all of them together.
-    pub fn support_force(&self, place: &BodyPoint, forces: &[f64]) -> Option<(Vec2, f64)> {
+    pub(crate) fn support_force(&self, place: &BodyPoint, forces: &[f64]) -> Option<(Vec2, f64)> {
         self.held_by(place, forces, |roller| self.links.all_rollers()[roller].force())
     }
 }

@@ -100,12 +100,12 @@ impl Response {
 
 impl System {
     /// Returns true if the track of a slider continues beyond a limit.
-    pub fn continues_beyond(&self, limit: MasterLimit) -> bool {
+    pub(crate) fn continues_beyond(&self, limit: MasterLimit) -> bool {
         self.sliders[limit.slider].seam(&self.bodies, limit.end).is_some()
     }
 
     /// Returns true if a slider reached or left a seam at the present time.
-    pub fn is_at_seam_event(&self, slider: usize) -> bool {
+    pub(crate) fn is_at_seam_event(&self, slider: usize) -> bool {
         self.sliders[slider].crossed_seam_at(self.motion.time)
     }
 

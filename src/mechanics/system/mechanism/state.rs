@@ -28,12 +28,12 @@ impl SystemState {
     }
 
     /// Returns true if both states have the same numbers of values and sliders.
-    pub fn is_shaped_like(&self, other: &Self) -> bool {
+    pub(crate) fn is_shaped_like(&self, other: &Self) -> bool {
         self.numbers.len() == other.numbers.len() && self.sliders.len() == other.sliders.len()
     }
 
     /// Sets the state to `from` plus `amount` times `change`.
-    pub fn displace(&mut self, from: &Self, change: &[f64], amount: f64) {
+    pub(crate) fn displace(&mut self, from: &Self, change: &[f64], amount: f64) {
         let Self { numbers, prediction: trend, knows_accelerations, sliders } = self;
         numbers.clear();
         numbers.extend(from.numbers.iter().zip(change).map(|(own, by)| own + amount * by));
@@ -43,7 +43,7 @@ impl SystemState {
     }
 
     /// Writes the difference of the values from those of `other`, divided by `distance`.
-    pub fn change_from(&self, other: &Self, distance: f64, change: &mut Vec<f64>) {
+    pub(crate) fn change_from(&self, other: &Self, distance: f64, change: &mut Vec<f64>) {
         let per_unit = |(own, other): (&f64, &f64)| match own == other || own.is_nan() {
             true => 0.0,
             false => (own - other) / distance,
@@ -69,7 +69,7 @@ impl System {
     }
 
     /// Writes the [`state`](Self::state) to a buffer. Nothing is allocated if it holds a state of this model.
-    pub fn write_state(&self, state: &mut SystemState) {
+    pub(crate) fn write_state(&self, state: &mut SystemState) {
         let SystemState { numbers, prediction: trend, knows_accelerations, sliders } = state;
         numbers.clear();
         self.exchanged.save(numbers);
@@ -108,7 +108,7 @@ impl System {
     ///
     /// # Errors
     /// Fails if it cannot be a state of this model.
-    pub fn restore_checked(&mut self, state: &SystemState) -> Result<(), SystemError> {
+    pub(crate) fn restore_checked(&mut self, state: &SystemState) -> Result<(), SystemError> {
         let refused = |reason: &'static str| SystemError::State { reason };
         let numbers = &state.numbers;
         let own = self.state();

@@ -34,12 +34,12 @@ impl StaticOrder {
     }
 
     /// Returns true if the order is the order of the steps.
-    pub fn is_step_order(&self) -> bool {
+    pub(crate) fn is_step_order(&self) -> bool {
         self.position.is_none()
     }
 
     /// Converts values from this order to the order of the steps, restricted to `unknowns` entries.
-    pub fn to_step_order(&self, values: Vec<f64>, unknowns: usize) -> Vec<f64> {
+    pub(crate) fn to_step_order(&self, values: Vec<f64>, unknowns: usize) -> Vec<f64> {
         match &self.position {
             None => values,
             Some(all) => all[..unknowns].iter().map(|at| values[*at]).collect(),
@@ -49,7 +49,7 @@ impl StaticOrder {
 
 impl System {
     /// Order of the unknowns for the present configuration.
-    pub fn static_order(&self) -> StaticOrder {
+    pub(crate) fn static_order(&self) -> StaticOrder {
         let movements = self.unknowns.count();
         if self.sliders.is_empty() {
             let half_bandwidth = self.half_bandwidth_at_rest();

@@ -18,7 +18,7 @@ const RIGID: f64 = 1e8;
 impl System {
     /// Calls the callback with the static stiffness of every span and spring, and the places of the unknowns. Supported degrees of freedom follow all
     /// unknowns.
-    pub fn for_each_static_span(
+    pub(crate) fn for_each_static_span(
         &self,
         order: &StaticOrder,
         take: &mut dyn FnMut(&[usize], &SpanStiffness),
@@ -43,7 +43,7 @@ impl System {
     }
 
     /// Power dissipated by dampers, damped materials and drag at given rates of the unknowns in the present configuration [energy/time].
-    pub fn dissipation(&self, rates: &[f64]) -> f64 {
+    pub(crate) fn dissipation(&self, rates: &[f64]) -> f64 {
         let mut power = 0.0;
         self.each_damped_rate(rates, &mut |damping, rate| power += damping * square(rate));
         power
@@ -51,7 +51,7 @@ impl System {
 
     /// Calls `take` with each damped rate and its damping coefficient for small rates, in the present configuration. Coefficient times squared rate
     /// is the dissipated power [energy/time]. The number and order of calls do not depend on the rates.
-    pub fn each_damped_rate(&self, rates: &[f64], take: &mut dyn FnMut(f64, f64)) {
+    pub(crate) fn each_damped_rate(&self, rates: &[f64], take: &mut dyn FnMut(f64, f64)) {
         self.elements.each_damped_rate(&self.bodies, rates, take);
     }
 
@@ -73,7 +73,7 @@ impl System {
 
     /// Calls the callback with a penalty stiffness of every rigid link and contact: `RIGID` times the largest `stiffness` at its degrees of freedom,
     /// queried by place [force/length, force·length].
-    pub fn for_each_static_constraint(
+    pub(crate) fn for_each_static_constraint(
         &self,
         order: &StaticOrder,
         stiffness: impl Fn(usize) -> f64,
@@ -100,7 +100,11 @@ impl System {
     }
 
     /// Number of degrees of freedom with mass that rigid links and contacts remove.
-    pub fn constrained_movements(&self, order: &StaticOrder, inertia: &SymmetricSparse) -> usize {
+    pub(crate) fn constrained_movements(
+        &self,
+        order: &StaticOrder,
+        inertia: &SymmetricSparse,
+    ) -> usize {
         self.held_by_links(order, inertia) + self.sliders.movements_held()
     }
 
@@ -117,7 +121,7 @@ impl System {
 
     /// Estimate of the square of the lowest bending frequency, as if all beams formed one: the smallest `EI` over the largest `ρA` and the fourth
     /// power of the total length; `None` without a beam [1/time²].
-    pub fn slowest_bending(&self) -> Option<f64> {
+    pub(crate) fn slowest_bending(&self) -> Option<f64> {
         let extents = || self.bodies.iter().filter_map(|body| body.dynamics.extent());
         let length: f64 = extents().map(|(_, length)| length).sum();
         let bending =
@@ -127,12 +131,12 @@ impl System {
     }
 
     /// Number of negative eigenvalues of the stiffness, for loads of fixed direction.
-    pub fn negative_stiffness_count(&self) -> usize {
+    pub(crate) fn negative_stiffness_count(&self) -> usize {
         self.negative_stiffness_count_with_inertia(0.0)
     }
 
     /// Number of negative eigenvalues of the stiffness plus `rate` times the inertia [1/time²].
-    pub fn negative_stiffness_count_with_inertia(&self, rate: f64) -> usize {
+    pub(crate) fn negative_stiffness_count_with_inertia(&self, rate: f64) -> usize {
         let order = self.static_order();
         let inertia = match rate > 0.0 {
             true => self.sparse_inertia(&order),

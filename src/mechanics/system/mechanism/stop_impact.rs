@@ -66,7 +66,7 @@ impl Arriving {
 
 impl System {
     /// Limits reached simultaneously with the given limit, in the order of the scene: sliders that are at an end within rounding and move beyond it.
-    pub fn simultaneous_arrivals(&self, limit: MasterLimit) -> Vec<MasterLimit> {
+    pub(crate) fn simultaneous_arrivals(&self, limit: MasterLimit) -> Vec<MasterLimit> {
         let limits = (0..self.sliders.len()).flat_map(MasterLimit::both);
         let arrives = |other: &MasterLimit| {
             let slider = &self.sliders[other.slider];
@@ -81,7 +81,7 @@ impl System {
     ///
     /// # Errors
     /// Fails if the impulse is not determined.
-    pub fn approaches(&mut self, limit: MasterLimit, dt: f64) -> Result<bool, SystemError> {
+    pub(crate) fn approaches(&mut self, limit: MasterLimit, dt: f64) -> Result<bool, SystemError> {
         let direction = (limit.slider, self.stop_direction(limit));
         let approach = |model: &mut Self| -> Result<f64, LinearError> {
             let deformation = model.deformation_at(&[limit], dt)?;
@@ -99,7 +99,11 @@ impl System {
     ///
     /// # Errors
     /// Fails if the impulse is not determined.
-    pub fn resolves_impact(&mut self, limit: MasterLimit, dt: f64) -> Result<bool, SystemError> {
+    pub(crate) fn resolves_impact(
+        &mut self,
+        limit: MasterLimit,
+        dt: f64,
+    ) -> Result<bool, SystemError> {
         let lasts = self.impact_duration(limit).map_err(|_| self.sliders.overdetermined())?;
         self.sliders[limit.slider].record_impact_ratio(dt / lasts);
         Ok(lasts.is_finite() && dt <= RESOLVED_IMPACT * lasts)
@@ -132,17 +136,17 @@ impl System {
     }
 
     /// Holds the kinks at all contact points constant in the following steps. Returns true if this changes the equations of the next step.
-    pub fn freeze_kinks(&mut self) -> bool {
+    pub(crate) fn freeze_kinks(&mut self) -> bool {
         self.sliders.freeze_kinks()
     }
 
     /// Lets the kinks follow the contact forces again.
-    pub fn unfreeze_kinks(&mut self) {
+    pub(crate) fn unfreeze_kinks(&mut self) {
         self.sliders.unfreeze_kinks();
     }
 
     /// Returns true if a kink under a contact force is fixed.
-    pub fn has_frozen_kinks(&self) -> bool {
+    pub(crate) fn has_frozen_kinks(&self) -> bool {
         self.sliders.iter().any(|slider| slider.is_frozen())
     }
 
@@ -231,7 +235,7 @@ impl System {
     }
 
     /// Impulse of a slider on its master in the last impact [mass·length/time].
-    pub fn impulse_of(&self, slider: usize) -> Vec2 {
+    pub(crate) fn impulse_of(&self, slider: usize) -> Vec2 {
         self.sliders[slider].impulse
     }
 

@@ -11,7 +11,7 @@ impl System {
 
     /// First drive whose position under a fraction of the load differs from its function just after a time: its name and both positions [length,
     /// rad].
-    pub fn drive_elsewhere(&self, load_factor: f64, time: f64) -> Option<(&str, [f64; 2])> {
+    pub(crate) fn drive_elsewhere(&self, load_factor: f64, time: f64) -> Option<(&str, [f64; 2])> {
         self.supports().prescribed().first_displaced_drive(load_factor, time)
     }
 
@@ -21,14 +21,14 @@ impl System {
     }
 
     /// Names of loads and drives whose schedule changes within steps unseen, with the largest change of each.
-    pub fn missed_changes(&self) -> impl Iterator<Item = (&str, UnsampledChange)> {
+    pub(crate) fn missed_changes(&self) -> impl Iterator<Item = (&str, UnsampledChange)> {
         let loads = self.elements().forces();
         let loads = loads.filter_map(|load| Some((load.name(), load.missed_change()?)));
         loads.chain(self.supports().prescribed().missed_changes())
     }
 
     /// Accounts of the named loads, in the order of the scene.
-    pub fn named_loads(&self) -> impl Iterator<Item = LoadAccount> {
+    pub(crate) fn named_loads(&self) -> impl Iterator<Item = LoadAccount> {
         self.elements().forces().filter_map(|force| force.account())
     }
 }

@@ -45,7 +45,7 @@ impl SystemFeature {
     }
 
     /// Creates an omitted feature.
-    pub fn omitted(name: impl Into<String>, saved: impl Into<String>) -> Self {
+    pub(crate) fn omitted(name: impl Into<String>, saved: impl Into<String>) -> Self {
         Self { name: name.into(), usage: Usage::Omitted(saved.into()) }
     }
 }

@@ -34,7 +34,7 @@ impl Placement {
 
 impl System {
     /// Overwrites `placement` with the present configuration.
-    pub fn write_placement(&self, placement: &mut Placement) {
+    pub(crate) fn write_placement(&self, placement: &mut Placement) {
         placement.points.clear();
         placement.normals.clear();
         for body in self.bodies().iter() {
@@ -44,7 +44,7 @@ impl System {
     }
 
     /// Returns true if loads may jump at the present time.
-    pub fn loads_may_jump(&self) -> bool {
+    pub(crate) fn loads_may_jump(&self) -> bool {
         self.elements().may_jump_at(self.time())
     }
 }

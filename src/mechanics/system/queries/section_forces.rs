@@ -26,7 +26,7 @@ impl System {
     ///
     /// # Errors
     /// Fails if the station lies outside its beam or on a particle.
-    pub fn cross_section(
+    pub(crate) fn cross_section(
         &self,
         scene: &Scene,
         station: &Station,

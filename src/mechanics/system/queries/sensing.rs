@@ -79,7 +79,7 @@ impl SensorReader {
     }
 
     /// Returns true if sensors need the mean forces of joints and supports over a step.
-    pub fn need_mean_forces(&self) -> bool {
+    pub(crate) fn need_mean_forces(&self) -> bool {
         self.needs_mean
     }
 

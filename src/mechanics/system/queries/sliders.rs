@@ -23,7 +23,7 @@ impl System {
     }
 
     /// Index of the present master of a slider.
-    pub fn slider_beam(&self, slider: usize) -> usize {
+    pub(crate) fn slider_beam(&self, slider: usize) -> usize {
         self.slider(slider).connection.master
     }
 
@@ -38,7 +38,7 @@ impl System {
     }
 
     /// Largest speed along the master at which the kink under a slider follows the contact force [length/time]; `None` for rules without a kink.
-    pub fn kink_speed_limit(&self, slider: usize) -> Option<f64> {
+    pub(crate) fn kink_speed_limit(&self, slider: usize) -> Option<f64> {
         self.slider(slider).kink_speed_limit()
     }
 
@@ -66,7 +66,7 @@ impl System {
     }
 
     /// Distance of a slider from a limit, as a fraction of the parameter range of its master [-].
-    pub fn distance_to(&self, limit: MasterLimit) -> f64 {
+    pub(crate) fn distance_to(&self, limit: MasterLimit) -> f64 {
         self.slider(limit.slider).distance_to(limit.end)
     }
 
@@ -76,7 +76,7 @@ impl System {
     }
 
     /// Behaviour of a slider at the ends of its master.
-    pub fn end_action(&self, slider: usize) -> EndAction {
+    pub(crate) fn end_action(&self, slider: usize) -> EndAction {
         self.slider(slider).ends
     }
 

@@ -32,7 +32,7 @@ impl System {
     }
 
     /// Returns true if a spring carries a force beyond rounding.
-    pub fn is_strung(&self) -> bool {
+    pub(crate) fn is_strung(&self) -> bool {
         let all = self.elements().resistances();
         all.filter_map(|one: &dyn InternalForce| one.stretched()).any(|spring| {
             spring.force.abs() > ROUNDING * (spring.stiffness * spring.elongation).abs()
@@ -40,24 +40,24 @@ impl System {
     }
 
     /// Work of winds since the start, in the order of the scene [energy].
-    pub fn works_of_wind(&self) -> impl Iterator<Item = f64> {
+    pub(crate) fn works_of_wind(&self) -> impl Iterator<Item = f64> {
         self.elements().resistances().filter_map(InternalForce::wind_work)
     }
 
     /// Overwrites `branches` with the branches of all springs whose laws have sharp corners, in the order of the scene.
-    pub fn write_branches(&self, branches: &mut Vec<Branch>) {
+    pub(crate) fn write_branches(&self, branches: &mut Vec<Branch>) {
         let all = self.elements().resistances();
         branches.clear();
         branches.extend(all.filter_map(|one| one.branch(self.bodies(), self.rates())));
     }
 
     /// Springs with a bounce that the steps did not resolve, by name.
-    pub fn short_bounces(&self) -> impl Iterator<Item = (&str, ShortBounce)> {
+    pub(crate) fn short_bounces(&self) -> impl Iterator<Item = (&str, ShortBounce)> {
         self.elements().resistances().filter_map(|one| Some((one.name(), one.short_bounce()?)))
     }
 
     /// Values of springs and dampers outside of the range of their laws, with the indices of the springs in the scene.
-    pub fn outside_laws(&self) -> Vec<(usize, OutsideLaw)> {
+    pub(crate) fn outside_laws(&self) -> Vec<(usize, OutsideLaw)> {
         let mut found = Vec::new();
         let all = self.elements().resistances().filter(|one| one.stretched().is_some());
         for (index, spring) in all.enumerate() {
@@ -67,14 +67,14 @@ impl System {
     }
 
     /// Name and present stiffness of the stiffest spring [force/length, force·length/rad].
-    pub fn stiffest_spring(&self) -> Option<(&str, f64)> {
+    pub(crate) fn stiffest_spring(&self) -> Option<(&str, f64)> {
         let all = self.elements().resistances();
         let all = all.filter_map(|one| Some((one.name(), one.stretched()?.stiffness)));
         all.filter(|(_, stiffness)| *stiffness > 0.0).max_by(|a, b| a.1.total_cmp(&b.1))
     }
 
     /// Name of the element with the largest dissipation or work of the wind, and that energy [energy].
-    pub fn most_damping(&self) -> Option<(&str, f64)> {
+    pub(crate) fn most_damping(&self) -> Option<(&str, f64)> {
         let turned_over =
             |one: &dyn InternalForce| one.dissipated() + one.wind_work().map_or(0.0, f64::abs);
         let all = self.elements().resistances().map(|one| (one.name(), turned_over(one)));
@@ -83,7 +83,7 @@ impl System {
 
     /// Dissipated energies of other elements since the start, in the order of the scene: material damping, drag, impacts of sliders with restitution
     /// below 1 [energy].
-    pub fn dissipations(&self) -> impl Iterator<Item = f64> {
+    pub(crate) fn dissipations(&self) -> impl Iterator<Item = f64> {
         let others = self.elements().resistances().filter(|other| other.stretched().is_none());
         let losing = self.sliders().iter().filter(|slider| slider.restitution < 1.0);
         others.map(InternalForce::dissipated).chain(losing.map(|slider| slider.lost_energy))

@@ -18,7 +18,7 @@ impl System {
     }
 
     /// Body, control point and component (x, y or angle) of an unknown; the first of several that share it.
-    pub fn movement(&self, unknown: usize) -> Option<(usize, usize, usize)> {
+    pub(crate) fn movement(&self, unknown: usize) -> Option<(usize, usize, usize)> {
         self.bodies().iter().enumerate().find_map(|(body, one)| {
             let all = one.degrees_of_freedom.as_flattened();
             let at = all.iter().position(|degree| *degree == unknown)?;
@@ -27,13 +27,13 @@ impl System {
     }
 
     /// Body and point of the rigid link whose force is the given unknown.
-    pub fn linked_by(&self, unknown: usize) -> Option<(usize, usize)> {
+    pub(crate) fn linked_by(&self, unknown: usize) -> Option<(usize, usize)> {
         let link = self.links().iter().find(|link| link.unknowns.contains(&unknown))?;
         Some((link.body, link.point))
     }
 
     /// Number of degrees of freedom and link forces among the unknowns, without contact multipliers.
-    pub fn unknown_count(&self) -> usize {
+    pub(crate) fn unknown_count(&self) -> usize {
         self.unknown_movements().count()
     }
 
@@ -59,7 +59,7 @@ impl System {
     }
 
     /// Index of the tracked section at a station; `None` if it is not tracked.
-    pub fn tracked_section(&self, scene: &Scene, station: &Station) -> Option<usize> {
+    pub(crate) fn tracked_section(&self, scene: &Scene, station: &Station) -> Option<usize> {
         let beam = match station.body {
             BodyIndex::Beam(beam) => beam,
             BodyIndex::Particle(_) => return None,
@@ -91,7 +91,7 @@ impl System {
     }
 
     /// Displacements of the control points of all bodies, for values of the unknowns [length].
-    pub fn displacements(&self, movements: &[f64]) -> Vec<Vec<Vec2>> {
+    pub(crate) fn displacements(&self, movements: &[f64]) -> Vec<Vec<Vec2>> {
         let of_body = |body: &Body| {
             (0..body.degrees_of_freedom.len()).map(|at| body.vector_at(at, movements)).collect()
         };

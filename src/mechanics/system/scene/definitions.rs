@@ -106,7 +106,7 @@ pub struct RigidBodyDefinition {
 
 impl RigidBodyDefinition {
     /// Index of the control point of a named point. Points at the centre of mass share index 0.
-    pub fn control_point(&self, name: &str) -> Option<usize> {
+    pub(crate) fn control_point(&self, name: &str) -> Option<usize> {
         let (at, (_, place)) = self.points.iter().enumerate().find(|(_, (own, _))| own == name)?;
         Some(if *place == Vec2::zeros() { 0 } else { at + 1 })
     }
@@ -125,7 +125,7 @@ impl RigidBodyDefinition {
     }
 
     /// Reason to reject the outline. A polygon needs at least three corners. To show its rotation, the body needs a point off the centre of mass.
-    pub fn outline_refused(&self) -> Option<&'static str> {
+    pub(crate) fn outline_refused(&self) -> Option<&'static str> {
         match self.outline.len() {
             0 => None,
             1 | 2 => Some("it needs at least three corners"),

@@ -276,7 +276,7 @@ impl Scene {
     ///
     /// # Errors
     /// Fails if a number is out of range or a station does not exist.
-    pub fn add_element(&mut self, element: Element) -> Result<(), SystemError> {
+    pub(crate) fn add_element(&mut self, element: Element) -> Result<(), SystemError> {
         element.description().check(self)?;
         if let Element::Damping(MaterialDamping { name, .. }) = &element
             && self.dissipating().any(|other| other == name)
@@ -347,7 +347,7 @@ impl Scene {
     }
 
     /// Description of the body of a station, such as `beam 'arm'`.
-    pub fn name_of_body(&self, station: &Station) -> String {
+    pub(crate) fn name_of_body(&self, station: &Station) -> String {
         match station.body {
             BodyIndex::Beam(beam) => format!("beam '{}'", self.beams[beam].name),
             BodyIndex::Particle(particle) => {

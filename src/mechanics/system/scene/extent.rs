@@ -57,7 +57,7 @@ impl Scene {
 
     /// Rounding error of strain energies, `ε Σ (EA L + EI/L)`. Without beams it is the work of the initial forces over the rounding errors of
     /// positions [energy].
-    pub fn rounding_energy(&self) -> f64 {
+    pub(crate) fn rounding_energy(&self) -> f64 {
         if self.beams.is_empty() {
             return f64::EPSILON * self.rounded_work();
         }

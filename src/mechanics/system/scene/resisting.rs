@@ -27,12 +27,12 @@ impl Scene {
     }
 
     /// Sliders that lose energy in impacts.
-    pub fn dissipative_sliders(&self) -> impl Iterator<Item = &Slider> + Clone {
+    pub(crate) fn dissipative_sliders(&self) -> impl Iterator<Item = &Slider> + Clone {
         self.sliders.iter().filter(|slider| slider.restitution < 1.0)
     }
 
     /// Names of drag elements with a wind.
-    pub fn drag_with_wind(&self) -> impl Iterator<Item = &str> + Clone {
+    pub(crate) fn drag_with_wind(&self) -> impl Iterator<Item = &str> + Clone {
         self.elements.iter().filter_map(|element| match element {
             Element::Drag(drag) if drag.wind != Vec2::zeros() => Some(&*drag.name),
             _ => None,

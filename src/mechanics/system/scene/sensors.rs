@@ -86,7 +86,7 @@ pub enum Value {
 
 impl Value {
     /// Returns true if the value is an average over the last step instead of an instantaneous value.
-    pub fn is_of_step(self) -> bool {
+    pub(crate) fn is_of_step(self) -> bool {
         matches!(self, Self::MeanForce | Self::MeanForceX | Self::MeanForceY | Self::MeanCouple)
     }
 }
@@ -161,7 +161,7 @@ impl Sensor {
     }
 
     /// Returns true if the values are averages over the last step.
-    pub fn is_of_step(&self) -> bool {
+    pub(crate) fn is_of_step(&self) -> bool {
         matches!(&self.probe, SensorSource::Joint(_, quantity) if quantity.value.is_of_step())
     }
 

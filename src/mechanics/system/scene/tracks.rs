@@ -69,7 +69,7 @@ impl Scene {
     }
 
     /// Returns true if a slider is on a closed track.
-    pub fn is_on_closed_track(&self, slider: usize) -> bool {
+    pub(crate) fn is_on_closed_track(&self, slider: usize) -> bool {
         let track = self.sliders[slider].track.map(|track| &self.tracks[track]);
         track.is_some_and(|track| track.end == TrackEnd::Closed)
     }
@@ -82,7 +82,7 @@ impl Scene {
     }
 
     /// Largest number of changes of stop and seam contacts in the search for one equilibrium.
-    pub fn most_settlings(&self) -> usize {
+    pub(crate) fn most_settlings(&self) -> usize {
         let on_tracks = self.sliders.iter().filter(|slider| slider.track.is_some());
         2 * self.sliders.len()
             + 2 * on_tracks.map(|slider| self.masters(slider).len()).sum::<usize>()

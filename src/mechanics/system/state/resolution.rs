@@ -120,7 +120,7 @@ impl Resolution {
     }
 
     /// Length of the step or substep with the largest rotation; negative for a backward substep [time].
-    pub fn turned_in(&self) -> f64 {
+    pub(crate) fn turned_in(&self) -> f64 {
         self.duration
     }
 
