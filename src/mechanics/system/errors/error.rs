@@ -14,6 +14,12 @@ pub enum SystemError {
         /// Name of the empty scene.
         scene: String,
     },
+    /// Assembly that was stopped.
+    #[error("interrupted during the assembly of the scene '{scene}'")]
+    Interrupted {
+        /// Name of the scene.
+        scene: String,
+    },
     /// Name that is empty or cannot be read or typed.
     #[error("{name:?} cannot be the name of a {kind}: {reason}; use letters, digits and spaces")]
     Unnamed {
