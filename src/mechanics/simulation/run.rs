@@ -136,7 +136,7 @@ impl Simulation {
         let (grid, adaptive, first) = match settings.dt {
             StepSize::Fixed(dt) => (TimeGrid::new(0.0, dt, cuts), None, dt),
             StepSize::Adaptive(control) => {
-                let adaptive = Adaptive::new(&control, settings.method, &scene, &model);
+                let adaptive = Adaptive::new(&control, settings.method, &scene, &mut model);
                 let first = adaptive.controller.first;
                 (TimeGrid::of_cuts(0.0, first, cuts), Some(Box::new(adaptive)), first)
             }
