@@ -115,9 +115,13 @@ impl Continuation<'_> {
 
 #[cfg(test)]
 mod tests {
+    use crate::beams::Station;
     use crate::geometry::Vec2;
     use crate::statics::{Equilibrium, Loading};
-    use crate::system::{Anchor, Origin, ParticleDefinition, Scene, Spring, SpringKind, SpringLaw};
+    use crate::system::{
+        Anchor, Origin, ParticleDefinition, Scene, Spring, SpringKind, SpringLaw, System,
+    };
+    use crate::vibration::Modes;
 
     fn spring(name: String, anchors: [Anchor; 2], (length, time): (f64, f64)) -> Spring {
         Spring {
@@ -169,6 +173,29 @@ mod tests {
             let (other, iterations) = sag(units);
             assert!((other / own - 1.0).abs() < 1e-9, "{units:?}: {other} {own}");
             assert!(iterations.abs_diff(work) <= 5, "{units:?}: {iterations} {work}");
+        }
+    }
+
+    #[test]
+    fn the_units_do_not_decide_which_modes_are_found() {
+        const COUNT: usize = 150;
+        let lowest = |units: (f64, f64)| {
+            let mut scene = chain(COUNT, units);
+            for index in 0..COUNT {
+                let place = scene.particles[index].position + Vec2::new(0.0, units.0);
+                let bead = Anchor::Station(Station::on_particle(index));
+                let name = format!("hanger {index}");
+                scene.add_spring(spring(name, [Anchor::Ground(place), bead], units)).unwrap();
+            }
+            let model = System::assemble(&scene).unwrap();
+            let modes = Modes::of(&model, 3, &mut || true).unwrap();
+            modes.all().iter().map(|mode| mode.angular_frequency() * units.1).collect::<Vec<_>>()
+        };
+        let own = lowest((1.0, 1.0));
+        for units in UNITS {
+            for (other, own) in lowest(units).iter().zip(&own) {
+                assert!((other / own - 1.0).abs() < 1e-9, "{units:?}: {other} {own}");
+            }
         }
     }
 }
