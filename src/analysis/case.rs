@@ -229,11 +229,11 @@ mod tests {
         });
         let schedule = Schedule::Function { function, breaks: Vec::new() };
         case.scene.add_load(LoadKind::Moment { station, moment: 1.0 }, schedule);
-        let patience = RunLimits { wall: Duration::from_millis(50), ..RunLimits::default() };
+        let patience = RunLimits { wall: Duration::from_secs(1), ..RunLimits::default() };
         let (outcome, _) = case.run(patience, &never(), |_| ());
         let message = outcome.describe();
         assert!(message.starts_with("stopped at t = 0.5 by a limit"), "{message}");
-        assert!(message.ends_with(": more than 0.05 s"), "{message}");
+        assert!(message.ends_with(": more than 1 s"), "{message}");
         assert!(!is_past_deadline(), "patience with one case is not that with another");
     }
 }

@@ -34,6 +34,9 @@ pub enum ParsedCsvError {
 /// Largest allowed magnitude of a number, so that its square is finite.
 const LARGEST: f64 = 1e150;
 
+/// Largest number of characters of a cell in a message.
+const LONGEST_SHOWN: usize = 60;
+
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct ParsedCsv {
     columns: Vec<String>,
@@ -143,7 +146,7 @@ impl ParsedCsv {
         number.ok_or_else(|| ParsedCsvError::Number {
             column: column.to_owned(),
             line: self.rows[row].0,
-            text: text.to_owned(),
+            text: shortened(text),
         })
     }
 
@@ -156,12 +159,19 @@ impl ParsedCsv {
         let (column, line) = (column.to_owned(), self.rows[row].0);
         match number < 0.0 {
             true => Err(ParsedCsvError::Negative {
-                text: self.text(row, &column)?.to_owned(),
+                text: shortened(self.text(row, &column)?),
                 column,
                 line,
             }),
             false => Ok(number),
         }
+    }
+}
+
+fn shortened(text: &str) -> String {
+    match text.char_indices().nth(LONGEST_SHOWN) {
+        Some((end, _)) => format!("{}…", &text[..end]),
+        None => text.to_owned(),
     }
 }
 
@@ -189,6 +199,13 @@ fn is_line_of_units(cells: &[String]) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_message_shows_the_beginning_of_a_long_cell() {
+        let table = ParsedCsv::parse(&format!("t\n{}\n", "1é".repeat(1000))).unwrap();
+        let told = table.number(0, "t").unwrap_err().to_string();
+        assert!(told.contains("holds '1é1é") && told.chars().count() < 150, "{told}");
+    }
 
     #[test]
     fn separators_decimal_commas_and_a_line_of_units_are_recognised() {

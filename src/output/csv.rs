@@ -1,7 +1,9 @@
 //! CSV tables of numbers: columns of equal length, after `#` comment lines.
 
-use super::OutputError;
 use std::borrow::Cow;
+use std::io::{self, Write};
+
+use super::OutputError;
 
 /// A table of named columns of numbers. Reading gives every number bit for bit.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -47,21 +49,31 @@ impl CsvTable {
 
     /// Text of the CSV file. Columns of different lengths are an error.
     pub fn to_text(&self) -> Result<String, OutputError> {
-        let rows = self.common_length()?;
+        self.common_length()?;
         let mut bytes = Vec::new();
+        self.write(&mut bytes).map_err(::csv::Error::from)?;
+        Ok(String::from_utf8_lossy(&bytes).into_owned())
+    }
+
+    /// Writes the CSV file piece by piece. An error of `file` ends the writing, so that a long table can be interrupted.
+    ///
+    /// # Errors
+    /// Errors of `file`, or columns of different lengths.
+    pub fn write(&self, mut file: &mut dyn Write) -> io::Result<()> {
+        let rows = self.common_length().map_err(io::Error::other)?;
         for line in self.comments.iter().flat_map(|comment| comment.lines()) {
-            bytes.extend(comment_line(line).bytes());
+            file.write_all(comment_line(line).as_bytes())?;
         }
         if !self.columns.is_empty() {
-            let mut writer = ::csv::Writer::from_writer(&mut bytes);
+            let mut writer = ::csv::Writer::from_writer(&mut file);
             writer
                 .write_record(self.columns.iter().map(|(name, _)| csv_cell(name).into_owned()))?;
             for row in 0..rows {
                 writer.write_record(self.columns.iter().map(|(_, values)| exact(values[row])))?;
             }
-            writer.flush().map_err(::csv::Error::from)?;
+            writer.flush()?;
         }
-        Ok(String::from_utf8_lossy(&bytes).into_owned())
+        Ok(())
     }
 
     fn common_length(&self) -> Result<usize, OutputError> {
@@ -162,6 +174,24 @@ mod tests {
         assert_eq!((first.len(), first[0], last[1], last[100]), (101, 0.0, 10.0, 999.0));
         assert_eq!(table().thinned(0).columns[0].1, [0.0, 999.0]);
         assert_eq!(CsvTable::new().thinned(0), CsvTable::new());
+    }
+
+    #[test]
+    fn writing_ends_where_the_file_refuses_more() {
+        struct Short(usize);
+        impl Write for Short {
+            fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+                self.0 = self.0.checked_sub(bytes.len()).ok_or(io::ErrorKind::StorageFull)?;
+                Ok(bytes.len())
+            }
+            fn flush(&mut self) -> io::Result<()> {
+                Ok(())
+            }
+        }
+        let table = CsvTable::new().column("x", vec![0.5; 10_000]);
+        let mut file = Short(100_000);
+        assert!(table.write(&mut file).is_err() && file.0 > 0);
+        table.write(&mut Short(1_000_000)).unwrap();
     }
 
     #[test]

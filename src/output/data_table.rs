@@ -1,5 +1,7 @@
 //! Tables of numbers, booleans and texts for other programs: a header line and no comment lines.
 
+use std::io::{self, Write};
+
 use super::OutputError;
 use super::csv::{csv_cell, exact};
 
@@ -54,13 +56,14 @@ impl DataValues {
 }
 
 impl DataTable {
-    /// Text of the CSV file. Numbers have 17 digits, which determine a float uniquely.
+    /// Writes the CSV file piece by piece. Numbers have 17 digits, which determine a float uniquely. An error of `file` ends the writing, so that a
+    /// long table can be interrupted.
     ///
     /// # Errors
-    /// Fails if the columns differ in length.
-    pub fn to_csv(&self, heading: TableHeading) -> Result<String, OutputError> {
-        let rows = self.rows()?;
-        let mut writer = ::csv::Writer::from_writer(Vec::new());
+    /// Errors of `file`, or columns of different lengths.
+    pub fn write_csv(&self, heading: TableHeading, file: &mut dyn Write) -> io::Result<()> {
+        let rows = self.rows().map_err(io::Error::other)?;
+        let mut writer = ::csv::Writer::from_writer(file);
         writer
             .write_record(self.columns.iter().map(|column| csv_cell(&column.name).into_owned()))?;
         if heading == TableHeading::NamesAndUnits {
@@ -69,8 +72,7 @@ impl DataTable {
         for row in 0..rows {
             writer.write_record(self.columns.iter().map(|column| column.values.written(row)))?;
         }
-        let bytes = writer.into_inner().map_err(|error| ::csv::Error::from(error.into_error()))?;
-        Ok(String::from_utf8_lossy(&bytes).into_owned())
+        writer.flush()
     }
 
     pub(super) fn rows(&self) -> Result<usize, OutputError> {
@@ -92,6 +94,12 @@ impl DataTable {
 mod tests {
     use super::*;
 
+    fn csv(table: &DataTable, heading: TableHeading) -> io::Result<String> {
+        let mut bytes = Vec::new();
+        table.write_csv(heading, &mut bytes)?;
+        Ok(String::from_utf8(bytes).unwrap())
+    }
+
     fn table() -> DataTable {
         let column = |name: &str, dimension: &str, values| DataColumn {
             name: name.into(),
@@ -112,8 +120,8 @@ mod tests {
     fn names_stand_in_the_first_line_and_units_in_the_second_where_they_are_wanted() {
         let rows = "1.0000000000000001e-1,3,true,\"a, b\"\n,-1,,\n";
         let names = "t,steps,good,told\n";
-        assert_eq!(table().to_csv(TableHeading::Names).unwrap(), format!("{names}{rows}"));
-        let with_units = table().to_csv(TableHeading::NamesAndUnits).unwrap();
+        assert_eq!(csv(&table(), TableHeading::Names).unwrap(), format!("{names}{rows}"));
+        let with_units = csv(&table(), TableHeading::NamesAndUnits).unwrap();
         assert_eq!(with_units, format!("{names}time,-,,\n{rows}"));
     }
 
@@ -127,13 +135,13 @@ mod tests {
                 column("n", DataValues::Integers(vec![Some(-1), Some(2)])),
             ],
         };
-        assert_eq!(table.to_csv(TableHeading::Names).unwrap(), "'=1+1,n\n'@a,-1\n'-x,2\n");
+        assert_eq!(csv(&table, TableHeading::Names).unwrap(), "'=1+1,n\n'@a,-1\n'-x,2\n");
     }
 
     #[test]
     fn ragged_columns_are_refused() {
         let mut ragged = table();
         ragged.columns[1].values = DataValues::Integers(vec![]);
-        assert!(ragged.to_csv(TableHeading::Names).is_err());
+        assert!(csv(&ragged, TableHeading::Names).is_err());
     }
 }

@@ -89,6 +89,6 @@ mod tests {
         for path in [pipe.as_path(), &sparse, Path::new("/dev/zero"), Path::new("/dev/tty")] {
             assert!(read_file(path, 1000).is_err(), "{}", path.display());
         }
-        assert!(begun.elapsed() < Duration::from_secs(5));
+        assert!(begun.elapsed() < Duration::from_secs(60));
     }
 }

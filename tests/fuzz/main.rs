@@ -42,8 +42,8 @@ const SEEDS_IN_SHORT: u64 = 10_000;
 const BATCH: u64 = 200;
 const WORKERS: usize = 2;
 const TIME: Duration = Duration::from_millis(200);
-/// Longer than this is a hang: the limit of time, and patience with a loaded machine. Nothing asks whether it may go on while a scene is assembled:
-/// one of twenty million spans takes half a minute until its memory is refused.
+/// Longer than this is a hang: the limit of time, and patience with a loaded machine. An assembly asks between beams whether it may go on, and a beam
+/// of 400 000 spans takes some seconds.
 const HANG: Duration = Duration::from_secs(90);
 const LIMITS: Limits = Limits {
     time: Some(TIME),

@@ -323,13 +323,19 @@ fn an_interrupt_while_drawing_gives_the_simulation_back() {
     let mut prompt = Prompt::spinning();
     prompt.ask(":step 5");
     let flag = prompt.interrupt.clone();
-    // Ctrl-C comes while an expression is evaluated.
+    // Ctrl-C comes while an expression is evaluated, however long a busy machine takes to begin.
+    let is_over = Arc::new(AtomicBool::new(false));
+    let over = Arc::clone(&is_over);
     let setter = std::thread::spawn(move || {
-        std::thread::sleep(Duration::from_millis(300));
-        flag.store(true, Ordering::Relaxed);
+        while !over.load(Ordering::Relaxed) {
+            std::thread::sleep(Duration::from_millis(300));
+            flag.store(true, Ordering::Relaxed);
+        }
     });
     let outcome = prompt.shell.submit(":plot { let i = 0; while true { i += 1 } sim.t }");
+    is_over.store(true, Ordering::Relaxed);
     setter.join().unwrap();
+    prompt.interrupt.store(false, Ordering::Relaxed);
     assert_eq!(outcome, CommandOutcome::Interrupted);
     assert_eq!(prompt.ask("sim.steps"), "5\n");
 }

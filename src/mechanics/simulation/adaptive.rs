@@ -51,7 +51,7 @@ impl Adaptive {
         control: &StepControl,
         method: Method,
         scene: &Scene,
-        model: &System,
+        model: &mut System,
     ) -> Self {
         let order = order_of(method, scene);
         let least = control.smallest.unwrap_or(0.0);

@@ -55,7 +55,7 @@ pub enum SimulationError {
         end: f64,
     },
     #[error(
-        "no step from t = {} converges, down to dt/{divisions} (dt = {dt:e}): {source}{conditions}", rounded(*time)
+        "no step from t = {} converges, down to dt/{divisions} (dt = {}): {source}{conditions}", rounded(*time), step_size(*dt)
     )]
     Step {
         /// End of the last successful step [time].
@@ -69,7 +69,7 @@ pub enum SimulationError {
         conditions: String,
     },
     #[error(
-        "the tolerance {tolerance} requires steps below the smallest allowed one ({smallest:e}) at t = {}: the error of a step of dt = {dt:e} is {error:.3} times the allowed one", rounded(*time)
+        "the tolerance {tolerance} requires steps below the smallest allowed one ({}) at t = {}: the error of a step of dt = {} is {error:.3} times the allowed one", step_size(*smallest), rounded(*time), step_size(*dt)
     )]
     Tolerance {
         /// End of the last successful step [time].
@@ -84,7 +84,7 @@ pub enum SimulationError {
         smallest: f64,
     },
     #[error(
-        "no step from t = {} converges, down to the smallest allowed one, {smallest:e} (dt = {dt:e}): {source}{conditions}", rounded(*time)
+        "no step from t = {} converges, down to the smallest allowed one, {} (dt = {}): {source}{conditions}", rounded(*time), step_size(*smallest), step_size(*dt)
     )]
     Smallest {
         /// End of the last successful step [time].
@@ -98,7 +98,7 @@ pub enum SimulationError {
         conditions: String,
     },
     #[error(
-        "slider '{slider}' reaches the {end} of its beam shortly after t = {}, but no step that ends there converges, down to dt/{divisions} (dt = {dt:e}); use a smaller dt or a finer mesh{conditions}", rounded(*time)
+        "slider '{slider}' reaches the {end} of its beam shortly after t = {}, but no step that ends there converges, down to dt/{divisions} (dt = {}); use a smaller dt or a finer mesh{conditions}", rounded(*time), step_size(*dt)
     )]
     EventLocation {
         slider: String,
@@ -168,4 +168,10 @@ pub enum SimulationError {
         /// End of the last step [time].
         time: f64,
     },
+}
+
+/// Formats a step size with at most six digits.
+fn step_size(dt: f64) -> String {
+    let rounded: f64 = format!("{dt:.5e}").parse().unwrap_or(dt);
+    format!("{rounded:e}")
 }

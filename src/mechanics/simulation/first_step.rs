@@ -3,24 +3,30 @@
 use crate::elementary::square;
 use crate::geometry::larger;
 use crate::integrators::Mechanism;
-use crate::system::{Scene, System};
+use crate::system::{Scene, System, UnknownKind};
 
 /// First step of a scene without beams, as a fraction of the time in which it moves by its own size.
 const PART: f64 = 1e-3;
 
-/// Distance in which gravity generates the start speed, below which it is no length scale [length].
+/// Distance in which gravity generates the start speed, relative to the distance from the origin, below which it is no length scale.
 const SHORTEST_WAY: f64 = 1e-3;
 
-/// Length scale of a scene: its longest beam. Without beams it is the [extent](Scene::extent). For isolated particles it is the distance in which
-/// gravity generates the start speed, or 1 [length].
+/// Length scale of a scene: its [size](Scene::size). For isolated particles it is the distance in which gravity generates the start speed, or, if
+/// that is short, the largest distance from the origin.
+///
+/// A scene without any of these lengths, such as a particle that starts at the origin at rest, has no length scale, and 1 [length] defines one: only
+/// there the steps depend on the unit.
 pub(super) fn length_of(scene: &Scene) -> f64 {
     let is_length = |length: &f64| *length > 0.0 && length.is_finite();
-    let extent = || Some(scene.extent()).filter(is_length);
-    let on_the_way = || {
-        let distance = square(start_speed(scene)) / scene.gravity.norm();
-        Some(distance).filter(is_length).filter(|distance| *distance > SHORTEST_WAY)
+    let places = scene.particles.iter().map(|particle| particle.position);
+    let places = places.chain(scene.rigid_bodies.iter().map(|body| body.position));
+    let farthest = places.map(|place| place.norm()).fold(0.0, larger);
+    let of_particles = || {
+        let way = Some(square(start_speed(scene)) / scene.gravity.norm()).filter(is_length);
+        let long = way.filter(|way| *way > SHORTEST_WAY * farthest);
+        long.or(Some(farthest).filter(is_length))
     };
-    scene.longest_beam().or_else(extent).or_else(on_the_way).unwrap_or(1.0)
+    scene.size().or_else(of_particles).unwrap_or(1.0)
 }
 
 /// Largest start speed of particles and rigid bodies [length/time].
@@ -30,20 +36,88 @@ fn start_speed(scene: &Scene) -> f64 {
     nodes.chain(bodies).map(|velocity| velocity.norm()).fold(0.0, larger)
 }
 
-/// Initial size of variable steps [time].
-///
-/// It is the shortest time in which an axial wave passes a span. Without beams it is a fraction of the time in which start velocities or weight
-/// displace a particle by the length scale.
-pub(super) fn first_step(scene: &Scene, model: &System) -> f64 {
+/// Shortest time in which an axial wave passes a span; `None` without beams [time].
+pub(super) fn shortest_wave_time(scene: &Scene) -> Option<f64> {
     let waves = scene.beams.iter().map(|beam| {
         beam.axis.length() / (beam.mesh.spans() as f64 * beam.section.axial_wave_speed())
     });
-    if let Some(shortest) = waves.reduce(f64::min) {
+    waves.reduce(f64::min)
+}
+
+/// Initial size of variable steps [time].
+///
+/// It is the [shortest wave time](shortest_wave_time). Without beams it is a fraction of the time in which start velocities or weight
+/// displace a particle by the length scale, or the forces if there are neither. If nothing moves, there is no time scale, and 1 [time] defines one.
+pub(super) fn first_step(scene: &Scene, model: &mut System) -> f64 {
+    if let Some(shortest) = shortest_wave_time(scene) {
         return shortest;
     }
     let length = length_of(scene);
-    let speed = model.rates().iter().fold(0.0, |largest: f64, rate| largest.max(rate.abs()));
     let after_falling_as_far = (length * scene.gravity.norm()).sqrt();
-    let speed = speed.max(after_falling_as_far);
-    PART * if speed > 0.0 { length / speed } else { 1.0 }
+    let speed = larger(fastest(model, model.rates(), length), after_falling_as_far);
+    if speed > 0.0 {
+        return PART * length / speed;
+    }
+    let pushed = model.instant().map_or(0.0, |now| fastest(model, now.accelerations(), length));
+    PART * if pushed > 0.0 { (length / pushed).sqrt() } else { 1.0 }
+}
+
+/// Largest rate of a position, or of a rotation times a length. Prescribed degrees of freedom follow the unknowns and count as positions.
+fn fastest(model: &System, rates: &[f64], length: f64) -> f64 {
+    let kinds = model.unknown_kinds().iter().map(Some).chain(std::iter::repeat(None));
+    let rates = rates.iter().zip(kinds).map(|(rate, kind)| match kind {
+        Some(UnknownKind::Rotation) => length * rate.abs(),
+        Some(UnknownKind::Force) => 0.0,
+        _ => rate.abs(),
+    });
+    rates.fold(0.0, larger)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::Vec2;
+    use crate::loads::{LoadFrame, LoadKind, Schedule};
+    use crate::system::{ParticleDefinition, StationVelocity};
+
+    const LENGTHS: [f64; 4] = [1e-9, 1e-3, 1.0, 1e6];
+
+    /// A particle in units of length and time.
+    fn particle(at: Vec2, velocity: Vec2, gravity: f64, force: f64, (a, t): (f64, f64)) -> Scene {
+        let mut scene = Scene::new("isolated");
+        let bead = ParticleDefinition { name: "bead".to_owned(), position: at * a };
+        let station = scene.add_particle(bead, 1.0).unwrap();
+        let velocity = velocity * (a / t);
+        scene.velocities.push(StationVelocity { station, velocity, spin: None });
+        scene.gravity = Vec2::new(0.0, -gravity) * (a / (t * t));
+        let force = Vec2::new(force, 0.0) * (a / (t * t));
+        let kind = LoadKind::Force { station, force, frame: LoadFrame::Dead };
+        scene.add_load(kind, Schedule::constant(1.0).unwrap());
+        scene
+    }
+
+    #[test]
+    fn the_scales_of_isolated_particles_follow_the_units() {
+        let (above, origin) = (Vec2::new(0.0, 10.0), Vec2::zeros());
+        let (rest, fast, slow) = (Vec2::zeros(), Vec2::new(1.0, 0.0), Vec2::new(1e-3, 0.0));
+        for (at, velocity, gravity, force) in [
+            (above, fast, 9.81, 0.0),
+            (above, slow, 9.81, 0.0),
+            (above, rest, 9.81, 0.0),
+            (origin, slow, 9.81, 0.0),
+            (above, rest, 0.0, 3.0),
+        ] {
+            let scales = |units| {
+                let scene = particle(at, velocity, gravity, force, units);
+                let mut model = System::assemble(&scene).unwrap();
+                (length_of(&scene) / units.0, first_step(&scene, &mut model) / units.1)
+            };
+            let (length, step) = scales((1.0, 1.0));
+            for units in LENGTHS.into_iter().flat_map(|a| [1e-6, 1.0, 1e4].map(|t| (a, t))) {
+                let (other, own) = scales(units);
+                assert!((other / length - 1.0).abs() < 1e-12, "{units:?}: {other} {length}");
+                assert!((own / step - 1.0).abs() < 1e-12, "{units:?}: {own} {step}");
+            }
+        }
+    }
 }

@@ -79,7 +79,20 @@ impl Simulation {
     /// # Errors
     /// Fails if the step size or a method parameter is out of range, or the scene cannot be built.
     pub fn start(scene: Scene, settings: SimulationSettings) -> Result<Self, SimulationError> {
-        let model = System::assemble(&scene)?;
+        Self::start_while(scene, settings, &mut || true)
+    }
+
+    /// Builds a scene and starts the simulation, as [`start`](Self::start) does. `goes_on` is called repeatedly during the assembly; if it returns
+    /// false, the start ends with an error.
+    ///
+    /// # Errors
+    /// Errors of [`start`](Self::start), or if the assembly is stopped.
+    pub fn start_while(
+        scene: Scene,
+        settings: SimulationSettings,
+        goes_on: &mut dyn FnMut() -> bool,
+    ) -> Result<Self, SimulationError> {
+        let model = System::assemble_while(&scene, goes_on)?;
         Self::of(scene, model, settings)
     }
 
@@ -122,7 +135,7 @@ impl Simulation {
         let (grid, adaptive, first) = match settings.dt {
             StepSize::Fixed(dt) => (TimeGrid::new(0.0, dt, cuts), None, dt),
             StepSize::Adaptive(control) => {
-                let adaptive = Adaptive::new(&control, settings.method, &scene, &model);
+                let adaptive = Adaptive::new(&control, settings.method, &scene, &mut model);
                 let first = adaptive.controller.first;
                 (TimeGrid::of_cuts(0.0, first, cuts), Some(Box::new(adaptive)), first)
             }

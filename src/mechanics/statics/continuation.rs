@@ -7,6 +7,7 @@ use super::path::vertex;
 use super::path_step::PathStep;
 use super::{ArcLength, Control, EquilibriumPath, Loading, PathPoint, StaticsError};
 use crate::elementary::square;
+use crate::geometry::larger;
 use crate::integrators::{Constraints, Mechanism};
 use crate::linalg::{BorderShape, BorderedMatrix};
 use crate::newton::Newton;
@@ -68,8 +69,8 @@ impl<'s> Continuation<'s> {
         let all = model.unknowns() + model.constraint_shape().width;
         let mut path = EquilibriumPath::default();
         path.push(point(&mut model, 0.0, 0.0, 0));
-        // A scene of particles has no moments.
-        let length = scene.longest_beam().unwrap_or(1.0);
+        // Isolated particles have no moments, so that any length is right.
+        let length = scene.size().unwrap_or(1.0);
         Self {
             scene,
             length,
@@ -277,6 +278,25 @@ impl<'s> Continuation<'s> {
             }
         }
         Err(StepFailure::FarSolution)
+    }
+
+    /// Largest acceleration of a mass by the forces on the last configuration, relative to the size of the scene [1/time²]. Without forces it is 1,
+    /// because any rate is then right.
+    pub(super) fn acceleration_by_size(&mut self, factor: f64) -> f64 {
+        self.model.predict_unchanged(&mut self.unknowns);
+        self.model.begin_movement();
+        self.residual.fill(0.0);
+        self.model.add_static_forces(&self.unknowns, factor, &mut self.residual);
+        let accelerations = self.model.uncoupled_accelerations(&self.residual);
+        let kinds = self.model.unknown_kinds().iter().zip(accelerations);
+        let fastest = kinds.map(|(kind, rate)| match kind {
+            UnknownKind::Position => rate.abs() / self.length,
+            UnknownKind::Rotation => rate.abs(),
+            UnknownKind::Force => 0.0,
+        });
+        let fastest = fastest.fold(0.0, larger);
+        self.restore_last();
+        if fastest > 0.0 && fastest.is_finite() { fastest } else { 1.0 }
     }
 
     /// Restores the last equilibrium after a failed search.

@@ -4,13 +4,13 @@ use super::StaticsError;
 use super::continuation::Continuation;
 use super::error::StepFailure;
 
-/// Largest root mean square displacement in a pass, relative to the longest beam.
+/// Largest root mean square displacement in a pass, relative to the size of the scene.
 const FAR: f64 = 0.15;
 
-/// Displacement in a pass, relative to the longest beam, below which Newton's method is tried without viscous damping.
+/// Displacement in a pass, relative to the size of the scene, below which Newton's method is tried without viscous damping.
 const NEAR: f64 = 1e-2;
 
-/// Displacement in a pass, relative to the longest beam, below which the configuration counts as stationary, even if it is unstable.
+/// Displacement in a pass, relative to the size of the scene, below which the configuration counts as stationary, even if it is unstable.
 const STATIONARY: f64 = 1e-13;
 
 /// Factor of the rate after passes with small displacements.
@@ -97,7 +97,8 @@ impl Continuation<'_> {
         factor: f64,
         goes_on: &mut dyn FnMut(f64) -> bool,
     ) -> Result<f64, StaticsError> {
-        let mut rate = self.model.slowest_bending().unwrap_or(1.0);
+        let bending = self.model.slowest_bending();
+        let mut rate = bending.unwrap_or_else(|| self.acceleration_by_size(factor) / NEAR);
         for _ in 0..MOST_FIRST_PASSES {
             self.query_monitor(goes_on)?;
             let found = self.balance_from(factor, rate);
@@ -109,5 +110,92 @@ impl Continuation<'_> {
             rate *= 100.0;
         }
         Ok(rate)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::beams::Station;
+    use crate::geometry::Vec2;
+    use crate::statics::{Equilibrium, Loading};
+    use crate::system::{
+        Anchor, Origin, ParticleDefinition, Scene, Spring, SpringKind, SpringLaw, System,
+    };
+    use crate::vibration::Modes;
+
+    fn spring(name: String, anchors: [Anchor; 2], (length, time): (f64, f64)) -> Spring {
+        Spring {
+            name,
+            kind: SpringKind::Length(anchors.to_vec()),
+            law: Some(SpringLaw::Linear { stiffness: 1e3 / (time * time), natural: length }),
+            origin: Origin::Zero,
+            damping: 0.0.into(),
+        }
+    }
+
+    /// Particles on springs in a row between two points of the ground, in units of length and time.
+    fn chain(count: usize, units: (f64, f64)) -> Scene {
+        let mut scene = Scene::new("chain");
+        let at = |index: usize| Vec2::new(index as f64 * units.0, 0.0);
+        let mut last = Anchor::Ground(at(0));
+        for index in 1..=count + 1 {
+            let next = if index > count {
+                Anchor::Ground(at(index))
+            } else {
+                let bead =
+                    ParticleDefinition { name: format!("bead {index}"), position: at(index) };
+                Anchor::Station(scene.add_particle(bead, 1.0).unwrap())
+            };
+            scene
+                .add_spring(spring(format!("spring {index}"), [last, next.clone()], units))
+                .unwrap();
+            last = next;
+        }
+        scene
+    }
+
+    const UNITS: [(f64, f64); 6] =
+        [(1e-9, 1.0), (1e-6, 1e-6), (1e6, 1.0), (1.0, 1e6), (1e3, 1e3), (1e9, 1e-9)];
+
+    #[test]
+    fn the_units_do_not_decide_whether_a_sagging_chain_is_found() {
+        let sag = |units: (f64, f64)| {
+            let mut scene = chain(4, units);
+            scene.gravity = Vec2::new(0.0, -9.81) * (units.0 / (units.1 * units.1));
+            let found = Equilibrium::find(scene, Loading::default(), &mut |_| true).unwrap();
+            let iterations: usize = found.path().points().iter().map(|at| at.iterations).sum();
+            let state = found.model().control_points();
+            let lowest = state.map(|points| points[0].y / units.0).fold(0.0, f64::min);
+            (lowest, iterations)
+        };
+        let (own, work) = sag((1.0, 1.0));
+        for units in UNITS {
+            let (other, iterations) = sag(units);
+            assert!((other / own - 1.0).abs() < 1e-9, "{units:?}: {other} {own}");
+            assert!(iterations.abs_diff(work) <= 5, "{units:?}: {iterations} {work}");
+        }
+    }
+
+    #[test]
+    fn the_units_do_not_decide_which_modes_are_found() {
+        const COUNT: usize = 150;
+        let lowest = |units: (f64, f64)| {
+            let mut scene = chain(COUNT, units);
+            for index in 0..COUNT {
+                let place = scene.particles[index].position + Vec2::new(0.0, units.0);
+                let bead = Anchor::Station(Station::on_particle(index));
+                let name = format!("hanger {index}");
+                scene.add_spring(spring(name, [Anchor::Ground(place), bead], units)).unwrap();
+            }
+            let model = System::assemble(&scene).unwrap();
+            let modes = Modes::of(&model, 3, &mut || true).unwrap();
+            modes.all().iter().map(|mode| mode.angular_frequency() * units.1).collect::<Vec<_>>()
+        };
+        let own = lowest((1.0, 1.0));
+        for units in UNITS {
+            for (other, own) in lowest(units).iter().zip(&own) {
+                assert!((other / own - 1.0).abs() < 1e-9, "{units:?}: {other} {own}");
+            }
+        }
     }
 }

@@ -175,7 +175,7 @@ fn of_equal_stiffness(scene: &Scene) -> Scene {
         }
         .into();
     }
-    let length = scene.longest_beam().unwrap_or(1.0);
+    let length = scene.size().unwrap_or(1.0);
     for element in &mut equal.elements {
         if let Element::PointMass(mass) = element {
             let turns = mass.station.turns() && mass.station.beam().is_none();

@@ -2,6 +2,8 @@
 
 use super::VibrationError;
 use super::elastic::{Elastic, FourVectors};
+use crate::beams::SpanStiffness;
+use crate::elementary::square;
 use crate::linalg::{LinearError, PreciseBand, STRIP_WIDTH, SymmetricFactors, SymmetricSparse};
 use crate::system::{StaticOrder, System, add_resistance};
 
@@ -14,10 +16,26 @@ pub(super) struct Pencil {
     pub(super) inertia: SymmetricSparse,
     pub(super) elastic: Elastic,
     pub(super) order: StaticOrder,
-    /// Estimate of the squared frequency of the lowest bending mode [1/time²].
+    /// Estimate of the squared frequency of the lowest bending mode; without beams, of the lowest vibration of a chain of the softest springs [1/time²].
     pub(super) scale: f64,
     /// Number of degrees of freedom with mass, which is the number of modes with a finite frequency.
     pub(super) finite: usize,
+}
+
+/// Squared frequencies of each strain of a span alone, on the diagonal inertia of the unknowns [1/time²].
+fn squared_frequencies(
+    inertia: &[f64],
+    degrees: &[usize],
+    span: &SpanStiffness,
+) -> impl Iterator<Item = f64> {
+    span.stiffness.iter().zip(span.strains.chunks_exact(degrees.len())).filter_map(
+        |(factor, row)| {
+            let masses = degrees.iter().map(|at| inertia.get(*at).copied().unwrap_or(0.0));
+            let shares = row.iter().zip(masses).filter(|(_, mass)| *mass > 0.0);
+            let rate = factor * shares.map(|(strain, mass)| square(*strain) / mass).sum::<f64>();
+            (rate > 0.0).then_some(rate)
+        },
+    )
 }
 
 impl Pencil {
@@ -26,12 +44,20 @@ impl Pencil {
         let size = order.count();
         let mut stiffness = PreciseBand::zeros(size, order.half_bandwidth());
         let mut elastic = Elastic::default();
+        let inertia = model.sparse_inertia(&order);
+        let bending = model.slowest_bending();
+        let masses: Vec<f64> = (0..size).map(|at| inertia.diagonal(at)).collect();
+        let mut slowest = f64::INFINITY;
         model.for_each_static_span(&order, &mut |degrees, span| {
             add_resistance(&mut stiffness, degrees, span);
             elastic.add(size, degrees, span);
+            if bending.is_none() {
+                slowest = squared_frequencies(&masses, degrees, span).fold(slowest, f64::min);
+            }
         });
-        let inertia = model.sparse_inertia(&order);
-        let scale = model.slowest_bending().unwrap_or(1.0);
+        // Without stiffness all frequencies are zero, and any scale is right.
+        let of_springs = || Some(slowest / size as f64).filter(|scale| scale.is_finite());
+        let scale = bending.or_else(of_springs).unwrap_or(1.0);
         let own: Vec<f64> = (0..size)
             .map(|at| stiffness.diagonal(at).abs() + scale * inertia.diagonal(at))
             .collect();

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use crate::output::write_atomic;
+use crate::output::{printable, write_atomic};
 use crate::repl::shell::{CommandOutcome, Shell};
 use crate::script::diagnose::Diagnostic;
 use crate::script::source::program::Program;
@@ -42,7 +42,7 @@ pub fn save(shell: &mut Shell, operand: &str) -> CommandOutcome {
         shell.print_note("inputs with a return statement are saved as comments");
     }
     shell.record_saved(path, script);
-    shell.print(&format!("saved to {operand}"));
+    shell.print(&format!("saved to {}", printable(operand)));
     CommandOutcome::Success
 }
 

@@ -149,6 +149,7 @@ fn system_hint(error: &SystemError) -> Option<String> {
         SystemError::Empty { .. } => {
             "add one with scene.beam(#{ axis: …, section: … }) or scene.particle([x, y], mass)"
         }
+        SystemError::Interrupted { .. } => return None,
         SystemError::NoSection { .. } => "give a station of a beam",
         SystemError::NoPoint { .. } => {
             "add it to the points of scene.body(…); its centre is body.centre"

@@ -285,7 +285,8 @@ fn write_csv(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let file = named(call, ".csv")?;
     let has_units = call.options_or_defaults("options")?.boolean("units").unwrap_or(false);
     let heading = if has_units { TableHeading::NamesAndUnits } else { TableHeading::Names };
-    call.context().write_file(&file, table(call)?.to_csv(heading)?.as_bytes())?;
+    let table = table(call)?;
+    call.context().write_file_by(&file, |file| table.write_csv(heading, file))?;
     Ok(Dynamic::UNIT)
 }
 

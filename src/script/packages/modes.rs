@@ -34,7 +34,7 @@ pub const TABLE: BindingTable = BindingTable {
         method(SCENE, "modes", &[COUNT], |call| {
             let handle = call.receiver::<SceneHandle>()?;
             let scene = handle.scene().borrow().clone();
-            let model = System::assemble(&scene)?;
+            let model = assemble(call, &scene)?;
             expect_room(call, &model)?;
             warn_about_omissions(call, &handle, &scene);
             let modes = undamped_modes(call, |count, goes_on| Modes::of(&model, count, goes_on))?;
@@ -73,7 +73,7 @@ pub const TABLE: BindingTable = BindingTable {
             let handle = call.receiver::<SceneHandle>()?;
             let scene = handle.scene().borrow().clone();
             warn_about_omissions(call, &handle, &scene);
-            damped_modes(call, &System::assemble(&scene)?)
+            damped_modes(call, &assemble(call, &scene)?)
         })
         .returns(Returns::ARRAY)
         .summary("Computes the lowest damped vibrations of the undeformed scene: maps of decay_rate, \
@@ -268,6 +268,13 @@ fn warn_about_omissions(call: &Call, handle: &SceneHandle, scene: &Scene) {
             spin of {names}"
         ));
     }
+}
+
+/// Assembles a scene, unless the run must end.
+fn assemble(call: &Call, scene: &Scene) -> Result<System, ScriptError> {
+    let assembled = System::assemble_while(scene, &mut || !call.context().is_stopped());
+    call.context().proceed()?;
+    Ok(assembled?)
 }
 
 pub(super) fn expect_room(call: &Call, model: &System) -> Result<(), ScriptError> {

@@ -262,7 +262,7 @@ fn start(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let scene = handle.scene().borrow().clone();
     let variations = handle.variations()?;
     begin(call, handle, RunStart::Scene, |settings| match variations.is_empty() {
-        true => Simulation::start(scene, settings),
+        true => Simulation::start_while(scene, settings, &mut || !call.context().is_stopped()),
         false => Simulation::start_with_derivatives(scene, settings, variations),
     })
 }
@@ -281,7 +281,10 @@ pub(super) fn begin(
         })?,
         tolerance: Tolerance::default(),
     };
-    let mut simulation = start(settings)?;
+    let started = start(settings);
+    // An assembly that was stopped has its reason in the context.
+    call.context().proceed()?;
+    let mut simulation = started?;
     let name = options.optional_text("name")?;
     let name = name.unwrap_or_else(|| simulation.scene().name.clone());
     let limit = options.optional_number("snapshots").map(bytes);

@@ -51,12 +51,13 @@ pub(super) fn table(call: &Call) -> Result<DataTable, ScriptError> {
             .at(CallPart::Argument(0))
     })?;
     let names: BTreeSet<&str> = rows.iter().flat_map(|row| row.keys()).map(|key| &**key).collect();
-    let column = |name: &str| DataColumn {
-        name: name.to_owned(),
-        dimension: String::new(),
-        values: values(call, &rows, name),
+    let column = |name: &str| {
+        call.context().proceed()?;
+        let values = values(call, &rows, name);
+        Ok(DataColumn { name: name.to_owned(), dimension: String::new(), values })
     };
-    Ok(DataTable { columns: names.into_iter().map(column).collect() })
+    let columns = names.into_iter().map(column);
+    Ok(DataTable { columns: columns.collect::<Result<_, ScriptError>>()? })
 }
 
 /// Values of a key in all rows, in the narrowest type that fits. Missing keys and unit values become missing values.

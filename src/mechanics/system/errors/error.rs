@@ -11,6 +11,8 @@ use crate::loads::LoadError;
 pub enum SystemError {
     #[error("the scene '{scene}' has no beams, no particles and no bodies")]
     Empty { scene: String },
+    #[error("interrupted during the assembly of the scene '{scene}'")]
+    Interrupted { scene: String },
     #[error("{name:?} cannot be the name of a {kind}: {reason}; use letters, digits and spaces")]
     Unnamed { kind: &'static str, name: String, reason: &'static str },
     #[error("the scene already has a {kind} '{name}'; give this {new} another name")]

@@ -5,10 +5,11 @@ use crate::geometry::Vec2;
 /// Largest number of objects listed in a message.
 pub const MOST: usize = 6;
 
-/// Formats a number with at most six digits.
+/// Formats a number with at most six digits, as a power of ten where it is very small or large.
 pub fn rounded(number: f64) -> String {
     let rounded: f64 = format!("{number:.5e}").parse().unwrap_or(number);
-    rounded.to_string()
+    let is_plain = rounded == 0.0 || !rounded.is_finite() || (1e-4..1e7).contains(&rounded.abs());
+    if is_plain { rounded.to_string() } else { format!("{rounded:e}") }
 }
 
 pub fn written(at: Vec2) -> String {
@@ -34,6 +35,21 @@ pub fn plural(count: usize, noun: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn very_small_and_large_numbers_are_powers_of_ten() {
+        for (number, told) in [
+            (0.0, "0"),
+            (1.0 / 3.0, "0.333333"),
+            (-1234567.8, "-1234570"),
+            (1e-4, "0.0001"),
+            (-2.449_291e-16, "-2.44929e-16"),
+            (1e300, "1e300"),
+            (f64::NAN, "NaN"),
+        ] {
+            assert_eq!(rounded(number), told);
+        }
+    }
 
     #[test]
     fn places_have_at_most_six_digits() {

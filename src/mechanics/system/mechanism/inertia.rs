@@ -33,6 +33,14 @@ impl System {
         })
     }
 
+    /// Forces on the unknown degrees of freedom over the diagonal of the inertia, as if no inertia were coupled; zero without inertia
+    /// [length/time², 1/time²].
+    pub fn uncoupled_accelerations(&self, forces: &[f64]) -> Vec<f64> {
+        let inertia = self.diagonal_of_inertia();
+        let of = |(force, inertia): (&f64, f64)| if inertia > 0.0 { force / inertia } else { 0.0 };
+        forces.iter().zip(inertia).map(of).collect()
+    }
+
     /// Band matrix of the inertia with the couplings of rigid links [mass, mass·length, mass·length²]. Its solution gives accelerations and link
     /// forces.
     pub(super) fn banded_inertia(&self) -> BandedMatrix {

@@ -55,6 +55,12 @@ impl Scene {
         groups.all.iter().map(Group::extent).fold(0.0, larger)
     }
 
+    /// Length scale of a scene: its longest beam, or without beams its [extent](Self::extent); `None` for isolated particles without size [length].
+    pub fn size(&self) -> Option<f64> {
+        let extent = || Some(self.extent()).filter(|extent| *extent > 0.0 && extent.is_finite());
+        self.longest_beam().or_else(extent)
+    }
+
     /// Rounding error of strain energies, `ε Σ (EA L + EI/L)`. Without beams it is the work of the initial forces over the rounding errors of
     /// positions [energy].
     pub(crate) fn rounding_energy(&self) -> f64 {

@@ -1,19 +1,32 @@
 //! Comparison of scenes.
 
+use std::collections::BTreeMap;
+
 use serde_json::Value;
 
 use super::Scene;
+use crate::geometry::larger;
 use crate::system::Element;
 
 /// Relative tolerance for equal numbers, which may come from different formulas.
 const TOLERANCE: f64 = 1e-9;
+
+/// Difference of two numbers, relative to the largest number of the same field in both scenes, that is attributed to rounding, as of a number that
+/// should be zero.
+const ROUNDING: f64 = 64.0 * f64::EPSILON;
 
 impl Scene {
     /// Returns true if both scenes have equal beams, particles, rigid bodies, joints, tracks, sliders, masses, velocities and loads, in the same
     /// order. Names and observed stations are ignored. Script functions cannot be compared, so scenes that contain them are never equal.
     pub fn is_like(&self, other: &Self) -> bool {
         match (self.without_names(), other.without_names()) {
-            (Ok(own), Ok(others)) => is_near(&own, &others),
+            (Ok(own), Ok(others)) => {
+                let mut scales = Scales::new();
+                for scene in [&own, &others] {
+                    add_scales(scene, "", &mut scales);
+                }
+                is_near(&own, &others, "", &scales)
+            }
             _ => false,
         }
     }
@@ -37,19 +50,70 @@ impl Scene {
     }
 }
 
-fn is_near(a: &Value, b: &Value) -> bool {
+/// Largest absolute number of each field, which has the same dimension in all objects.
+type Scales<'v> = BTreeMap<&'v str, f64>;
+
+fn add_scales<'v>(value: &'v Value, field: &'v str, scales: &mut Scales<'v>) {
+    match value {
+        Value::Number(number) => {
+            let scale = scales.entry(field).or_default();
+            *scale = larger(*scale, number.as_f64().map_or(0.0, f64::abs));
+        }
+        Value::Array(values) => values.iter().for_each(|value| add_scales(value, field, scales)),
+        Value::Object(fields) => {
+            fields.iter().for_each(|(field, value)| add_scales(value, field, scales));
+        }
+        _ => (),
+    }
+}
+
+fn is_near(a: &Value, b: &Value, field: &str, scales: &Scales<'_>) -> bool {
     match (a, b) {
         (Value::Number(x), Value::Number(y)) => match (x.as_f64(), y.as_f64()) {
-            (Some(x), Some(y)) => (x - y).abs() <= TOLERANCE * x.abs().max(y.abs()).max(1.0),
+            (Some(x), Some(y)) => {
+                let rounding = ROUNDING * scales.get(field).copied().unwrap_or(0.0);
+                (x - y).abs() <= larger(TOLERANCE * larger(x.abs(), y.abs()), rounding)
+            }
             _ => x == y,
         },
         (Value::Array(a), Value::Array(b)) => {
-            a.len() == b.len() && a.iter().zip(b).all(|(a, b)| is_near(a, b))
+            a.len() == b.len() && a.iter().zip(b).all(|(a, b)| is_near(a, b, field, scales))
         }
         (Value::Object(a), Value::Object(b)) => {
-            let is_there = |(key, value)| b.get(key).is_some_and(|other| is_near(value, other));
+            let is_there = |(key, value): (&String, &Value)| {
+                b.get(key).is_some_and(|other| is_near(value, other, key, scales))
+            };
             a.len() == b.len() && a.iter().all(is_there)
         }
         _ => a == b,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::Vec2;
+    use crate::system::ParticleDefinition;
+
+    /// Two particles of a scene in a unit of length and a unit of mass.
+    fn pair(place: Vec2, mass: f64, (length, unit): (f64, f64)) -> Scene {
+        let mut scene = Scene::new("pair");
+        for (name, at, mass) in [("a", Vec2::new(0.0, 3.0), 1.0), ("b", place, mass)] {
+            let bead = ParticleDefinition { name: name.into(), position: at * length };
+            scene.add_particle(bead, mass * unit).unwrap();
+        }
+        scene
+    }
+
+    #[test]
+    fn the_units_do_not_decide_which_scenes_are_alike() {
+        let (place, rounded) = (Vec2::new(1.0, 0.0), Vec2::new(1.0 + 1e-12, 2e-16));
+        for units in [(1.0, 1.0), (1e-9, 1e-15), (1e9, 1e15)] {
+            let scene = pair(place, 2.0, units);
+            assert!(scene.is_like(&pair(rounded, 2.0 + 1e-12, units)), "{units:?}");
+            assert!(!scene.is_like(&pair(Vec2::new(1.001, 0.0), 2.0, units)), "{units:?}");
+            assert!(!scene.is_like(&pair(Vec2::new(1.0, 1e-3), 2.0, units)), "{units:?}");
+            assert!(!scene.is_like(&pair(place, 2.001, units)), "{units:?}");
+        }
     }
 }

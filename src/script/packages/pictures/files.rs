@@ -30,6 +30,6 @@ pub fn write_csv(call: &Call, table: CsvTable) -> Result<Dynamic, ScriptError> {
     if !file.ends_with(".csv") {
         return Err(call.error(format!("\"{file}\" does not end in .csv")));
     }
-    call.context().write_file(&file, table.to_text()?.as_bytes())?;
+    call.context().write_file_by(&file, |file| table.write(file))?;
     Ok(Dynamic::UNIT)
 }

@@ -6,23 +6,24 @@ use std::path::PathBuf;
 use super::Context;
 use crate::script::messages::error::ScriptError;
 use crate::script::state::files::WrittenFile;
-use crate::script::state::limits::Meter;
 use crate::script::state::settings::RunMode;
 
 /// Memory per byte of a file, for the content and its parsed form.
 const TIMES_ITS_LENGTH: u64 = 4;
 
-/// A file whose written bytes are counted, up to the limit.
+/// A file whose written bytes are counted, up to the limit. Writing fails as soon as the run must end.
 struct CountedFile<'c> {
     file: &'c mut dyn Write,
-    meter: &'c Meter,
+    context: &'c Context,
 }
 
 impl Write for CountedFile<'_> {
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
-        match self.meter.allows_to_write(bytes.len() as u64) {
+        let may_write =
+            !self.context.is_stopped() && self.context.meter().allows_to_write(bytes.len() as u64);
+        match may_write {
             true => self.file.write(bytes),
-            false => Err(io::Error::other("the limit of written data of the run is reached")),
+            false => Err(io::Error::other("the run must end")),
         }
     }
 
@@ -52,11 +53,11 @@ impl Context {
         write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
     ) -> Result<PathBuf, ScriptError> {
         self.account_for(&[])?;
-        let written = self
-            .output()
-            .write_by(name, |file| write(&mut CountedFile { file, meter: self.meter() }))?;
+        let written =
+            self.output().write_by(name, |file| write(&mut CountedFile { file, context: self }));
+        // A run that must end has refused the write.
         self.proceed()?;
-        Ok(self.report_kept(written))
+        Ok(self.report_kept(written?))
     }
 
     /// Writes a file that the script may [read](Self::read_file) again, also in a dry run. An existing file is kept as in
@@ -109,5 +110,31 @@ impl Context {
         }
         self.meter().allows_to_write(bytes);
         self.output().write(name, content).map(|written| self.report_kept(written))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::sync::atomic::Ordering;
+
+    use super::*;
+    use crate::script::messages::stop::Stop;
+    use crate::script::state::settings::RunSettings;
+
+    #[test]
+    fn an_interrupt_ends_the_writing_of_a_long_file() {
+        let out = tempfile::tempdir().expect("a temporary folder");
+        let settings =
+            RunSettings { out: out.path().to_owned(), ..RunSettings::silent(RunMode::Run) };
+        let context = Context::new(settings);
+        let interrupt = context.interrupt_flag();
+        let mut refused = 0;
+        let written = context.write_file_by("long.csv", |file| {
+            file.write_all(b"0\n")?;
+            interrupt.store(true, Ordering::Relaxed);
+            file.write_all(b"1\n").inspect_err(|_| refused += 1)
+        });
+        assert!(matches!(written, Err(ScriptError::Stopped(Stop::Interrupt))));
+        assert_eq!((refused, std::fs::read_dir(out.path()).expect("the folder").count()), (1, 0));
     }
 }
