@@ -80,7 +80,7 @@ impl Simulation {
     /// # Errors
     /// Fails if the step size or a method parameter is out of range, or the scene cannot be built.
     pub fn start(scene: Scene, settings: SimulationSettings) -> Result<Self, SimulationError> {
-        let model = System::assemble(&scene)?;
+        let model = System::assemble_in_motion(&scene)?;
         Self::of(scene, model, settings)
     }
 

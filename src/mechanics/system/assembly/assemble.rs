@@ -38,6 +38,18 @@ impl System {
         Ok(model)
     }
 
+    /// Builds the mechanism of a scene at the start of a run: kinks under sliders begin with the contact forces at that moment.
+    ///
+    /// # Errors
+    /// Errors of [`assemble`](Self::assemble).
+    pub fn assemble_in_motion(scene: &Scene) -> Result<Self, SystemError> {
+        let mut model = Self::as_drawn(scene)?;
+        model.project_start_velocities(scene)?;
+        model.start_kinks()?;
+        model.begin();
+        Ok(model)
+    }
+
     /// Builds the mechanism of a scene in the given static state and time. Only there, velocities are checked against the joints.
     ///
     /// # Errors
