@@ -11,7 +11,7 @@ use crate::beams::RotationIncrement;
 use crate::geometry::Vec2;
 use crate::linalg::BandedMatrix;
 use crate::system::SystemError;
-use crate::system::sliders::KinkedAxis;
+use crate::system::sliders::{KinkedAxis, SliderContact};
 
 impl System {
     /// Starts all kinks of a scene as drawn, with the contact forces of rigid contacts at the start. Slaves and masters amid spans are moved apart by
@@ -22,8 +22,10 @@ impl System {
     /// # Errors
     /// Fails if velocities after the rotation are not determined.
     pub(in crate::system) fn start_kinks(&mut self) -> Result<(), SystemError> {
+        let (bodies, rates) = (&self.bodies, &self.motion.rates);
+        let slow = |slider: &SliderContact| slider.has_kink() && slider.is_slow(bodies, rates);
         let starting: Vec<usize> =
-            (0..self.sliders.len()).filter(|at| self.sliders[*at].has_kink()).collect();
+            (0..self.sliders.len()).filter(|at| slow(&self.sliders[*at])).collect();
         if starting.is_empty() {
             return Ok(());
         }

@@ -54,6 +54,12 @@ impl SliderContact {
         self.is_sliding() && self.kinked_axis.is_some()
     }
 
+    /// Returns true if the slider slides slowly enough for its kink to begin with a load.
+    pub fn is_slow(&self, bodies: &[Body], rates: &[f64]) -> bool {
+        let rate = self.rate(bodies, rates);
+        self.kinked_axis.as_ref().is_some_and(|axis| axis.is_slow(axis.speed_of(rate)))
+    }
+
     /// Returns true if the slider slides slowly enough for a loaded kink at an end of a master whose kink has no load.
     pub fn is_straight_at_end(&self, bodies: &[Body], rates: &[f64]) -> bool {
         let axis = self.kinked_axis.as_ref().filter(|_| self.is_sliding());
