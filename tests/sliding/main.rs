@@ -9,6 +9,7 @@ mod ends;
 mod forces;
 mod impact_law;
 mod invariants;
+mod kink_starts;
 mod kinks;
 mod long_ways;
 mod many;

@@ -14,8 +14,8 @@ const SHORTEST_WAY: f64 = 1e-3;
 /// Length scale of a scene: its [size](Scene::size). For isolated particles it is the distance in which gravity generates the start speed, or, if
 /// that is short, the largest distance from the origin.
 ///
-/// A scene without any of these lengths, such as a particle that starts at the origin at rest, has no length scale, and 1 [length] defines one: only
-/// there the steps depend on the unit.
+/// A scene without any of these lengths, such as a particle that starts at the origin almost at rest, has no length scale, and 1 [length] defines
+/// one: only there the steps depend on the unit.
 pub(super) fn length_of(scene: &Scene) -> f64 {
     let is_length = |length: &f64| *length > 0.0 && length.is_finite();
     let places = scene.particles.iter().map(|particle| particle.position);
@@ -23,7 +23,8 @@ pub(super) fn length_of(scene: &Scene) -> f64 {
     let farthest = places.map(|place| place.norm()).fold(0.0, larger);
     let of_particles = || {
         let way = Some(square(start_speed(scene)) / scene.gravity.norm()).filter(is_length);
-        let long = way.filter(|way| *way > SHORTEST_WAY * farthest);
+        let least = SHORTEST_WAY * if farthest > 0.0 { farthest } else { 1.0 };
+        let long = way.filter(|way| *way > least);
         long.or(Some(farthest).filter(is_length))
     };
     scene.size().or_else(of_particles).unwrap_or(1.0)

@@ -92,7 +92,7 @@ impl Simulation {
         settings: SimulationSettings,
         goes_on: &mut dyn FnMut() -> bool,
     ) -> Result<Self, SimulationError> {
-        let model = System::assemble_while(&scene, goes_on)?;
+        let model = System::assemble_in_motion(&scene, goes_on)?;
         Self::of(scene, model, settings)
     }
 

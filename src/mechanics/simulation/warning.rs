@@ -21,9 +21,6 @@ const BOUNCE: f64 = 5.0;
 /// Number of steps per period that needs no warning.
 const RESOLVED_STEPS_PER_PERIOD: f64 = 20.0;
 
-/// Accumulated phase error that the advised step size leaves [rad].
-const ACCEPTED_LAG: f64 = 0.1;
-
 /// Cause, other than vibration, of rate changes within a step.
 #[derive(Debug, Clone, PartialEq)]
 pub enum RateChangeCause {
@@ -74,15 +71,6 @@ pub enum Warning {
         unresolved_fraction: f64,
         /// Mean period of the motion of the beam, weighted by accelerations [time].
         period: f64,
-    },
-    /// Accumulated phase error of a free motion.
-    Phase {
-        /// Step size [time].
-        dt: f64,
-        /// Phase that a step advances the motion, weighted by the kinetic energy [rad].
-        phase: f64,
-        /// Accumulated phase error [rad].
-        lag: f64,
     },
     /// Alternating long and short steps with rigid links or strong damping.
     Uneven {
@@ -199,7 +187,6 @@ impl Warning {
             Self::Motion { unresolved_fraction, .. } | Self::Beam { unresolved_fraction, .. } => {
                 *unresolved_fraction
             }
-            Self::Phase { lag, .. } => *lag,
             Self::Uneven { shortest, longest } => longest / shortest,
             Self::ManySteps { steps, .. } => *steps as f64,
             Self::Rotation { angle, .. } => *angle,
@@ -219,7 +206,6 @@ impl Warning {
     fn object_name(&self) -> Option<&str> {
         match self {
             Self::Motion { .. }
-            | Self::Phase { .. }
             | Self::Uneven { .. }
             | Self::ManySteps { .. }
             | Self::Rotation { .. }
@@ -301,14 +287,6 @@ impl fmt::Display for Warning {
                 short(dt / period),
                 short(*period),
                 short(period / RESOLVED_STEPS_PER_PERIOD)
-            ),
-            Self::Phase { dt, phase, lag } => write!(
-                f,
-                "the motion is late by about {} rad of its phase, because dt = {} is only {} steps per period; use dt below {}, or the method fourth_order",
-                short(*lag),
-                short(*dt),
-                short(TAU / phase),
-                short(dt * (ACCEPTED_LAG / lag).sqrt())
             ),
             Self::Rotation { dt, angle } => write!(
                 f,

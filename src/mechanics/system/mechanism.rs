@@ -7,6 +7,7 @@ mod impact;
 mod impulses;
 mod inertia;
 mod instant;
+mod kink_start;
 mod measures;
 mod reactions;
 mod release;

@@ -107,9 +107,9 @@ pub const TABLE: BindingTable = BindingTable {
             the force on its station is the opposite.")
         .doc(
             "Zero before the first step and after a release. The value belongs to the middle of \
-            the step; with kinked() to its end, with the order of the method; with \
-            fourth_order() to the last of its seven substeps, so that it is first order. \
-            present_contact_force has the order of the motion with every rule; \
+            the step with every rule; with fourth_order() to that of the last of its seven \
+            substeps, so that it is first order. With kinked() the value before the first step is \
+            the present one, from the accelerations. present_contact_force has the order of the motion with every rule; \
             scene.record(\"ring.present_force\") records it. On splines with the conserving \
             rule the force is smooth where the motion is. Where it alternates between steps \
             (kinks of Lagrange elements, the relaxed rule), averaged(\"ring.force\") of the \

@@ -58,7 +58,7 @@ const CONSERVING: RuleEntry = RuleEntry {
 const KINKED: RuleEntry = RuleEntry {
     rule: SlidingRule::Kinked,
     name: "kinked",
-    summary: "conserves the same on an axis with a kink under the contact force: second order in the mesh, forces at the current time",
+    summary: "conserves the same on an axis with a kink under the contact force: second order in the mesh",
     claims: RuleClaims { energy: true, angular_momentum: true, gap: true },
     source: "withy, docs/theory.md, section 10.1",
 };

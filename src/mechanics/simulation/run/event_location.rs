@@ -216,7 +216,10 @@ impl Simulation {
         let limit = match landing.event {
             Event::Arrival(limit) => limit,
             Event::JustBefore => return Ok(()),
-            Event::StopRelease => return Ok(self.model.leave_tensile_stops()?),
+            Event::StopRelease => {
+                self.model.leave_tensile_stops()?;
+                return Ok(self.model.restart_kinks_at_ends()?);
+            }
         };
         let dt = self.dt();
         let mut arriving = Arriving::default();
@@ -263,6 +266,7 @@ impl Simulation {
             for arrival in &mut arrivals {
                 arrival.impulse = self.model.impulse_of(arrival.limit.slider);
             }
+            self.model.restart_kinks_at_ends()?;
         }
         // The arrival that ends the run is listed last.
         arrivals.sort_by_key(|arrival| arrival.kind == ArrivalKind::Stopped);

@@ -2,7 +2,7 @@
 
 use super::Simulation;
 use crate::beams::BodyIndex;
-use crate::geometry::smaller;
+use crate::geometry::{larger, smaller};
 use crate::integrators::Method;
 use crate::joints::SlidingRule;
 use crate::simulation::Axes;
@@ -87,7 +87,8 @@ impl Simulation {
         sliders.filter(move |(index, _)| slides(*index)).flat_map(|(index, slider)| {
             let beam = &self.scene.beams[self.model.slider_beam(index)];
             let (name, master) = (&slider.name, &beam.name);
-            let force = self.model.contact_force(index).norm();
+            let [mean, of_kink] = [self.model.contact_force(index), self.model.kink_force(index)];
+            let force = larger(mean.norm(), of_kink.norm());
             let pressed = force / beam.section.mean().shear_stiffness;
             let place = self.model.slider_position(index);
             let left = smaller(place, 1.0 - place);

@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use super::Simulation;
-use crate::elementary::{power, tan};
+use crate::elementary::power;
 use crate::geometry::larger;
 use crate::integrators::{EnergyClaim, INTEGRATORS, Mechanism, Method};
 use crate::simulation::adaptive::Adaptive;
@@ -21,9 +21,6 @@ const HIDDEN_SHARE: f64 = 0.05;
 
 /// Phase per step above which a small unresolved fraction causes a warning [rad].
 const HIDDEN_TURN: f64 = 2.0 * TAU;
-
-/// Accumulated phase error above which a warning is given [rad]. An amplitude is then wrong by half of itself at worst.
-const LARGEST_LAG: f64 = 0.5;
 
 /// Kinetic energy of a body, relative to the total, below which the body is ignored.
 const NOTHING: f64 = 1e-8;
@@ -84,7 +81,6 @@ impl Simulation {
         }
         if notes.is_empty() {
             notes.extend(self.unresolved_beams(dt));
-            notes.extend(self.phase_error(dt));
         }
         notes.extend(self.uneven_steps());
         notes.extend(self.many_steps());
@@ -162,23 +158,6 @@ impl Simulation {
             unresolved_fraction: own.unresolved_share(),
             period: TAU / own.angular_frequency(),
         })
-    }
-
-    /// Accumulated phase error of a free motion by a method of second order. Without a load or drive that depends on time, a vibration is late by
-    /// `2 tan(φ/2) - φ` in a step. Steps count by their kinetic energy, so that those after a decay do not count.
-    fn phase_error(&self, dt: f64) -> Option<Warning> {
-        let is_second_order = self.settings.method.entry().claims.order == 2;
-        let is_free = self.scene.schedules().next().is_none();
-        if !is_second_order || !is_free || !matches!(self.settings.dt, StepSize::Fixed(_)) {
-            return None;
-        }
-        let rows = self.history().samples();
-        let kinetic = || rows.iter().map(|row| row.measures.energy.kinetic);
-        let mean = kinetic().sum::<f64>() / rows.len() as f64;
-        let steps = self.counts().steps as f64 * mean / kinetic().fold(0.0, larger);
-        let phase = self.model.resolution().phase(dt);
-        let lag = steps * (2.0 * tan(0.5 * phase) - phase);
-        (lag > LARGEST_LAG).then_some(Warning::Phase { dt, phase, lag })
     }
 
     /// Warning about alternating long and short steps in scenes with persistent velocity errors. Each step multiplies such errors by -1, so the

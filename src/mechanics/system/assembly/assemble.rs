@@ -51,6 +51,22 @@ impl System {
         Ok(model)
     }
 
+    /// Builds the mechanism of a scene at the start of a run: kinks under sliders begin with the contact forces at that moment.
+    ///
+    /// # Errors
+    /// Errors of [`assemble_while`](Self::assemble_while).
+    pub(crate) fn assemble_in_motion(
+        scene: &Scene,
+        goes_on: &mut dyn FnMut() -> bool,
+    ) -> Result<Self, SystemError> {
+        let mut model = Self::as_drawn(scene, goes_on)?;
+        query(scene, goes_on)?;
+        model.project_start_velocities(scene)?;
+        model.start_kinks()?;
+        model.begin();
+        Ok(model)
+    }
+
     /// Builds the mechanism of a scene in the given static state and time. Only there, velocities are checked against the joints.
     ///
     /// # Errors

@@ -78,13 +78,13 @@ impl System {
             self.add_inertia(1.0, &prescribed, &mut residual);
         }
         for slider in self.sliders.iter().filter(|slider| slider.is_compliant()) {
-            slider.transmit(&self.bodies, slider.contact_force(), &mut residual);
+            slider.transmit(&self.bodies, slider.force_of_state(), &mut residual);
         }
         let (accelerations, mut contacts) =
             self.solve_accelerations(&residual).map_err(|error| refused(error.to_string()))?;
         for (contact, slider) in contacts.iter_mut().zip(self.sliders.iter()) {
             if slider.is_compliant() {
-                *contact += slider.contact_force();
+                *contact += slider.force_of_state();
             }
         }
 

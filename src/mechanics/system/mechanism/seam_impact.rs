@@ -49,6 +49,10 @@ impl SeamCorner {
         corners.iter().flat_map(both).collect()
     }
 
+    pub(super) fn new(slider: usize, incoming: Vec2, outgoing: Vec2) -> Self {
+        Self { slider, incoming, outgoing }
+    }
+
     fn is_straight(&self) -> bool {
         cross(self.incoming, self.outgoing).abs() <= STRAIGHT
             && self.incoming.dot(&self.outgoing) > 0.0
@@ -143,7 +147,7 @@ impl System {
         let rates = &self.motion.rates;
         let corner = |&MasterLimit { slider, end }: &MasterLimit| {
             let [comes, goes] = self.sliders[slider].off_kink(&self.bodies, rates, end)?;
-            Some(SeamCorner { slider, incoming: comes, outgoing: goes })
+            Some(SeamCorner::new(slider, comes, goes))
         };
         let corners: Vec<SeamCorner> = limits.iter().filter_map(corner).collect();
         self.deflect(&corners, Deformation::All)?;

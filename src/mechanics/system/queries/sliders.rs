@@ -42,11 +42,16 @@ impl System {
         self.slider(slider).kink_speed_limit()
     }
 
-    /// Force of a slider on its master [force]. It is the mean over the last step; for the kinked rule it is instantaneous, unless the kink is fixed.
+    /// Force of a slider on its master as the mean over the last step [force].
     ///
-    /// Zero before the first step and after a release.
+    /// Zero after a release, and before the first step unless a kink begins with the present force.
     pub fn contact_force(&self, slider: usize) -> Vec2 {
         self.slider(slider).contact_force()
+    }
+
+    /// Force of the kink under a slider that follows the contact force, otherwise the [`contact_force`](Self::contact_force) [force].
+    pub fn kink_force(&self, slider: usize) -> Vec2 {
+        self.slider(slider).force_of_state()
     }
 
     /// Position of a slider along its master or track as drawn, from 0 at the start to 1 at the end. It is unwrapped on closed tracks [-].

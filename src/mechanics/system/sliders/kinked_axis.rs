@@ -18,6 +18,15 @@ const FASTEST_ON_MESH: f64 = 0.9;
 /// Kink length, relative to the largest in the middle of the master, below which the kink is fixed. This is the case near the ends.
 const BESIDE_END: f64 = 0.1;
 
+/// Largest speed, relative to the largest at which a kink follows its force, with which a kink begins loaded at an end.
+const SLOW: f64 = 0.25;
+
+/// Fraction of that length below which the kink is fixed also on the way from an end, where rounding errors of positions would determine it.
+const FROM_END: f64 = 0.01;
+
+/// Largest contact force relative to `GA` with which a kink begins [-]. Forces that are larger come from vibrations that the steps do not resolve.
+const LARGEST_START: f64 = 0.02;
+
 /// Kink under a contact force that the mesh of a master misses, shared by all sliders on it.
 #[derive(Debug, Clone)]
 pub struct MasterKink {
@@ -94,11 +103,24 @@ impl KinkedAxis {
         self.fastest
     }
 
-    /// Returns true if the kink is fixed: near an end, close to the speed of shear waves, or on request.
+    /// Returns true if the kink is fixed: beside an end unless it is loaded and moves away from there, close to the speed of shear waves, or on request.
     pub fn is_frozen(&self) -> bool {
-        self.is_frozen
-            || self.compliance_derivatives[0] < self.least
-            || self.speed.abs() > self.fastest
+        let [length, slope, _] = self.compliance_derivatives;
+        let leaves =
+            slope * self.speed > 0.0 && self.jump != Vec2::zeros() && self.is_slow(self.speed);
+        let least = if leaves { FROM_END * self.least } else { self.least };
+        self.is_frozen || length < least || self.speed.abs() > self.fastest
+    }
+
+    /// Returns true if a kink with this speed along the master [length/time] begins with the contact force. At larger speeds unresolved waves
+    /// beside the end would load it.
+    pub fn is_slow(&self, speed: f64) -> bool {
+        speed.abs() < SLOW * self.fastest
+    }
+
+    /// Rate `dξ/dt` [1/time] times the length of the master per unit of ξ [length/time].
+    pub fn speed_of(&self, rate: f64) -> f64 {
+        self.stretch * rate
     }
 
     /// Fixes the kink for the following steps. Returns true if this changes the equations of the next step.
@@ -168,14 +190,30 @@ impl KinkedAxis {
         self.jump * (1.0 - self.inverse_square_speed * self.speed * self.speed)
     }
 
-    /// Removes from the contact force the force of a stop, along the tangent `x'` of the axis [length]. The remaining force satisfies
-    /// `p·x' + ½ g' |p|²/GA = 0` up to the third power of `p`.
+    /// Removes from the contact force the force of a stop, along the tangent `x'` of the axis [length].
     ///
     /// If the axis is compliant there, as within rounding of the end, the force is kept, because positions determine it.
     pub fn remove_stop_force(&mut self, tangent: Vec2) {
-        if self.is_compliant() {
-            return;
+        if !self.is_compliant() {
+            self.keep_force_across(tangent);
         }
+    }
+
+    /// Begins with the kink of a contact force [force] across the tangent `x'` of the axis [length]; without load if the force is too large for a kink
+    /// that begins.
+    pub fn load(&mut self, force: Vec2, tangent: Vec2) {
+        let is_small = force.norm() * self.compliance < LARGEST_START;
+        self.jump = if is_small { force } else { Vec2::zeros() };
+        self.keep_force_across(tangent);
+    }
+
+    /// Sets the speed of the kink along the master to that of a rate `dξ/dt` [1/time].
+    pub fn start_speed(&mut self, rate: f64) {
+        self.speed = self.stretch * rate;
+    }
+
+    /// Keeps the force across a tangent `x'` of the axis [length] such that `p·x' + ½ g' |p|²/GA = 0` up to the third power of `p`.
+    fn keep_force_across(&mut self, tangent: Vec2) {
         let along = |force: Vec2| tangent * (force.dot(&tangent) / tangent.norm_squared());
         let across = self.jump - along(self.jump);
         let pull = 0.5 * self.compliance_derivatives[1] * self.compliance * across.norm_squared();

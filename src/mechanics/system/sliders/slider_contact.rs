@@ -169,6 +169,11 @@ impl SliderContact {
         }
     }
 
+    /// Replaces the kinked axis of the master; without one the contact is rigid. Returns the previous one.
+    pub fn exchange_kinked_axis(&mut self, axis: Option<KinkedAxis>) -> Option<KinkedAxis> {
+        std::mem::replace(&mut self.kinked_axis, axis)
+    }
+
     pub fn is_sliding(&self) -> bool {
         self.state == SliderState::Sliding
     }
@@ -181,8 +186,14 @@ impl SliderContact {
         self.kinked_axis.iter_mut().for_each(KinkedAxis::straighten);
     }
 
-    /// Contact force on the master [force]. With a kink that follows the force it is instantaneous, otherwise the mean of the last step.
+    /// Contact force on the master as the mean of the last step [force].
     pub fn contact_force(&self) -> Vec2 {
+        self.unknowns.force
+    }
+
+    /// Contact force on the master at the present time as far as the state determines it: with a kink that follows the force, otherwise the mean of
+    /// the last step [force].
+    pub fn force_of_state(&self) -> Vec2 {
         let axis = self.kinked_axis.as_ref().filter(|_| !self.is_frozen());
         axis.map_or(self.unknowns.force, KinkedAxis::force)
     }
@@ -244,7 +255,7 @@ impl SliderContact {
         let (start, end) = self.master.domain();
         let ahead = self.parameter + interval.duration() * self.rate(bodies, rates);
         let way = ahead.clamp(start, end) - self.parameter;
-        let force = if self.is_compliant() { self.contact_force() } else { self.unknowns.force };
+        let force = if self.is_compliant() { self.force_of_state() } else { self.unknowns.force };
         let guess = ContactUnknowns { force, increment: way, ..self.unknowns };
         unknowns[self.connection.places()].copy_from_slice(&guess.to_array());
     }

@@ -1,7 +1,7 @@
 //! Resolution of the motion by time steps, measured from quantities that each step computes.
 
 use crate::beams::RotationIncrement;
-use crate::elementary::{asin, square};
+use crate::elementary::square;
 
 /// Squared prediction errors of a step in the norm of the diagonal inertia. Each is twice an energy [energy].
 #[derive(Debug, Clone, Copy, Default)]
@@ -108,12 +108,6 @@ impl Resolution {
         if self.unresolved <= 0.0 { 0.0 } else { (self.unresolved / self.bent).sqrt() }
     }
 
-    /// Phase `φ` by which a step of the given length advances the motion, weighted by the kinetic energy [rad]. `sin²φ = Σ M / Σ (m v̄² + S)`.
-    pub fn phase(&self, dt: f64) -> f64 {
-        let squared_sine = 16.0 * self.bent / (square(dt) * self.kinetic);
-        if squared_sine > 0.0 { asin(squared_sine.sqrt().min(1.0)) } else { 0.0 }
-    }
-
     /// Largest rotation of a section in a step or substep [rad].
     pub fn rotation(&self) -> f64 {
         self.rotation
@@ -182,9 +176,6 @@ mod tests {
             assert!((frequency * 0.5 / turn - 1.0).abs() < 0.01, "{turn}: {frequency}");
             let share = resolution.unresolved_share();
             assert!((share - sine.powi(4)).abs() < 0.01 * sine.powi(4) + 1e-9, "{turn}: {share}");
-            let phase = 2.0 * (0.5_f64 * turn).atan();
-            let is_known = phase < 0.5 * std::f64::consts::PI;
-            assert!(!is_known || (resolution.phase(0.5) / phase - 1.0).abs() < 0.01);
         }
     }
 

@@ -40,7 +40,7 @@ impl Passing for AtRest {
 impl SliderContact {
     /// Predicts an unchanged contact for a displacement between two equilibria.
     pub fn predict_unchanged(&self, unknowns: &mut [f64]) {
-        let guess = ContactUnknowns { force: self.contact_force(), ..ContactUnknowns::zeros() };
+        let guess = ContactUnknowns { force: self.force_of_state(), ..ContactUnknowns::zeros() };
         unknowns[self.connection.places()].copy_from_slice(&guess.to_array());
     }
 
@@ -149,7 +149,7 @@ impl SliderContact {
         }
         let degrees = self.static_coupling(bodies, own);
         let (width, last) = (degrees.len(), degrees.len() - 1);
-        let force = self.contact_force();
+        let force = self.force_of_state();
         let slides = if self.is_sliding() { 1.0 } else { 0.0 };
         let (compliance, slope, bend) = self
             .kinked_axis

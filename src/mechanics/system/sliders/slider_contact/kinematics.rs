@@ -49,6 +49,39 @@ impl SliderContact {
         (!is_straight).then(|| [velocity.normalize(), axis])
     }
 
+    /// Returns true if the slider slides on a master with a kink.
+    pub fn has_kink(&self) -> bool {
+        self.is_sliding() && self.kinked_axis.is_some()
+    }
+
+    /// Returns true if the slider slides slowly enough for its kink to begin with a load.
+    pub fn is_slow(&self, bodies: &[Body], rates: &[f64]) -> bool {
+        let rate = self.rate(bodies, rates);
+        self.kinked_axis.as_ref().is_some_and(|axis| axis.is_slow(axis.speed_of(rate)))
+    }
+
+    /// Returns true if the slider slides slowly enough for a loaded kink at an end of a master whose kink has no load.
+    pub fn is_straight_at_end(&self, bodies: &[Body], rates: &[f64]) -> bool {
+        let axis = self.kinked_axis.as_ref().filter(|_| self.is_sliding());
+        axis.is_some_and(|axis| {
+            let is_straight = !axis.is_compliant() && axis.force() == Vec2::zeros();
+            is_straight && axis.is_slow(axis.speed_of(self.rate(bodies, rates)))
+        })
+    }
+
+    /// Loads the kink of the master with a contact force [force].
+    pub fn load_kink(&mut self, bodies: &[Body], force: Vec2) {
+        let tangent = self.tangent(bodies);
+        self.unknowns.force = force;
+        self.kinked_axis.iter_mut().for_each(|axis| axis.load(force, tangent));
+    }
+
+    /// Sets the speed of the kink to that of the slider.
+    pub fn start_kink_speed(&mut self, bodies: &[Body], rates: &[f64]) {
+        let rate = self.rate(bodies, rates);
+        self.kinked_axis.iter_mut().for_each(|axis| axis.start_speed(rate));
+    }
+
     /// Removes the kink of the master at an end, where the kink has no energy.
     pub fn straighten(&mut self) {
         self.kinked_axis.iter_mut().for_each(KinkedAxis::straighten);
