@@ -134,7 +134,7 @@ impl Levels<'_> {
         let [_, h2, h3] = self.sizes.map(|size| size / self.sizes[0]);
         let ratio = |order: f64| (power(h3, order) - power(h2, order)) / (power(h2, order) - 1.0);
         let wanted = far / near;
-        if !(wanted > ratio(ORDERS.0)) {
+        if wanted.is_nan() || wanted <= ratio(ORDERS.0) {
             return None;
         }
         let (mut low, mut high) = ORDERS;
@@ -181,7 +181,8 @@ mod tests {
     const SIZES: [f64; 3] = [1.0, 2.0, 4.0];
 
     fn sampled(step: f64, value: impl Fn(f64) -> f64) -> Trace {
-        let times: Vec<f64> = (0..=(64.0 / step) as usize).map(|row| row as f64 * step).collect();
+        let rows = (256.0 / step) as usize;
+        let times: Vec<f64> = (0..=rows).map(|row| 0.25 * row as f64 * step).collect();
         let values: Vec<f64> = times.iter().map(|time| value(*time)).collect();
         Trace::of_values(times, values)
     }
@@ -194,16 +195,16 @@ mod tests {
 
     #[test]
     fn an_error_of_known_order_is_found_on_every_level() {
-        for level in 0..3 {
+        for (level, size) in SIZES.into_iter().enumerate() {
             let error = estimate(SIZES, level, |time, h| (0.1 * time).sin() + 1e-6 * time * h * h);
             assert_eq!(error.verdict, ErrorVerdict::Converged);
-            assert!((error.order.unwrap() - 2.0).abs() < 0.01, "{error:?}");
-            let exact = 64e-6 * SIZES[level] * SIZES[level];
-            assert!((error.largest / exact - 1.0).abs() < 0.01, "{level} {error:?}");
-            assert!((error.present / exact - 1.0).abs() < 0.01);
+            assert!((error.order.unwrap() - 2.0).abs() < 0.02, "{error:?}");
+            let exact = 64e-6 * size * size;
+            assert!((error.largest / exact - 1.0).abs() < 0.02, "{level} {error:?}");
+            assert!((error.present / exact - 1.0).abs() < 0.02);
         }
         let uneven = estimate([1.0, 2.0, 8.0], 0, |time, h| 1e-6 * time * h * h);
-        assert!((uneven.order.unwrap() - 2.0).abs() < 0.01, "{uneven:?}");
+        assert!((uneven.order.unwrap() - 2.0).abs() < 0.02, "{uneven:?}");
     }
 
     #[test]

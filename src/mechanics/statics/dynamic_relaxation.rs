@@ -146,9 +146,7 @@ mod tests {
                     ParticleDefinition { name: format!("bead {index}"), position: at(index) };
                 Anchor::Station(scene.add_particle(bead, 1.0).unwrap())
             };
-            scene
-                .add_spring(spring(format!("spring {index}"), [last, next.clone()], units))
-                .unwrap();
+            scene.add_spring(spring(format!("spring {index}"), [last, next], units)).unwrap();
             last = next;
         }
         scene

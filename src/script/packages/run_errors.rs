@@ -63,7 +63,7 @@ pub const TABLE: BindingTable = BindingTable {
                 max_time; `reached` then is false.")
             .example("let found = scene.solve(#{ to: 1, error: 1e-4 });\nprint(found.simulation);\n\
                       check(found.reached && found.simulation.t == 1);\n\
-                      for run in found.rows { print(`${run.spans} spans, dt = ${run.dt}: ${run.in_time + run.in_space}`); }")
+                      for run in found.rows { print(`dt = ${run.dt}: ${run.in_time}`); }")
             .with_related(&["error_estimate", "start", "study_work_precision"]),
         property(REFINEMENT, "simulation", |call| Ok(Dynamic::from(call.receiver::<Refinement>()?.simulation)))
             .returns(Returns::object(SIMULATION))

@@ -22,8 +22,8 @@ const MOST_RUNS: usize = 12;
 /// Largest factor of a refinement of the steps and of the mesh between two runs.
 const MOST_REFINEMENT: [f64; 2] = [8.0, 4.0];
 
-/// Part of the tolerance at which a refinement aims, so that the next run meets it.
-const AIM: f64 = 0.5;
+/// Part of the tolerance for the errors in time and in space each.
+const PART: f64 = 0.5;
 
 /// Request of a refined run.
 pub struct RefinementRequest {
@@ -73,10 +73,10 @@ pub struct RefinementRow {
 /// Next refinement of the steps or the mesh.
 fn refinement_of(error: Option<DirectionError>, length: f64, tolerance: f64, most: f64) -> f64 {
     let Some(error) = error else { return 1.0 };
-    let ratio = error.largest / (length * AIM * tolerance);
+    let ratio = error.largest / (length * PART * tolerance);
     match (error.verdict, error.order) {
         (ErrorVerdict::Exact, _) => 1.0,
-        _ if 2.0 * AIM * ratio <= 1.0 && error.verdict == ErrorVerdict::Converged => 1.0,
+        _ if ratio <= 1.0 && error.verdict == ErrorVerdict::Converged => 1.0,
         (ErrorVerdict::Converged, Some(order)) => {
             // A power of two, so that all runs share times and knots.
             let halvings = (ln(power(ratio, 1.0 / order)) / ln(2.0)).ceil().max(1.0);
@@ -244,7 +244,8 @@ mod tests {
     #[test]
     fn the_order_gives_the_next_step() {
         let converged = ErrorVerdict::Converged;
-        assert_eq!(refinement(2e-3, Some(2.0), converged), 1.0);
+        assert_eq!(refinement(1e-3, Some(2.0), converged), 1.0);
+        assert_eq!(refinement(2e-3, Some(2.0), converged), 2.0);
         assert_eq!(refinement(3e-3, Some(2.0), converged), 2.0);
         assert_eq!(refinement(1e-2, Some(2.0), converged), 4.0);
         assert_eq!(refinement(10.0, Some(2.0), converged), 8.0);

@@ -145,6 +145,9 @@ struct FinishedRun {
     steps: usize,
 }
 
+/// Result of a companion run: its traces, or its description and the reason for its failure.
+type CompanionResult = Result<FinishedRun, (String, String)>;
+
 impl FinishedRun {
     fn of(simulation: &Simulation, quantities: &[TracedQuantity]) -> Self {
         let traces = quantities.iter().map(|quantity| Trace::of(simulation, quantity)).collect();
@@ -338,14 +341,13 @@ impl Refinement {
     }
 }
 
-/// Runs companions, in parallel if no script function is called between their steps. The error of a run is its description and the
-/// reason for its failure.
+/// Runs companions, in parallel if no script function is called between their steps.
 fn run_companions(
     (handle, companions): (&SimulationHandle, &[Companion]),
     quantities: &[TracedQuantity],
     context: &Context,
     limit: Option<Duration>,
-) -> Result<Vec<Result<FinishedRun, (String, String)>>, ScriptError> {
+) -> Result<Vec<CompanionResult>, ScriptError> {
     let describe = |companion: &Companion, reason: String| {
         let of = match companion.span_ratio {
             1.0 => format!("the run with {} times the step", companion.step_ratio),
