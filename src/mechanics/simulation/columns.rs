@@ -1,6 +1,7 @@
 //! Columns of a history: standard columns, and columns of the scene.
 
 use super::Sample;
+use crate::integrators::Method;
 use crate::joints::{Component, Slider};
 use crate::loads::Load;
 use crate::system::{Drive, DriveKind, DriveState, Scene, Spring, SpringKind, SpringState, System};
@@ -128,8 +129,9 @@ pub(super) fn extra_columns(scene: &Scene) -> Vec<ExtraColumn> {
         .collect()
 }
 
-/// Returns true for columns with means of the last step: forces of sliders and drives, and sensors of means.
-pub(super) fn is_step_mean(scene: &Scene, column: &str) -> bool {
+/// Returns true for columns with means of the last step: forces of sliders and drives, sensors of means, and forces of springs with methods whose
+/// spring forces are means.
+pub(super) fn is_step_mean(scene: &Scene, method: Method, column: &str) -> bool {
     let is_of = |name: &str, quantity: &str| {
         column.strip_prefix(name).is_some_and(|rest| rest.strip_prefix('.') == Some(quantity))
     };
@@ -142,7 +144,9 @@ pub(super) fn is_step_mean(scene: &Scene, column: &str) -> bool {
             .motions()
             .any(|(component, _)| is_of(&drive.name, column_suffix(drive.kind, component)))
     };
+    let has_mean_springs = matches!(method, Method::EnergyMomentum | Method::EnergyDecaying { .. });
     of_slider.any(|(name, quantity)| is_of(name, quantity))
+        || (has_mean_springs && scene.springs().any(|spring| is_of(&spring.name, "force")))
         || scene.drives.iter().any(of_drive)
         || scene.sensors.iter().any(|sensor| sensor.is_of_step() && sensor.name == column)
 }

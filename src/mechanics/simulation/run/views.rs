@@ -20,7 +20,7 @@ impl Simulation {
 
     /// Returns true if a column of the history has means of the last step, such as contact forces, instead of present values.
     pub fn is_step_mean(&self, column: &str) -> bool {
-        columns::is_step_mean(&self.scene, column)
+        columns::is_step_mean(&self.scene, self.settings.method, column)
     }
 
     /// Lowest natural modes about the present configuration, treated as an equilibrium with its present section and constraint forces.
