@@ -88,7 +88,7 @@ pub struct Convergence {
 pub const ALL_POSITIONS: &str = "positions";
 
 impl Convergence {
-    /// Refinements of one integrator: for all positions together (relative to the length), then for each observable.
+    /// Errors of one integrator under refinement: first of all positions together, relative to the length, then of each observable.
     pub fn ladders_of(
         method: Method,
         rungs: &[(f64, RunResult)],

@@ -210,7 +210,8 @@ impl Dashpots {
         }
     }
 
-    /// Calls `give` with the forces that would remove the current mismatch, with the directions of the last linearisation.
+    /// Calls `give` with the corrections of the nodal forces that make the residual of the dashpot laws zero. The directions of the forces are those of
+    /// the last linearisation.
     pub fn add_mismatch_forces(&self, give: &mut dyn FnMut(usize, Movement)) {
         for SpanDashpots { first, forces, moments } in &self.spans {
             forces.iter().for_each(|dashpot| dashpot.add_mismatch_forces(*first, give));

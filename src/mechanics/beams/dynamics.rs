@@ -127,7 +127,7 @@ pub trait BodyDynamics: Send + Sync {
     /// Section of a beam (the mean if tapered) and length of its axis as drawn [length]; `None` for bodies of points.
     fn extent(&self) -> Option<(Section, f64)>;
 
-    /// Appends the normal [-], in space, of each section with a strain point, at the start of the step.
+    /// Appends the unit normals of the sections at all strain points at the start of the step, in spatial coordinates [-].
     fn write_normals(&self, normals: &mut Vec<Vec2>);
 
     /// Strain energy at the start of the step [energy].

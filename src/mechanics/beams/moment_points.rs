@@ -150,7 +150,7 @@ impl<const N: usize> MomentPoints<N> {
         }
     }
 
-    /// Moments `w M/q` at the current unknowns.
+    /// Computes the weighted moments `w M/q` at the current unknowns, with the quadrature weight `w` and `1/q = dΔθ/dΔω` of the rotation.
     #[inline(always)]
     pub(super) fn take_forces<V: Simd>(
         &mut self,

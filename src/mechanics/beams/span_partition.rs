@@ -1,8 +1,8 @@
 //! Partition of the spans of a beam for concurrent work, with results identical to those of one thread.
 //!
 //! The beam is cut at control points. Each part owns the control points up to the next cut, and the spans that involve no other control points. A few
-//! spans lie across a cut. Because of rounding, each sum must be made in the order of the spans. Spans across a cut are therefore added to the
-//! control points after the cut before the parts are processed, and to the control points before the cut afterwards.
+//! spans lie across a cut. Because of rounding, each sum must be made in the order of the spans. Spans across a cut are therefore added twice: first
+//! to the control points on the right of the cut, and, when all parts are processed, to the control points on its left.
 
 use std::ops::Range;
 

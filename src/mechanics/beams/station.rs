@@ -84,19 +84,19 @@ impl Station {
 }
 
 impl BodyPoint {
-    /// Place of a particle.
+    /// Point of a particle.
     pub fn of_particle(body: usize) -> Self {
         Self::of_point(body, 0, 0.0)
     }
 
-    /// Place of a control point of a rigid body (0 is the centre of mass) with an initial angle [rad].
+    /// Point of a rigid body by the index of its control point (0 is the centre of mass), with the initial angle of the body [rad].
     pub fn of_point(body: usize, point: usize, angle: f64) -> Self {
         let mut shape = [0.0; MAX_DEGREE + 1];
         shape[0] = 1.0;
         Self { body, first: point, shape, order: 1, tangent_angle: angle }
     }
 
-    /// Place of a beam at a parameter of its mesh.
+    /// Point of a beam at a parameter of its mesh.
     ///
     /// # Errors
     /// Fails if the parameter lies outside the mesh, or the axis has no tangent there.

@@ -1,4 +1,5 @@
-//! Block of a local border: a few unknowns outside a band, eliminated separately together with the few unknowns of the band that they touch.
+//! Block of a local border: a few unknowns outside a band, with the few unknowns of the band that are coupled to them. Each block is eliminated on
+//! its own.
 //!
 //! The block is a small dense matrix, like the front of a multifrontal method (Duff & Reid 1983, The multifrontal solution of indefinite sparse
 //! symmetric linear equations, ACM Trans. Math. Softw. 9, 302–325). Its own unknowns are eliminated with complete pivoting, and the Schur complement
@@ -279,7 +280,8 @@ impl Block {
         }
     }
 
-    /// Rows of the Schur complement by place. Delayed unknowns come first, then touched unknowns.
+    /// Rows of the Schur complement with their indices: first those of delayed unknowns, whose elimination is postponed to the band, then those of the
+    /// band unknowns coupled to the block.
     pub(super) fn schur_complement(&self) -> impl Iterator<Item = (usize, &[f64])> {
         let (size, first) = (self.size(), self.pivots);
         let rows = self.front.chunks_exact(size).skip(first);

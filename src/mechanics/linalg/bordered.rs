@@ -29,7 +29,7 @@ pub struct BorderShape {
     pub row_entries: usize,
 }
 
-/// Unit of a border row or of a border unknown. The band converts lengths to forces.
+/// Unit of a border row or of a border unknown. In the band itself, unknowns are lengths and rows are forces.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub enum BorderUnit {
     /// Force.
@@ -40,7 +40,7 @@ pub enum BorderUnit {
 }
 
 impl BorderUnit {
-    /// Factor that converts a row of this unit to forces, for a stiffness of the band [force/length].
+    /// Factor that converts a row of this unit to forces. `stiffness` is a typical stiffness of the band [force/length].
     pub(super) fn row_factor(self, stiffness: f64) -> f64 {
         match self {
             Self::Force => 1.0,

@@ -28,7 +28,7 @@ const LEAST_ERROR: f64 = 1e-4;
 /// Constant parameters of the step controller, with its bounds [time].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct StepController {
-    /// Order of the error of a step in its size [-].
+    /// Exponent of the step size in the error of a step [-].
     pub(super) order: f64,
     pub(super) first: f64,
     pub(super) smallest: f64,

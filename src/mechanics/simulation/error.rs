@@ -20,7 +20,7 @@ pub enum SimulationError {
     /// Derivatives with respect to parameters are unavailable.
     #[error(transparent)]
     Derivative(#[from] DerivativeError),
-    /// Mean value over a step, for a method that balances accelerations instead of momenta.
+    /// Sensor of a mean force in a simulation with a method that has no mean forces.
     #[error(
         "'{sensor}' is a mean force over a step, which the method {method} does not provide; record the instantaneous force, or use energy_momentum"
     )]

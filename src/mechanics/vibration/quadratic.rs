@@ -44,7 +44,8 @@ impl Quadratic {
             free.filter(|(rate, _)| rate.abs() <= least).for_each(|(rate, _)| *rate = 0.0);
         }
         if dampers.ncols() > dampers.nrows() {
-            // `Bᵀ = Q R` preserves the relative rounding errors of rows, whose squares appear in undamped modes.
+            // The factorisation `Bᵀ = Q R` keeps the rounding error of each row small relative to that row, also if the row is small. Nearly undamped
+            // modes depend on the squares of such rows.
             dampers = dampers.transpose().qr().r().transpose();
         }
         Self { squares, dampers }

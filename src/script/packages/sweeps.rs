@@ -305,7 +305,7 @@ fn sensitivity(call: &mut Call) -> Result<Dynamic, ScriptError> {
     };
     let names = sweep.design.parameters.iter().map(|of| of.name.as_str());
     let Some(shares) = sweep.variance_fractions(&result) else {
-        // A dry run has no runs.
+        // A dry run computes no rows, so there are no results.
         if call.context().mode() == RunMode::DryRun {
             let none = VarianceShare { first: 0.0, total: Some(0.0) };
             return Ok(names.map(|name| of((name, none))).collect::<Array>().into());

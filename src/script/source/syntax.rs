@@ -76,7 +76,7 @@ impl TokenReader {
         self.stopped.set(None);
     }
 
-    /// Calls `work` with parsing that cannot be stopped, for texts that were parsed before.
+    /// Disables the interruption of parsing while `work` runs, for texts that were parsed before.
     pub fn undisturbed<T>(&self, work: impl FnOnce() -> T) -> T {
         let was_undisturbed = self.is_undisturbed.replace(true);
         let result = work();

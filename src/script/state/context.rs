@@ -208,7 +208,7 @@ impl Context {
         self.print_styled_message(&printable(text));
     }
 
-    /// Prints a message for the user. The colour sequences of this program are kept.
+    /// Prints a message for the user without control sequences, except the colour sequences that this program writes.
     pub fn print_styled_message(&self, text: &str) {
         if self.0.is_silent.get() {
             return;
@@ -235,7 +235,7 @@ impl Context {
         result
     }
 
-    /// Prints a message that the script requested in addition to its output, and counts it as output.
+    /// Prints a message that the script requests, such as that of a failed check. Its length counts towards the limit on output.
     pub fn print_debug(&self, text: &str) {
         if self.meter().allows_to_write(text.len() as u64 + 1) {
             self.print_message(text);

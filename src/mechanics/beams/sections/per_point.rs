@@ -24,7 +24,7 @@ pub(in crate::beams) trait Sections: Clone + Debug + Send + Sync {
     /// Cross section at a quadrature point of the curvature `κ`.
     fn of_moment<'a>(&'a self, uniform: &'a Section, point: usize) -> &'a Section;
 
-    /// Stiffness `diag(EA, GA)` of points for `Γ` in lanes.
+    /// Stiffness `diag(EA, GA)` for the strain `Γ` at several points at once, one in each vector lane.
     fn force_stiffness<V: Simd>(
         &self,
         uniform: &Section,

@@ -102,7 +102,7 @@ pub struct Contact<'a> {
     pub slave_movement: Vec2,
     /// Unknowns of the contact: `λ` [force], `η` [force] and `Δξ` [-].
     pub unknowns: ContactUnknowns,
-    /// Kink of the master under the contact force, if the law has one.
+    /// Kink of the axis of the master under the contact force; `None` with sliding laws that have no kink.
     pub kink: Option<Kink>,
     /// Length of the master per unit of parameter, which scales the equations [length].
     pub length: f64,

@@ -9,7 +9,7 @@ use crate::geometry::Vec2;
 /// Number of derivatives: offset of the slave, tangent, swing, `λ`, couple and sliding increment.
 pub(super) const ALL_SLOPES: usize = 11;
 
-/// Number of derivatives of plain values, which result from the same operations in the same order.
+/// Number of derivatives of plain values. They are computed by the same operations as dual numbers, so both give the same bits.
 pub(super) const NO_SLOPES: usize = 0;
 
 const OFFSET: usize = 0;

@@ -47,7 +47,8 @@ enum ArrivalEstimate {
     Located(EventStep),
 }
 
-/// Durations of steps that end before and after an arrival, with the distances beyond the limit.
+/// Bracket of an event in time: a step that ends before the limit is reached and one that ends after it, each as its duration [time] and the signed
+/// distance beyond the limit.
 struct TimeBracket {
     before: (f64, f64),
     after: (f64, f64),

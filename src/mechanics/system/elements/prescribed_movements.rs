@@ -361,7 +361,7 @@ impl PrescribedMovements {
         sum
     }
 
-    /// Work and impulse of the drives in an impact, from its impulses and the mean of the rates before and after it.
+    /// Impulse and work of the drives in an impact. The work is the reaction impulse times the mean of the rates before and after the impact.
     pub fn impact_exchange(
         &mut self,
         bodies: &[Body],

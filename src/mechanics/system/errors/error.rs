@@ -69,7 +69,7 @@ pub enum SystemError {
         object: String,
         /// Index of the point whose elongation does not increase, from 0.
         index: usize,
-        /// Elongation of that point [length, rad].
+        /// Elongation of the rejected point of the table [length, rad].
         elongation: f64,
         /// Elongation of the previous point [length, rad].
         before: f64,

@@ -143,7 +143,7 @@ impl Rigidity {
         passed
     }
 
-    /// Adds a multiple of `Bᵀ n`.
+    /// Adds `factor · Bᵀ n` to `out`, with the strain–rate matrix `B` and the transmitted impulses `n` of the resisting strains.
     fn add_transmitted(&self, passed: &[f64], factor: f64, out: &mut [f64]) {
         for (passed, StrainResistance { degrees, strain, .. }) in
             passed.iter().zip(&self.resistances)

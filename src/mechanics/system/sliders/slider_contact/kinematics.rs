@@ -22,7 +22,7 @@ impl SliderContact {
         slope_of(self.start_path.change(), self.window(bodies)) * 2.0
     }
 
-    /// Control points of the master from the first nonzero basis function at the slider.
+    /// Control points of the master, beginning with that of the first basis function that is nonzero at the slider.
     fn window<'a>(&self, bodies: &'a [Body]) -> &'a [Vec2] {
         &bodies[self.connection.master].dynamics.control_points()[self.start_path.first()..]
     }
