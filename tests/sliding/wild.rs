@@ -16,8 +16,8 @@ const SEEDS: u64 = 1140;
 const IN_SHORT: u64 = 60;
 
 /// Most arrivals of a scene, and most solves of steps, tries to find arrivals and failures among them.
-const MOST_ARRIVALS: usize = 5000;
-const MOST_SOLVES: usize = 100_000;
+const MOST_ARRIVALS: usize = 10_000;
+const MOST_SOLVES: usize = 200_000;
 
 /// What may be said of a scene that no step takes further.
 const WORDS: [&str; 4] = [
