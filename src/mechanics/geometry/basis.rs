@@ -96,7 +96,7 @@ impl Basis {
         }
     }
 
-    /// Functions of degree `WIDTH - 1` as in [`evaluate_in`](Self::evaluate_in), up to second derivatives. The largest width serves any degree.
+    /// Functions of degree `WIDTH - 1` as in [`evaluate_in`](Self::evaluate_in), up to third derivatives. The largest width serves any degree.
     #[inline]
     pub(super) fn evaluate_low<const WIDTH: usize>(
         &self,

@@ -3,6 +3,7 @@
 //! A border of few unknowns is stored as dense columns, which leave the band unchanged. A border of many blocks, each of which touches few unknowns
 //! of the band, is eliminated locally, with work proportional to the number of blocks.
 
+use super::block::BLOCK;
 use super::full_border::FullLu;
 use super::joint_elimination::{JointElimination, JointLu};
 use super::local_border::LocalLu;
@@ -113,6 +114,30 @@ impl Border {
             Self::Local(border) => {
                 let (block, row) = border.block_mut(border_row);
                 block.add_to_row(row, column, value);
+            }
+        }
+    }
+
+    /// Adds the couplings of an unknown of the band with consecutive unknowns of the border from `first` on: its row of `B` and its column of `C`. In
+    /// a border of blocks, they must be those of one block.
+    pub(crate) fn add_couplings(
+        &mut self,
+        at: usize,
+        first: usize,
+        in_columns: &[f64; BLOCK],
+        in_rows: &[f64; BLOCK],
+    ) {
+        match self {
+            Self::Local(border) => border.block_mut(first).0.add_couplings(at, in_columns, in_rows),
+            Self::Full(border) => {
+                for (index, (column, row)) in (first..).zip(in_columns.iter().zip(in_rows)) {
+                    if *column != 0.0 {
+                        border.add_to_column(at, index, *column);
+                    }
+                    if *row != 0.0 {
+                        border.add_to_row(index, at, *row);
+                    }
+                }
             }
         }
     }

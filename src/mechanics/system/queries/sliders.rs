@@ -44,7 +44,7 @@ impl System {
 
     /// Force of a slider on its master as the mean over the last step [force].
     ///
-    /// Zero after a release, and before the first step unless a kink begins with the present force.
+    /// Before the first step it is the present force; zero after a release.
     pub fn contact_force(&self, slider: usize) -> Vec2 {
         self.slider(slider).contact_force()
     }
