@@ -23,7 +23,7 @@ pub struct StepCost {
     pub outcome: CaseOutcome,
     pub unknowns: usize,
     pub half_bandwidth: usize,
-    /// Number of border columns of contacts.
+    /// Number of columns in the border of the matrix, for the contact unknowns.
     pub border: usize,
     pub columns: usize,
     /// Average number of Newton iterations per step.
@@ -62,8 +62,8 @@ impl StepCost {
     }
 }
 
-/// Times the steps of cases on this thread. The cases alternate, so that disturbances of the machine affect all of them. The time to build the scene
-/// is not included. Returns `None` if `is_wanted` returns false.
+/// Measures the times of the steps of several cases on this thread. The cases alternate, so that disturbances of the machine affect all of them. The
+/// time to build the scene is not included. Returns `None` if `is_wanted` returns false.
 pub fn step_costs(
     cases: &[CostCase],
     patience: RunLimits,

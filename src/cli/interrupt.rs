@@ -11,7 +11,7 @@ use super::tui::terminal;
 use crate::repl::editor::typed_ahead;
 use crate::script::state::limits::INTERRUPT_HEARD;
 
-/// Time in which a run must react.
+/// Time after Ctrl-C in which a run must react.
 const REACTION_TIME: Duration = Duration::from_millis(900);
 
 /// Time for a run that has reacted to save its results.

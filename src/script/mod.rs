@@ -1,4 +1,4 @@
-//! The scripting language: Rhai with scientific number semantics, bindings in tables, and helpful errors.
+//! The scripting language: Rhai with scientific number semantics and helpful errors. Tables list the functions that scripts can call.
 //!
 //! A domain is a [`BindingTable`](bindings::table::BindingTable) of bindings; [`engine`] registers the tables and runs a script on a large stack;
 //! [`diagnose`] turns every error into a message at the script's line and column. There is no mechanics here: bindings are short and call

@@ -321,7 +321,7 @@ fn kinks(spans: &[Span], degree: usize) -> Vec<usize> {
         .collect()
 }
 
-/// Rows of a window of `length` functions, in the order of [`PathQuantity`].
+/// Splits `numbers` into one row for each [`PathQuantity`]. A row has one number for each of `length` basis functions.
 fn rows(numbers: &mut [f64], length: usize) -> [&mut [f64]; QUANTITIES] {
     let mut rows = numbers.chunks_exact_mut(length);
     std::array::from_fn(|_| rows.next().unwrap_or_default())

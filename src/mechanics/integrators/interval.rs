@@ -15,7 +15,7 @@ pub struct Interval {
 /// Meaning of the end of an interval.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum IntervalEnd {
-    /// End of a substep. Actions at the end of a step are postponed.
+    /// End of a substep. Sliders at stops are released only at the end of a whole step.
     Substep,
     /// End of a step.
     Step,

@@ -141,7 +141,7 @@ pub trait Mechanism: Inertia + Forces + Constraints {
     /// Prescribed motions in the present step.
     fn prescribed(&self) -> &PrescribedKinematics;
 
-    /// Prepares a step with forces at the given stages: evaluates time-dependent values.
+    /// Prepares a step: evaluates loads and prescribed motions. The method evaluates forces at the given stages.
     ///
     /// # Errors
     /// Fails if a load has no finite value.

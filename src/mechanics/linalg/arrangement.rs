@@ -101,7 +101,8 @@ impl Arrangement {
         }
     }
 
-    /// Inserts delayed unknowns after the unknowns that their blocks touch, and computes the profile.
+    /// Numbers the unknowns and computes the profile. The delayed unknowns of a block follow the last unknown of the band that is coupled to the
+    /// block.
     fn number(&mut self, blocks: &[Block]) {
         let delaying = |block: &&Block| block.can_delay_unknowns() && !block.touched.is_empty();
         self.delayed_after.fill(0);

@@ -78,7 +78,8 @@ fn eliminate_fixed<S: Simd, const REACH: usize, const WIDTH: usize, const STRIDE
     fixed_band::eliminate_panel::<S, REACH, WIDTH, STRIDE>(simd, &mut rows[first..], sizes)
 }
 
-/// `reach` is the half-bandwidth of the storage. `eliminate_plain` eliminates a panel without previous fill-in, as [`eliminate_panel`] does.
+/// Eliminates a band matrix of half-bandwidth `reach`. Panels without previous fill-in are eliminated by `eliminate_plain`, all others by
+/// [`eliminate_panel`].
 #[inline(always)]
 fn eliminate<S: Simd>(
     simd: S,

@@ -81,7 +81,7 @@ impl SymmetricSparse {
         self.row(row).find(|(column, _)| *column == row).map_or(0.0, |(_, value)| value)
     }
 
-    /// Writes the product `M x` with four vectors to `product`, and zeros to its remaining entries.
+    /// Multiplies the matrix by the four vectors of `x`. Entries of `product` beyond the size of the matrix are set to zero.
     pub fn times(&self, x: &VectorStrip, product: &mut VectorStrip) {
         Arch::new().dispatch(SparseProduct { matrix: self, x, product });
     }

@@ -26,7 +26,7 @@ const HALVINGS: usize = 15;
 /// functions.
 const LEFT_OF_A_JUMP: f64 = 0.5;
 
-/// Ratio of a difference to the sum of all other differences in a step above which it is examined.
+/// Smallest ratio of the largest difference in a step to the sum of all others for which a jump is searched.
 const JUMP_RATIO: f64 = 1.05;
 
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -104,7 +104,7 @@ pub(super) fn jump_between(
     Ok(jumps.then_some(Jump { time, before, after, is_jump: true }))
 }
 
-/// Bisects several times, each time keeping the half with the larger difference.
+/// Bisects an interval several times, and keeps the half with the larger difference each time.
 fn halve(schedule: &Schedule, ends: &mut [(f64, f64); 2]) -> Result<(), LoadError> {
     for _ in 0..HALVINGS {
         let [(t0, v0), (t1, v1)] = *ends;

@@ -74,7 +74,7 @@ impl SampleClock {
         self.sample_at(time - self.delay, SAME * self.period).is_some()
     }
 
-    /// Next time after `now` of a sample or of the start of a command [time].
+    /// Time of the next event after `now`: a sample, or the start of a command [time].
     pub fn next(&self, now: f64, slack: f64) -> f64 {
         let after = |time: f64| {
             self.sample(self.last_by(time, slack).map_or(0, |last| last.saturating_add(1)))

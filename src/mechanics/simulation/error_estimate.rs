@@ -25,7 +25,7 @@ pub(super) struct StepDoubling {
 }
 
 pub(super) struct DoubledStep {
-    /// Total work of the half steps and the whole step.
+    /// Total number of iterations and corrections of the half steps and the whole step.
     pub(super) report: NewtonReport,
     pub(super) tried_step: TriedStep,
     /// Error of positions alone, relative to the allowed error [-].

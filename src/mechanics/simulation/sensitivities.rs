@@ -173,7 +173,7 @@ impl Sensitivities {
 
     pub(super) fn dry_run_to(&mut self, end: f64) {
         self.each(|twin| {
-            // The main run reports the same errors.
+            // Errors are ignored, because the main run also encounters and reports them.
             let _: Result<(), SimulationError> = twin.dry_run_to(end, &mut NoMonitor);
         });
     }

@@ -280,8 +280,8 @@ impl<'s> Continuation<'s> {
         Err(StepFailure::FarSolution)
     }
 
-    /// Largest acceleration of a mass by the forces on the last configuration, relative to the size of the scene [1/time²]. Without forces it is 1,
-    /// because any rate is then right.
+    /// Largest acceleration of a mass due to the unbalanced forces in the last configuration, relative to the size of the scene [1/time²]. Without
+    /// forces the result is 1, because any rate is then right.
     pub(super) fn acceleration_by_size(&mut self, factor: f64) -> f64 {
         self.model.predict_unchanged(&mut self.unknowns);
         self.model.begin_movement();

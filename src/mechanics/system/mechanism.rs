@@ -169,7 +169,7 @@ impl System {
         self.motion.time = time;
     }
 
-    /// Evaluates loads just after a time, and static prescribed positions.
+    /// Evaluates the loads and prescribed positions of a static solution just after a time.
     ///
     /// # Errors
     /// Name of the element without a finite value, and the reason.

@@ -21,10 +21,10 @@ use super::dense::rotate;
 use super::quadratic::{ComplexNumber, Quadratic, size};
 use crate::elementary::square;
 
-/// Largest number of sweeps per `θ`; a few are usual.
+/// Largest number of QR iterations of the Schur decomposition per eigenvalue `θ`; a few are usual.
 const MOST_SWEEPS: usize = 40;
 
-/// Couplings of `θ`, relative to the diagonal, that count as zero. If the search does not converge, the next larger value is used.
+/// Relative size of the subdiagonal entries that the Schur decomposition treats as zero. If it does not converge, the next larger value is used.
 const DECOUPLED: [f64; 3] = [f64::EPSILON, 1e-14, 1e-12];
 
 /// Number of corrections of each reported `λ`.

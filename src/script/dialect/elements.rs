@@ -156,7 +156,7 @@ fn array_and_test(values: &[&mut Dynamic]) -> EngineResult<(Array, FnPtr)> {
 }
 
 fn function_of(values: &[&mut Dynamic]) -> EngineResult<FnPtr> {
-    // The engine calls this only with these types.
+    // The engine calls the registered functions only with an array or map followed by a function.
     let function = values.get(1).and_then(|function| (**function).clone().try_cast::<FnPtr>());
     function.ok_or_else(|| {
         ScriptError::internal_error("a test is no function").into_engine(Position::NONE)

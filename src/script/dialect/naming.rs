@@ -10,7 +10,8 @@ use crate::script::messages::error::ScriptError;
 use crate::script::source::definitions::{Definition, definitions};
 use crate::script::source::text::{Source, moved_down, name_of};
 
-/// Checks the functions of `source`, which starts after `lines_before` lines of a file with the top-level `variables` and their lines.
+/// Checks the names of the functions of `source` and the variables that they use. `source` starts after `lines_before` lines of a file. `variables`
+/// returns the top-level variables of the file with their lines.
 ///
 /// # Errors
 /// With the position of the first invalid name.

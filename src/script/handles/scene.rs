@@ -30,7 +30,7 @@ pub struct SceneHandle {
     controllers: Rc<RefCell<Vec<Rc<Controller>>>>,
     /// Release conditions, with the index of the release.
     conditions: Rc<RefCell<Vec<Condition>>>,
-    /// True after the note on controllers and spins that modes do not include.
+    /// True after the note that modes do not include the effects of controllers and spins has been printed.
     has_modes_note: Rc<Cell<bool>>,
 }
 

@@ -112,7 +112,7 @@ impl Meter {
         Self::guarded(limits, None)
     }
 
-    /// Meter of a new run. `resort` ends the program when a limit is exceeded and the run does not react.
+    /// Meter of a new run. The action `resort` is called when a limit is exceeded and the run does not stop by itself.
     pub fn guarded(limits: Limits, resort: Option<HardAbort>) -> Self {
         Self {
             limits,

@@ -64,8 +64,8 @@ impl Simulation {
         Ok(copy)
     }
 
-    /// Repeats the run of the original in a copy up to a row of its history. Returns true if energies, momenta and exchanges agree bit for bit. They
-    /// may differ if script functions were called during the original run.
+    /// Repeats the run of the original in a copy up to a row of its history. Returns true if energies, momenta, work and impulses agree bit for bit.
+    /// They may differ if script functions were called during the original run.
     ///
     /// # Errors
     /// Errors of [`run_to`](Self::run_to), or a missing row.

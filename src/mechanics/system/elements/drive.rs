@@ -39,7 +39,7 @@ pub struct Drive {
 }
 
 impl Drive {
-    /// Returns true if a component of the station is prescribed.
+    /// Returns true if a component of the motion of the station is prescribed.
     pub fn drives(&self, component: Component) -> bool {
         self.motions[component as usize].is_some()
     }

@@ -57,7 +57,7 @@ enum Measure {
     Component(usize),
 }
 
-/// Length or angle between terminals at the start of a step, and its change in an iterate.
+/// Length or angle between the terminals of a spring: value at the start of a step, and change in the present iterate.
 ///
 /// Its coordinates are the increments of the terminals in their order: x and y for a length, the rotation for an angle.
 #[derive(Debug, Clone)]

@@ -46,7 +46,7 @@ pub trait InternalForce {
         tangent: &mut BandedMatrix,
     );
 
-    /// Adds `weight` times the forces that would remove the current force mismatch, with the directions of the last linearisation.
+    /// Adds `weight` times the forces that would remove the current force mismatch. Their directions are those of the last linearisation.
     fn add_mismatch_forces(&self, bodies: &[Body], weight: f64, out: &mut [f64]);
 
     fn correct(&mut self, bodies: &[Body], correction: &[f64]);

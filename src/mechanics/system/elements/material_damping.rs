@@ -56,7 +56,7 @@ impl ElementDef for MaterialDamping {
     }
 }
 
-/// Dashpots of a beam in the steps of a model.
+/// Internal force of a damped beam: its dashpots, their increments in the present step, and the dissipated energy.
 struct DampedMaterial {
     name: String,
     beam: usize,

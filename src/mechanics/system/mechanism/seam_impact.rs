@@ -196,9 +196,11 @@ fn turned(direction: Vec2, [from, to]: [Vec2; 2]) -> Vec2 {
     direction * from.dot(&to) + perpendicular(direction) * cross(from, to)
 }
 
-/// Impulses of an impact in which sliders are rotated at corners, with two impulses each, and laws for all other contacts. At corners
-/// `P = γ J ½ (w⁻ + w⁺)`, with `γ` such that each slider rotates by its own angle to 1e-12, or as accurately as the last correction allows. `None` if stops are
-/// struck too and the angles are not reached.
+/// Impulses of an impact in which corners rotate the velocities of sliders. Each corner has two components of impulse; all other contacts have laws.
+///
+/// At a corner the impulse is `P = γ J ½ (w⁻ + w⁺)`, with the velocities `w⁻` before and `w⁺` after the impact. The factor `γ` is such that the
+/// velocity rotates by the angle of the corner, to 1e-12 or as accurately as the last correction allows. The result is `None` if sliders also strike
+/// stops and the angles are not reached.
 ///
 /// For any `γ` this is one complementarity problem, with the rows `cos(θ/2) √det W P - sin(θ/2) J W P = sin(θ/2) J 2 w̄` for corners. Its solution is
 /// unique (docs/theory.md, section 10.3).

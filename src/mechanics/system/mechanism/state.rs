@@ -118,7 +118,7 @@ impl System {
         if !numbers.iter().all(|number| number.is_finite()) {
             return Err(refused("it has a value that is not finite"));
         }
-        // The values of the sliders are at the end.
+        // The values of the sliders are the last of the numbers.
         let of_sliders = &numbers[numbers.len() - self.sliders.saved()..];
         if !self.sliders.fit(of_sliders) {
             return Err(refused("a slider is outside its beam"));

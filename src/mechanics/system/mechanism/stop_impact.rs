@@ -42,7 +42,7 @@ pub struct Arriving {
     pub plastic: Vec<MasterLimit>,
     /// Limits at which sliders become held.
     pub held: Vec<MasterLimit>,
-    /// Limits that sliders pass along their tracks.
+    /// Limits at which sliders continue to the next beam of their tracks.
     pub crossing: Vec<MasterLimit>,
 }
 

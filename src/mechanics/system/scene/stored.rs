@@ -125,7 +125,7 @@ impl TryFrom<StoredScene> for Scene {
 }
 
 impl Scene {
-    /// Adds an element from a file. Names derived from other objects are created again.
+    /// Adds an element from a file. The name of a load is not read from the file but derived from the place of the load.
     fn add_stored_element(&mut self, element: Element) -> Result<(), SystemError> {
         match element {
             Element::PointMass(mass) => self.add_mass(mass),

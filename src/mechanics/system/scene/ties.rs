@@ -7,7 +7,7 @@ use crate::joints::{Component, JointKind, Partner};
 use crate::system::SystemError;
 use crate::system::errors::{Turning, written};
 
-/// Largest initial gap of a joint, relative to the length of its beam and its distance from the origin.
+/// Largest initial gap of a joint, relative to the sum of the length of its beam and the distance of the joint from the origin.
 const CLOSED: f64 = 1e-12;
 
 /// Angle below which two inclined rollers count as parallel [rad].

@@ -135,7 +135,8 @@ fn expect_plain_whole_numbers(
     }
 }
 
-/// Error of an argument that must not depend on parameters. Its position is that of the option that does.
+/// Error for an argument that must not depend on parameters. If the argument is a map of options, the position is that of the option that depends
+/// on them.
 fn refusal(
     row: &FunctionBinding,
     parameter: Option<&Parameter>,

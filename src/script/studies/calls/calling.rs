@@ -13,7 +13,7 @@ pub enum CallOutcome {
     Returned(Dynamic),
     /// The function threw an error, took too long, or a check failed, for this reason.
     Failed(String),
-    /// The script seems to be wrong, for this reason.
+    /// Reason for which the script seems to be wrong.
     Wrong(String),
 }
 

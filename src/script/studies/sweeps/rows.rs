@@ -13,7 +13,7 @@ pub enum RowOutcome {
     Computed(Arc<[String]>, Vec<f64>),
     /// The function threw an error, or returned a value that is not a number, for this reason.
     Failed(String),
-    /// The script seems to be wrong, for this reason.
+    /// Reason for which the script seems to be wrong.
     Wrong(String),
 }
 

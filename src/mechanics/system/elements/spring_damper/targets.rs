@@ -24,7 +24,7 @@ impl SpringDamper {
         self.restoring_after(stage, self.elongation.change)
     }
 
-    /// Target force of the spring after its elongation has changed by `change` [length, rad] in the step.
+    /// Force and stiffness by the law of the spring, after a change of its elongation by `change` in the step [length, rad].
     fn restoring_after(&self, stage: Stage, change: f64) -> ForceTarget {
         let Some(law) = &self.law else { return ForceTarget::default() };
         let q = self.elongation.grown();
