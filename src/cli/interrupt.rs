@@ -60,7 +60,6 @@ pub fn flag(at_stake: InterruptLoss) -> Arc<AtomicBool> {
 
 /// Ends a session within a second on SIGTERM and SIGHUP, as when its window is closed. Ctrl-C applies to the inputs of the session only. It must be
 /// called before other threads start.
-/// called before other threads start.
 #[cfg(unix)]
 pub fn end_on_signal() {
     use nix::sys::signal::{SigSet, Signal};

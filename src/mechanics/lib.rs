@@ -3,8 +3,8 @@
 //! Layers, each using only those to its right:
 //!
 //! ```text
-//! simulation → statics → vibration → model ┬→ joints, loads → beams → geometry
-//!                                          └→ integrators → newton → linalg
+//! simulation → statics → vibration → system ┬→ joints, loads → beams → geometry
+//!                                           └→ integrators → newton → linalg
 //! ```
 //!
 //! At the bottom are [`elementary`], functions with identical results on every machine, and `threads` for concurrent work on beams, bands and

@@ -307,7 +307,7 @@ impl<const N: usize> ForcePoints<N> {
         }
     }
 
-    /// Forces `C m` of the strain mismatch `m`, with the directions of the last linearisation.
+    /// Forces `C m` of the strain mismatch `m`. Their directions are those of the last linearisation.
     #[inline(always)]
     pub(super) fn take_mismatch_forces<V: Simd>(
         &self,

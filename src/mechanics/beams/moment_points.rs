@@ -220,7 +220,7 @@ impl<const N: usize> MomentPoints<N> {
         }
     }
 
-    /// Moments `EI m` of the curvature mismatch `m`, with the directions of the last linearisation.
+    /// Moments `EI m` of the curvature mismatch `m`, with the rotation derivatives of the last linearisation.
     #[inline(always)]
     pub(super) fn take_mismatch_forces<V: Simd>(
         &self,

@@ -27,7 +27,6 @@ pub(super) struct RateMismatch {
 impl RateMismatch {
     /// Mismatch of a rate with its damping [force·time; energy/time], from the rate at the start of a step and the means of the previous step and
     /// this one.
-    /// this one.
     pub(super) fn of(damping: f64, start: f64, [before, now]: [f64; 2], fraction: f64) -> Self {
         let (change, off) = (now - before, start - before);
         let off = off - fraction * change;
@@ -60,7 +59,8 @@ pub(super) struct RateResolution {
 }
 
 impl RateResolution {
-    /// Start of a step of a duration [time], as a fraction of the time between the middles of the last step and this one; `None` without a last step.
+    /// Place of the start of a step of a duration [time] between the middle of the previous step (0) and the middle of this step (1). `None` without
+    /// a previous step.
     pub(super) fn fraction(&self, duration: f64) -> Option<f64> {
         let between = duration + self.before;
         // A substep of the fourth-order method runs backwards in time, and may end where the previous substep started.

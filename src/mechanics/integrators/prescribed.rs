@@ -22,7 +22,7 @@ pub(super) enum BalancedAt {
 }
 
 impl PrescribedKinematics {
-    /// Creates zeros for `count` degrees of freedom after `constraints` multipliers.
+    /// Creates vectors of zeros: `constraints` entries for the multipliers, followed by `count` entries for prescribed degrees of freedom.
     pub fn new(constraints: usize, count: usize) -> Self {
         let zeros = vec![0.0; if count > 0 { constraints + count } else { 0 }];
         Self {

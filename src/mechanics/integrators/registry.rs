@@ -220,7 +220,7 @@ impl Method {
         }
     }
 
-    /// Step size for which the longest substep in the same time direction has this duration [time].
+    /// Step size for which the longest substep lasts `duration` [time]. Substeps backwards in time have a negative duration.
     pub fn step_with_part(&self, duration: f64) -> f64 {
         let [onwards, back] = match self {
             Self::FourthOrder => FourthOrder::LONGEST,

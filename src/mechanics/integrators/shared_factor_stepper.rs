@@ -29,7 +29,7 @@ enum SubstepCount {
 pub struct SharedFactorWork {
     /// Work of the leader, the same as without companions.
     pub leader: NewtonReport,
-    /// Total work of all companions, or the error of one that failed. Iterations are counted where the factors of the leader were insufficient.
+    /// Total work of all companions, or the error of one that failed. Its iterations are those for which the factors of the leader did not suffice.
     pub companions: Result<NewtonReport, StepError>,
 }
 

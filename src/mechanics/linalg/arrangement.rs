@@ -13,11 +13,11 @@ const LARGEST_WORK: usize = 4;
 #[derive(Debug, Clone)]
 pub(super) struct Arrangement {
     layout: BlockLayout,
-    /// Place of each unknown of the band; `NOWHERE` if it is eliminated in a block.
+    /// Place of each unknown of the band; `UNTOUCHED` if it is eliminated in a block.
     pub(super) position: Vec<usize>,
     /// End of the run of consecutive places that contains each unknown of the band.
     pub(super) run_ends: Vec<usize>,
-    /// First place of the delayed unknowns of each block; `NOWHERE` if the block delays none.
+    /// First place of the delayed unknowns of each block; `UNTOUCHED` if the block delays none.
     pub(super) delayed: Vec<usize>,
     pub(super) ends: Vec<usize>,
     own_ends: Vec<usize>,

@@ -37,7 +37,7 @@ pub struct LocalBorder {
     arrangement: Arrangement,
     /// Band with the Schur complements of the blocks, in the order of the arrangement.
     matrix: ProfileMatrix,
-    /// Buffer: place of each unknown of the band in a block; `NOWHERE` while unused.
+    /// Buffer: place of each unknown of the band in a block; `UNTOUCHED` while unused.
     places: Vec<usize>,
     right: Vec<f64>,
     own: Vec<f64>,

@@ -101,7 +101,7 @@ impl<const W: usize> WithSimd for StripSubstitution<'_, W> {
     }
 }
 
-/// `reach` is the half-bandwidth of the factors. The multipliers of a column end at the row given by `end`.
+/// Substitutes forward with factors of half-bandwidth `reach`. The multipliers of a column end at the row given by `end`.
 #[inline(always)]
 fn substitute_forward(
     factors: &Factors<'_>,

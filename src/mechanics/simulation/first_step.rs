@@ -8,7 +8,7 @@ use crate::system::{Scene, System, UnknownKind};
 /// First step of a scene without beams, as a fraction of the time in which it moves by its own size.
 const PART: f64 = 1e-3;
 
-/// Smallest distance `v²/g` in which gravity generates the start speed that counts as a length scale, relative to the distance from the origin.
+/// Smallest distance `v²/g`, with the start speed `v`, that is used as a length scale, relative to the largest distance of a body from the origin.
 const SHORTEST_WAY: f64 = 1e-3;
 
 /// Length scale of a scene: its [size](Scene::size). For isolated particles it is the distance in which gravity generates the start speed, or, if

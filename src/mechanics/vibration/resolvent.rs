@@ -99,8 +99,8 @@ impl Resolvent {
         if count == 0 {
             return Ok(Vec::new());
         }
-        // Deflation compares couplings with the diagonal, which may never succeed beside eigenvalues near zero, which are not needed. In this case
-        // all eigenvalues are shifted away from zero by the largest magnitude.
+        // The Schur decomposition compares subdiagonal entries with the diagonal. Next to eigenvalues near zero it may not converge, although these
+        // eigenvalues are not needed. In this case all eigenvalues are shifted away from zero by the largest magnitude.
         let search = |part: f64, moved: f64| {
             let mut matrix = matrix.clone();
             (0..count).for_each(|at| matrix[(at, at)] -= moved);

@@ -23,7 +23,7 @@ const MOST_SHIFTS: usize = 14;
 /// Residual above which a pair is rejected.
 const LARGEST_RESIDUAL: f64 = 1e-6;
 
-/// Difference of `ω² + σ` of two modes, relative to it, below which they are equal in counts.
+/// Relative difference of the values `ω² + σ` of two modes below which the modes count as equal in the check for missing modes.
 const EQUAL: f64 = 1e-6;
 
 /// Multiple of its rounding error below which `ω²` counts as zero.

@@ -317,7 +317,7 @@ pub fn of_library(name: &str) -> Option<String> {
     Some(format!("it is in the library: write import \"{module}\" as {short}; then {call}{others}"))
 }
 
-/// `others` are functions of the same name for other types.
+/// Error for a call with a wrong number of arguments. `others` are functions of the same name for other types.
 fn wrong_count(row: &FunctionBinding, others: &[&FunctionBinding], got: usize) -> ErrorText {
     let (least, most) = (row.required(), row.parameters.len());
     let takes =

@@ -109,7 +109,7 @@ impl Simulation {
             other => other,
         };
         if self.stepper.sensitivities.is_some() && self.model.has_frozen_kinks() {
-            // The perturbed runs may have had no need to fix the kinks, and then have other equations.
+            // The perturbed runs may not have fixed their kinks. In this case their equations differ from those of this run.
             self.disable_derivatives("the kink under a slider is not adapted to the contact force");
         }
         stepped

@@ -57,7 +57,7 @@ impl ContactWatch {
             *self = Self { steps: 0.0, entry, force: 0.0, duration: 0.0, ..*self };
         }
         self.steps += 1.0;
-        // Substeps may run back.
+        // Substeps may be backwards in time.
         self.duration += duration.abs();
         self.force = self.force.max(force.abs());
         if !is_slack {

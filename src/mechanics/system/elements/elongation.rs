@@ -1,7 +1,7 @@
 //! Elongations: the length of a polygonal path over several places, or the angle between two sections.
 //!
 //! ```text
-//! way:    Δℓ = e·Δd, e = (d₀ + d₁)/(ℓ₀ + ℓ₁), part by part        angle:  Δθ = r (Δω_b - Δω_a)
+//! length:  Δℓ = Σ e·Δd, e = (d₀ + d₁)/(ℓ₀ + ℓ₁) for each part     angle:  Δθ = r (Δω_b - Δω_a)
 //! ```
 //!
 //! `e` and `r` are secants. A force along a secant does exactly the work `F Δℓ` or `M Δθ`, and is opposite at both ends. Differences of positions are

@@ -47,7 +47,7 @@ pub struct LoadAccount {
 pub trait ExternalForce {
     fn name(&self) -> &str;
 
-    /// Prepares a step that takes forces at the given stages: evaluates time-dependent values.
+    /// Prepares a step: evaluates time-dependent values. The method evaluates forces at the given stages.
     ///
     /// # Errors
     /// Fails without a finite value.

@@ -212,7 +212,7 @@ impl PrescribedMovements {
         })
     }
 
-    /// Drives whose motion has a kink within a step, with the largest kink of each.
+    /// Drives whose motion has a kink within a step, each with its largest kink.
     pub fn bends(&self) -> impl Iterator<Item = (&str, MotionCurvature)> {
         let all = self.movements.iter().zip(&self.present);
         let bent = all.filter(|(_, present)| present.curvature.size() > 0.0);
@@ -221,7 +221,7 @@ impl PrescribedMovements {
         })
     }
 
-    /// Drives by a rate that changes within steps unseen, with the largest change of each.
+    /// Drives with a prescribed rate whose changes within a step the method misses, each with its largest missed change.
     pub fn missed_changes(&self) -> impl Iterator<Item = (&str, UnsampledChange)> {
         let all = self.movements.iter().zip(&self.present);
         all.filter_map(|(movement, present)| {

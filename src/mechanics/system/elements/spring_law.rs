@@ -90,8 +90,8 @@ impl SpringLaw {
         }
     }
 
-    /// Range in which the law is given, beyond which it goes on straight. An end where it is level is infinite. `None` for a law that is defined
-    /// everywhere: a straight line, or a corner between slack and a line.
+    /// Range in which the law is given. Beyond the range it is extended linearly. If the force is constant at an end, the range has no limit there.
+    /// `None` for a law that is defined everywhere: a straight line, or a straight line that ends in a slack segment.
     pub fn range(&self) -> Option<[f64; 2]> {
         match self {
             Self::Linear { .. } => None,

@@ -15,12 +15,12 @@ impl System {
         self.supports().prescribed().first_displaced_drive(load_factor, time)
     }
 
-    /// Drives whose motion has a kink within a step, with the largest kink of each.
+    /// Drives whose motion has a kink within a step, each with its largest kink.
     pub fn bends(&self) -> impl Iterator<Item = (&str, MotionCurvature)> {
         self.supports().prescribed().bends()
     }
 
-    /// Names of loads and drives whose schedule changes within steps unseen, with the largest change of each.
+    /// Names of loads and drives with changes of the schedule within a step that the method misses, each with its largest missed change.
     pub(crate) fn missed_changes(&self) -> impl Iterator<Item = (&str, UnsampledChange)> {
         let loads = self.elements().forces();
         let loads = loads.filter_map(|load| Some((load.name(), load.missed_change()?)));

@@ -11,7 +11,7 @@ const LONGEST_REASON: usize = 300;
 
 pub enum CallOutcome {
     Returned(Dynamic),
-    /// The function threw an error, took too long, or a check failed, for this reason.
+    /// Reason of a failure: the function threw an error, it took too long, or a check failed.
     Failed(String),
     /// Reason for which the script seems to be wrong.
     Wrong(String),
