@@ -1,4 +1,4 @@
-//! Loading of scenes, with the same checks as for scenes that are built by a script.
+//! Loading of scenes from files, with the same checks as for scenes that a script builds.
 
 use serde::Deserialize;
 
@@ -12,7 +12,7 @@ use crate::system::SystemError;
 use crate::system::elements::{Drive, Element, ElementDef, SceneChecks};
 use crate::system::errors::{check_name, finite};
 
-/// Largest number of sliders in a stored scene. The matrix of a step grows with its square.
+/// Largest number of sliders in a stored scene. The size of the matrix of a step grows with the square of this number.
 const MOST_SLIDERS: usize = 2000;
 
 const MOST_TRACKS: usize = 1000;
