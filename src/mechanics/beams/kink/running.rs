@@ -15,8 +15,9 @@ impl SplineString {
     /// μ = ∫ (X(L) - s(ξ) - ∫ u² dX) ds/∫ g ds        u = l(X)ᵀ M⁻¹ t(ξ)/|x_ξ|
     /// ```
     ///
-    /// If the start of the string is held, all points behind a unit kink are at rest or move with the velocity `v`, and `u v` is their velocity in
-    /// the mesh. Away from the kink `u` is exact, so only the spans around the kink contribute to the difference.
+    /// If the start of the string is held, the points in front of a moving unit kink have the velocity `v`, and the points behind it are at rest.
+    /// In the mesh, all points have the velocity `u v` instead. Away from the kink `u` is exact, so only the spans around the kink contribute to
+    /// the difference.
     pub fn inertia(
         &self,
         mesh: &Mesh,
@@ -39,7 +40,7 @@ impl SplineString {
                         let fields = rule.iter_on(around.start, around.end).map(|(x, weight)| {
                             let values = basis.evaluate_in(around, x);
                             let own = values.values().iter().enumerate();
-                            // On one side of the kink motion is missing, on the other side there is additional motion.
+                            // In front of the kink, motion is missing in the mesh. Behind the kink, the mesh has additional motion.
                             let (there, missing) =
                                 own.fold((0.0, 0.0), |(there, missing), (a, n)| {
                                     let [low, high] = motion[around.first + a];
