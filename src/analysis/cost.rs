@@ -1,4 +1,4 @@
-//! Cost of a step: time, and its components.
+//! Cost of a step: its time, and the sizes that determine the time.
 
 use std::time::{Duration, Instant};
 
@@ -7,7 +7,7 @@ use super::{Case, CaseOutcome, RunLimits};
 use crate::integrators::Constraints;
 use crate::simulation::{Recording, Simulation};
 
-/// A case whose steps are timed, with settings that affect the time.
+/// Case whose steps are timed, with settings that affect the time.
 #[derive(Debug, Clone)]
 pub struct CostCase {
     pub name: String,
@@ -62,8 +62,8 @@ impl StepCost {
     }
 }
 
-/// Measures the times of the steps of several cases on this thread. The cases alternate, so that disturbances of the machine affect all of them. The
-/// time to build the scene is not included. Returns `None` if `is_wanted` returns false.
+/// Measures the time per step of several cases on this thread. Steps of all cases are measured alternately, so that disturbances of the machine
+/// affect all of them. The time to build the scene is not included. Returns `None` if `is_wanted` returns false.
 pub fn step_costs(
     cases: &[CostCase],
     patience: RunLimits,

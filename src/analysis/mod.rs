@@ -1,4 +1,4 @@
-//! Studies: series of runs and their evaluation. Nothing here draws or prints.
+//! Studies: series of runs and their evaluation. This module neither draws nor prints.
 //!
 //! ```text
 //! stability, cost → features

@@ -13,7 +13,7 @@ use super::{Basis, GaussRule, MAX_DEGREE, PiecewisePolynomial, Span};
 /// The functions `first, first + 1, …` are those that are nonzero somewhere on the spans of the path. Every accessor returns one value for each of
 /// them. Parameters and results are dimensionless.
 ///
-/// If a path starts at a break, its first span is the one in its direction. If it ends at a break, its last span is the one before the break. A
+/// If a path starts at a break, its first span is the one in its direction. If it ends at a break, its last span is the one it has passed. A
 /// path of zero length at a break lies in the span on the right. Outside the domain, the polynomials of the end spans are extended.
 #[derive(Debug, Clone)]
 pub struct ContactPath {
