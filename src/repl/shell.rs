@@ -368,13 +368,19 @@ impl Shell {
 
     /// Shows the result of a method of the last simulation.
     pub fn show_latest_result(&mut self, call: &str) -> CommandOutcome {
-        match self.name_of_latest() {
-            Ok(name) => {
-                let reply = self.session.evaluate_preview(&format!("{name}.{call}"));
-                self.print_reply(reply)
-            }
+        match self.preview_latest(call) {
+            Ok(reply) => self.print_reply(reply),
             Err(refusal) => self.report_error(&refusal),
         }
+    }
+
+    /// Evaluates a method of the last simulation, without effects on the session.
+    ///
+    /// # Errors
+    /// Fails if there is no simulation.
+    pub fn preview_latest(&mut self, call: &str) -> Result<Reply, Diagnostic> {
+        let name = self.name_of_latest()?;
+        Ok(self.session.evaluate_preview(&format!("{name}.{call}")))
     }
 
     /// End time of the next step of the last simulation; `None` if the simulation has reached `end`.

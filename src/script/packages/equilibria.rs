@@ -169,7 +169,7 @@ pub const TABLE: BindingTable = BindingTable {
         .doc("See scene.damped_modes for accuracy and restrictions.")
         .example("let rest = scene.equilibrium();\ncheck_close(rest.damped_modes(1)[0].angular_frequency, rest.modes(1).angular_frequencies[0], 1e-6);")
         .with_related(&["modes"]),
-        method(EQUILIBRIUM, "start", &[options("options", START)], |call| {
+        method(EQUILIBRIUM, "start", &[options("options", START).optional()], |call| {
             let handle = call.receiver::<EquilibriumHandle>()?;
             let from = RunStart::Equilibrium(handle.clone());
             begin(call, handle.scene().clone(), from, |settings| {

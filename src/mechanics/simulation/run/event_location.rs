@@ -219,7 +219,7 @@ impl Simulation {
             Event::JustBefore => return Ok(()),
             Event::StopRelease => {
                 self.model.leave_tensile_stops()?;
-                return Ok(self.model.restart_kinks_at_ends()?);
+                return self.restart_kinks();
             }
         };
         let dt = self.dt();
@@ -267,12 +267,22 @@ impl Simulation {
             for arrival in &mut arrivals {
                 arrival.impulse = self.model.impulse_of(arrival.limit.slider);
             }
-            self.model.restart_kinks_at_ends()?;
+            self.restart_kinks()?;
         }
         // The arrival that ends the run is listed last.
         arrivals.sort_by_key(|arrival| arrival.kind == ArrivalKind::Stopped);
         self.progress.arrivals.extend(arrivals);
         Ok(())
+    }
+
+    /// Starts kinks at ends with the present contact forces. If the previous impact was less than a step ago, they stay unloaded, because the forces
+    /// between such impacts belong to vibrations that the steps do not resolve.
+    fn restart_kinks(&mut self) -> Result<(), SimulationError> {
+        let last = self.progress.arrivals.last();
+        if last.is_some_and(|last| self.time() - last.time < self.dt()) {
+            return Ok(());
+        }
+        Ok(self.model.restart_kinks_at_ends()?)
     }
 
     /// Returns true if a slider at a limit stays at its stop instead of bouncing. This is the case for repeated impacts within few steps, for an

@@ -161,6 +161,19 @@ pub const WORDS: &[ForeignName] = &[
         &["modes", "angular_frequencies"],
     ),
     entry(
+        &[
+            "accuracy",
+            "discretisation error",
+            "discretization error",
+            "richardson",
+            "extrapolation",
+            "grid convergence",
+        ],
+        "sim.error_estimate() estimates the errors of a run in time and in space; scene.solve \
+        refines a run until they meet a tolerance",
+        &["error_estimate", "solve", "study_convergence"],
+    ),
+    entry(
         &["static", "statics", "at rest", "balance"],
         "scene.equilibrium() computes the static equilibrium of a scene",
         &["equilibrium", "load_control"],
