@@ -11,6 +11,8 @@ pub(super) struct Balance<'a> {
     pub(super) model: &'a mut System,
     /// Length that converts moments to forces, for loads that consist of moments only.
     pub(super) length: f64,
+    /// Returns false to stop the solution.
+    pub(super) goes_on: &'a mut dyn FnMut() -> bool,
 }
 
 impl Balance<'_> {
@@ -73,14 +75,16 @@ impl Equations for UnderLoad<'_> {
         self.add_internal_forces(u, residual);
         self.balance.imbalance(u, self.factor, residual)
     }
+
+    fn goes_on(&mut self) -> bool {
+        (self.balance.goes_on)()
+    }
 }
 
-/// Equations `F(u) - λ P(u) = 0` and `t·u = Δs`. The load factor `λ` is the last unknown. The second equation, the distance of a plane, determines
-/// it.
-/// second equation, which describes a plane.
-pub(super) struct AlongPath<'a> {
-    pub(super) balance: Balance<'a>,
-    /// Normal `t` of the plane in the metric of the path. Contact unknowns, which follow the degrees of freedom, have no weight in it.
+/// Equations `F(u) - λ P(u) = 0` and `t·u = Δs`. The load factor `λ` is the last unknown; the distance to a plane determines it.
+pub(super) struct AlongPath<'a, 'b> {
+    pub(super) balance: &'a mut Balance<'b>,
+    /// Normal `t` of the plane in the metric of the path. Contact unknowns, which follow the degrees of freedom, do not enter.
     pub(super) normal: &'a [f64],
     /// Distance `Δs` of the plane from the last equilibrium, in the metric of the path.
     pub(super) distance: f64,
@@ -88,7 +92,7 @@ pub(super) struct AlongPath<'a> {
     pub(super) forces: &'a mut [f64],
 }
 
-impl AlongPath<'_> {
+impl AlongPath<'_, '_> {
     fn distance_from_plane(&self, movements: &[f64]) -> f64 {
         let projection: f64 = self.normal.iter().zip(movements).map(|(t, u)| t * u).sum();
         projection - self.distance
@@ -100,7 +104,7 @@ impl AlongPath<'_> {
     }
 }
 
-impl Equations for AlongPath<'_> {
+impl Equations for AlongPath<'_, '_> {
     fn linearise(&mut self, unknowns: &[f64], residual: &mut [f64], tangent: &mut BorderedMatrix) {
         let (moved, factor) = unknowns.split_at(self.normal.len());
         let model = &mut *self.balance.model;
@@ -141,5 +145,9 @@ impl Equations for AlongPath<'_> {
             constraint: larger(imbalance.constraint, beyond.abs() / self.distance),
             ..imbalance
         }
+    }
+
+    fn goes_on(&mut self) -> bool {
+        (self.balance.goes_on)()
     }
 }

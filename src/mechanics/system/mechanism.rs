@@ -198,9 +198,11 @@ impl System {
         self.motion.accelerations.mark_unknown();
     }
 
-    /// Returns true if the present velocity of a slider at a limit points beyond the limit.
+    /// Returns true if the present velocity of a slider at a limit is directed beyond the limit. The velocity of a slider that has just left a stop
+    /// is zero, and its sign due to rounding decides nothing.
     pub(crate) fn leads_beyond(&self, limit: MasterLimit) -> bool {
-        let rate = self.sliders[limit.slider].rate(&self.bodies, &self.motion.rates);
-        rate * limit.end.outward() > 0.0
+        let slider = &self.sliders[limit.slider];
+        let rate = slider.rate(&self.bodies, &self.motion.rates);
+        rate * limit.end.outward() > 0.0 && slider.stop_left_at != self.motion.time
     }
 }

@@ -312,9 +312,12 @@ fn find(call: &mut Call) -> Result<Dynamic, ScriptError> {
         RunMode::Run => {
             let name = description.name.clone();
             context.progress().begin(&name, 0.0, loading.factor);
+            let mut last = None;
             let found = Equilibrium::find(description, loading, &mut |reached| {
-                context.progress().report_time(reached);
-                context.meter().count_step();
+                if last.replace(reached) != Some(reached) {
+                    context.progress().report_time(reached);
+                    context.meter().count_step();
+                }
                 context.meter().allows_a_step() && !context.is_stopped()
             });
             context.progress().end();
