@@ -70,6 +70,11 @@ impl System {
         self.slider(slider).speed(self.bodies(), self.rates())
     }
 
+    /// Speed of the slip of a slider with friction at the start of the last attempted step [length/time].
+    pub(crate) fn slip_speed(&self, slider: usize) -> f64 {
+        self.slider(slider).slip_speed()
+    }
+
     /// Distance of a slider from a limit, as a fraction of the parameter range of its master [-].
     pub(crate) fn distance_to(&self, limit: MasterLimit) -> f64 {
         self.slider(limit.slider).distance_to(limit.end)

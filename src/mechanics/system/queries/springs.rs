@@ -82,10 +82,10 @@ impl System {
     }
 
     /// Dissipated energies of other elements since the start, in the order of the scene: material damping, drag, impacts of sliders with restitution
-    /// below 1 [energy].
+    /// below 1, and friction [energy].
     pub(crate) fn dissipations(&self) -> impl Iterator<Item = f64> {
         let others = self.elements().resistances().filter(|other| other.stretched().is_none());
-        let losing = self.sliders().iter().filter(|slider| slider.restitution < 1.0);
+        let losing = self.sliders().iter().filter(|slider| slider.dissipates());
         others.map(InternalForce::dissipated).chain(losing.map(|slider| slider.lost_energy))
     }
 }

@@ -77,14 +77,37 @@ impl MasterLimit {
         [MasterEnd::Start, MasterEnd::End].map(|end| Self { slider, end })
     }
 
-    /// Index of this limit among the limits of all sliders.
+}
+
+/// Event of a slider at which a step has to end.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum SliderEvent {
+    /// The slider reaches a limit.
+    Limit(MasterLimit),
+    /// The slip of this slider with friction ends.
+    SlipEnd(usize),
+    /// The slip of this slider with friction starts.
+    SlipStart(usize),
+}
+
+impl SliderEvent {
+    /// Number of this event among the events of all sliders.
     pub fn number(self) -> usize {
-        2 * self.slider + self.end as usize
+        match self {
+            Self::Limit(MasterLimit { slider, end }) => 4 * slider + end as usize,
+            Self::SlipEnd(slider) => 4 * slider + 2,
+            Self::SlipStart(slider) => 4 * slider + 3,
+        }
     }
 
-    /// Limit with this index among the limits of all sliders.
+    /// Event with this number.
     pub fn of(number: usize) -> Self {
-        Self::both(number / 2)[number % 2]
+        let slider = number / 4;
+        match number % 4 {
+            2 => Self::SlipEnd(slider),
+            3 => Self::SlipStart(slider),
+            end => Self::Limit(MasterLimit::both(slider)[end]),
+        }
     }
 }
 
@@ -167,7 +190,7 @@ mod tests {
     fn limits_are_numbered_in_their_order() {
         let limits: Vec<MasterLimit> = (0..3).flat_map(MasterLimit::both).collect();
         for (number, limit) in limits.into_iter().enumerate() {
-            assert_eq!((limit.number(), MasterLimit::of(number)), (number, limit));
+            assert_eq!((limit.number(), SliderEvent::of(number)), (number, limit));
         }
     }
 }

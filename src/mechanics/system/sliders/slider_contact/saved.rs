@@ -10,7 +10,7 @@ const ROUTE: usize = 3;
 impl SliderContact {
     pub fn saved(&self) -> usize {
         let of_route = if self.is_on_track() { ROUTE } else { 0 };
-        10 + CONTACT_UNKNOWNS + of_route
+        10 + usize::from(self.friction.is_some()) + CONTACT_UNKNOWNS + of_route
     }
 
     pub fn is_valid(&self, numbers: &[f64]) -> bool {
@@ -34,6 +34,7 @@ impl SliderContact {
             self.stop_left_at,
             f64::from(u8::from(self.stop_may_pull)),
         ]);
+        numbers.extend(self.friction.iter().map(|friction| friction.mode_number()));
         numbers.extend(self.track.iter().flat_map(|route| route.numbers()));
     }
 
@@ -46,6 +47,7 @@ impl SliderContact {
         self.kinked_axis.iter_mut().for_each(|axis| axis.restore(kink));
         (self.stop_energy, self.lost_energy, self.stop_left_at) = (next(), next(), next());
         self.stop_may_pull = next() != 0.0;
+        self.friction.iter_mut().for_each(|friction| friction.restore_mode(next()));
         if let Some(route) = &mut self.track {
             route.restore(std::array::from_fn(|_| next()));
             self.set_master();
