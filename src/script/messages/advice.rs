@@ -83,6 +83,7 @@ fn simulation_hint(error: &SimulationError) -> Option<String> {
         SimulationError::Method(_)
         | SimulationError::StepSize(_)
         | SimulationError::EventLocation { .. }
+        | SimulationError::FrictionMethod { .. }
         | SimulationError::Interrupted { .. } => return None,
     })
 }
@@ -202,7 +203,7 @@ fn slider_hint(error: &SliderError) -> Option<String> {
             give the slider the option velocities: \"project\", which uses the nearest \
             compatible velocities"
         }
-        SliderError::RuleOfOneBeam { .. } => "use conserving()",
+        SliderError::RuleOfOneBeam { .. } | SliderError::FrictionRule { .. } => "use conserving()",
         _ => return None,
     };
     Some(advice.into())

@@ -336,6 +336,13 @@ fn find(call: &mut Call) -> Result<Dynamic, ScriptError> {
         let name = &rest.scene().name;
         context.print_message(&format!("note: the equilibrium of '{name}' is not stable"));
     }
+    let with_friction = rest.scene().sliders.iter().find(|slider| slider.friction > 0.0);
+    if let Some(slider) = with_friction {
+        let (scene, slider) = (&rest.scene().name, &slider.name);
+        context.print_message(&format!(
+            "note: the equilibrium of '{scene}' does not include the friction of slider '{slider}'"
+        ));
+    }
     let path = rest.path();
     if path.load_factor() != loading.factor {
         let (points, factor) = (path.points().len(), significant(path.load_factor(), 6));

@@ -70,6 +70,7 @@ impl System {
         let mut model = Self::as_drawn(scene, goes_on)?;
         query(scene, goes_on)?;
         model.project_start_velocities(scene)?;
+        model.choose_friction_modes();
         Ok(model)
     }
 

@@ -218,6 +218,7 @@ impl System {
         };
         let Ok(impulses) = encounter.impulses(&laws) else { return false };
         self.apply(encounter, &impulses.values);
+        self.choose_friction_modes();
         true
     }
 

@@ -245,6 +245,9 @@ impl Mechanism for System {
     }
 
     fn begin_step(&mut self, interval: Interval, stages: &[Stage]) -> Result<(), StepError> {
+        if self.has_friction() {
+            self.measure_inertia_across();
+        }
         let Self { bodies, elements, links, sliders, supports, motion, step, unknowns, .. } = self;
         let refused =
             |(load, error)| StepError::Load { interval, load, source: ExternalError::new(error) };
