@@ -1,4 +1,4 @@
-//! Joints, and the laws of sliding joints.
+//! Joints, and the laws of contact between sliders and their masters.
 
 mod joint;
 mod release;

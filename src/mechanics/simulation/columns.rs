@@ -13,11 +13,11 @@ pub struct Column {
     pub name: &'static str,
     /// Dimension of the values.
     pub dimension: &'static str,
-    /// Accessor of the value in a row.
+    /// Function that reads the value from a row.
     pub value: fn(&Sample) -> f64,
 }
 
-/// Column that depends on the scene.
+/// Column whose presence depends on the scene.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct ExtraColumn {
     /// Name: object and quantity, such as `slider1.force`.
@@ -129,8 +129,8 @@ pub(super) fn extra_columns(scene: &Scene) -> Vec<ExtraColumn> {
         .collect()
 }
 
-/// Returns true for columns with means of the last step: forces of sliders and drives, sensors of means, and forces of springs with methods whose
-/// spring forces are means.
+/// Returns true for columns that contain means over the last step: forces of sliders and drives, sensors of means, and forces of springs with
+/// methods whose spring forces are means.
 pub(super) fn is_step_mean(scene: &Scene, method: Method, column: &str) -> bool {
     let is_of = |name: &str, quantity: &str| {
         column.strip_prefix(name).is_some_and(|rest| rest.strip_prefix('.') == Some(quantity))

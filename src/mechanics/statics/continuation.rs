@@ -1,4 +1,4 @@
-//! Continuation of equilibria.
+//! Sequences of equilibria, each of which is found from the previous one.
 
 use super::balance::{Balance, UnderLoad};
 use super::error::StepFailure;
@@ -13,32 +13,34 @@ use crate::linalg::{BorderShape, BorderedMatrix};
 use crate::newton::Newton;
 use crate::system::{MasterEnd, Scene, System, UnknownKind};
 
-/// Largest number of halvings of a step that does not reach an equilibrium.
+/// Largest number of times that a step is halved because it does not reach an equilibrium.
 const MOST_HALVINGS: u32 = 8;
 
-/// Distance of an equilibrium from the last one, relative to the planned step along the path, above which it belongs to another part of the path.
+/// Largest distance between two consecutive equilibria on the same part of the path, as a multiple of the longest step along the path.
 const FAR: f64 = 2.0;
 
-/// Displacement per load increment, relative to that of the last step, above which the structure has snapped through.
+/// Displacement per load increment above which the structure has snapped through, as a multiple of the displacement per load increment in the last
+/// step.
 const SNAP_THROUGH_RATIO: f64 = 4.0;
 
-/// Displacement, relative to the size of the scene, below which it is never rejected as too large.
+/// Smallest displacement with which a displacement is compared to detect snap-through, as a fraction of the size of the scene.
 const NEARBY: f64 = 1e-3;
 
-/// Number of iterations per step at which the step control aims.
+/// Number of iterations per step at which the step size control aims.
 const WANTED_ITERATIONS: f64 = 4.0;
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum InitialSupport {
     Itself,
-    /// Only the loads restrain the given number of degrees of freedom.
+    /// Only the loads restrain some degrees of freedom. The value is their number.
     Loads(usize),
 }
 
 pub(super) struct Continuation<'s> {
     pub(super) scene: &'s Scene,
     length: f64,
-    /// Weights of squared displacements (relative to a length) and rotations, averaged over the control points.
+    /// Weights of squared displacements and rotations in the distance between two equilibria. Displacements are divided by a length, and the sum is
+    /// an average over the control points.
     metric: Vec<f64>,
     loading: Loading,
     pub(super) model: System,
@@ -57,8 +59,8 @@ struct PathDirection {
 }
 
 impl PathDirection {
-    /// Returns true if the next step continues in this direction. Otherwise the step may have changed to another branch, as near the buckling load of
-    /// a straight column, and smaller steps are needed.
+    /// Returns true if the next step continues in this direction. Otherwise the step may have led to another branch of the path, for example near
+    /// the buckling load of a straight column. Smaller steps are then needed.
     fn is_aligned_with(&self, next: &Self, metric: &[f64]) -> bool {
         let ways = metric.iter().zip(&self.movements).zip(&next.movements);
         let along: f64 = ways.map(|((weight, before), now)| weight * before * now).sum();
@@ -76,7 +78,7 @@ impl<'s> Continuation<'s> {
         let all = model.unknowns() + model.constraint_shape().width;
         let mut path = EquilibriumPath::default();
         path.push(point(&mut model, 0.0, 0.0, 0));
-        // Isolated particles have no moments, so that any length is right.
+        // Isolated particles have no moments, so any length may be used.
         let length = scene.size().unwrap_or(1.0);
         Self {
             scene,
@@ -176,8 +178,8 @@ impl<'s> Continuation<'s> {
         Err(self.path_lost_error(miss))
     }
 
-    /// Distance from the last point to the turning point of the load factor, if the path crosses the goal before the turning point and again after
-    /// it. The first crossing is the solution.
+    /// Distance from the last point to the turning point of the load factor. It is returned if the path crosses the requested load factor before
+    /// the turning point and again after it, because the first crossing is the solution.
     fn distance_to_turning_point(&self, goal: f64, factor: f64, distance: f64) -> Option<f64> {
         let [.., before, last] = self.path.points() else { return None };
         let factors = [before.load_factor, last.load_factor, factor];
@@ -208,7 +210,8 @@ impl<'s> Continuation<'s> {
         self.solve_for_factor(factor, halvings - 1)
     }
 
-    /// Returns true if the last point continues the path, or if no halving is left. Under arc-length control the path may turn and become unstable.
+    /// Returns true if the last point continues the path, or if the step cannot be halved further. With arc-length control the path may turn and
+    /// become unstable.
     fn is_continuation(&mut self, halvings: u32) -> bool {
         if self.loading.control != Control::Load {
             return true;
@@ -223,7 +226,7 @@ impl<'s> Continuation<'s> {
         goes_on
     }
 
-    /// Number of negative eigenvalues of the stiffness, without the effect of follower loads.
+    /// Number of negative eigenvalues of the stiffness. The effect of follower loads is not included.
     pub(super) fn unstable_directions(&self) -> usize {
         self.unstable_directions_with_inertia(0.0)
     }
@@ -237,7 +240,7 @@ impl<'s> Continuation<'s> {
         }
     }
 
-    /// Solves for an equilibrium near the last one. Returns the number of iterations.
+    /// Solves for an equilibrium near the last one, for a load factor. Returns the number of iterations.
     fn find(&mut self, factor: f64) -> Result<usize, StepFailure> {
         let found = match self.balance_from(factor, 0.0) {
             Ok(_) if self.distance_moved() > self.farthest(factor) => Err(StepFailure::FarSolution),
@@ -253,10 +256,10 @@ impl<'s> Continuation<'s> {
         norm(&self.metric, &self.unknowns)
     }
 
-    /// Solves from the present configuration for a fraction of the loads, with viscous damping if `rate` is positive [1/time²]. Returns the number of
-    /// iterations.
+    /// Solves for a fraction of the loads, starting from the present configuration. If `rate` is positive, there is viscous damping with this rate
+    /// [1/time²]. Returns the number of iterations.
     ///
-    /// The solution restarts whenever a slider becomes held at a stop or leaves it.
+    /// The solution is repeated whenever a stop starts to hold a slider or releases it.
     pub(super) fn balance_from(&mut self, factor: f64, rate: f64) -> Result<usize, StepFailure> {
         let (reached, mut iterations) = (self.path.load_factor(), 0);
         for _ in 0..=self.scene.most_settlings() {
@@ -275,8 +278,8 @@ impl<'s> Continuation<'s> {
         Err(StepFailure::FarSolution)
     }
 
-    /// Largest acceleration of a mass by the forces on the last configuration, relative to the size of the scene [1/time²]. Without forces it is 1,
-    /// because any rate is then right.
+    /// Largest acceleration of a mass due to the unbalanced forces in the last configuration, divided by the size of the scene [1/time²]. Without
+    /// forces the result is 1, because any rate may then be used.
     pub(super) fn acceleration_by_size(&mut self, factor: f64) -> f64 {
         self.model.predict_unchanged(&mut self.unknowns);
         self.model.begin_movement();
@@ -301,7 +304,8 @@ impl<'s> Continuation<'s> {
         }
     }
 
-    /// Largest allowed distance of the next equilibrium, from the last displacement per load increment or the longest step along the path.
+    /// Largest allowed distance of the next equilibrium. With load control it is computed from the last displacement per load increment, with
+    /// arc-length control from the longest step.
     fn farthest(&self, factor: f64) -> f64 {
         let [.., before, last] = self.path.points() else { return f64::INFINITY };
         match self.loading.control {
@@ -347,7 +351,7 @@ impl<'s> Continuation<'s> {
     }
 }
 
-/// Holds sliders that pass stops, and frees sliders with tensile stop forces. Returns true if the state of a slider changed.
+/// Holds sliders that move beyond stops, and frees sliders with tensile stop forces. Returns true if the state of a slider has changed.
 pub(super) fn update_stop_contacts(
     model: &mut System,
     scene: &Scene,
@@ -361,7 +365,7 @@ pub(super) fn update_stop_contacts(
     model.update_stop_contacts(unknowns, factor).map_err(leaves)
 }
 
-/// Tangent matrix of a model with `full` additional dense rows. In models with sliders, the contacts may be the only restraint.
+/// Tangent matrix of a model with `full` additional dense rows. In models with sliders, the band without contacts may be singular.
 pub(super) fn tangent(model: &System, full: usize) -> BorderedMatrix {
     let (unknowns, contacts) = (model.unknowns(), model.constraint_shape());
     let border = BorderShape {

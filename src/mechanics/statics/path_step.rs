@@ -1,4 +1,4 @@
-//! Steps of given length along the equilibrium path.
+//! Steps of a given length along the path of equilibria.
 
 use super::Loading;
 use super::balance::{AlongPath, Balance};
@@ -28,7 +28,7 @@ impl PathStep {
         }
     }
 
-    /// Sets the direction of the path to the direction of the last displacement.
+    /// Sets the direction of the path to that of the last displacement.
     pub(super) fn set_direction(&mut self, metric: &[f64], last: &[f64]) {
         let inverse = 1.0 / norm(metric, last);
         for ((normal, weight), u) in self.normal.iter_mut().zip(metric).zip(last) {
@@ -36,7 +36,8 @@ impl PathStep {
         }
     }
 
-    /// Starts from zero displacement, so that the first iteration follows the tangent of the path.
+    /// Solves for an equilibrium at a given distance. The iteration starts from zero displacement, so that the first iteration follows the tangent
+    /// of the path.
     pub(super) fn find(
         &mut self,
         mut balance: Balance<'_>,

@@ -1,7 +1,7 @@
-//! Laws of sliding joints: closure of the contact, and the sliding equation.
+//! Laws of sliding joints: equations of a closed gap, and equations of sliding.
 //!
-//! A step has, for each slider, the contact force `λ` on the master, the couple force `η` and the sliding increment `Δξ` as unknowns. All laws apply
-//! the same forces to slave and master (see [`Contact`]) and differ in the five equations for these unknowns.
+//! In a step, each slider has the unknowns contact force `λ` on the master, couple `η` and sliding increment `Δξ`. All laws apply the same forces
+//! to slave and master (see [`Contact`]). They differ in the five equations for these unknowns.
 
 mod conserving;
 mod contact;
