@@ -451,7 +451,7 @@ fn a_search_stops_within_an_iteration() {
     scenes::add_beam(&mut hanging, straight(), &smooth(4), section(1e4, 1e4));
     let start = scenes::start_of(&mut hanging, 0);
     hanging.join(JointKind::Hinge, start, Partner::Ground).unwrap();
-    let arc = Control::ArcLength(ArcLength { longest: 1.0, points: 2 });
+    let arc = Control::ArcLength(ArcLength { longest: 1.0, points: 3 });
     for (scene, control) in
         [(&clamped, Control::Load), (&clamped, arc), (&load(hanging), Control::Load)]
     {
