@@ -14,13 +14,13 @@ pub struct ObservedScene {
 }
 
 impl ObservedScene {
-    /// Total number of spans, a measure of the refinement.
+    /// Total number of spans, which measures the refinement of the meshes.
     pub fn spans(&self) -> usize {
         self.scene.beams.iter().map(|beam| beam.mesh.spans()).sum()
     }
 }
 
-/// A mesh, an integrator and a step size.
+/// Scene with its meshes, an integrator and a step size.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Combination {
     pub subject: usize,
@@ -35,7 +35,7 @@ impl Combination {
     }
 }
 
-/// All combinations of subjects and settings, by subject.
+/// All combinations of scenes and settings, scene by scene.
 pub fn all_combinations(
     subjects: &[ObservedScene],
     settings: &[SimulationSettings],
@@ -45,18 +45,18 @@ pub fn all_combinations(
     pairs.map(|(subject, settings)| Combination { subject, settings }).collect()
 }
 
-/// Index of the scene with the most spans; of several, the last.
+/// Index of the scene with the most spans. If several scenes have the same number, the last one.
 pub fn finest_mesh(subjects: &[ObservedScene]) -> Option<usize> {
     (0..subjects.len()).max_by_key(|index| subjects[*index].spans())
 }
 
-/// Method of the highest order; of several, the first.
+/// Method of the highest order. If several methods have the same order, the first one.
 pub fn highest_order(methods: &[Method]) -> Option<Method> {
     methods.iter().copied().rev().max_by_key(|method| method.entry().claims.order)
 }
 
-/// Step size of the reference run, relative to the smallest step size of the study. At second order, the error of the reference is a sixteenth of
-/// that of the best run.
+/// Step size of the reference run, as a fraction of the smallest step size in the study. With a method of second order, the error of the reference
+/// is a sixteenth of the error of the best run.
 pub const PART_OF_THE_SMALLEST_STEP: f64 = 0.25;
 
 #[cfg(test)]

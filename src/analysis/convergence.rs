@@ -1,4 +1,4 @@
-//! Convergence: decrease of errors with the step size or mesh size, and the observed order.
+//! Convergence: decrease of errors as the step size or mesh size decreases, and the observed order.
 
 use super::observable::Observable;
 use super::reference::{Deviation, ReferenceSolution};
@@ -9,14 +9,14 @@ use crate::integrators::Method;
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum RefinedParameter {
     Step,
-    /// Mesh; its size is one over the number of spans.
+    /// Mesh size, which is one divided by the number of spans.
     Mesh,
 }
 
-/// Ratio of an error to the uncertainty of the reference above which the error is significant.
+/// Ratio of an error to the uncertainty of the reference for which the error is significant.
 const SIGNIFICANCE: f64 = 2.0;
 
-/// Errors of one quantity with one integrator, from coarse to fine.
+/// Errors of one quantity with one integrator for several sizes, from coarse to fine.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Refinement {
     pub method: Method,
@@ -28,12 +28,12 @@ pub struct Refinement {
 }
 
 impl Refinement {
-    /// Error at the refinement level with this index; `None` if the run failed.
+    /// Error at the size with this index; `None` if the run failed.
     pub fn error(&self, rung: usize) -> Option<f64> {
         self.deviations.get(rung).copied().flatten().map(|of| of.error())
     }
 
-    /// Returns true if the error at a refinement level can be used for an order: nonzero and significant.
+    /// Returns true if the error at a size can be used to compute an order: it must be nonzero and significant.
     pub fn tells_an_order(&self, rung: usize) -> bool {
         let deviation = self.deviations.get(rung).copied().flatten();
         deviation.is_some_and(|of| {
@@ -46,14 +46,14 @@ impl Refinement {
         self.tells_an_order(rung).then(|| (self.sizes[rung], deviation.distance))
     }
 
-    /// Order observed between a refinement level and the previous one, `ln(e₁/e₂) / ln(h₁/h₂)`.
+    /// Order observed between a size and the previous one, `ln(e₁/e₂) / ln(h₁/h₂)`.
     pub fn order(&self, rung: usize) -> Option<f64> {
         let ((coarse, large), (fine, small)) =
             (self.point(rung.checked_sub(1)?)?, self.point(rung)?);
         Some(ln(large / small) / ln(coarse / fine)).filter(|order| order.is_finite())
     }
 
-    /// Fitted order of all refinement levels: slope of the least-squares line through the logarithms.
+    /// Order fitted to all sizes: slope of the least-squares line through the logarithms of sizes and errors.
     pub fn fitted_order(&self) -> Option<f64> {
         let points: Vec<(f64, f64)> = (0..self.sizes.len())
             .filter_map(|rung| self.point(rung))
@@ -73,22 +73,23 @@ pub struct Convergence {
     pub name: String,
     pub refined: RefinedParameter,
     pub fixed: String,
-    /// Times of the comparison [time].
+    /// Times at which results are compared [time].
     pub times: Vec<f64>,
     /// Length scale of position errors [length].
     pub length: f64,
     pub reference: ReferenceSolution,
     /// Errors by integrator and quantity.
     pub ladders: Vec<Refinement>,
-    /// Failed runs: size, integrator, reason.
+    /// Failed runs, with size, integrator and reason.
     pub failures: Vec<(f64, Method, String)>,
 }
 
-/// Name of the combined error of all positions.
+/// Name of the combined error of the positions of all stations.
 pub const ALL_POSITIONS: &str = "positions";
 
 impl Convergence {
-    /// Errors of one integrator under refinement: first of all positions together, relative to the length, then of each observable.
+    /// Errors of one integrator for several sizes: first that of all positions together, as a fraction of the length, then those of each
+    /// observable.
     pub fn ladders_of(
         method: Method,
         rungs: &[(f64, RunResult)],
@@ -114,7 +115,7 @@ impl Convergence {
         std::iter::once(together).chain(each).collect()
     }
 
-    /// Quantities of the study, without duplicates.
+    /// Names of the quantities in the study, without duplicates.
     pub fn quantities(&self) -> Vec<&str> {
         let mut names = Vec::new();
         for name in self.ladders.iter().map(|ladder| ladder.quantity.as_str()) {
@@ -125,12 +126,12 @@ impl Convergence {
         names
     }
 
-    /// Refinements of a quantity, one per integrator.
+    /// Errors of a quantity, with one refinement per integrator.
     pub fn ladders_with<'s>(&'s self, quantity: &'s str) -> impl Iterator<Item = &'s Refinement> {
         self.ladders.iter().filter(move |ladder| ladder.quantity == quantity)
     }
 
-    /// Claimed order of an integrator, if the study refines steps.
+    /// Order that an integrator claims; `None` if the study does not refine steps.
     pub fn claimed_order(&self, method: &Method) -> Option<u32> {
         (self.refined == RefinedParameter::Step).then(|| method.entry().claims.order)
     }

@@ -1,4 +1,4 @@
-//! Cost of a step: time, and its components.
+//! Cost of a step: its time, and the sizes that determine the time.
 
 use std::time::{Duration, Instant};
 
@@ -7,7 +7,7 @@ use super::{Case, CaseOutcome, RunLimits};
 use crate::integrators::Constraints;
 use crate::simulation::{Recording, Simulation};
 
-/// A case whose steps are timed, with settings that affect the time.
+/// Case whose steps are timed, with settings that affect the time.
 #[derive(Debug, Clone)]
 pub struct CostCase {
     pub name: String,
@@ -23,7 +23,7 @@ pub struct StepCost {
     pub outcome: CaseOutcome,
     pub unknowns: usize,
     pub half_bandwidth: usize,
-    /// Number of border columns of contacts.
+    /// Number of columns in the border of the matrix, for the contact unknowns.
     pub border: usize,
     pub columns: usize,
     /// Average number of Newton iterations per step.
@@ -62,8 +62,8 @@ impl StepCost {
     }
 }
 
-/// Times the steps of cases on this thread. The cases alternate, so that disturbances of the machine affect all of them. The time to build the scene
-/// is not included. Returns `None` if `is_wanted` returns false.
+/// Measures the time per step of several cases on this thread. Steps of all cases are measured alternately, so that disturbances of the machine
+/// affect all of them. The time to build the scene is not included. Returns `None` if `is_wanted` returns false.
 pub fn step_costs(
     cases: &[CostCase],
     patience: RunLimits,

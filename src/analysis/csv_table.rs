@@ -1,10 +1,10 @@
-//! CSV tables of other programs, with `#` comment lines, any of three separators and an optional line of units.
+//! CSV tables of other programs. They may have comment lines that start with `#`, one of three separators, and a line of units.
 
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum ParsedCsvError {
     #[error("line {line} is not a row of the table: {reason}")]
     Row {
-        /// Line, from 1.
+        /// Number of the line, from 1.
         line: u64,
         reason: String,
     },
@@ -17,40 +17,40 @@ pub enum ParsedCsvError {
     )]
     Number {
         column: String,
-        /// Line, from 1.
+        /// Number of the line, from 1.
         line: u64,
         text: String,
     },
-    /// A negative number in a column of sizes.
+    /// Negative number in a column of sizes.
     #[error("line {line}, column '{column}', holds '{text}', but an error must not be negative")]
     Negative {
         column: String,
-        /// Line, from 1.
+        /// Number of the line, from 1.
         line: u64,
         text: String,
     },
 }
 
-/// Largest allowed magnitude of a number, so that its square is finite.
+/// Largest allowed magnitude of a number. Its square is still finite.
 const LARGEST: f64 = 1e150;
 
-/// Largest number of characters of a cell in a message.
+/// Largest number of characters of a cell that a message shows.
 const LONGEST_SHOWN: usize = 60;
 
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct ParsedCsv {
     columns: Vec<String>,
     separator: u8,
-    /// Cells of each row, with the line of the row, from 1.
+    /// Cells of each row, with the line number of the row, from 1.
     rows: Vec<(u64, Vec<String>)>,
 }
 
 impl ParsedCsv {
-    /// Parses values separated by commas; if the line of names contains no comma, by semicolons or tabs. If a line of dimensions follows the names,
-    /// as in files of withy, it is skipped.
+    /// Parses a table. Values are separated by commas, or, if the line of names contains no comma, by semicolons or tabs. A line of dimensions
+    /// after the names, as in files of withy, is skipped.
     ///
     /// # Errors
-    /// Fails if two columns have the same name, or the number of cells of a row differs from that of the columns.
+    /// Fails if two columns have the same name, or if the number of cells in a row differs from the number of columns.
     pub fn parse(text: &str) -> Result<Self, ParsedCsvError> {
         let separator = separator_of(text);
         let mut reader = csv::ReaderBuilder::new()
@@ -100,18 +100,18 @@ impl ParsedCsv {
         self.columns.iter().any(|name| name == column)
     }
 
-    /// Texts of a row by column.
+    /// Texts of the cells in a row, in the order of the columns.
     ///
     /// # Panics
-    /// If there is no such row.
+    /// Panics if there is no such row.
     pub fn texts(&self, row: usize) -> &[String] {
         &self.rows[row].1
     }
 
-    /// Line of a row in the file, from 1.
+    /// Line number of a row in the file, from 1.
     ///
     /// # Panics
-    /// If there is no such row.
+    /// Panics if there is no such row.
     pub fn line(&self, row: usize) -> u64 {
         self.rows[row].0
     }
@@ -122,7 +122,7 @@ impl ParsedCsv {
     /// Fails if there is no such column.
     ///
     /// # Panics
-    /// If there is no such row.
+    /// Panics if there is no such row.
     pub fn text(&self, row: usize, column: &str) -> Result<&str, ParsedCsvError> {
         let found = self.columns.iter().position(|name| name == column);
         let missing =
@@ -136,7 +136,7 @@ impl ParsedCsv {
     /// Fails if there is no such column, or the cell is not a finite number with a finite square.
     pub fn number(&self, row: usize, column: &str) -> Result<f64, ParsedCsvError> {
         let text = self.text(row, column)?;
-        // If the separator is not a comma, a comma is the decimal sign.
+        // If the separator is not a comma, a comma is the decimal separator.
         let has_decimal_comma = self.separator != b',' && !text.contains('.');
         let parsed = match has_decimal_comma {
             true => text.replace(',', ".").parse(),
@@ -150,10 +150,10 @@ impl ParsedCsv {
         })
     }
 
-    /// Non-negative size of an error in a cell.
+    /// Size of an error in a cell, which must not be negative.
     ///
     /// # Errors
-    /// Fails if there is no such column, or the cell is not a finite non-negative number.
+    /// Fails if there is no such column, or if the cell is not a finite number or negative.
     pub fn size(&self, row: usize, column: &str) -> Result<f64, ParsedCsvError> {
         let number = self.number(row, column)?;
         let (column, line) = (column.to_owned(), self.rows[row].0);
@@ -185,7 +185,7 @@ fn separator_of(text: &str) -> u8 {
     }
 }
 
-/// Returns true if all cells are empty or dimensions such as `mass·length/time`, and not all are empty.
+/// Returns true if every cell is empty or a dimension such as `mass·length/time`, and at least one is not empty.
 fn is_line_of_units(cells: &[String]) -> bool {
     let is_factor = |factor: &str| {
         let name = factor.trim_end_matches(['²', '³']);

@@ -5,16 +5,16 @@ use super::observable::Observable;
 use super::reference::{ReferenceError, ReferenceSolution};
 use crate::geometry::Vec2;
 
-/// A run of another program.
+/// Run of another program.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ExternalResult {
     pub program: String,
-    /// Series of the run, such as the program with one integrator.
+    /// Name of a series of runs, for example of a program with one integrator.
     pub series: String,
     pub setting: String,
     /// Run time [s].
     pub run_time: f64,
-    /// Largest distance of a station from the reference, relative to the length of the study [-].
+    /// Largest distance of a station from the reference, as a fraction of the length scale of the study [-].
     pub error: f64,
     /// Energy drift [-]; NaN if not measured.
     pub energy_drift: f64,
@@ -27,10 +27,10 @@ pub enum ExternalResultError {
     Sheet(#[from] ParsedCsvError),
     #[error(transparent)]
     ReferenceMismatch(#[from] ReferenceError),
-    /// A run whose positions were measured at another time than the study uses.
+    /// Run whose positions were measured at a time that the study does not use.
     #[error("its row {row} has positions at t = {measured}, but the study needs t = {}", requested.join(", "))]
     Times {
-        /// Row below the header, from 1.
+        /// Number of the row, from 1 for the first row below the header.
         row: usize,
         /// Time of the measured positions [time].
         measured: f64,
@@ -39,16 +39,16 @@ pub enum ExternalResultError {
     },
 }
 
-/// Columns that describe the settings of a run, with prefixes.
+/// Columns that describe the settings of a run, each with the prefix of its value.
 const SETTING: [(&str, &str); 4] =
     [("integrator", ""), ("elements", "elements "), ("dof", "unknowns "), ("dt", "dt = ")];
 
 impl ExternalResult {
-    /// Reads runs from a table. Required columns are peer, series, run_time_s, t, energy_drift and machine, and station positions named as in a
-    /// reference. Optional columns are integrator, elements, dof and dt.
+    /// Reads runs from a table. Required columns are peer, series, run_time_s, t, energy_drift and machine, and columns of station positions with
+    /// the names of a reference table. Optional columns are integrator, elements, dof and dt.
     ///
     /// # Errors
-    /// Fails if a column is missing, a number is invalid, or the positions belong to another time than that of the study.
+    /// Fails if a column is missing, a number is invalid, or the positions belong to a time that the study does not use.
     pub fn of_sheet(
         sheet: &ParsedCsv,
         observables: &[Observable],
@@ -94,7 +94,7 @@ fn position(sheet: &ParsedCsv, row: usize, of: &Observable) -> Result<Vec2, Pars
     Ok(Vec2::new(x?, y?))
 }
 
-/// Machines of the measurements, without duplicates.
+/// Machines on which the measurements were made, without duplicates.
 pub fn machines(rivals: &[ExternalResult]) -> Vec<&str> {
     let mut machines = Vec::new();
     for rival in rivals.iter().map(|rival| rival.machine.as_str()) {
@@ -122,7 +122,7 @@ mod tests {
         let rivals =
             ExternalResult::of_sheet(&sheet, &observables, &truth, (&[1.0], 10.0)).unwrap();
         assert_eq!(rivals[0].error, 0.05);
-        // A run that equals the reference has only rounding errors.
+        // The run equals the reference, so it has only rounding errors.
         assert!(rivals[1].error < 1e-13, "{}", rivals[1].error);
         assert_eq!(rivals[0].setting, "euler, dt = 0.1");
         assert!(rivals[1].energy_drift.is_nan());

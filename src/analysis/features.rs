@@ -1,4 +1,4 @@
-//! Features that can be added to any scene with a beam, with little effect on its motion.
+//! Features that can be added to any scene with a beam and affect its motion only a little.
 
 use crate::beams::Station;
 use crate::elementary::square;
@@ -7,19 +7,19 @@ use crate::joints::{EndAction, JointKind, Partner, Slider, StartVelocities};
 use crate::loads::{LoadFrame, LoadKind, Schedule};
 use crate::system::{ParticleDefinition, PointMass, Scene, SystemError};
 
-/// Magnitude of a feature, relative to the properties of the first beam.
+/// Magnitude of a feature, as a fraction of the properties of the first beam.
 const SMALL: f64 = 1e-3;
 
-/// A feature whose cost is measured.
+/// Feature whose cost is measured.
 #[derive(Debug, Clone, Copy)]
 pub struct Feature {
-    /// Name.
+    /// Name of the feature.
     pub name: &'static str,
-    /// Adds the feature to the first beam of a scene.
+    /// Function that adds the feature to the first beam of a scene.
     pub add: fn(&mut Scene) -> Result<(), SystemError>,
 }
 
-/// Independent features.
+/// Features that can be added independently of each other.
 pub const FEATURES: &[Feature] = &[
     Feature {
         name: "gravity",
@@ -57,7 +57,7 @@ fn beam_mass(scene: &Scene) -> f64 {
     scene.beams[0].mass()
 }
 
-/// A small fraction of the force that would bend the beam by its length [force].
+/// Small fraction of the force that would bend the beam by its own length [force].
 fn small_force(scene: &Scene) -> f64 {
     SMALL * scene.beams[0].section.mean().bending_stiffness / square(length(scene))
 }
@@ -81,7 +81,7 @@ fn line_load(scene: &mut Scene, frame: LoadFrame) -> Result<(), SystemError> {
     Ok(())
 }
 
-/// A small point mass that slides along the beam. It starts off the middle, because at the middle of a spinning beam it would not move.
+/// Adds a small point mass that slides along the beam. It does not start in the middle, because there it would not move if the beam spins.
 fn bead(scene: &mut Scene) -> Result<(), SystemError> {
     let arc_length = 0.4 * length(scene);
     let place = scene.station(0, arc_length)?;

@@ -1,7 +1,7 @@
-//! Finished cases on disk, so that an interrupted study can be resumed.
+//! Results of completed cases in a file, so that an interrupted study can be resumed.
 //!
-//! A journal is a file of records with length and checksum. A crash may leave an incomplete last record, at which reading ends. When the script of
-//! the study has completed, the journal is removed.
+//! A journal is a file of records, each with its length and a checksum. If the program crashes, the last record may be incomplete; reading ends
+//! there. The journal is removed when the script of the study has ended successfully.
 
 use std::collections::BTreeMap;
 use std::fs::File;
@@ -15,7 +15,7 @@ use serde::de::DeserializeOwned;
 
 use crate::sandbox_fs::{FileChecksum, Folder};
 
-/// Maximum length of a record [bytes]. A longer record is damaged.
+/// Maximum length of a record [bytes]. A longer record is treated as damaged.
 const LONGEST: usize = 1 << 30;
 
 /// Maximum length of a journal [bytes].
@@ -23,10 +23,10 @@ const LARGEST: u64 = 1 << 32;
 
 const FORMAT: u32 = 1;
 
-/// Identifies the build of the program, independent of the machine.
+/// Identification of the program build, which does not depend on the machine.
 type Build = (&'static str, Option<(u64, u32)>);
 
-/// Version, and length and checksum of the executable, if readable.
+/// Version of the program, and length and checksum of the executable if it can be read.
 fn build() -> Build {
     static BUILD: OnceLock<Build> = OnceLock::new();
     *BUILD.get_or_init(|| {
@@ -48,17 +48,17 @@ pub struct JournalError {
     source: io::Error,
 }
 
-/// Results of the cases of a study from this and earlier, interrupted runs.
+/// Results of the cases of a study, from this run and from earlier, interrupted runs.
 #[derive(Debug)]
 pub struct Journal {
     path: PathBuf,
-    /// Serialised results, by the fingerprint of the case.
+    /// Serialised results. The keys are the fingerprints of the cases.
     known: BTreeMap<u64, Vec<u8>>,
     file: Option<File>,
 }
 
 impl Journal {
-    /// Opens a journal. If the file does not exist, the first record creates it.
+    /// Opens a journal. If the file does not exist, it is created with the first record.
     ///
     /// # Errors
     /// Fails if an existing file cannot be read.
@@ -79,7 +79,7 @@ impl Journal {
         Ok(Self { known: known.collect(), path, file: None })
     }
 
-    /// Combines several files for reading only.
+    /// Combines several journals. The result is only read, not written.
     ///
     /// # Errors
     /// Fails if one of them cannot be read.
@@ -111,12 +111,12 @@ impl Journal {
         self.known.is_empty()
     }
 
-    /// Result of a case by its fingerprint; `None` if there is none of this type.
+    /// Result of the case with a fingerprint; `None` if there is no result of the type `T`.
     pub fn find<T: DeserializeOwned>(&self, fingerprint: u64) -> Option<T> {
         postcard::from_bytes(self.known.get(&fingerprint)?).ok()
     }
 
-    /// Writes the result of a case to disk immediately. Returns the number of bytes.
+    /// Writes the result of a case to the file immediately. Returns the number of bytes written.
     ///
     /// # Errors
     /// Fails if writing fails.
@@ -135,7 +135,7 @@ impl Journal {
         Ok(bytes)
     }
 
-    /// Creates the file of the journal, even without records, to mark the study as started.
+    /// Creates the file of the journal, even without records. It shows that the study has been started.
     ///
     /// # Errors
     /// Fails if writing fails.
@@ -148,11 +148,11 @@ impl Journal {
     fn begin_file(&mut self) -> io::Result<u64> {
         let mut bytes = 0;
         if self.file.is_none() {
-            // The file is rewritten, because an incomplete record would make later records unreadable.
+            // The file is rewritten, because an incomplete record would make the records after it unreadable.
             let known = self.known.iter().map(|(other, result)| record(*other, result));
             let known = known.collect::<io::Result<Vec<_>>>()?.concat();
             let (folder, name) = self.place()?;
-            // The new file gets a temporary name and is then renamed, so that nothing is lost if the program is killed.
+            // The new file is written under a temporary name and then renamed, so that nothing is lost if the program is killed.
             let anew = name.with_extension("journal.new");
             match folder.remove(&anew) {
                 Err(error) if error.kind() != io::ErrorKind::NotFound => return Err(error),
@@ -183,7 +183,7 @@ impl Journal {
         Ok((Folder::open_or_create(self.path.parent().unwrap_or(Path::new(".")))?, name.into()))
     }
 
-    /// Removes the journal of a completed study.
+    /// Removes the journal at the end of a study.
     ///
     /// # Errors
     /// Fails if the file cannot be removed.
@@ -194,7 +194,8 @@ impl Journal {
 
     /// Fingerprint of a case: a hash of all data on which its result depends.
     ///
-    /// It includes the program, because another build may give different results. Another compiler may change the hash. The cases are then run again.
+    /// The hash includes the program, because another build may give different results. If another compiler changes the hash, the cases are run
+    /// again.
     pub fn fingerprint(parts: &[&[u8]]) -> u64 {
         let mut hasher = DefaultHasher::new();
         (FORMAT, build()).hash(&mut hasher);
@@ -300,13 +301,13 @@ mod tests {
         let home = tempfile::tempdir().unwrap();
         let path = home.path().join("study.journal");
         written(&path, 0..3);
-        // If rewriting fails, the old file is kept.
+        // If the file cannot be rewritten, the old file is kept.
         let anew = home.path().join("study.journal.new");
         fs::create_dir(&anew).unwrap();
         let mut journal = Journal::open(&path).unwrap();
         assert!(journal.write(3, &0.0).unwrap_err().to_string().contains("cannot be written"));
         assert_eq!(found_cases(&path), [0, 1, 2]);
-        // The incomplete temporary file of a crash is overwritten.
+        // A temporary file that a crash left incomplete is overwritten.
         fs::remove_dir(&anew).unwrap();
         fs::write(&anew, b"half").unwrap();
         written(&path, 3..5);

@@ -1,10 +1,10 @@
-//! Studies: series of runs and their evaluation. Nothing here draws or prints.
+//! Studies: series of runs and their evaluation. This module neither draws nor prints.
 //!
 //! ```text
 //! stability, cost → features
 //! error_estimate → trace
-//! precision, convergence → combination, truth, rivals → trial, observable, sheet
-//! trial, timing → case, outcome → patience, workers → journal
+//! precision, convergence → combination, reference, external_results → run_result, observable, csv_table
+//! run_result, timing → case, outcome → run_limits, workers → journal
 //! ```
 
 #![cfg_attr(test, allow(clippy::unwrap_used))]

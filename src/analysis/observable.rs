@@ -1,4 +1,4 @@
-//! Observables of a run, for comparison with a reference.
+//! Quantities of a run that are compared with a reference.
 
 use serde::{Deserialize, Serialize};
 
@@ -6,26 +6,26 @@ use crate::beams::Station;
 use crate::geometry::Vec2;
 use crate::simulation::{History, Simulation};
 
-/// A named quantity of a simulation at one time.
+/// Named quantity of a simulation at one time.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Observable {
-    /// Name of the station or column; unique for its kind.
+    /// Name of the station or column. It is unique among observables of the same type.
     pub name: String,
     pub kind: ObservableKind,
 }
 
-/// A quantity of a simulation that can be observed.
+/// Type of quantity that can be observed.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub enum ObservableKind {
     /// Position of a station [length].
     Position(Station),
     /// Angle of the section at a station [rad].
     Angle(Station),
-    /// Column of the history, at the current row.
+    /// Column of the history, multiplied by a factor, in the present row.
     Column { column: String, factor: f64 },
 }
 
-/// Symbols of history columns in tables of solutions.
+/// Symbols that stand for history columns in tables of reference solutions.
 pub const SYMBOLS: [(&str, &str); 6] = [
     ("E", "energy"),
     ("KE", "kinetic"),
@@ -35,16 +35,16 @@ pub const SYMBOLS: [(&str, &str); 6] = [
     ("Lz", "angular_momentum"),
 ];
 
-/// Columns of a history that describe the computation instead of the motion.
+/// Columns of a history that describe the computation and not the motion.
 const OF_THE_COMPUTATION: [&str; 5] = ["t", "gap", "dt", "newton_iterations", "retries"];
 
-/// Returns true if a column of the history describes the motion instead of the computation.
+/// Returns true if a column of the history describes the motion and not the computation.
 pub fn is_of_the_motion(column: &str) -> bool {
     !OF_THE_COMPUTATION.contains(&column)
 }
 
 impl Observable {
-    /// Observables of a station: position and angle. Point masses have no angle.
+    /// Observables of a station: its position, and its angle unless it is a point mass.
     pub fn of_station(name: &str, station: Station) -> impl Iterator<Item = Self> {
         let angle = station.turns().then_some(ObservableKind::Angle(station));
         let kinds = std::iter::once(ObservableKind::Position(station)).chain(angle);
@@ -57,7 +57,7 @@ impl Observable {
         Self { name: name.to_owned(), kind }
     }
 
-    /// Observables of all columns of a history that describe the motion.
+    /// Observables for all columns of a history that describe the motion.
     pub fn of_history(history: &History) -> impl Iterator<Item = Self> {
         let columns = history.columns().filter(|(name, _)| is_of_the_motion(name));
         columns.map(|(name, _)| Self::of_column(name, name, 1.0))
@@ -67,7 +67,7 @@ impl Observable {
         matches!(self.kind, ObservableKind::Position(_))
     }
 
-    /// Description: `position of tip`, `angle of tip`, `kinetic`.
+    /// Description, such as `position of tip`, `angle of tip` or `kinetic`.
     pub fn describe(&self) -> String {
         match &self.kind {
             ObservableKind::Position(_) => format!("position of {}", self.name),
@@ -76,7 +76,7 @@ impl Observable {
         }
     }
 
-    /// Current value. Scalars are in the first component; undefined values are NaN.
+    /// Present value. A scalar is in the first component. An undefined value is NaN.
     pub fn read(&self, simulation: &Simulation) -> Vec2 {
         let scalar = |value: Option<f64>| Vec2::new(value.unwrap_or(f64::NAN), 0.0);
         match &self.kind {

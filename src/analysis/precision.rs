@@ -1,4 +1,4 @@
-//! Work-precision studies: cost and error of combinations, and their Pareto front.
+//! Work–precision studies: cost and error of many combinations, and their Pareto front.
 
 use super::external_results::ExternalResult;
 use super::observable::Observable;
@@ -8,7 +8,7 @@ use super::run_result::RunResult;
 use super::timing::Timing;
 use crate::simulation::{SimulationSettings, StepSize};
 
-/// A combination of mesh, integrator and step size with its results.
+/// Combination of mesh, integrator and step size, with its results.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PrecisionRow {
     pub mesh: String,
@@ -17,9 +17,9 @@ pub struct PrecisionRow {
     pub result: RunResult,
     /// Run time; `None` if the run failed.
     pub timing: Option<Timing>,
-    /// Largest distance of a station from the reference, relative to the length of the study; `None` if the run failed.
+    /// Largest distance of a station from the reference, as a fraction of the length scale of the study; `None` if the run failed.
     pub error: Option<Deviation>,
-    /// Error of each observable in its unit; `None` if the run failed or the reference does not contain it.
+    /// Error of each observable in the unit of the observable; `None` if the run failed or the reference does not contain the observable.
     pub deviations: Vec<Option<Deviation>>,
     /// True if no other combination is both faster and more accurate.
     pub is_on_front: bool,
@@ -58,13 +58,13 @@ impl PrecisionRow {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Precision {
     pub name: String,
-    /// Times of the comparison [time]. The last time ends a run.
+    /// Times at which results are compared [time]. Runs end at the last one.
     pub times: Vec<f64>,
     /// Length scale of position errors [length].
     pub length: f64,
     pub observables: Vec<Observable>,
     pub reference: ReferenceSolution,
-    /// All combinations, including failed ones.
+    /// All combinations, including those whose runs failed.
     pub rows: Vec<PrecisionRow>,
     pub external_results: Vec<ExternalResult>,
 }
@@ -90,8 +90,8 @@ impl Precision {
         self.front().into_iter().find(|row| row.cost_and_error().1 <= error)
     }
 
-    /// Fastest combination with an error of at most `error` [-] that smaller steps confirm. There must be runs with smaller steps on the same mesh,
-    /// and their errors must not exceed `error` either. Otherwise mesh and step errors may cancel by chance.
+    /// Fastest combination with an error of at most `error` [-] that is confirmed by smaller steps. This means that there are runs with smaller
+    /// steps on the same mesh, and that their errors are at most `error` too. Otherwise the errors of mesh and steps might cancel by chance.
     pub fn cheapest_confirmed(&self, error: f64) -> Option<&PrecisionRow> {
         let is_right = |row: &&PrecisionRow| row.cost_and_error().1 <= error;
         let is_confirmed = |row: &&PrecisionRow| {

@@ -1,11 +1,11 @@
-//! Reference values of the observables of a study, and the deviation of results.
+//! Reference values of the observables of a study, and the deviations of results from them.
 
 use super::csv_table::{ParsedCsv, ParsedCsvError};
 use super::observable::{Observable, ObservableKind};
 use crate::elementary::hypot;
 use crate::geometry::{Vec2, larger};
 
-/// Observables at the times of a study: first index time, second index observable.
+/// Values of observables at the times of a study. The first index is the time, the second the observable.
 pub type Readings = Vec<Vec<Vec2>>;
 
 /// Deviation of a result from the reference, and the uncertainty of the reference.
@@ -15,8 +15,8 @@ pub struct Deviation {
     pub distance: f64,
     /// Estimated error of the reference, in the unit of the observable; zero if unknown.
     pub estimated_error: f64,
-    /// True if the reference is a run of this program. All errors are then reported as bounds, so that a result with the same error as the reference
-    /// does not appear to be exact.
+    /// True if the reference is a run of this program. All errors are then reported as upper bounds. Otherwise a result with the same error as the
+    /// reference would appear to be exact.
     pub is_of_own_run: bool,
 }
 
@@ -26,7 +26,8 @@ impl Deviation {
         self.distance > self.estimated_error
     }
 
-    /// Error of the result. It is a bound if the reference is a run, or if the distance is below the estimated error of the reference.
+    /// Error of the result. It is an upper bound if the reference is a run of this program, or if the distance is below the estimated error of the
+    /// reference.
     pub fn error(&self) -> f64 {
         match self.is_of_own_run || !self.is_resolved() {
             true => self.distance + self.estimated_error,
@@ -58,14 +59,14 @@ pub enum ReferenceError {
     Sheet(#[from] ParsedCsvError),
     #[error("it has no rows")]
     Empty,
-    /// A time of the study for which the reference has no row.
+    /// Time of the study for which the reference has no row.
     #[error("it has no row at t = {time}; the nearest rows are at t = {}", nearest.join(" and "))]
     Time {
         /// Missing time [time].
         time: f64,
         nearest: Vec<String>,
     },
-    /// A time of the study for which the reference has two different rows.
+    /// Time of the study for which the reference has two different rows.
     #[error("lines {first} and {second} are both for t = {time}, but have different values")]
     DuplicateTime {
         /// Duplicate time [time].
@@ -73,14 +74,14 @@ pub enum ReferenceError {
         first: u64,
         second: u64,
     },
-    /// A reference that contains no station of the study.
+    /// Reference that contains no station of the study.
     #[error(
         "it has no station of the study: the station '{station}' needs the columns x{station} and y{station}, but its columns are {known}"
     )]
     Stations { station: String, known: String },
 }
 
-/// Relative error below which a reference of rounded numbers does not resolve it.
+/// Relative rounding error of a reference, whose numbers are rounded. Smaller errors cannot be determined.
 const ROUNDING: f64 = 1e-13;
 
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -89,16 +90,16 @@ struct KnownValue {
     estimated_error: f64,
 }
 
-/// Reference of a study: values of its observables at its times.
+/// Reference of a study: values of its observables at the times of the study.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ReferenceSolution {
     pub source: String,
     pub is_own: bool,
-    /// Values by time and observable; `None` if unknown.
+    /// Values: the first index is the time, the second the observable. `None` if a value is unknown.
     known: Vec<Vec<Option<KnownValue>>>,
 }
 
-/// Difference of two times, relative to the time or to one, below which they are equal.
+/// Difference of two times that count as equal, as a fraction of the time or of one.
 const SAME_TIME: f64 = 1e-9;
 
 fn row_at(sheet: &ParsedCsv, time: f64) -> Result<usize, ReferenceError> {
@@ -126,7 +127,7 @@ fn row_at(sheet: &ParsedCsv, time: f64) -> Result<usize, ReferenceError> {
     }
 }
 
-/// Number in the first of these columns that exists; zero if none exists.
+/// Number in the first existing column among `columns`; zero if none exists.
 fn estimate(sheet: &ParsedCsv, row: usize, columns: &[String]) -> Result<f64, ParsedCsvError> {
     let found = columns.iter().find(|column| sheet.has(column));
     found.map_or(Ok(0.0), |column| sheet.size(row, column))
@@ -184,11 +185,11 @@ fn known_of(
 }
 
 impl ReferenceSolution {
-    /// Reference from a table of an independent solution. It has a column t and, for a station A, the columns xA, yA and thA. Other columns have the
-    /// names of observables. Estimated errors are in the columns d_xA, d_A or d_pos, d_thA or d_th, d_E, ….
+    /// Reads a reference from a table of an independent solution. It has a column t and, for a station A, the columns xA, yA and thA. Other columns
+    /// have the names of observables. Estimated errors are in the columns d_xA, d_A or d_pos, d_thA or d_th, d_E, and so on.
     ///
     /// # Errors
-    /// Fails if a time or all stations are missing, or a cell is not a number.
+    /// Fails if a time is missing, all stations are missing, or a cell is not a number.
     pub fn of_sheet(
         source: impl Into<String>,
         sheet: &ParsedCsv,
@@ -240,7 +241,7 @@ impl ReferenceSolution {
         self.known.iter().any(|at| at.get(observable).is_some_and(Option::is_some))
     }
 
-    /// Largest deviation of an observable over the times; `None` if the reference does not contain it.
+    /// Largest deviation of an observable at the times of the study; `None` if the reference does not contain it.
     pub fn deviation(&self, observable: usize, readings: &Readings) -> Option<Deviation> {
         let values = self.known.iter().filter_map(|at| (*at.get(observable)?)?.value.norm().into());
         let rounding = ROUNDING * values.fold(0.0, f64::max);

@@ -1,4 +1,4 @@
-//! Finished rows of a sweep on disk. They are appended and read sequentially, so that many rows need little memory.
+//! Completed rows of a sweep in a file. Rows are appended and read one after the other, so that many rows need little memory.
 
 use std::fs::File;
 use std::io::{self, BufReader, BufWriter, Read, Write};
@@ -9,37 +9,37 @@ use serde::{Deserialize, Serialize};
 
 use crate::sandbox_fs::Folder;
 
-/// Maximum length of an entry [bytes]. A longer entry is damaged.
+/// Maximum length of an entry [bytes]. A longer entry is treated as damaged.
 const LONGEST: u32 = 1 << 20;
-/// Interval between writes to the file. If the program is killed, at most the rows of this interval are lost; at a power failure, also those that the
-/// system has not written.
+/// Interval between writes to the file. If the program is killed, at most the rows of this interval are lost. A power failure also loses the rows
+/// that the system has not yet written to the disk.
 const DELAY: Duration = Duration::from_millis(100);
 
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub enum RowEntry {
     /// First entry: identification of the sweep.
     Sweep {
-        /// Hash of all data on which the rows depend.
+        /// Hash of all data that affect the rows.
         fingerprint: u64,
         rows: u64,
-        /// Part of the sweep, from 1, and number of parts; (1, 1) for the whole sweep.
+        /// Part of the sweep, from 1, and number of parts. The whole sweep is (1, 1).
         part: (u32, u32),
     },
-    /// Names of the results. The entry precedes that of the first completed row.
+    /// Names of the results. This entry precedes that of the first completed row.
     Names(Vec<String>),
     Computed(u64, Vec<f64>),
     Failed(u64, String),
 }
 
-/// Journal of a sweep, open for appending.
+/// Journal of a sweep, opened for appending entries.
 #[derive(Debug)]
 pub struct RowJournal {
     file: BufWriter<File>,
     flushed: Instant,
 }
 
-/// Reads the entries of a journal up to the first damaged or incomplete entry. Returns the length of the valid part [bytes], zero if there is no
-/// file.
+/// Reads the entries of a journal up to the first damaged or incomplete entry, and passes them to `heed`. Returns the length of the valid part
+/// [bytes], which is zero if there is no file.
 ///
 /// # Errors
 /// Fails if an existing file cannot be read, or `heed` returns an error.
@@ -62,7 +62,7 @@ pub fn read_rows<E: From<io::Error>>(
 }
 
 impl RowJournal {
-    /// Opens a journal for appending after the first `whole` bytes. A missing file is created.
+    /// Opens a journal to append entries after its first `whole` bytes. A missing file is created.
     ///
     /// # Errors
     /// Fails if writing fails.
@@ -87,7 +87,7 @@ impl RowJournal {
         Ok(8 + u64::from(length))
     }
 
-    /// Flushes the buffer periodically.
+    /// Writes the buffer to the file, if the last write was long enough ago.
     ///
     /// # Errors
     /// Fails if writing fails.
@@ -98,7 +98,7 @@ impl RowJournal {
         Ok(())
     }
 
-    /// Flushes the buffer.
+    /// Writes the buffer to the file.
     ///
     /// # Errors
     /// Fails if writing fails.
@@ -111,7 +111,7 @@ impl RowJournal {
 /// Removes a journal, if it exists.
 ///
 /// # Errors
-/// Fails if removing fails.
+/// Fails if the file cannot be removed.
 pub fn remove_rows(path: &Path) -> io::Result<()> {
     match place(path, Folder::find).and_then(|(folder, name)| folder.remove(&name)) {
         Err(error) if error.kind() != io::ErrorKind::NotFound => Err(error),

@@ -1,4 +1,4 @@
-//! Results of a run: observables, effort, and drifts.
+//! Results of a run: observables, solver statistics and drifts.
 
 use std::sync::atomic::AtomicBool;
 
@@ -12,18 +12,18 @@ use crate::simulation::{History, Invariant, Simulation};
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct RunResult {
     pub outcome: CaseOutcome,
-    /// Observables at the stops that were reached.
+    /// Observables at the stops that the run reached.
     pub readings: Readings,
     pub unknowns: usize,
     pub steps: usize,
     /// Number of Newton iterations of the successful steps.
     pub newton_iterations: usize,
-    /// Number of factorisations, including retried steps.
+    /// Number of factorisations, including those of failed attempts.
     pub factorisations: usize,
     pub retries: usize,
-    /// Drifts of the whole run, with the work and impulses of loads subtracted, in the order of [`Invariant::ALL`].
+    /// Drifts of the invariants over the whole run, in the order of [`Invariant::ALL`]. The work and impulses of loads are subtracted.
     pub drifts: [f64; 4],
-    /// Energy drift after loads have ceased to do work; NaN if loads do work until the end.
+    /// Energy drift from the time after which loads do no work; NaN if loads do work until the end.
     pub free_energy_drift: f64,
 }
 

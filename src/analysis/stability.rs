@@ -1,4 +1,4 @@
-//! Verdicts on runs near the stability limit: completion, energy growth, and effort.
+//! Assessment of runs near the stability limit: whether they end, energy growth, and iterations.
 
 use std::sync::atomic::AtomicBool;
 
@@ -11,8 +11,8 @@ use crate::system::Scene;
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct StabilityVerdict {
     pub outcome: CaseOutcome,
-    /// Largest increase of `E - W` above an earlier value after the last schedule break, relative to the largest energy; NaN if the run did not start
-    /// or an energy is NaN.
+    /// Largest increase of `E - W` above an earlier value after the last schedule break, as a fraction of the largest energy. NaN if the run did
+    /// not start or an energy is NaN.
     pub energy_growth: f64,
     pub steps: usize,
     /// Average number of Newton iterations per step.
@@ -23,7 +23,7 @@ pub struct StabilityVerdict {
 }
 
 impl StabilityVerdict {
-    /// Runs a case and judges it.
+    /// Runs a case and assesses it.
     pub fn of(case: &Case, patience: RunLimits, stop: &AtomicBool) -> Self {
         let (outcome, simulation) = case.run(patience, stop, |_| ());
         match simulation {

@@ -12,7 +12,7 @@ pub struct SweptParameter {
 
 #[derive(Clone, Debug, PartialEq)]
 pub enum SweptValues {
-    /// A few levels, which need not be numbers.
+    /// List of levels, which need not be numbers.
     Levels {
         labels: Vec<String>,
         numbers: Option<Vec<f64>>,
@@ -21,17 +21,18 @@ pub enum SweptValues {
     Numbers(Vec<f64>),
 }
 
-/// Assignment of levels to rows.
+/// Rule that assigns levels to rows.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Choice {
-    /// Full grid: each level applies to this number of consecutive rows, and the sequence of levels is repeated.
+    /// Full grid. Each level applies to this number of consecutive rows, then the next level follows. The sequence of levels is repeated until the
+    /// last row.
     Grid(usize),
-    /// Level index by row.
+    /// Level index of each row.
     Drawn(Vec<u32>),
 }
 
 impl SweptValues {
-    /// Level index of a row; `None` if the parameter has a number per row.
+    /// Level index of a row; `None` if the parameter has a separate number for each row.
     pub fn level(&self, row: usize) -> Option<usize> {
         match self {
             Self::Levels { labels, choice: Choice::Grid(rows), .. } => {
@@ -50,7 +51,7 @@ impl SweptValues {
         }
     }
 
-    /// Label of a row; `None` if the parameter has a number per row.
+    /// Label of the level in a row; `None` if the parameter has a separate number for each row.
     pub fn label(&self, row: usize) -> Option<&str> {
         match self {
             Self::Levels { labels, .. } => labels.get(self.level(row)?).map(String::as_str),
@@ -58,20 +59,20 @@ impl SweptValues {
         }
     }
 
-    /// Value of a row as text: a number formatted by `write`, or a label.
+    /// Value of the parameter in a row as text: a number formatted by `write`, or a label.
     pub fn in_words(&self, row: usize, write: impl Fn(f64) -> String) -> String {
         let label = || self.label(row).unwrap_or_default().to_owned();
         self.number(row).map_or_else(label, write)
     }
 }
 
-/// Arrangement of the rows in the parameter space.
+/// Arrangement of the rows of a sweep in the parameter space.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum RowLayout {
     Grid,
-    /// Independent or low-discrepancy points.
+    /// Points that are independent or form a low-discrepancy sequence.
     Points,
-    /// Saltelli blocks for Sobol' indices.
+    /// Saltelli blocks, from which Sobol' indices are computed.
     Saltelli,
 }
 
@@ -83,11 +84,11 @@ pub struct SweepDesign {
     pub arrangement: RowLayout,
 }
 
-/// Results of a sweep: a column of numbers per result, and the reasons of failed rows.
+/// Results of a sweep: a column of numbers for each result, and the reasons of failed rows.
 #[derive(Clone, Debug, Default)]
 pub struct SweepResults {
     pub names: Vec<String>,
-    /// Columns by name; NaN in failed rows.
+    /// Columns of numbers in the order of the names; NaN in failed rows.
     columns: Vec<Vec<f64>>,
     reasons: FailureReasons,
 }
@@ -113,7 +114,7 @@ pub enum SweepColumn<'s> {
 }
 
 impl SweepColumn<'_> {
-    /// Number in a row; NaN if there is none.
+    /// Number in a row; NaN if the cell is not a number.
     pub fn number(&self, row: usize) -> f64 {
         match self {
             Self::Parameter(values) => values.number(row).unwrap_or(f64::NAN),
@@ -123,7 +124,7 @@ impl SweepColumn<'_> {
 }
 
 impl SweepResults {
-    /// Allocates the columns when the first run has returned their names.
+    /// Allocates the columns. It is called when the first run has returned the names of the results.
     pub fn begin(&mut self, names: Vec<String>, rows: usize) {
         self.columns = vec![vec![f64::NAN; rows]; names.len()];
         self.names = names;
@@ -180,7 +181,7 @@ impl Sweep {
         parameters.chain(self.results.names.iter().map(String::as_str))
     }
 
-    /// Number of rows that contribute to sensitivities: completed rows; in a Saltelli design, rows of complete blocks.
+    /// Number of rows that contribute to sensitivities. These are the completed rows. In a Saltelli design they are the rows of complete blocks.
     pub fn telling_rows(&self, result: &str) -> usize {
         let results = self.results.column(result).unwrap_or_default();
         let is_whole = |rows: &&[f64]| rows.iter().all(|x| x.is_finite());
@@ -191,8 +192,8 @@ impl Sweep {
         results.chunks_exact(block).filter(is_whole).count() * block
     }
 
-    /// Fraction of the variance of a result that each parameter explains, in the order of the parameters. `None` if the result is constant, rows of a
-    /// grid failed, or there are too few points.
+    /// Fraction of the variance of a result that each parameter explains, in the order of the parameters. `None` if the result is constant, some
+    /// rows of a grid failed, or there are too few points.
     pub fn variance_fractions(&self, result: &str) -> Option<Vec<VarianceShare>> {
         let results = self.results.column(result)?;
         let parameters = &self.design.parameters;
@@ -252,7 +253,7 @@ mod tests {
         assert_eq!(sweep.design.parameters[0].values.label(4), Some("2"));
         assert!(sweep.names().eq(["a", "b", "sum"]));
         let shares = sweep.variance_fractions("sum").unwrap();
-        // Variances 1/4 and 2/3 of an additive function.
+        // The function is additive, with the variances 1/4 and 2/3.
         assert!((shares[0].first - 3.0 / 11.0).abs() < 1e-15, "{shares:?}");
         assert_eq!(shares[1].total.map(|x| (x - 8.0 / 11.0).abs() < 1e-15), Some(true));
     }
@@ -269,7 +270,7 @@ mod tests {
         assert!(sweep.variance_fractions("sum").is_none());
         assert_eq!(sweep.telling_rows("sum"), 5);
         sweep.design.arrangement = RowLayout::Saltelli;
-        // Two parameters give blocks of four rows; the first block has a failed row, and the second is incomplete.
+        // With two parameters a block has four rows. The first block has a failed row, and the second is incomplete.
         assert_eq!(sweep.telling_rows("sum"), 0);
     }
 }

@@ -14,15 +14,15 @@ pub struct Timing {
     pub run: Duration,
     /// Shortest wall-clock time of the run.
     pub shortest: Duration,
-    /// Median processor time of the run; `None` if not available. On a busy machine it excludes the time of other processes.
+    /// Median processor time of the run; `None` if not available. It does not contain the time of other processes on a busy machine.
     pub processor: Option<Duration>,
     pub repeats: usize,
 }
 
-/// Time after which a case is not repeated.
+/// Total time of a case after which it is not repeated.
 pub const LONGEST_REPETITION: Duration = Duration::from_secs(10);
 
-/// Processor time of this thread on Linux. After a pause it is exact; otherwise the system updates it only at ticks of the scheduler.
+/// Processor time of this thread on Linux. The system updates it exactly after a pause of the thread, and otherwise only at ticks of the scheduler.
 fn processor_time() -> Option<Duration> {
     std::thread::sleep(Duration::from_nanos(1));
     let statistics = std::fs::read_to_string("/proc/thread-self/schedstat").ok()?;
@@ -30,13 +30,13 @@ fn processor_time() -> Option<Duration> {
 }
 
 impl Timing {
-    /// Cost of the case: processor time, or wall-clock time if not available [s].
+    /// Cost of the case: processor time, or if this is not available wall-clock time [s].
     pub fn cost(&self) -> f64 {
         self.processor.unwrap_or(self.run).as_secs_f64()
     }
 
-    /// Runs a case several times on this thread and takes medians. After [`LONGEST_REPETITION`] it is not repeated. `None` if `is_wanted` returns
-    /// false or a run fails.
+    /// Runs a case several times on this thread, and computes medians of the times. If [`LONGEST_REPETITION`] is exceeded, it is not repeated.
+    /// `None` if `is_wanted` returns false or a run fails.
     pub fn of(
         case: &Case,
         patience: RunLimits,
@@ -61,7 +61,7 @@ impl Timing {
         }
         let shortest = runs.iter().copied().min()?;
         let repeats = runs.len();
-        // A processor time of zero means that the clock does not advance, and is ignored.
+        // A processor time of zero is ignored, because it means that the clock has not advanced.
         let processor = median(works).filter(|time| !time.is_zero());
         Some(Self { setup: median(setups)?, run: median(runs)?, shortest, processor, repeats })
     }

@@ -1,13 +1,13 @@
-//! Values of a quantity over a run, and their distance from those of another run of the same scene.
+//! Values of a quantity during a run, and their distance from those of another run of the same scene.
 
 use crate::beams::Station;
 use crate::geometry::Vec2;
 use crate::simulation::Simulation;
 
-/// Difference of two times, relative to the length of a run, below which they are equal.
+/// Difference of two times that count as equal, as a fraction of the length of a run.
 const SAME_TIME: f64 = 1e-9;
 
-/// A quantity that is followed over a run.
+/// Quantity whose values are followed during a run.
 #[derive(Debug, Clone, PartialEq)]
 pub struct TracedQuantity {
     /// Name of the station or column.
@@ -23,23 +23,23 @@ pub struct TracedQuantity {
 pub enum TraceSource {
     /// Position of a station in all recorded configurations [length].
     Position(Station),
-    /// Column of the history with present values.
+    /// Column of the history that contains present values.
     Column,
-    /// Column of the history with means of the last step, such as contact forces.
+    /// Column of the history that contains means over the last step, such as contact forces.
     StepMean,
 }
 
-/// Values of a quantity over time. Scalars are in the first component.
+/// Values of a quantity over time. A scalar is in the first component.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Trace {
     times: Vec<f64>,
     values: Vec<Vec2>,
-    /// True if the values are integrals from the start, so that means over different steps can be compared.
+    /// True if the values are integrals from the start. Means over different steps can then be compared.
     is_integral: bool,
 }
 
 impl Trace {
-    /// Reads the values of a quantity from the records of a simulation. The trace is empty if there are none.
+    /// Reads the values of a quantity from the history and trajectory of a simulation. The trace is empty if there are none.
     pub fn of(simulation: &Simulation, quantity: &TracedQuantity) -> Self {
         let history = simulation.history();
         let column = |name: &str| history.column(name).unwrap_or_default();
@@ -57,7 +57,7 @@ impl Trace {
                 let means = column(&quantity.name);
                 let mut sum = 0.0;
                 let add = |(mean, dt): (&f64, f64)| {
-                    // The first row has no step, and its mean may be undefined.
+                    // The first row has no step before it, so its mean may be undefined.
                     sum += if dt > 0.0 { mean * dt } else { 0.0 };
                     scalar(sum)
                 };
@@ -67,14 +67,14 @@ impl Trace {
         }
     }
 
-    /// Trace with the given present values.
+    /// Creates a trace of present values.
     #[cfg(test)]
     pub fn of_values(times: Vec<f64>, values: impl IntoIterator<Item = f64>) -> Self {
         let values = values.into_iter().map(scalar).collect();
         Self { times, values, is_integral: false }
     }
 
-    /// Largest magnitude of the values; of the means for step means.
+    /// Largest magnitude of the values. For means over steps it is the largest magnitude of the means.
     pub fn largest(&self) -> f64 {
         let steps = self.times.windows(2).zip(self.values.windows(2));
         match self.is_integral {
@@ -86,14 +86,14 @@ impl Trace {
         }
     }
 
-    /// Largest distance from the first value.
+    /// Largest distance of a value from the first value.
     pub fn range(&self) -> f64 {
         let first = self.values.first().copied().unwrap_or_default();
         self.values.iter().map(|value| (value - first).norm()).fold(0.0, f64::max)
     }
 
-    /// Distances of a coarser trace from this one, at the times of the coarser trace [time, dimension of the values]. Means are compared over the
-    /// steps of the coarser trace.
+    /// Distances of a coarser trace from this one at the times of the coarser trace [time, dimension of the values]. Means over steps are compared
+    /// over the steps of the coarser trace.
     pub fn distances(&self, coarser: &Self) -> Vec<(f64, f64)> {
         let pairs = coarser.times.iter().zip(&coarser.values);
         let both = pairs.filter_map(|(time, value)| Some((*time, value - self.at(*time)?)));
@@ -108,14 +108,14 @@ impl Trace {
         both.windows(2).filter_map(over_step).collect()
     }
 
-    /// Value at a time: the recorded value, or the cubic through the four nearest ones. `None` outside the trace.
+    /// Value at a time. It is the recorded value, or that of a cubic polynomial through the four nearest ones. `None` outside the trace.
     fn at(&self, time: f64) -> Option<Vec2> {
         let (first, last) = (*self.times.first()?, *self.times.last()?);
         let slack = SAME_TIME * (last - first);
         let after = self.times.partition_point(|other| *other < time - slack);
         let nearest = self.times.get(after)?;
         if (nearest - time).abs() <= slack {
-            // Of equal times, the last is that after an event.
+            // If several times are equal, the last value is used, which is the value after an event.
             let equal = self.times[after..].iter().take_while(|other| **other <= time + slack);
             return Some(self.values[after + equal.count() - 1]);
         }

@@ -1,4 +1,4 @@
-//! Parallel execution of cases.
+//! Execution of cases on several cores.
 
 use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
@@ -10,13 +10,14 @@ use super::Case;
 use crate::panics::caught;
 use crate::simulation::cores;
 
-/// Interval between checks for interruption while no case ends.
+/// Interval at which `heed` is called while no case ends.
 const PULSE: Duration = Duration::from_millis(50);
 
-/// Runs cases on all cores. Cases with script functions in their loads run last, on the calling thread.
+/// Runs cases on all cores. Cases whose loads call script functions run last, on the calling thread.
 ///
-/// On the calling thread, `heed` is called with the index and result of each finished case, and periodically with `None`. If it returns `Break`,
-/// `stop` is set and unfinished cases have no result. Results are in the order of the cases. The result of a panic is its message.
+/// On the calling thread, `heed` is called with the index and the result of each completed case, and periodically with `None`. If it returns
+/// `Break`, `stop` is set, and cases that have not ended get no result. Results are in the order of the cases. If a case panics, its result is the
+/// message.
 pub fn on_all_cores<R: Send>(
     cases: &[Case],
     stop: &AtomicBool,
@@ -63,7 +64,7 @@ pub fn on_all_cores<R: Send>(
                     pulse(Some((number, &result)));
                     results[number] = Some(result);
                 }
-                // Results of stopped workers are discarded.
+                // Results of cases that end after the stop are discarded.
                 Ok(_) => (),
                 Err(mpsc::RecvTimeoutError::Timeout) => pulse(None),
                 Err(mpsc::RecvTimeoutError::Disconnected) => break,
@@ -74,7 +75,7 @@ pub fn on_all_cores<R: Send>(
     for (number, _) in waiting {
         pulse(None);
         let result = caught(|| work(&cases[number]));
-        // The interrupt may have stopped the case before `heed` was called.
+        // An interrupt may have stopped the case. `heed` is called to recognise it.
         pulse(None);
         if is_stopped() {
             break;

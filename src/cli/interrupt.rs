@@ -11,7 +11,7 @@ use super::tui::terminal;
 use crate::repl::editor::typed_ahead;
 use crate::script::state::limits::INTERRUPT_HEARD;
 
-/// Time in which a run must react.
+/// Time after Ctrl-C in which a run must react.
 const REACTION_TIME: Duration = Duration::from_millis(900);
 
 /// Time for a run that has reacted to save its results.
@@ -59,7 +59,6 @@ pub fn flag(at_stake: InterruptLoss) -> Arc<AtomicBool> {
 }
 
 /// Ends a session within a second on SIGTERM and SIGHUP, as when its window is closed. Ctrl-C applies to the inputs of the session only. It must be
-/// called before other threads start.
 /// called before other threads start.
 #[cfg(unix)]
 pub fn end_on_signal() {

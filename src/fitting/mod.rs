@@ -2,7 +2,7 @@
 //! numbers.
 //!
 //! ```text
-//! least_squares → asking → differences
+//! least_squares → evaluator → differences
 //!               → estimate → student
 //! descent → design
 //! root

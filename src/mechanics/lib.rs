@@ -1,14 +1,14 @@
 //! Planar dynamics of flexible beams with sliding joints: the solver below the scripting language of withy.
 //!
-//! Layers, each using only those to its right:
+//! Layers; each layer uses only those to its right:
 //!
 //! ```text
-//! simulation → statics → vibration → model ┬→ joints, loads → beams → geometry
-//!                                          └→ integrators → newton → linalg
+//! simulation → statics → vibration → system ┬→ joints, loads → beams → geometry
+//!                                           └→ integrators → newton → linalg
 //! ```
 //!
-//! At the bottom are [`elementary`], functions with identical results on every machine, and `threads` for concurrent work on beams, bands and
-//! bodies.
+//! The lowest level consists of [`elementary`], functions with identical results on every machine, and `threads`, which processes beams, bands and
+//! bodies concurrently.
 
 #![forbid(unsafe_code)]
 #![cfg_attr(not(test), warn(clippy::disallowed_methods))]

@@ -24,7 +24,7 @@ pub enum SeriesColour {
     /// The next colour of the palette.
     #[default]
     Next,
-    /// The colour of the series with this index, for series that belong together.
+    /// The colour of the series with this index. Related series can share it.
     OfSeries(usize),
     /// The colour of titles, for series that summarise all others.
     Black,

@@ -63,7 +63,7 @@ impl LevelAxis {
         }
     }
 
-    /// Boundaries of the cells: halfway between the midpoints, by ratios on a logarithmic axis.
+    /// Boundaries of the cells: arithmetic means of neighbouring midpoints, or geometric means on a logarithmic axis.
     fn ends(&self) -> Vec<f64> {
         self.ends_by(self.scale())
     }

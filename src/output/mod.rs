@@ -1,8 +1,8 @@
 //! Tables, files and pictures from plain data. This module knows nothing about simulations.
 //!
 //! ```text
-//! chart, heat_map, level_map, bars, motion, strips, field → page → scenery → plane, symbol → frame, hatching, legend, colour_bar → axis, curve, stroke, marker → canvas → figure
-//! → svg, png → files
+//! chart, heat_map, level_map, bars, motion, strips, field → page → mechanism_outline → plane, symbol
+//! → frame, hatching, legend, colour_bar → axis, curve, stroke, marker → canvas → figure → svg, png → files
 //! chart, heat_map → terminal → axis, curve
 //! motion → animation → figure
 //! viewer (a page for browsers) → canvas, colour

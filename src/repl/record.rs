@@ -59,7 +59,7 @@ impl SessionRecord {
             let (time, steps) = (was.handle.time(), was.handle.simulation().counts().steps);
             if steps != was.steps {
                 let method = if time > was.time { "run_to" } else { "rewind" };
-                // An event on the way may throw again.
+                // A script function that is called during the movement may throw its error again.
                 let call = format!("{}.{method}({});", was.name, format_number(time));
                 self.entries
                     .push(RecordedInput::Moved(format!("try {{ {call} }} catch {{ }}").into()));

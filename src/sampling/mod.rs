@@ -3,7 +3,7 @@
 //! ```text
 //! latin_hypercube, sobol, saltelli → random
 //! distribution → normal
-//! sensitivity (of results on any of them, and on grids)
+//! sensitivity      indices from results at random points or on grids
 //! ```
 //!
 //! Equal seeds give equal points on every machine: the generator is ChaCha with twelve rounds, whose stream is defined bit by bit, and the

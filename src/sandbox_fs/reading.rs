@@ -16,7 +16,7 @@ pub(super) fn options(follow: FollowSymlinks) -> OpenOptions {
 /// Content of a file that the user has given, of at most `most` bytes. Links are followed.
 ///
 /// # Errors
-/// Fails if it is not a regular file, too long, or unreadable.
+/// Fails if the path is not that of a regular file, or if the file is too long or unreadable.
 pub fn read_file(path: &Path, most: u64) -> io::Result<Vec<u8>> {
     // The kind is checked before opening, because opening some devices has side effects.
     expect_ordinary(std::fs::metadata(path)?.is_file())?;
@@ -28,7 +28,7 @@ pub fn read_file(path: &Path, most: u64) -> io::Result<Vec<u8>> {
 /// Text of a UTF-8 file that the user has given, of at most `most` bytes. Links are followed.
 ///
 /// # Errors
-/// Fails if it is not a regular file, too long, not UTF-8, or unreadable.
+/// Fails if the path is not that of a regular file, or if the file is too long, unreadable or not UTF-8.
 pub fn read_text(path: &Path, most: u64) -> io::Result<String> {
     let bytes = read_file(path, most)?;
     String::from_utf8(bytes).map_err(|_| io::Error::other("it is not UTF-8 text"))

@@ -1,10 +1,10 @@
 //! `withy learn watch` in a terminal: one screen with task, file, result and hints; key bindings; each attempt in its own process.
 //!
 //! ```text
-//! desk (event loop) → terminal → keys
-//!                   → trial (one process per run)
-//!                   → screen → outcome, solution → line      lines from the state only
-//!                   → state                                  effects of keys
+//! event_loop → terminal → keys
+//!            → judge_process                              one process per run
+//!            → screen → result_page, solution → line      lines from the state only
+//!            → state                                      effects of keys
 //! ```
 
 mod event_loop;

@@ -1,4 +1,4 @@
-//! Point of the undeformed axis, as used in quadrature.
+//! Point of the undeformed axis at which integrals are evaluated.
 
 use super::BeamError;
 use super::dynamics::Movement;
@@ -6,14 +6,14 @@ use super::simd::{LANES, Lanes};
 use super::span_points::window;
 use crate::geometry::{Basis, Span, Vec2};
 
-/// Smallest derivative of the axis with respect to its parameter, relative to the mean.
+/// Derivative of the axis with respect to its parameter that counts as zero, as a fraction of its mean.
 const STANDSTILL: f64 = 1e-9;
 
 #[derive(Debug, Clone)]
 pub(super) struct AxisPoint<const N: usize> {
-    /// Basis functions [-], one per control point of the span.
+    /// Values of the basis functions [-], one for each control point of the span.
     pub(super) shape: [f64; N],
-    /// Derivatives of the basis functions with respect to arc length [1/length], one per control point of the span.
+    /// Derivatives of the basis functions with respect to arc length [1/length], one for each control point of the span.
     pub(super) slope: [f64; N],
     /// Weight in integrals along the axis [length].
     pub(super) weight: f64,
@@ -23,7 +23,7 @@ impl<const N: usize> AxisPoint<N> {
     pub(super) const EMPTY: Self = Self { shape: [0.0; N], slope: [0.0; N], weight: 0.0 };
 }
 
-/// Consecutive points of the axis in vector lanes, each with the first control point of its span.
+/// Consecutive points of the axis, one per vector lane, each with the first control point of its span.
 #[derive(Debug, Clone)]
 pub(super) struct AxisPoints<const N: usize> {
     pub(super) shape: [Lanes; N],
@@ -64,7 +64,7 @@ impl<const N: usize> AxisPoints<N> {
     }
 }
 
-/// Increments of the control points of the span of each lane.
+/// For each vector lane, the increments of the control points of the span of its point.
 pub(super) struct Windows<'a, const N: usize>([&'a [Movement; N]; LANES]);
 
 impl<const N: usize> Windows<'_, N> {
@@ -78,11 +78,11 @@ impl<const N: usize> Windows<'_, N> {
     }
 }
 
-/// Axis through control points, of a given approximate length.
+/// Axis of a beam, given by control points, with its approximate length.
 pub(super) struct BeamAxis<'a> {
     basis: &'a Basis,
     control_points: &'a [Vec2],
-    /// Derivative with respect to the parameter below which the direction of the axis is due to rounding.
+    /// Smallest derivative with respect to the parameter [length]. If it is smaller, the direction of the axis is due to rounding.
     least_speed: f64,
 }
 

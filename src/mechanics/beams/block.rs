@@ -1,11 +1,12 @@
-//! Dense tangent of one span.
+//! Tangent matrix of one span.
 
 use pulp::Simd;
 
-/// Row of the tangent of one span: an entry for each of its `N` control points and each component x, y, ω.
+/// Row of the tangent matrix of one span: an entry for each of its `N` control points and each component x, y, ω.
 pub(super) type BlockRow<const N: usize> = [[f64; 3]; N];
 
-/// Tangent of one span, `rows[a][i][b][j]` for control points `a`, `b` and components `i`, `j` of x, y, ω; accumulated by vector instructions.
+/// Tangent matrix of one span: `rows[a][i][b][j]` for control points `a`, `b` and components `i`, `j` of x, y, ω. It is accumulated by vector
+/// instructions.
 pub(super) struct SpanTangent<S, const N: usize> {
     simd: S,
     pub(super) rows: [[BlockRow<N>; 3]; N],

@@ -1,11 +1,12 @@
-//! Kelvin–Voigt dashpots parallel to the quadrature points of a beam, with relaxation times `τ` of axial, shear and bending deformation.
+//! Kelvin–Voigt dashpots at the quadrature points of a beam, parallel to its elasticity. Axial, shear and bending deformation have relaxation times
+//! `τ`.
 //!
 //! ```text
 //! N = C τ ΔΓ/Δt      ΔΓ = Λ̄ᵀ (Δx' - Δω J x̄')      M = EI τ Δκ/Δt      D = Σ w (N·ΔΓ + M Δκ) ≥ 0
 //! ```
 //!
-//! The dashpots are separate from the points for `Γ` and `κ`, so undamped beams have no overhead. Their forces are independent unknowns, like section
-//! forces.
+//! Here `C = diag(EA, GA)`, `w` are quadrature weights and `D` is the dissipated energy. The dashpots are separate from the quadrature points for
+//! `Γ` and `κ`, so that undamped beams need no additional time. Their forces are independent unknowns, like section forces.
 
 use serde::{Deserialize, Serialize};
 
@@ -32,10 +33,10 @@ impl Relaxation {
     /// Description of allowed relaxation times.
     pub(crate) const ALLOWED: &'static str = "zero or a positive finite number [time]";
 
-    /// Checks that all times are finite and not negative.
+    /// Checks that all relaxation times are finite and not negative.
     ///
     /// # Errors
-    /// Name and value of the first invalid time.
+    /// Returns name and value of the first invalid relaxation time.
     pub fn validated(&self) -> Result<(), (&'static str, f64)> {
         let times = [("axial", self.axial), ("shear", self.shear), ("bending", self.bending)];
         match times.into_iter().find(|(_, time)| !(time.is_finite() && *time >= 0.0)) {
@@ -45,20 +46,21 @@ impl Relaxation {
     }
 }
 
-/// Collocation of rates in a step: the rate of `q` is `by_change · Δq - by_last · q̇` with the rate `q̇` of the previous step.
+/// Rule for the rates of a step: the rate of a quantity `q` is `by_change · Δq - by_last · q̇`, with its change `Δq` in the step and its rate `q̇`
+/// in the previous step.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RateCollocation {
-    /// Fraction of the step at which directions are taken: `(1-s)(x0, Λ0) + s (x1, Λ1)` [-].
+    /// Fraction `s` of the step at which directions are taken: `(1-s)(x0, Λ0) + s (x1, Λ1)` [-].
     pub fraction: f64,
-    /// Factor of the change in the step [1/time].
+    /// Factor of the change `Δq` in the step [1/time].
     pub by_change: f64,
-    /// Factor of the rate in the previous step [-].
+    /// Factor of the rate `q̇` in the previous step [-].
     pub by_last: f64,
-    /// Kind of rotation increments.
+    /// Type of rotation increments.
     pub rotations: RotationIncrement,
 }
 
-/// Basis functions at a point of a beam: values [-], derivatives with respect to arc length [1/length], and quadrature weight [length].
+/// Basis functions at a point of a beam: values [-] and derivatives with respect to arc length [1/length], with the quadrature weight [length].
 #[derive(Debug, Clone)]
 pub(super) struct Functions {
     pub(super) shape: Vec<f64>,
@@ -67,7 +69,7 @@ pub(super) struct Functions {
 }
 
 impl Functions {
-    /// Values `(Δx', Δω, Δω')` for increments of the control points of the span.
+    /// Interpolates increments of the control points of the span. Returns `(Δx', Δω, Δω')` at the point.
     pub(super) fn interpolate(&self, moved: &[Movement]) -> (Vec2, f64, f64) {
         let (mut gradient, mut rotation, mut bend) = (Vec2::zeros(), 0.0, 0.0);
         for ((shape, slope), [x, y, omega]) in self.shape.iter().zip(&self.slope).zip(moved) {
@@ -86,13 +88,13 @@ struct SpanDashpots {
     moments: Vec<MomentDashpot>,
 }
 
-/// Dashpots of a beam at its quadrature points. Increments, rates and forces are indexed by control point.
+/// Dashpots of a beam at its quadrature points. Increments, rates and forces are given for all control points.
 #[derive(Debug, Clone)]
 pub struct Dashpots {
     order: usize,
     spans: Vec<SpanDashpots>,
     resolution: RateResolution,
-    /// Derivative of the forces of a span, row by row.
+    /// Buffer for the derivatives of the forces of a span, row by row.
     block: Vec<f64>,
 }
 
@@ -146,7 +148,7 @@ impl Dashpots {
         self.order
     }
 
-    /// Prepares a step with the given rates of the control points. Forces start from their values in the last step.
+    /// Prepares a step that starts with the given rates of the control points. Iterations start with the forces of the last step.
     pub fn begin_step(&mut self, rates: &[Movement]) {
         for SpanDashpots { first, forces, moments } in &mut self.spans {
             let rates = &rates[*first..*first + self.order];
@@ -163,12 +165,12 @@ impl Dashpots {
         }
     }
 
-    /// Discards the rate history after a jump of the rates.
+    /// Forgets the rates of the last steps, after a jump of the rates.
     pub(crate) fn clear_rate_history(&mut self) {
         self.resolution = RateResolution::default();
     }
 
-    /// Calls `give` with the current dashpot forces on control points. Returns the largest force and the mismatch.
+    /// Calls `give` with the present dashpot forces on control points. Returns the largest force and the mismatch.
     pub fn add_forces(
         &mut self,
         at: RateCollocation,
@@ -188,8 +190,8 @@ impl Dashpots {
         summary
     }
 
-    /// Calls `give` with the condensed forces on control points, and `tangent` with the first control point of each span and the derivatives of its
-    /// forces by rows.
+    /// Calls `give` with the dashpot forces on control points, mismatches condensed out. Calls `tangent` with the first control point of each span
+    /// and the derivatives of the forces of the span, row by row.
     pub fn add_linearised_forces(
         &mut self,
         at: RateCollocation,
@@ -210,8 +212,8 @@ impl Dashpots {
         }
     }
 
-    /// Calls `give` with the corrections of the nodal forces that make the residual of the dashpot laws zero. The directions of the forces are those of
-    /// the last linearisation.
+    /// Calls `give` with the additional forces on control points that would remove the mismatch of the dashpot laws. The directions of the forces
+    /// are those of the last linearisation.
     pub fn add_mismatch_forces(&self, give: &mut dyn FnMut(usize, Movement)) {
         for SpanDashpots { first, forces, moments } in &self.spans {
             forces.iter().for_each(|dashpot| dashpot.add_mismatch_forces(*first, give));
@@ -228,7 +230,8 @@ impl Dashpots {
         }
     }
 
-    /// Accepts the increments of a step of a duration [time], which is infinite without damping. Returns the dissipated energy [energy].
+    /// Ends a step of a duration [time] with the given increments. The duration is infinite for an increment without damping. Returns the
+    /// dissipated energy [energy].
     pub fn advance(
         &mut self,
         moved: &[Movement],
@@ -259,8 +262,8 @@ impl Dashpots {
         sum
     }
 
-    /// Calls `give` with the dashpot forces for the given rates at the start of the step. Rates that the steps do not resolve are extrapolated from
-    /// the means of the last two steps.
+    /// Calls `give` with the dashpot forces at the start of the step, computed from the given rates. Rates that the steps do not resolve are
+    /// replaced by an extrapolation of the means of the last two steps.
     pub(crate) fn emit_dashpot_forces(
         &self,
         rates: &[Movement],
@@ -273,8 +276,8 @@ impl Dashpots {
         }
     }
 
-    /// Calls `take` with the rates of strain and curvature for the given rates of the control points at the start of the step, each with its damping
-    /// coefficient times the quadrature weight. The sum of coefficient times squared rate is a power [energy/time].
+    /// Calls `take` with each rate of strain and curvature at the start of the step, computed from the rates of the control points, and its damping
+    /// coefficient times the quadrature weight. The sum of coefficients times squared rates is a power [energy/time].
     pub(crate) fn each_damped_rate(&self, rates: &[Movement], take: &mut dyn FnMut(f64, f64)) {
         for SpanDashpots { first, forces, moments } in &self.spans {
             let rates = &rates[*first..*first + self.order];
@@ -283,8 +286,8 @@ impl Dashpots {
         }
     }
 
-    /// Dashpot force in space [force] and moment [force·length] at a place at the start of the step, interpolated like section forces. Rates that the
-    /// steps do not resolve are extrapolated from the means of the last two steps.
+    /// Dashpot force in space [force] and dashpot moment [force·length] at a place at the start of the step. They are interpolated like section
+    /// forces. Rates that the steps do not resolve are replaced by an extrapolation of the means of the last two steps.
     pub(crate) fn transmitted(&self, place: &SectionPlace, rates: &[Movement]) -> (Vec2, f64) {
         let of_span = |span: usize| {
             let span = &self.spans[span];
@@ -304,7 +307,7 @@ impl Dashpots {
         (force, moment)
     }
 
-    /// Appends the state at the start of a step to `state`.
+    /// Appends the present state to `state`.
     pub fn save(&self, state: &mut Vec<f64>) {
         self.resolution.save(state);
         for span in &self.spans {
@@ -313,7 +316,7 @@ impl Dashpots {
         }
     }
 
-    /// Restores the state, in the order in which it was appended.
+    /// Restores the state from numbers in the order of [`save`](Self::save).
     pub fn restore(&mut self, next: &mut dyn FnMut() -> f64) {
         self.resolution.restore(next);
         for span in &mut self.spans {
@@ -323,7 +326,7 @@ impl Dashpots {
     }
 }
 
-/// Force mismatch divided by the derivative of the force; zero if the derivative is zero.
+/// Force mismatch divided by the derivative of the force, as a strain; zero if the derivative is zero.
 pub(super) fn strain_missing(force: f64, resistance: f64) -> f64 {
     if resistance > 0.0 { (force / resistance).abs() } else { 0.0 }
 }

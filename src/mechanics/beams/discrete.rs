@@ -21,10 +21,10 @@ use super::{
 };
 use crate::geometry::Vec2;
 
-/// Beam whose basis has `N` nonzero functions per span.
+/// Beam on a basis that has `N` nonzero functions per span.
 #[derive(Debug, Clone)]
 struct DiscreteBeam<const N: usize, S: Sections = Uniform> {
-    /// Section of all points, or the mean of a tapered beam.
+    /// Section at all points; for a tapered beam the mean section.
     section: Section,
     control_points: Vec<Vec2>,
     remainders: Vec<Vec2>,
@@ -33,7 +33,7 @@ struct DiscreteBeam<const N: usize, S: Sections = Uniform> {
     inertia: InertiaMatrix<N, S::MassIntegral>,
 }
 
-/// Discretises a beam with a stress-free axis through the control points; `length` is the approximate length of the axis.
+/// Creates a discretised beam whose stress-free axis is given by control points. `length` is the approximate length of the axis.
 ///
 /// # Errors
 /// Fails if the axis has a point without a tangent.
@@ -69,7 +69,7 @@ fn with_sections<S: Sections + 'static>(
         7 => Box::new(DiscreteBeam::<8, S>::new(mesh, variation, length, points)?),
         8 => Box::new(DiscreteBeam::<9, S>::new(mesh, variation, length, points)?),
         9 => Box::new(DiscreteBeam::<10, S>::new(mesh, variation, length, points)?),
-        // Knot vectors reject degrees above 10.
+        // This is degree 10. Knot vectors reject higher degrees.
         _ => Box::new(DiscreteBeam::<11, S>::new(mesh, variation, length, points)?),
     })
 }
@@ -121,7 +121,7 @@ impl<const N: usize, S: Sections> DiscreteBeam<N, S> {
     }
 }
 
-/// Displaces a point by x and y [length] with compensated summation (Kahan 1965). `remainder` keeps the rounding error.
+/// Displaces a point by x and y [length] with compensated summation (Kahan 1965). `remainder` contains the rounding error of the sum.
 pub(super) fn move_compensated(point: &mut Vec2, remainder: &mut Vec2, [x, y, _]: &Movement) {
     let wanted = Vec2::new(*x, *y) + *remainder;
     let reached = *point + wanted;
@@ -169,7 +169,7 @@ impl<const N: usize, S: Sections> BodyDynamics for DiscreteBeam<N, S> {
         let mut summaries = [ForceSummary::default(); MOST_PARTS];
         let summaries = &mut summaries[..parts.count()];
         parts.sum(groups, forces, summaries, |summary, groups, first, forces| {
-            // A local copy avoids false sharing, because the summaries of parts are adjacent in memory.
+            // A local copy is used because the summaries of parts are adjacent in memory, where writes by several threads are slow (false sharing).
             let mut own = *summary;
             let forces = ForcesFrom { first, forces };
             ForceAssembly { iterate, forces, summary: &mut own }.over(groups);

@@ -1,4 +1,4 @@
-//! Interface of bodies: beams of any basis, particles and rigid bodies.
+//! Interface of the bodies of a model: beams with any basis, particles and rigid bodies.
 
 use std::ops::Range;
 
@@ -6,24 +6,25 @@ use super::span_stiffness::SpanStiffness;
 use super::{RotationIncrement, Section, SectionForces, SectionPlace};
 use crate::geometry::{Vec2, larger};
 
-/// Increment of a control point, its rate, or the force on it: the components x, y and rotation [length, length, rad].
+/// Increment of a control point, or its rate, or the force on it. The components are x, y and rotation [length, length, rad].
 pub type Movement = [f64; 3];
 
-/// Collocation of internal forces between start (0) and end (1) of a step.
+/// Times between start (0) and end (1) of a step at which internal forces are evaluated.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Collocation {
-    /// Fraction `τ` of the step for the configuration: `(1-τ)(x0, Λ0) + τ (x1, Λ1)` [-].
+    /// Fraction `τ` of the step at which the configuration is taken: `(1-τ)(x0, Λ0) + τ (x1, Λ1)` [-].
     pub configuration: f64,
-    /// Fraction `σ` of the step for the strain of the section forces: `(1-σ) Γ0 + σ Γ1` [-].
+    /// Fraction `σ` of the step at which the strain for the section forces is taken: `(1-σ) Γ0 + σ Γ1` [-].
     pub stress: f64,
-    /// Kind of rotation increments.
+    /// Type of rotation increments.
     pub rotations: RotationIncrement,
 }
 
-/// Largest mismatch, forces and rotation in an evaluation of internal forces.
+/// Largest strain mismatch, forces and rotation in an evaluation of internal forces.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct ForceSummary {
-    /// Largest difference between the strains of the section forces and of the configuration; curvatures are multiplied by a length [-].
+    /// Largest difference between the strains of the section forces and the strains of the configuration [-]. Curvatures are multiplied by a
+    /// length.
     pub strain_mismatch: f64,
     /// Largest section force [force].
     pub force: f64,
@@ -34,7 +35,7 @@ pub struct ForceSummary {
 }
 
 impl ForceSummary {
-    /// Takes the larger value of both summaries for each entry.
+    /// Replaces each entry by the larger value of both summaries.
     pub fn join(&mut self, other: &Self) {
         self.strain_mismatch = larger(self.strain_mismatch, other.strain_mismatch);
         self.force = larger(self.force, other.force);
@@ -43,12 +44,12 @@ impl ForceSummary {
     }
 }
 
-/// Receiver of the force derivatives of a span: its first control point and the rows of the block.
+/// Function that receives the force derivatives of a span: the first control point of the span, and the rows of its tangent matrix.
 pub type BlockSink<'a> = &'a mut (dyn FnMut(usize, &[f64]) + Send);
 
-/// Dynamics of a beam or a body of points. It provides reference quantities, the state at the start of a step, and the iterate of the step.
+/// Dynamics of a beam or a body of points. It contains reference quantities, the state at the start of a step, and the present iterate of the step.
 ///
-/// Increments, rates and forces are indexed by control point.
+/// Increments, rates and forces are given for all control points.
 pub trait BodyDynamics: Send + Sync {
     /// Number of nonzero basis functions per span, degree + 1.
     fn order(&self) -> usize;
@@ -56,20 +57,20 @@ pub trait BodyDynamics: Send + Sync {
     /// First control point of each span.
     fn span_starts(&self) -> Vec<usize>;
 
-    /// Divides the body into at most `most` concurrent parts, if they are large enough, with unchanged results. Returns the first control point of
-    /// each part except the first part.
+    /// Divides the body into at most `most` parts that are evaluated concurrently, if they are large enough. Results do not change. Returns the
+    /// first control point of each part except the first part.
     fn divide(&mut self, most: usize) -> Vec<usize>;
 
     /// Positions of the control points at the start of the step [length].
     fn control_points(&self) -> &[Vec2];
 
-    /// Accumulated rounding remainders of the positions [length].
+    /// Rounding errors that the increments of the positions have accumulated [length].
     fn remainders(&self) -> &[Vec2];
 
-    /// Prepares a step. Section forces start from their values in the last step.
+    /// Prepares a step. Iterations start with the section forces of the last step.
     fn begin_step(&mut self);
 
-    /// Adds `weight` times the internal forces for the current section forces to the forces on control points.
+    /// Adds `weight` times the internal forces, computed from the present section forces, to the forces on control points.
     fn add_forces(
         &mut self,
         at: Collocation,
@@ -78,10 +79,11 @@ pub trait BodyDynamics: Send + Sync {
         forces: &mut [Movement],
     ) -> ForceSummary;
 
-    /// Adds `weight` times the condensed internal forces. Calls the sink of each part with `weight` times their derivatives, by span.
+    /// Adds `weight` times the internal forces, strain mismatches condensed out. Calls the sink of each part with `weight` times their derivatives,
+    /// span by span.
     ///
-    /// A span across a cut is given to the sinks of both parts: to the part after the cut before its own spans, to the part before the cut after its
-    /// own spans. Each sink must use only the rows of the control points of its part.
+    /// A span across the cut between two parts is given to the sinks of both parts. The part after the cut receives it before its own spans, the
+    /// part before the cut after its own spans. Each sink must use only the rows of the control points of its part.
     fn add_linearised_forces(
         &mut self,
         at: Collocation,
@@ -91,20 +93,21 @@ pub trait BodyDynamics: Send + Sync {
         tangents: &mut [BlockSink<'_>],
     );
 
-    /// Adds `weight` times the forces that would remove the current strain mismatch, with the strain derivatives of the last linearisation.
+    /// Adds `weight` times the forces that would remove the present strain mismatch. The derivatives of strains are those of the last
+    /// linearisation.
     fn add_mismatch_forces(&mut self, weight: f64, forces: &mut [Movement]);
 
-    /// Updates the section forces after a correction of the increments.
+    /// Updates the section forces after an iteration has corrected the increments.
     fn correct_section_forces(&mut self, correction: &[Movement]);
 
-    /// Accepts the increments of a step, so that its end becomes the start of the next step.
+    /// Ends a step with the given increments. Its end becomes the start of the next step.
     fn advance(&mut self, moved: &[Movement], rotations: RotationIncrement);
 
-    /// Adds `factor · M · rates` with the inertia `M` of the body to the forces on control points.
+    /// Adds `factor · M · rates` to the forces on control points, with the inertia matrix `M` of the body.
     fn add_inertia(&self, factor: f64, rates: &[Movement], forces: &mut [Movement]);
 
-    /// Calls `tangent` with pieces of the rows of `factor · M`: control point of the row, first control point of the columns, and three diagonal
-    /// entries per column.
+    /// Calls `tangent` with pieces of the rows of `factor · M`: control point of the row, first control point of the columns, and for each column
+    /// the three entries of the components.
     fn add_inertia_tangent(
         &self,
         factor: f64,
@@ -112,8 +115,8 @@ pub trait BodyDynamics: Send + Sync {
         tangent: &mut dyn FnMut(usize, usize, &[Movement]),
     );
 
-    /// Calls `tangent` with diagonals of the rows of `factor · M`: first control point of the rows, offset of the columns in control points (negative
-    /// before the diagonal), and three entries per control point.
+    /// Calls `tangent` with pieces of the diagonals of `factor · M`: first control point of the rows, offset of the columns in control points
+    /// (negative to the left of the main diagonal), and three entries per control point.
     fn each_inertia_diagonal(
         &self,
         factor: f64,
@@ -124,10 +127,10 @@ pub trait BodyDynamics: Send + Sync {
     /// Calls `take` with the static tangent stiffness of each span in the configuration at the start of the step.
     fn for_each_static_span(&self, take: &mut dyn FnMut(&SpanStiffness));
 
-    /// Section of a beam (the mean if tapered) and length of its axis as drawn [length]; `None` for bodies of points.
+    /// Section of a beam and initial length of its axis [length]. The section of a tapered beam is its mean. `None` for bodies of points.
     fn extent(&self) -> Option<(Section, f64)>;
 
-    /// Appends the unit normals of the sections at all strain points at the start of the step, in spatial coordinates [-].
+    /// Appends the unit normals of the sections at all points for `Γ` at the start of the step [-], as vectors in space.
     fn write_normals(&self, normals: &mut Vec<Vec2>);
 
     /// Strain energy at the start of the step [energy].
@@ -136,18 +139,18 @@ pub trait BodyDynamics: Send + Sync {
     /// Axial, shear and bending strain energies at the start of the step [energy].
     fn strain_energies(&self) -> [f64; 3];
 
-    /// Section forces and strains at a place, at the start of the step; zero for bodies of points.
+    /// Section forces and strains at a place at the start of the step; zero for bodies of points.
     fn section_forces(&self, place: &SectionPlace) -> SectionForces;
 
     /// Length `∫ N_a dX` of every control point [length].
     fn lumped_lengths(&self) -> Vec<f64>;
 
-    /// Mass `∫ ρA N_a dX` of every control point, without point masses [mass].
+    /// Mass `∫ ρA N_a dX` of every control point, excluding point masses [mass].
     fn lumped_masses(&self) -> Vec<f64>;
 
-    /// Appends the state at the start of a step to `state`.
+    /// Appends the present state to `state`.
     fn save(&self, state: &mut Vec<f64>);
 
-    /// Restores the state, in the order in which it was appended.
+    /// Restores the state from numbers in the order of [`save`](Self::save).
     fn restore(&mut self, next: &mut dyn FnMut() -> f64);
 }

@@ -35,7 +35,7 @@ pub enum BeamError {
         "taper: a place is {value}, but places must increase from 0 (start of the beam) to 1 (its end)"
     )]
     TaperPlace {
-        /// First place out of order [-].
+        /// First place that is out of order [-].
         value: f64,
     },
     #[error(

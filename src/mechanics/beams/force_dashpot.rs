@@ -1,9 +1,12 @@
-//! Dashpot parallel to a quadrature point for `Γ`.
+//! Dashpot for axial and shear strain at a quadrature point.
 //!
 //! ```text
 //! N = C τ (by_change · ΔΓ - by_last · Γ̇)      n = Λs N      Λs = (1-s) Λ0 + s Λ1      gs = g0 + s Δg
 //! R_a = w N_a' n      S_a = -w N_a gs × n      δΔΓ = Λ1ᵀ δg - J (Γ1 + e1) δω/q
 //! ```
+//!
+//! `R_a` and `S_a` are the force and moment on control point `a`, `g = x'` is the derivative of the position with respect to arc length, and `s` is
+//! the fraction of the step at which directions are taken. Index 0 denotes the start of the step and 1 its end.
 
 use super::dashpots::{Functions, RateCollocation, larger_missing};
 use super::dynamics::{ForceSummary, Movement};
@@ -15,18 +18,18 @@ use crate::geometry::{Vec2, cross, larger, perpendicular};
 #[derive(Debug, Clone)]
 pub(super) struct ForceDashpot {
     functions: Functions,
-    /// `C τ` [force·time]
+    /// Damping `C τ` [force·time].
     damping: Vec2,
-    /// `g0`
+    /// Derivative `g0` of the position at the start of the step.
     gradient: Vec2,
-    /// `Λ0`
+    /// Section rotation `Λ0` at the start of the step.
     rotation: Rotation,
-    /// `Γ̇` of the previous step, and of the one before it.
+    /// Mean strain rate `Γ̇` of the previous step. `rate_before` is that of the step before it.
     last_rate: Vec2,
     rate_before: Vec2,
-    /// `Γ̇` at the start of the step, from the rates of the control points.
+    /// Strain rate `Γ̇` at the start of the step, computed from the rates of the control points.
     start_rate: Vec2,
-    /// `N` of the iterate.
+    /// Force `N` of the present iterate.
     force: Vec2,
     last_force: Vec2,
     mismatch: Vec2,
@@ -36,22 +39,22 @@ pub(super) struct ForceDashpot {
 #[derive(Debug, Clone, Copy)]
 struct DashpotKinematics {
     end_rotation: Rotation,
-    /// `Γ1 + e1`
+    /// Vector `Γ1 + e1` at the end of the step.
     end_stretch: Vec2,
-    /// `ΔΓ`
+    /// Strain change `ΔΓ` in the step.
     change: Vec2,
-    /// `Λs`
+    /// Rotation `Λs` at the fraction `s` of the step.
     rotation: Rotation,
-    /// `gs`
+    /// Derivative `gs` of the position at the fraction `s` of the step.
     gradient: Vec2,
-    /// `1/q`
+    /// Derivative `1/q = dΔθ/dΔω` of the rotation angle.
     inverse_q: f64,
     /// Derivative of the force with respect to `ΔΓ`.
     resistance: Vec2,
 }
 
 impl ForceDashpot {
-    /// Creates a dashpot with `C τ` [force·time] at a point of the axis as drawn, with its unit tangent.
+    /// Creates a dashpot with the damping `C τ` [force·time] at a point of the initial axis with the given unit tangent.
     pub(super) fn new(functions: Functions, tangent: Vec2, damping: Vec2) -> Self {
         let rotation = Rotation { cos: tangent.x, sin: tangent.y };
         Self {
@@ -86,13 +89,13 @@ impl ForceDashpot {
         self.force = Vec2::zeros();
     }
 
-    /// Mean rates of the last two steps, extrapolated to the start of the step.
+    /// Rate at the start of the step, extrapolated from the mean rates of the last two steps.
     fn carried(&self, late: f64) -> Vec2 {
         self.last_rate + (self.last_rate - self.rate_before) * late
     }
 
-    /// Mismatch of the axial and shear rates in the last accepted step. `share` is its start as a fraction of the time between the middles of the
-    /// last two steps.
+    /// Mismatch of the axial and shear rates in the last accepted step. `share` is the place of the start of that step between the middle of the
+    /// step before (0) and its own middle (1).
     pub(super) fn last_rate_mismatch(&self, share: f64) -> [RateMismatch; 2] {
         let of = |axis: usize| {
             let means = [self.rate_before[axis], self.last_rate[axis]];
@@ -116,7 +119,8 @@ impl ForceDashpot {
         }
     }
 
-    /// `ΔΓ = Λ̄ᵀ (Δg - t J ḡ)` with the tangent-scaled increment `t`. A difference of strains would have the rounding error of numbers of size one.
+    /// Strain change `ΔΓ = Λ̄ᵀ (Δg - t J ḡ)`, with means `Λ̄` and `ḡ` over the step and the tangent-scaled rotation increment `t`. A difference of
+    /// two strains would have the rounding error of numbers of size one.
     fn change(&self, by: Vec2, rotations: RotationIncrement, increment: f64) -> Vec2 {
         let mean = self.rotation.mixed(self.rotation.turned(rotations, increment), 0.5);
         let turned = perpendicular(self.gradient + by * 0.5) * rotations.tangent_scaled(increment);
@@ -176,7 +180,7 @@ impl ForceDashpot {
         self.mismatch = wanted - self.force;
         self.distribute((now.rotation, now.gradient), wanted, first, give);
 
-        // δn = A δg + b δω  and  δ(gs × n) = e·δg + f δω. The geometric terms use the force of the iterate.
+        // Derivatives: δn = A δg + b δω  and  δ(gs × n) = e·δg + f δω. The geometric terms contain the force of the present iterate.
         let (end, share) = (now.end_rotation, at.fraction);
         let resist = |strain: Vec2| now.rotation.to_space(now.resistance.component_mul(&strain));
         let (a1, a2) = (resist(end.to_section(Vec2::x())), resist(end.to_section(Vec2::y())));
@@ -235,13 +239,13 @@ impl ForceDashpot {
         self.functions.weight * self.force.dot(&change)
     }
 
-    /// `Γ̇` for rates of the control points, at the start of the step.
+    /// Strain rate `Γ̇` at the start of the step, computed from rates of the control points.
     fn rate(&self, rates: &[Movement]) -> Vec2 {
         let (gradient, spin, _) = self.functions.interpolate(rates);
         self.rotation.to_section(gradient - perpendicular(self.gradient) * spin)
     }
 
-    /// Strain rates at the start of the step: present or extrapolated rates, as selected.
+    /// Strain rates at the start of the step. As selected, they are computed from the present rates or extrapolated from the last two steps.
     fn selected_rates(&self, selected: DashpotRates<'_>) -> Vec2 {
         let (present, carried) =
             (self.rate(selected.present), self.carried(selected.extrapolation));
@@ -252,7 +256,7 @@ impl ForceDashpot {
         )
     }
 
-    /// Force in space at the start of the step [force], and its moment `w x' × n` [force·length].
+    /// Force in space at the start of the step [force], and its contribution `w x' × n` to the moment [force·length].
     pub(super) fn transmitted(&self, rates: DashpotRates<'_>) -> (Vec2, f64) {
         let force = self.rotation.to_space(self.damping.component_mul(&self.selected_rates(rates)));
         (force, self.functions.weight * cross(self.gradient, force))

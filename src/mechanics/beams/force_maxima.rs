@@ -1,11 +1,11 @@
-//! Largest strain mismatch, section forces and rotation over quadrature points in vector lanes.
+//! Largest strain mismatch, section forces and rotation over quadrature points. Several points are processed at once in vector lanes.
 
 use pulp::Simd;
 
 use super::dynamics::ForceSummary;
 use super::simd::{LaneChunk, Lanes, Number, Vector};
 
-/// [`ForceSummary`] of each lane.
+/// [`ForceSummary`] for each lane.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct ForceMaxima<T> {
     pub(super) strain_mismatch: T,
@@ -27,7 +27,7 @@ impl ForceMaxima<Lanes> {
         self.force.put(part, self.force.get(part).larger(force));
     }
 
-    /// Summary for points without a section force.
+    /// Includes points for the curvature, which have a moment but no section force.
     #[inline(always)]
     pub(super) fn join_moment<V: Simd>(
         &mut self,

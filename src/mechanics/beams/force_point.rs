@@ -1,29 +1,29 @@
-//! Quadrature point for the strain `Γ`: state between two steps, and static tangent stiffness.
+//! Quadrature point for the axial and shear strain `Γ`: its state between two steps, and its static tangent stiffness.
 //!
-//! Its evaluation within a step is in [`force_points`](super::force_points).
+//! Its evaluation within a step is implemented in [`force_points`](super::force_points).
 
 use super::axis_point::AxisPoint;
 use super::span_stiffness::{SpanStiffness, StrainKind};
 use super::{Rotation, Section};
 use crate::geometry::{Vec2, cross, larger, perpendicular};
 
-/// Strain difference below which two strains are equal within rounding.
+/// Difference of two strains that are equal within rounding.
 const SAME_STRAIN: f64 = 64.0 * f64::EPSILON;
 
 #[derive(Debug, Clone)]
 pub(super) struct ForcePoint<const N: usize> {
     pub(super) axis: AxisPoint<N>,
-    /// `g0`
+    /// Derivative `g0 = x'` of the position with respect to arc length at the start of the step.
     pub(super) gradient: Vec2,
-    /// `Λ0`
+    /// Section rotation `Λ0` at the start of the step.
     pub(super) rotation: Rotation,
-    /// `Γ0`
+    /// Axial and shear strain `Γ0` at the start of the step.
     pub(super) strain: Vec2,
     pub(super) last_force: Vec2,
 }
 
 impl<const N: usize> ForcePoint<N> {
-    /// Placeholder whose strain is zero for all increments.
+    /// Placeholder for an unused lane. Its strain is zero for all increments.
     pub(super) const EMPTY: Self = Self {
         axis: AxisPoint::EMPTY,
         gradient: Vec2::new(1.0, 0.0),
@@ -42,7 +42,8 @@ impl<const N: usize> ForcePoint<N> {
         }
     }
 
-    /// Adds the rows of the axial and shear strain of the static stiffness, and the geometric rows if the section force is nonzero.
+    /// Adds the rows of axial and shear strain to the static stiffness of the span. If the section force is nonzero, the rows of the geometric
+    /// stiffness are added.
     pub(super) fn write_static_rows(&self, section: &Section, span: &mut SpanStiffness) {
         let w = self.axis.weight;
         let row = |by_gradient: Vec2, by_rotation: f64| -> [[f64; 3]; N] {
@@ -66,17 +67,17 @@ impl<const N: usize> ForcePoint<N> {
         }
     }
 
-    /// Section force for the present strain, and true if it is the section force of the last solution.
+    /// Section force for the present strain. The second value is true if it is the section force of the last solution.
     ///
-    /// The rounding error of a section force from the last solution is relative to its own size. The error of one computed from the strain is the
-    /// stiffness times the rounding of a number of size one.
+    /// A section force from the last solution has a rounding error relative to its own size. A section force computed from the strain has the
+    /// rounding error of a number of size one, multiplied by the stiffness.
     fn present_force(&self, section: &Section) -> (Vec2, bool) {
         let missing = self.strain - strain_from(section, self.last_force);
         let is_known = larger(missing.x.abs(), missing.y.abs()) <= SAME_STRAIN;
         (if is_known { self.last_force } else { force_of(section, self.strain) }, is_known)
     }
 
-    /// Section force `n` in space [force] and `w x' × n` [force·length] at the start of the step.
+    /// Section force `n` in space [force] and its contribution `w x' × n` to the moment [force·length] at the start of the step.
     pub(super) fn transmitted(&self, section: &Section) -> (Vec2, f64) {
         let force = self.rotation.to_space(self.present_force(section).0);
         (force, self.axis.weight * cross(self.gradient, force))
@@ -92,14 +93,14 @@ impl<const N: usize> ForcePoint<N> {
         0.5 * self.axis.weight * self.strain.dot(&force_of(section, self.strain))
     }
 
-    /// Normal [-] of the section in space at the start of the step.
+    /// Unit normal of the section at the start of the step [-], as a vector in space.
     pub(super) fn normal(&self) -> Vec2 {
         Vec2::new(self.rotation.cos, self.rotation.sin)
     }
 
     pub(super) fn save(&self, state: &mut Vec<f64>) {
         state.extend([self.gradient.x, self.gradient.y, self.rotation.cos, self.rotation.sin]);
-        // An exact initial strain is zero, whereas the strain of the configuration has rounding errors.
+        // The strain is stored because an exact initial strain is zero. The strain computed from the configuration has rounding errors.
         state.extend([self.last_force.x, self.last_force.y, self.strain.x, self.strain.y]);
     }
 
@@ -110,12 +111,12 @@ impl<const N: usize> ForcePoint<N> {
     }
 }
 
-/// `C Γ`
+/// Section force `C Γ` of a strain.
 fn force_of(section: &Section, strain: Vec2) -> Vec2 {
     Vec2::new(section.axial_stiffness * strain.x, section.shear_stiffness * strain.y)
 }
 
-/// `C⁻¹ N`
+/// Strain `C⁻¹ N` of a section force.
 fn strain_from(section: &Section, force: Vec2) -> Vec2 {
     Vec2::new(force.x / section.axial_stiffness, force.y / section.shear_stiffness)
 }

@@ -1,6 +1,6 @@
-//! Quadrature points for `Γ` in lanes: axial and shear strain, and the section force as an independent unknown.
+//! Quadrature points for the axial and shear strain `Γ` in vector lanes. The section force is an independent unknown.
 //!
-//! With `Δg = Σ N_a' Δx_a`, `Δω = Σ N_a Δω_a`, `1/q = dΔθ/dΔω` and `C = diag(EA, GA)`:
+//! Definitions: `Δg = Σ N_a' Δx_a`, `Δω = Σ N_a Δω_a`, `1/q = dΔθ/dΔω` and `C = diag(EA, GA)`.
 //!
 //! ```text
 //! Λ1 = Λ0 R(Δθ(Δω))    Γ1 = Λ1ᵀ (g0 + Δg) - e1
@@ -8,8 +8,8 @@
 //! R_a = w N_a' n             S_a = -w N_a gτ × n
 //! ```
 //!
-//! The gradient `g = x'` and the rotation are stored at the point and updated by increments, so that strains do not depend on the distance from the
-//! origin.
+//! `R_a` and `S_a` are the force and moment on control point `a`, with the quadrature weight `w`. The gradient `g = x'` and the rotation are stored
+//! at the point and updated by increments, so that rounding errors of strains do not depend on the distance from the origin.
 
 use pulp::Simd;
 
@@ -22,55 +22,55 @@ use super::pair::Pair;
 use super::simd::{LANES, LaneChunk, Lanes, Number, Vector};
 use super::{Rotation, RotationIncrement};
 
-/// Stiffness `C = diag(EA, GA)` of the points of one vector instruction.
+/// Stiffness `C = diag(EA, GA)` of the points that one vector instruction processes.
 pub(super) type Stiffness<V> = Pair<Vector<V>>;
 
 #[derive(Debug, Clone)]
 pub(super) struct ForcePoints<const N: usize> {
     axis: AxisPoints<N>,
-    /// `g0`
+    /// Gradient `g0` at the start of the step.
     gradient: Pair<Lanes>,
-    /// `Λ0`
+    /// Section rotation `Λ0` at the start of the step.
     rotation: Rotation<Lanes>,
-    /// `Γ0`
+    /// Strain `Γ0` at the start of the step.
     strain: Pair<Lanes>,
-    /// Section force `N` of the iterate.
+    /// Section force `N` of the present iterate.
     force: Pair<Lanes>,
-    /// Section force of the last step, the start value in the next step. In fast vibration it is closer to the solution than `C Γ0`, whose sign may
-    /// alternate from step to step.
+    /// Section force of the last step, with which the iteration of the next step starts. In fast vibration it is closer to the solution than `C
+    /// Γ0`, whose sign may alternate from step to step.
     last_force: Pair<Lanes>,
     /// Mismatch `m = Γσ - C⁻¹ N` at the last evaluation.
     mismatch: Pair<Lanes>,
     linearised_at: StrainKinematics<Lanes>,
-    /// `σ` of the last linearisation.
+    /// Fraction `σ` of the step at the last linearisation.
     linearised_stress: f64,
 }
 
-/// Configuration after an increment, as needed for corrections of the section force.
+/// Configuration of an iterate, with the values that corrections of the section force need.
 #[derive(Debug, Clone, Copy)]
 struct StrainKinematics<T> {
     end_rotation: Rotation<T>,
     end_strain: Pair<T>,
     collocated_rotation: Rotation<T>,
     collocated_gradient: Pair<T>,
-    /// `1/q`
+    /// Derivative `1/q = dΔθ/dΔω` of the rotation angle.
     inverse_q: T,
 }
 
-/// Section force `w n` and its moment `w gτ × n` about the axis, for distribution to the control points.
+/// Weighted section force `w n` and moment `w gτ × n`, to be distributed to the control points.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Resultant {
     force: Pair<Lanes>,
     torque: Lanes,
 }
 
-/// Derivatives of the forces: `rows[i] · (δg, δω)` times weight and basis functions.
+/// Derivatives of the forces on control points: `rows[i] · (δg, δω)`, to be multiplied by weight and basis functions.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct ForceTangent<const N: usize> {
     rows: [[Lanes; 3]; 3],
-    /// `w N_a'`
+    /// Factors `w N_a'`.
     weighted_slope: [Lanes; N],
-    /// `-w N_a`
+    /// Factors `-w N_a`.
     weighted_shape: [Lanes; N],
 }
 
@@ -127,7 +127,7 @@ impl<const N: usize> ForcePoints<N> {
         self.force = self.last_force;
     }
 
-    /// Values `(Δg, Δω)` for increments of the control points.
+    /// Interpolates increments of the control points. Returns `(Δg, Δω)`.
     #[inline(always)]
     fn interpolate<V: Simd>(
         &self,
@@ -145,7 +145,7 @@ impl<const N: usize> ForcePoints<N> {
         (gradient, rotation)
     }
 
-    /// Configuration, `Γσ` and `Δω`.
+    /// Configuration of an iterate, the strain `Γσ = (1-σ) Γ0 + σ Γ1`, and `Δω`.
     #[inline(always)]
     fn configuration<V: Simd>(
         &self,
@@ -170,7 +170,7 @@ impl<const N: usize> ForcePoints<N> {
         (configuration, strain + (end_strain - strain) * sigma, increment)
     }
 
-    /// Multiplies a section force in space by the weights of the points.
+    /// Multiplies a section force in space by `weight` and the quadrature weights.
     #[inline(always)]
     fn apply_weights<V: Simd>(
         &self,
@@ -184,7 +184,7 @@ impl<const N: usize> ForcePoints<N> {
         resultant.torque.put(part, gradient.cross(force) * weight);
     }
 
-    /// Adds the forces of the point of a lane to the control points of its span.
+    /// Adds the forces of the point in a lane to the forces on the control points of its span.
     #[inline(always)]
     pub(super) fn distribute(
         &self,
@@ -213,7 +213,7 @@ impl<const N: usize> ForcePoints<N> {
         maxima: &mut ForceMaxima<Lanes>,
     ) {
         let (now, collocated_strain, increment) = self.configuration(part, at, moved);
-        // If only the strain at the start counts, the section force is known.
+        // If only the strain at the start of the step is used, the section force is known.
         let force = if at.stress == 0.0 {
             stiffness.by_component(self.strain.get(part))
         } else {
@@ -250,7 +250,7 @@ impl<const N: usize> ForcePoints<N> {
         let condensed = force_in_space(rotation, stiffness, collocated_strain);
         self.apply_weights(part, weight, (gradient, condensed), resultant);
 
-        // δn = A δg + b δω  and  δ(gτ × n) = e·δg + f δω. The geometric terms use the section force of the iterate.
+        // Derivatives: δn = A δg + b δω  and  δ(gτ × n) = e·δg + f δω. The geometric terms contain the section force of the present iterate.
         let (end, force) = (now.end_rotation, self.force.get(part));
         let (e1, e2) = (Pair::first_axis(tau), Pair::second_axis(tau));
         let a1 = force_in_space(rotation, stiffness, end.to_section(e1)) * sigma;
@@ -285,7 +285,7 @@ impl<const N: usize> ForcePoints<N> {
         tangent: &ForceTangent<N>,
         block: &mut SpanTangent<V, N>,
     ) {
-        // The rows of one component are multiples of each other.
+        // All rows of one component are multiples of the same row.
         let mut rows: [BlockRow<N>; 3] = [[[0.0; 3]; N]; 3];
         for (row, [by_x, by_y, by_rotation]) in rows.iter_mut().zip(&tangent.rows) {
             let functions = self.axis.slope.iter().zip(&self.axis.shape);
@@ -307,7 +307,7 @@ impl<const N: usize> ForcePoints<N> {
         }
     }
 
-    /// Forces `C m` of the strain mismatch `m`, with the directions of the last linearisation.
+    /// Computes the forces `C m` that would remove the strain mismatch `m`. Their directions are those of the last linearisation.
     #[inline(always)]
     pub(super) fn take_mismatch_forces<V: Simd>(
         &self,
@@ -321,7 +321,7 @@ impl<const N: usize> ForcePoints<N> {
         self.apply_weights(part, weight, (collocated_gradient.get(part), force), resultant);
     }
 
-    /// Corrects the section forces: `N ← N + C (m + σ δΓ1)`, `δΓ1 = Λ1ᵀ δg - J (Γ1 + e1) δω/q`.
+    /// Corrects the section forces: `N ← N + C (m + σ δΓ1)`, with `δΓ1 = Λ1ᵀ δg - J (Γ1 + e1) δω/q`.
     #[inline(always)]
     pub(super) fn correct_section_forces<V: Simd>(
         &mut self,
@@ -377,7 +377,7 @@ fn strain_of<T: Number>(rotation: Rotation<T>, gradient: Pair<T>) -> Pair<T> {
     rotation.to_section(gradient) - Pair::first_axis(gradient.x)
 }
 
-/// `Λ C Γ`
+/// Section force in space, `Λ C Γ`.
 #[inline(always)]
 fn force_in_space<T: Number>(
     rotation: Rotation<T>,

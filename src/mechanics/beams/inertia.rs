@@ -1,4 +1,4 @@
-//! Inertia matrix of a beam, stored by diagonals. Each diagonal multiplies the rates of all control points as one long vector.
+//! Inertia matrix of a beam, stored by diagonals. In a product, each diagonal multiplies the rates of all control points as one long vector.
 
 use std::ops::Range;
 
@@ -14,11 +14,11 @@ const ROWS_PER_PASS: usize = 16;
 /// Inertia matrix of a beam with `N` nonzero basis functions per span: `∫ ρA N_a N_b dX` for x and y, `∫ ρI N_a N_b dX` for rotations.
 #[derive(Debug, Clone)]
 pub(super) struct InertiaMatrix<const N: usize, I> {
-    /// `∫ N_a N_{a+k} dX` for k = 0 … N-1 [length], and integrals weighted with the inertia if it varies.
+    /// Integrals `∫ N_a N_{a+k} dX` for k = 0 … N-1 [length]. If the inertia varies along the beam, also the integrals weighted with the inertia.
     gram: Vec<[I; N]>,
-    /// Integrals of each k, for all control points and components.
+    /// For each k, the integrals of all control points and components.
     diagonals: [Vec<f64>; N],
-    /// Factors of the integrals: inertia per length by component, for all control points.
+    /// Factors that convert the integrals to inertia, for all control points and components: inertia per length, or one.
     shares: Vec<f64>,
     section: Section,
 }
@@ -55,7 +55,7 @@ impl<const N: usize, I: MassIntegral> InertiaMatrix<N, I> {
         Arch::new().dispatch(InertiaProduct { matrix: self, points, factor, rates, forces });
     }
 
-    /// Calls the callback with diagonals of the rows of `factor · M`: first control point of the rows, offset of the columns, and three entries per
+    /// Calls `take` with pieces of the diagonals of `factor · M`: first control point of the rows, offset of the columns, and three entries per
     /// control point.
     pub(super) fn each_diagonal(
         &self,
@@ -66,8 +66,8 @@ impl<const N: usize, I: MassIntegral> InertiaMatrix<N, I> {
         Arch::new().dispatch(Diagonals { matrix: self, points, factor, take });
     }
 
-    /// Calls the callback with pieces of the rows of `factor · M`: control point of the row, first control point of the columns, and three diagonal
-    /// entries per column.
+    /// Calls `take` with pieces of the rows of `factor · M`: control point of the row, first control point of the columns, and for each column the
+    /// three entries of the components.
     pub(super) fn each_row(
         &self,
         factor: f64,
@@ -87,7 +87,7 @@ impl<const N: usize, I: MassIntegral> InertiaMatrix<N, I> {
     }
 }
 
-/// Kernel of [`each_diagonal`](InertiaMatrix::each_diagonal).
+/// Loop of [`each_diagonal`](InertiaMatrix::each_diagonal), compiled for each instruction set.
 struct Diagonals<'a, const N: usize, I> {
     matrix: &'a InertiaMatrix<N, I>,
     points: Range<usize>,
@@ -107,7 +107,7 @@ impl<const N: usize, I> WithSimd for Diagonals<'_, N, I> {
             let end = points.end.min(first + ROWS_PER_PASS);
             for offset in 1 - N as isize..N as isize {
                 let k = offset.unsigned_abs();
-                // Entries before the diagonal equal the transposed entries after it.
+                // Entries to the left of the main diagonal are the transposed entries to its right.
                 let (first, columns) = if offset < 0 {
                     (first.max(k), first.max(k) - k..end.max(k) - k)
                 } else {
@@ -122,7 +122,7 @@ impl<const N: usize, I> WithSimd for Diagonals<'_, N, I> {
     }
 }
 
-/// Kernel of [`add_product`](InertiaMatrix::add_product), on the values of all components in sequence.
+/// Loop of [`add_product`](InertiaMatrix::add_product), compiled for each instruction set. The values of all components form one vector.
 struct InertiaProduct<'a, const N: usize, I> {
     matrix: &'a InertiaMatrix<N, I>,
     points: Range<usize>,
@@ -134,7 +134,7 @@ struct InertiaProduct<'a, const N: usize, I> {
 impl<const N: usize, I> WithSimd for InertiaProduct<'_, N, I> {
     type Output = ();
 
-    /// Adds by diagonal, from the first column of a row to the last.
+    /// Adds the products diagonal by diagonal, in the order of the columns.
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) {
         let Self { matrix: InertiaMatrix { gram, diagonals, shares, .. }, points, factor, .. } =
@@ -163,7 +163,7 @@ impl<const N: usize, I> WithSimd for InertiaProduct<'_, N, I> {
     }
 }
 
-/// Writes the entrywise products of a factor with two vectors.
+/// Writes the product of a factor with corresponding entries of two vectors.
 #[inline(always)]
 fn multiply<S: Simd>(simd: S, factor: f64, [one, two]: [&[f64]; 2], out: &mut [f64]) {
     let (head, rest) = S::as_mut_simd_f64s(out);
@@ -207,7 +207,7 @@ mod tests {
         rotary_inertia: 0.3,
     };
 
-    /// Entries as passed by [`InertiaMatrix::each_row`].
+    /// Product with rates, computed from the entries that [`InertiaMatrix::each_row`] gives.
     fn by_rows<const N: usize>(
         matrix: &InertiaMatrix<N, f64>,
         rates: &[Movement],
@@ -250,7 +250,7 @@ mod tests {
         assert_same_entries(count, cut.min(count)..count, &matrix);
     }
 
-    /// Compares diagonals and rows with a dense matrix, entry by entry.
+    /// Compares the entries of diagonals and rows with those of a dense matrix.
     fn assert_same_entries<const N: usize>(
         count: usize,
         points: Range<usize>,

@@ -1,7 +1,7 @@
-//! Kink of an axis under a point force: the displacement that the smooth basis functions of a mesh do not represent.
+//! Kink of a beam axis under a point force. The smooth basis functions of a mesh do not represent the displacement that it causes.
 //!
-//! A force on a shear-flexible beam causes a jump of its tangent. A smooth mesh misses a part of the displacement. This part equals that of a string
-//! with the same basis functions, points and weights; derived in docs/theory.md, section 10.1.
+//! A force on a shear-flexible beam causes a jump of the tangent of its axis. A smooth mesh misses a part of the displacement under the force. This
+//! part is the same as in a string with the same basis functions, quadrature points and weights (derivation: docs/theory.md, section 10.1).
 
 mod running;
 
@@ -10,32 +10,33 @@ use crate::geometry::{
     PiecewisePolynomial, PositiveBand, PositiveFactors, Span, Vec2, lower_splines,
 };
 
-/// Length, relative to a span, below which it is due to rounding.
+/// Length that is due to rounding, as a fraction of a span.
 const ROUNDING: f64 = 1e-11;
 
 /// Kink of the axis under a point force that a mesh does not represent.
 #[derive(Debug, Clone)]
 pub struct MissedKink {
-    /// Kink length `g(ξ)` [length].
+    /// Kink length `g(ξ)` as a function of the place `ξ` [length].
     pub length: PiecewisePolynomial,
-    /// Correction factor `μ` of the inertia of a moving kink [-]: the kinetic energy that the mesh misses is `½ μ ρA g |a|² v²`, averaged over the
-    /// places of the kink; `μ = 1` for exactly integrated strains.
+    /// Correction factor `μ` of the inertia of a moving kink [-]. The kinetic energy that the mesh misses is `½ μ ρA g |a|² v²`, with the kink `a`
+    /// and its speed `v`, averaged over the places of the kink. For exactly integrated strains `μ = 1`.
     pub inertia: f64,
 }
 
-/// Computes the kink of an axis that the mesh does not represent. A force `λ` across the beam at `ξ` displaces the axis at `ξ` by `g(ξ) λ/GA` more
-/// than in the mesh.
+/// Computes the part of a kink that the mesh does not represent. A force `λ` across the beam at `ξ` displaces the axis at `ξ` by `g(ξ) λ/GA` more
+/// than the mesh represents.
 ///
 /// ```text
 /// g(ξ) = l(ξ)ᵀ M⁻¹ r(ξ)        M = Σ w t tᵀ/|x_ξ|        l = ∫ t dξ up to ξ, r = ∫ t dξ from ξ on
 /// ```
 ///
-/// over the splines `t` of one degree less, with the points and weights of the shear strain. `g` is the exact compliance of a string under a point
-/// load minus that of a string on these functions, for any supports of its ends. It is a polynomial of twice the degree on each span, and zero where
-/// the basis is C⁰. Returns `None` if `g` is not positive elsewhere, as with fewer quadrature points than the patch rule has.
+/// The matrix `M` contains products of the splines `t` of one degree less, summed over the points and weights of the shear strain. `g` is the
+/// compliance of a string under a point load minus the compliance of the string on these functions, whatever the supports of its ends. It is a
+/// polynomial of twice the degree on each span, and zero at places where the basis is C⁰. The result is `None` if `g` is not positive at other
+/// places. This occurs with fewer quadrature points than the patch rule has.
 ///
 /// # Errors
-/// Fails if the mesh has no quadrature, or the axis a point without a tangent.
+/// Fails if the mesh has no quadrature, or the axis has a point without a tangent.
 pub fn unresolved_kink(
     mesh: &Mesh,
     control_points: &[Vec2],
@@ -79,7 +80,8 @@ fn control_polygon_length(control_points: &[Vec2], span: &Span, degree: usize) -
     own.windows(2).map(|pair| (pair[1] - pair[0]).norm()).sum()
 }
 
-/// Integrals of the B-splines of degree p-1 from the start of a span, `Σ_(a > t) N_a`, as coefficients of powers of a coordinate from -1 to 1.
+/// Integrals of the B-splines of degree p-1 from the start of a span, `Σ_(a > t) N_a`, as coefficients of a polynomial. Its coordinate runs from -1
+/// to 1 over the span.
 fn fractions(mesh: &Mesh, span: &Span) -> Vec<Vec<f64>> {
     let degree = mesh.basis().degree();
     let half = 0.5 * (span.end - span.start);
@@ -92,12 +94,12 @@ fn fractions(mesh: &Mesh, span: &Span) -> Vec<Vec<f64>> {
     (0..degree).map(|lower| (0..=degree).map(|order| behind(lower, order)).collect()).collect()
 }
 
-/// String on splines: the matrix `M` of products of its strains, the solution of `M a = 1`, and the inverse of `M` near its diagonal.
+/// String on splines. It contains the matrix `M` of products of its strains, the solution of `M a = 1`, and the entries of `M⁻¹` near its diagonal.
 struct SplineString {
     degree: usize,
     products: PositiveBand,
     factors: PositiveFactors,
-    /// Strains of the string under a constant force.
+    /// Coefficients of the strains of the string under a constant force: the solution of `M a = 1`.
     stretched: Vec<f64>,
     inverse: PositiveBand,
 }
@@ -111,8 +113,8 @@ impl SplineString {
         Some(Self { degree, products, factors, stretched, inverse })
     }
 
-    /// Residual of a unit load on all splines before index `cut`, if these splines have the strains of a constant force. It is nonzero only in a few
-    /// entries around the cut. Returns the index of the first of these entries, and the entries.
+    /// Residual of a load of ones on all splines before index `cut`, if these splines have the strains under a constant force and all others have
+    /// none. It is nonzero only in a few entries around the cut. Returns the index of the first of these entries, and the entries.
     fn load_residual(&self, cut: usize) -> (usize, Vec<f64>) {
         let (size, reach) = (self.stretched.len(), self.degree - 1);
         let first = cut.saturating_sub(reach);
@@ -128,16 +130,16 @@ impl SplineString {
         (first, (first..(cut + reach).min(size)).map(entry).collect())
     }
 
-    /// `Σ_j (M⁻¹)_ij r_j`
+    /// Entry `Σ_j (M⁻¹)_ij r_j` of the response to a load.
     fn response(&self, row: usize, (first, load): &(usize, Vec<f64>)) -> f64 {
         (*first..).zip(load).map(|(at, r)| self.inverse.get(row, at) * r).sum()
     }
 
-    /// Coefficients of `g = lᵀ M⁻¹ r` on a span; `fractions` are those of its splines before a place. The splines of earlier spans lie completely
-    /// before the place, those of later spans behind it.
+    /// Coefficients of `g = lᵀ M⁻¹ r` on a span. `fractions` are the parts of its splines in front of a place in the span. The splines of earlier
+    /// spans are entirely in front of the place, those of later spans behind it.
     ///
-    /// The contribution of earlier or later splines is `M⁻¹` times a load of ones up to an index: the strains of a constant force up to the index,
-    /// plus the response to the residual.
+    /// The earlier or later splines contribute `M⁻¹` times a load of ones up to an index. It consists of the strains under a constant force up to
+    /// the index, and the response to the residual.
     fn polynomial(&self, span: &Span, fractions: &[Vec<f64>]) -> Vec<f64> {
         let own = span.first..span.first + self.degree;
         let (before, behind) = (self.load_residual(own.start), self.load_residual(own.end));
@@ -146,7 +148,7 @@ impl SplineString {
         sum[0] -=
             (before.0..).zip(&before.1).map(|(at, r)| r * self.response(at, &behind)).sum::<f64>();
         for (i, part) in own.clone().zip(fractions) {
-            // Products of earlier splines with the rest of this spline, and of this spline with later splines.
+            // Products of earlier splines with the part of this spline behind the place, and of its part in front with later splines.
             let (earlier, later) = (self.response(i, &before), -self.response(i, &behind));
             sum[0] += earlier;
             sum.iter_mut().zip(part).for_each(|(sum, c)| *sum += (later - earlier) * c);

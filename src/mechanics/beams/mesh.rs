@@ -10,8 +10,8 @@ use crate::geometry::{
 /// Quadrature of the axial and shear strain of a beam.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 pub enum Quadrature {
-    /// Patch rule ([`patch_rule`]): each smooth piece of the mesh has as many points as linearly independent derivatives of its basis functions. It
-    /// avoids locking and zero-energy modes, and passes the patch test.
+    /// Patch rule ([`patch_rule`]): the number of points in each smooth piece of the mesh equals the number of linearly independent derivatives of
+    /// its basis functions. The rule avoids locking and zero-energy modes, and passes the patch test.
     #[default]
     Patch,
     /// Fixed number of Gauss points per span. Too many points cause locking, too few leave zero-energy modes.
@@ -29,7 +29,7 @@ pub struct Mesh {
 /// Numbers of quadrature points of a beam.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct PointCounts {
-    /// Points for axial and shear strain `Γ`, each with a condensed section force as unknown.
+    /// Points for the axial and shear strain `Γ`. Each has a section force as an unknown that is condensed out.
     pub force: usize,
     /// Points for the bending strain `κ`.
     pub moment: usize,
@@ -37,7 +37,7 @@ pub struct PointCounts {
     pub inertia: usize,
 }
 
-/// Span with its quadrature points for the strain `Γ`, `∫ f dξ ≈ Σ weight · f(point)`, and the number of points for the curvature `κ`.
+/// Span with its quadrature points for the strain `Γ` and the number of points for the curvature `κ`. Integrals are `∫ f dξ ≈ Σ weight · f(point)`.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct QuadratureSpan {
     pub(super) span: Span,
@@ -61,15 +61,15 @@ impl TryFrom<(Basis, Quadrature)> for Mesh {
 }
 
 impl Mesh {
-    /// Returns a B-spline mesh with the patch rule: `spans` equal spans, C^`continuity` at interior knots.
+    /// Creates a B-spline mesh with the patch rule. It has `spans` equal spans and continuity C^`continuity` at interior knots.
     ///
     /// # Errors
-    /// Fails if the numbers define no knot vector.
+    /// Fails if no knot vector exists for these numbers.
     pub fn bspline(spans: usize, degree: usize, continuity: usize) -> Result<Self, GeometryError> {
         Ok(Self::new(Basis::BSpline(KnotVector::uniform(spans, degree, continuity)?)))
     }
 
-    /// Returns a mesh of equal Lagrange elements of degree 1 to 3 with the patch rule.
+    /// Creates a mesh of equal Lagrange elements of degree 1 to 3 with the patch rule.
     ///
     /// # Errors
     /// Fails if the degree or the number of elements is out of range.
@@ -77,12 +77,12 @@ impl Mesh {
         Ok(Self::new(Basis::Lagrange(LagrangeBasis::uniform(elements, degree)?)))
     }
 
-    /// Returns a mesh of any basis with the patch rule.
+    /// Creates a mesh with the patch rule on any basis.
     pub fn new(basis: Basis) -> Self {
         Self { basis, quadrature: Quadrature::Patch }
     }
 
-    /// Returns the mesh with another quadrature of axial and shear strain.
+    /// Returns the mesh with another quadrature of the axial and shear strain.
     ///
     /// # Errors
     /// Fails if the number of points is zero or far too large for the degree.
@@ -106,7 +106,7 @@ impl Mesh {
         Ok(Self { basis: broken, quadrature: self.quadrature })
     }
 
-    /// Returns a mesh with about `ratio` times as many spans, as [`Basis::with_span_ratio`].
+    /// Returns a mesh with about `ratio` times as many spans: see [`Basis::with_span_ratio`].
     ///
     /// # Errors
     /// Fails if the mesh has too many or too short spans.
@@ -179,8 +179,8 @@ impl Mesh {
         run[run.len() - 1].first - run[0].first + self.basis.degree()
     }
 
-    /// Number of points for `Γ` minus the number of linearly independent derivatives of basis functions. A surplus causes locking; each missing point
-    /// leaves two zero-energy modes.
+    /// Number of points for `Γ` minus the number of linearly independent derivatives of basis functions. A positive number causes locking. Each
+    /// missing point leaves two zero-energy modes.
     fn excess_points(&self) -> isize {
         let wanted: usize = self.runs().iter().map(|run| self.derivatives(run)).sum();
         self.point_counts().force as isize - wanted as isize
@@ -189,7 +189,7 @@ impl Mesh {
     /// Spans with their quadrature points for `Γ` and `κ`.
     ///
     /// # Errors
-    /// Fails if the lengths of the spans of a smooth piece differ too much for a patch rule.
+    /// Fails if the lengths of the spans in a smooth piece differ so much that no patch rule exists.
     pub(super) fn quadrature_spans(&self) -> Result<Vec<QuadratureSpan>, BeamError> {
         let mut spans = Vec::with_capacity(self.spans());
         for run in self.runs() {
@@ -201,18 +201,18 @@ impl Mesh {
         Ok(spans)
     }
 
-    /// Spans grouped by smooth pieces, cut at C⁰ knots. The strains of different pieces are independent.
+    /// Spans grouped into smooth pieces, which end at C⁰ knots. The strains of different pieces are independent.
     fn runs(&self) -> Vec<Vec<Span>> {
         let spans = self.basis.spans();
         spans.chunk_by(|a, b| self.is_smooth(a, b)).map(<[Span]>::to_vec).collect()
     }
 
     pub(super) fn is_smooth(&self, a: &Span, b: &Span) -> bool {
-        // Neighbouring spans with a C⁰ knot between them share a single function.
+        // Two consecutive spans with a C⁰ knot between them have a single function in common.
         b.first < a.first + self.basis.degree()
     }
 
-    /// Points and weights for `Γ` on each span of a run.
+    /// Points and weights for `Γ` on each span of a smooth piece.
     fn force_rules(&self, run: &[Span]) -> Result<RunRule, BeamError> {
         match self.quadrature {
             Quadrature::Patch => {
@@ -233,8 +233,8 @@ impl Mesh {
         }
     }
 
-    /// Number of points for `κ` per span of a run. With full continuity it is one fewer than for a single polynomial, which still samples all
-    /// curvatures.
+    /// Number of points for `κ` per span of a smooth piece. With full continuity it is one fewer than for a single polynomial, and these points
+    /// still capture all curvatures.
     fn moment_points(&self, run: &[Span]) -> usize {
         let degree = self.basis.degree();
         let is_fully_smooth = run.windows(2).all(|pair| pair[1].first == pair[0].first + 1);

@@ -1,6 +1,6 @@
-//! Beam theory: planar Simo–Reissner beams on any basis, stress-free as drawn.
+//! Beam theory: planar Simo–Reissner beams on any basis. The initial configuration is free of stress.
 //!
-//! J. C. Simo & L. Vu-Quoc, ASME J. Appl. Mech. 53 (1986) 849–863; E. Reissner, ZAMP 23 (1972) 795–804.
+//! References: J. C. Simo & L. Vu-Quoc, ASME J. Appl. Mech. 53 (1986) 849–863; E. Reissner, ZAMP 23 (1972) 795–804.
 
 mod axis_point;
 mod block;

@@ -1,4 +1,4 @@
-//! Dashpot parallel to a quadrature point for `κ`.
+//! Dashpot for the curvature at a quadrature point.
 //!
 //! ```text
 //! M = EI τ (by_change · Δκ - by_last · κ̇)      Δκ = Δω'/q      S_a = w N_a' M/q
@@ -12,14 +12,14 @@ use super::present_rates::{DashpotRates, RateMismatch};
 #[derive(Debug, Clone)]
 pub(super) struct MomentDashpot {
     functions: Functions,
-    /// `EI τ` [force·length²·time]
+    /// Damping `EI τ` [force·length²·time].
     damping: f64,
-    /// `κ̇` of the previous step, and of the one before it.
+    /// Mean curvature rate `κ̇` of the previous step. `rate_before` is that of the step before it.
     last_rate: f64,
     rate_before: f64,
-    /// `κ̇` at the start of the step, from the rates of the control points.
+    /// Curvature rate `κ̇` at the start of the step, computed from the rates of the control points.
     start_rate: f64,
-    /// `M` of the iterate.
+    /// Moment `M` of the present iterate.
     moment: f64,
     last_moment: f64,
     mismatch: f64,
@@ -28,9 +28,9 @@ pub(super) struct MomentDashpot {
 
 #[derive(Debug, Clone, Copy, Default)]
 struct RotationKinematics {
-    /// `Δω'`
+    /// Derivative `Δω'` of the rotation increment with respect to arc length.
     slope: f64,
-    /// `1/q`, and its derivative with respect to `Δω`.
+    /// Derivative `1/q = dΔθ/dΔω` of the rotation angle, and its derivative with respect to `Δω`.
     inverse_q: f64,
     inverse_q_slope: f64,
     /// Derivative of the moment with respect to `Δκ`.
@@ -44,7 +44,7 @@ impl RotationKinematics {
 }
 
 impl MomentDashpot {
-    /// Creates a dashpot with `EI τ` [force·length²·time] at a point of the axis.
+    /// Creates a dashpot with the damping `EI τ` [force·length²·time] at a point of the axis.
     pub(super) fn new(functions: Functions, damping: f64) -> Self {
         Self {
             functions,
@@ -68,12 +68,13 @@ impl MomentDashpot {
         self.moment = 0.0;
     }
 
-    /// Mean rates of the last two steps, extrapolated to the start of the step.
+    /// Rate at the start of the step, extrapolated from the mean rates of the last two steps.
     fn carried(&self, late: f64) -> f64 {
         self.last_rate + (self.last_rate - self.rate_before) * late
     }
 
-    /// Mismatch of the rate in the last accepted step. `share` is its start as a fraction of the time between the middles of the last two steps.
+    /// Mismatch of the rate in the last accepted step. `fraction` is the place of the start of that step between the middle of the step before (0)
+    /// and its own middle (1).
     pub(super) fn last_rate_mismatch(&self, fraction: f64) -> RateMismatch {
         let damping = self.functions.weight * self.damping;
         RateMismatch::of(damping, self.start_rate, [self.rate_before, self.last_rate], fraction)
@@ -132,7 +133,7 @@ impl MomentDashpot {
         self.mismatch = wanted - self.moment;
         self.distribute(wanted * now.inverse_q, first, give);
 
-        // δ(M/q). The geometric term uses the moment of the iterate.
+        // Derivative δ(M/q). The geometric term contains the moment of the present iterate.
         let resistance = now.resistance * now.inverse_q;
         let by_slope = resistance * now.inverse_q;
         let by_rotation =
@@ -175,7 +176,7 @@ impl MomentDashpot {
         self.functions.weight * self.moment * change
     }
 
-    /// Moment for given rates at the start of the step [force·length].
+    /// Moment at the start of the step, computed from the given rates [force·length].
     pub(super) fn transmitted(&self, rates: DashpotRates<'_>) -> f64 {
         let [_, _, is_carried] = rates.is_extrapolated;
         self.damping

@@ -1,24 +1,24 @@
-//! Quadrature point for the curvature `κ`: state between two steps, and static tangent stiffness.
+//! Quadrature point for the curvature `κ`: its state between two steps, and its static tangent stiffness.
 //!
-//! Its evaluation within a step is in [`moment_points`](super::moment_points).
+//! Its evaluation within a step is implemented in [`moment_points`](super::moment_points).
 
 use super::Section;
 use super::axis_point::AxisPoint;
 use super::span_stiffness::{SpanStiffness, StrainKind};
 
-/// Difference of two curvatures, times the integration length, below which they are equal within rounding [rad].
+/// Difference of two curvatures that are equal within rounding, multiplied by the integration length [rad].
 const SAME_TURN: f64 = 64.0 * f64::EPSILON;
 
 #[derive(Debug, Clone)]
 pub(super) struct MomentPoint<const N: usize> {
     pub(super) axis: AxisPoint<N>,
-    /// `κ0`
+    /// Curvature `κ0` at the start of the step.
     pub(super) curvature: f64,
     pub(super) last_moment: f64,
 }
 
 impl<const N: usize> MomentPoint<N> {
-    /// Placeholder whose curvature is zero for all increments.
+    /// Placeholder for an unused lane. Its curvature is zero for all increments.
     pub(super) const EMPTY: Self =
         Self { axis: AxisPoint::EMPTY, curvature: 0.0, last_moment: 0.0 };
 
@@ -31,7 +31,7 @@ impl<const N: usize> MomentPoint<N> {
         span.add_strain(StrainKind::Bending, self.axis.weight * section.bending_stiffness, row);
     }
 
-    /// Moment `M` at the start of the step [force·length]. If the moment of the last solution agrees with the curvature within rounding, it is used.
+    /// Moment `M` at the start of the step [force·length]. The moment of the last solution is used if it agrees with the curvature within rounding.
     pub(super) fn transmitted(&self, section: &Section) -> f64 {
         let missing = self.curvature - self.last_moment / section.bending_stiffness;
         let is_known = self.axis.weight * missing.abs() <= SAME_TURN;

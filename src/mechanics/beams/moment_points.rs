@@ -1,11 +1,11 @@
-//! Quadrature points for the curvature `κ` in lanes, with the moment as an independent unknown.
+//! Quadrature points for the curvature `κ` in vector lanes. The moment is an independent unknown.
 //!
 //! ```text
 //! κ1 = κ0 + Δω'/q     1/q = dΔθ/dΔω     M = EI ((1-σ) κ0 + σ κ1)     S_a = w N_a' M/q
 //! ```
 //!
-//! The moment is linear in the curvature, so Newton's method converges without this unknown. But a moment computed from the increments has `EI` times
-//! their rounding error. In a stiff beam this exceeds the forces in the balance.
+//! The moment is linear in the curvature, so Newton's method would converge without this unknown. But a moment computed from the increments has
+//! their rounding error times `EI`. In a stiff beam this error is larger than the forces in the balance.
 
 use pulp::Simd;
 
@@ -20,30 +20,30 @@ use super::simd::{LANES, LaneChunk, Lanes, Number, Vector};
 #[derive(Debug, Clone)]
 pub(super) struct MomentPoints<const N: usize> {
     axis: AxisPoints<N>,
-    /// `κ0`
+    /// Curvature `κ0` at the start of the step.
     curvature: Lanes,
-    /// Moment `M` of the iterate.
+    /// Moment `M` of the present iterate.
     moment: Lanes,
-    /// Moment of the last step, the start value in the next step.
+    /// Moment of the last step, with which the iteration of the next step starts.
     last_moment: Lanes,
     /// Mismatch `m = κσ - M/EI` at the last evaluation.
     mismatch: Lanes,
     linearised_at: CurvatureKinematics<Lanes>,
-    /// `σ` of the last linearisation.
+    /// Fraction `σ` of the step at the last linearisation.
     linearised_stress: f64,
 }
 
 #[derive(Debug, Clone, Copy, Default)]
 struct CurvatureKinematics<T> {
-    /// `Δω'`
+    /// Derivative `Δω'` of the rotation increment with respect to arc length.
     slope: T,
-    /// `1/q`, and its derivative with respect to `Δω`.
+    /// Derivative `1/q = dΔθ/dΔω` of the rotation angle, and its derivative with respect to `Δω`.
     inverse_q: T,
     inverse_q_slope: T,
 }
 
 impl<T: Number> CurvatureKinematics<T> {
-    /// Factors of `δω'` and `δω` in `δκ1 = δω'/q + Δω' δ(1/q)`.
+    /// Factors of `δω'` and `δω` in the curvature correction `δκ1 = δω'/q + Δω' δ(1/q)`.
     #[inline(always)]
     fn curvature_by(&self) -> (T, T) {
         (self.inverse_q, self.slope * self.inverse_q_slope)
@@ -68,7 +68,7 @@ impl CurvatureKinematics<Lanes> {
     }
 }
 
-/// Derivatives of the forces on rotations with respect to rotations.
+/// Derivatives of the moments on control points with respect to their rotations.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct MomentTangent<const N: usize>([[Lanes; N]; N]);
 
@@ -111,7 +111,7 @@ impl<const N: usize> MomentPoints<N> {
         self.moment = self.last_moment;
     }
 
-    /// Values `(Δω', Δω)` for increments of the control points.
+    /// Interpolates increments of the control points. Returns `(Δω', Δω)`.
     #[inline(always)]
     fn interpolate<V: Simd>(
         &self,
@@ -127,7 +127,7 @@ impl<const N: usize> MomentPoints<N> {
         (slope, rotation)
     }
 
-    /// Kinematics and `κσ`.
+    /// Rotation derivatives of an iterate, and the curvature `κσ = (1-σ) κ0 + σ κ1`.
     #[inline(always)]
     fn bend<V: Simd>(
         &self,
@@ -141,7 +141,7 @@ impl<const N: usize> MomentPoints<N> {
         (CurvatureKinematics { slope, inverse_q: rate, inverse_q_slope: rate_slope }, curvature)
     }
 
-    /// Adds the moments of the point of a lane to the control points of its span.
+    /// Adds the moment of the point in a lane to the moments on the control points of its span.
     #[inline(always)]
     pub(super) fn distribute(&self, lane: usize, moment: &Lanes, forces: &mut [Movement; N]) {
         let moment = moment.lane(lane);
@@ -150,7 +150,8 @@ impl<const N: usize> MomentPoints<N> {
         }
     }
 
-    /// Computes the weighted moments `w M/q` at the current unknowns, with the quadrature weight `w` and `1/q = dΔθ/dΔω` of the rotation.
+    /// Computes the weighted moments `w M/q` in the present iterate, with the quadrature weight `w` and the derivative `1/q = dΔθ/dΔω` of the
+    /// rotation angle.
     #[inline(always)]
     pub(super) fn take_forces<V: Simd>(
         &mut self,
@@ -162,7 +163,7 @@ impl<const N: usize> MomentPoints<N> {
         maxima: &mut ForceMaxima<Lanes>,
     ) {
         let (now, collocated_curvature) = self.bend(part, at, moved);
-        // If only the curvature at the start counts, the moment is known.
+        // If only the curvature at the start of the step is used, the moment is known.
         let known = stiffness * self.curvature.get(part);
         let moment = if at.stress == 0.0 { known } else { self.moment.get(part) };
         let length = self.axis.weight.get(part);
@@ -185,7 +186,7 @@ impl<const N: usize> MomentPoints<N> {
         let w = part.splat(weight) * self.axis.weight.get(part);
         weighted_moment.put(part, w * stiffness * collocated_curvature * now.inverse_q);
 
-        // δ(M/q). The geometric term uses the moment of the iterate.
+        // Derivative δ(M/q). The geometric term contains the moment of the present iterate.
         let moment = self.moment.get(part);
         let (curvature_by_slope, curvature_by_rotation) = now.curvature_by();
         let resistance = stiffness * part.splat(at.stress) * now.inverse_q;
@@ -220,7 +221,7 @@ impl<const N: usize> MomentPoints<N> {
         }
     }
 
-    /// Moments `EI m` of the curvature mismatch `m`, with the directions of the last linearisation.
+    /// Computes the moments `EI m` that would remove the curvature mismatch `m`. The rotation derivatives are those of the last linearisation.
     #[inline(always)]
     pub(super) fn take_mismatch_forces<V: Simd>(
         &self,
@@ -234,7 +235,7 @@ impl<const N: usize> MomentPoints<N> {
         weighted_moment.put(part, w * moment);
     }
 
-    /// Corrects the moments after a correction of the increments: `M ← M + EI (m + σ δκ1)`.
+    /// Updates the moments after an iteration has corrected the increments: `M ← M + EI (m + σ δκ1)`.
     #[inline(always)]
     pub(super) fn correct_moments<V: Simd>(
         &mut self,

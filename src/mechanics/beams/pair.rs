@@ -1,4 +1,4 @@
-//! Plane vectors, of one point or of several points in lanes.
+//! Plane vectors of one point, or of several points in vector lanes.
 
 use std::ops::{Add, AddAssign, Mul, Sub};
 
@@ -46,13 +46,13 @@ impl<T> Planar<T> for Pair<T> {
 }
 
 impl<T: Number> Pair<T> {
-    /// First unit vector, in the number type of `like`.
+    /// First unit vector, with components of the number type of `like`.
     #[inline(always)]
     pub(super) fn first_axis(like: T) -> Self {
         Self { x: like.same(1.0), y: like.same(0.0) }
     }
 
-    /// Second unit vector, in the number type of `like`.
+    /// Second unit vector, with components of the number type of `like`.
     #[inline(always)]
     pub(super) fn second_axis(like: T) -> Self {
         Self { x: like.same(0.0), y: like.same(1.0) }
@@ -172,7 +172,7 @@ impl Rotation<Lanes> {
 }
 
 impl Default for Rotation<Lanes> {
-    /// Placeholder; every lane is set later.
+    /// Placeholder. Every lane is set before it is used.
     fn default() -> Self {
         Self { cos: Lanes::default(), sin: Lanes::default() }
     }

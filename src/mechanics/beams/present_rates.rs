@@ -1,23 +1,23 @@
-//! Strain rates at the end of a step, whether or not the steps resolve the relaxation.
+//! Strain rates at the end of a step. They are accurate also if the steps do not resolve the relaxation of dashpots.
 //!
-//! In the energy–momentum method, a rate that decays within a step has the end value `v1 ≈ -v0`. If a stiff dashpot takes part in a large motion, the
-//! rates at the end of a step contain its second-order error times the damping. The mean over a step is accurate, the rates at its ends are not. The
-//! means of the last two steps, extrapolated to the end, have an error of second order.
+//! In the energy–momentum method, a rate that decays within a step changes from `v0` to the end value `v1 ≈ -v0`. If a stiff dashpot takes part in
+//! a large motion, this error of second order times the damping appears in the forces at the end of a step. The mean rate over a step is accurate,
+//! but the rates at its ends are not. The means of the last two steps, extrapolated to the end, have an error of second order.
 
 use super::Movement;
 
-/// Rates for the evaluation of dashpot forces at the present time.
+/// Rates from which dashpot forces at the present time are computed.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct DashpotRates<'a> {
     pub(super) present: &'a [Movement],
-    /// Extrapolation distance from the middle of the last step to its end, relative to the time between the middles of the last two steps [-].
+    /// Time from the middle of the last step to its end, as a fraction of the time between the middles of the last two steps [-].
     pub(super) extrapolation: f64,
-    /// For axial, shear and bending rates, true if the rate is extrapolated from the means of the last two steps.
+    /// For axial, shear and bending rates: true if the rate is extrapolated from the means of the last two steps.
     pub(super) is_extrapolated: [bool; 3],
 }
 
-/// Squared deviation of the rates at the start of a step from the interpolated means of this step and the previous one, and squared difference of
-/// these means. Both are powers of axial, shear or bending dashpots [energy/time].
+/// Two squared differences of rates, multiplied by the damping of axial, shear or bending dashpots [energy/time]. `off` is the deviation of the
+/// rates at the start of a step from the interpolated means of this step and the previous one; `apart` is the difference of these means.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub(super) struct RateMismatch {
     pub(super) off: f64,
@@ -25,9 +25,8 @@ pub(super) struct RateMismatch {
 }
 
 impl RateMismatch {
-    /// Mismatch of a rate with its damping [force·time; energy/time], from the rate at the start of a step and the means of the previous step and
-    /// this one.
-    /// this one.
+    /// Mismatch of a rate with the given damping [force·time; energy/time]. `start` is the rate at the start of a step; the following values are
+    /// the means of the previous step and of this one. `fraction` is the place of the start between the middles of both steps.
     pub(super) fn of(damping: f64, start: f64, [before, now]: [f64; 2], fraction: f64) -> Self {
         let (change, off) = (now - before, start - before);
         let off = off - fraction * change;
@@ -40,30 +39,32 @@ impl RateMismatch {
     }
 }
 
-/// Factor by which the weight of older measurements decreases in each step.
+/// Factor by which the weight of earlier steps decreases in each step.
 const KEPT: f64 = 0.8;
 
-/// Deviation of the rates at the ends of steps, relative to their change in a step, below which they count as resolved. Vibrations with `ω h < 2`
-/// satisfy this.
+/// Largest deviation of resolved rates at the ends of steps, as a fraction of their change in a step. Vibrations with `ω h < 2` have smaller
+/// deviations.
 const MOST_OFF: f64 = 0.5;
 
-/// Resolution of the dashpot rates in the recent steps.
+/// Measure of how well the recent steps resolve the dashpot rates.
 #[derive(Debug, Clone, Default)]
 pub(super) struct RateResolution {
-    /// Mismatches of axial, shear and bending rates, with decreasing weight of older steps.
+    /// Mismatches of axial, shear and bending rates, as sums over all steps with decreasing weight of earlier ones.
     mismatches: [RateMismatch; 3],
-    /// Distance from the middle of the last step to its end, relative to the time between the middles of the last two steps; zero before the second
-    /// step [-].
+    /// Time from the middle of the last step to its end, as a fraction of the time between the middles of the last two steps [-]; zero before the
+    /// second step.
     extrapolation: f64,
-    /// Duration of the last step; zero before the first step [time].
+    /// Duration of the last step [time]; zero before the first step.
     before: f64,
 }
 
 impl RateResolution {
-    /// Start of a step of a duration [time], as a fraction of the time between the middles of the last step and this one; `None` without a last step.
+    /// Place of the start of a step of a duration [time] between the middle of the previous step (0) and the middle of this step (1). `None` without
+    /// a previous step.
     pub(super) fn fraction(&self, duration: f64) -> Option<f64> {
         let between = duration + self.before;
-        // A substep of the fourth-order method runs backwards in time, and may end where the previous substep started.
+        // A substep of the fourth-order method runs backwards in time. The middles of two substeps may then coincide, so that there is no
+        // interpolation.
         let is_there = duration.is_finite() && self.before * between > 0.0;
         is_there.then(|| self.before / between)
     }
@@ -83,7 +84,7 @@ impl RateResolution {
         self.before = duration;
     }
 
-    /// Selects present or extrapolated rates for the dashpots of a span.
+    /// Selects present or extrapolated rates for the dashpots of a span, separately for axial, shear and bending rates.
     pub(super) fn selected<'a>(&self, present: &'a [Movement]) -> DashpotRates<'a> {
         let is_off = |seen: RateMismatch| seen.off > MOST_OFF * MOST_OFF * seen.apart;
         let carried = self.mismatches.map(|seen| self.extrapolation > 0.0 && is_off(seen));
@@ -105,7 +106,7 @@ impl RateResolution {
 mod tests {
     use super::*;
 
-    /// Selection after each of some steps, for rates given at their ends.
+    /// Selections after each of several steps. `rate` returns the rate at the end of a step.
     fn selections(rate: impl Fn(i32) -> f64) -> Vec<bool> {
         let mut watch = RateResolution::default();
         let mean = |step: i32| 0.5 * (rate(step) + rate(step - 1));

@@ -1,4 +1,4 @@
-//! Bodies without elasticity: particles, or the centre and points of a rigid body. Their masses are point masses of the scene.
+//! Bodies without elasticity: particles and rigid bodies. Their masses are point masses of the scene.
 
 use std::ops::Range;
 
@@ -8,12 +8,12 @@ use super::span_stiffness::SpanStiffness;
 use super::{Rotation, RotationIncrement, Section, SectionForces, SectionPlace};
 use crate::geometry::{Vec2, larger};
 
-/// Body of points without elasticity: a particle, or the centre of mass followed by the points of a rigid body, which rigid links connect.
+/// Body without elasticity: a particle, or the centre of mass of a rigid body followed by its points. Rigid links connect the points to the centre.
 #[derive(Debug, Clone)]
 pub struct RigidPoints {
     positions: Vec<Vec2>,
     remainders: Vec<Vec2>,
-    /// Rotation of the first point; `None` for a particle.
+    /// Rotation of the rigid body; `None` for a particle.
     rotation: Option<Rotation>,
 }
 
@@ -23,7 +23,7 @@ impl RigidPoints {
         Self { positions: vec![position], remainders: vec![Vec2::zeros()], rotation: None }
     }
 
-    /// Creates a rigid body from its centre of mass, its other points [length], and its angle [rad].
+    /// Creates a rigid body. `positions` contains its centre of mass, then its other points [length]; `angle` is its angle [rad].
     pub fn rigid(positions: Vec<Vec2>, angle: f64) -> Self {
         let remainders = vec![Vec2::zeros(); positions.len()];
         Self { positions, remainders, rotation: Some(Rotation::by(angle)) }

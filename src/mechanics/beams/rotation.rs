@@ -1,15 +1,15 @@
-//! Section rotations as cosine and sine, advanced by tangent-scaled increments without trigonometric functions.
+//! Section rotations, stored as cosine and sine. They are advanced by increments without trigonometric functions.
 
 use super::pair::Planar;
 use super::simd::Number;
 use crate::elementary::{atan, sin_cos, tan};
 
-/// Meaning of a rotation increment `Δω`: its relation to the rotation angle `Δθ`.
+/// Relation between a rotation increment `Δω` and the rotation angle `Δθ`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum RotationIncrement {
-    /// Scaled tangent of the angle, `Δθ = 2 atan(Δω/2)`. Then `Λ1 - Λ0 = Δω J (Λ0 + Λ1)/2`, which is the basis of conservation.
+    /// Tangent-scaled increment: `Δθ = 2 atan(Δω/2)`. Then `Λ1 - Λ0 = Δω J (Λ0 + Λ1)/2`, on which conservation is based.
     TangentScaled,
-    /// Angle itself: `Δθ = Δω`.
+    /// Increment of the angle: `Δθ = Δω`.
     Angle,
 }
 
@@ -69,7 +69,7 @@ impl RotationIncrement {
         }
     }
 
-    /// Tangent-scaled increment `2 tan(Δθ/2)` of the angle of an increment, with `Λ1 - Λ0 = 2 tan(Δθ/2) J (Λ0 + Λ1)/2` [-].
+    /// Tangent-scaled increment `2 tan(Δθ/2)` of the same rotation, with which `Λ1 - Λ0 = 2 tan(Δθ/2) J (Λ0 + Λ1)/2` [-].
     pub(crate) fn tangent_scaled(self, increment: f64) -> f64 {
         match self {
             Self::TangentScaled => increment,
@@ -84,7 +84,7 @@ impl RotationIncrement {
     }
 }
 
-/// Rotation `Λ = [[c, -s], [s, c]]` from the section frame to space. A mean of two rotations is not itself a rotation.
+/// Rotation `Λ = [[c, -s], [s, c]]` from the section frame to space. It may also be the mean of two rotations, which is not a rotation itself.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Rotation<T = f64> {
     /// Cosine `c` of the angle, or a mean of cosines.
@@ -102,7 +102,7 @@ impl Rotation {
 }
 
 impl<T: Number> Rotation<T> {
-    /// Product of this rotation and the rotation of an increment.
+    /// Product of this rotation and the rotation by an increment.
     #[inline(always)]
     pub fn turned(self, kind: RotationIncrement, increment: T) -> Self {
         self.times(&kind.turn(increment))
@@ -124,7 +124,7 @@ impl<T: Number> Rotation<T> {
         Self { cos: self.cos * correction, sin: self.sin * correction }
     }
 
-    /// Mean `(1 - t) Λ + t Λ'` of this rotation and another.
+    /// Weighted mean `(1 - t) Λ + t Λ'` of this rotation `Λ` and another rotation `Λ'`.
     #[inline(always)]
     pub fn mixed(self, other: Self, t: T) -> Self {
         Self {
@@ -163,7 +163,7 @@ mod tests {
 
     #[test]
     fn the_difference_of_rotations_is_the_increment_times_their_mean() {
-        // Λ1 - Λ0 = Δω J Λ̄, the property that makes the midpoint rule conserving.
+        // This is the property that makes the midpoint rule conserving: Λ1 - Λ0 = Δω J Λ̄.
         let (start, increment) = (Rotation::by(-0.7), 0.9);
         let end = start.turned(RotationIncrement::TangentScaled, increment);
         let mean = start.mixed(end, 0.5);

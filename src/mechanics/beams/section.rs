@@ -91,7 +91,7 @@ impl Section {
         }
     }
 
-    /// Returns the section of a solid, with the shear correction factors of Cowper, J. Appl. Mech. 33 (1966) 335–340.
+    /// Returns the section of a solid. The shear correction factors are those of Cowper, J. Appl. Mech. 33 (1966) 335–340.
     ///
     /// # Errors
     /// Fails if a dimension or a material constant is out of range.
@@ -139,7 +139,7 @@ impl Section {
         }
     }
 
-    /// Applies `of` to each property of two sections.
+    /// Combines each property of two sections by the function `of`.
     pub(super) fn each(&self, other: &Self, of: impl Fn(f64, f64) -> f64) -> Self {
         Self {
             axial_stiffness: of(self.axial_stiffness, other.axial_stiffness),
@@ -160,12 +160,12 @@ impl Section {
 }
 
 impl Solid {
-    /// Returns true if both solids have the same kind of shape, so that intermediate shapes exist.
+    /// Returns true if both solids have the same type of shape, so that intermediate shapes exist.
     pub fn has_same_shape_as(&self, other: &Self) -> bool {
         std::mem::discriminant(&self.shape) == std::mem::discriminant(&other.shape)
     }
 
-    /// Linear interpolation of all dimensions and constants to another solid of the same kind.
+    /// Interpolates all dimensions and constants linearly between this solid and another one of the same type.
     pub(super) fn mixed(&self, other: &Self, fraction: f64) -> Self {
         let mix = |a: f64, b: f64| a + fraction * (b - a);
         let shape = match (self.shape, other.shape) {

@@ -1,39 +1,41 @@
 //! Section forces at any place of a beam.
 //!
-//! The balance determines integrals of the section forces with the derivatives of the functions, by the quadrature of the beam:
+//! The balance of a step determines integrals of the section forces, weighted with derivatives of the basis functions and evaluated by the
+//! quadrature of the beam:
 //!
 //! ```text
-//! Σ w N_a' n = F_a          Σ w N_a' M - Σ w N_a (x' × n) = T_a          F_a, T_a: loads minus inertia, exact
+//! Σ w N_a' n = F_a          Σ w N_a' M - Σ w N_a (x' × n) = T_a          F_a, T_a: loads minus inertia, known exactly
 //! ```
 //!
-//! The forces `n`, `M` at the quadrature points satisfy these equations. At the ends of a beam their error is of first order in the span length,
-//! because the rules have few points. This module computes forces that satisfy the equations with exact integrals. They lie in the space `T` of all
-//! derivatives of the basis functions of a run of smoothly joined spans:
+//! The forces `n` and moments `M` at the quadrature points satisfy these equations. At the ends of a beam their error is of first order in the span
+//! length, because the quadrature rules have few points. This module computes forces that satisfy the equations with exact integrals. They are
+//! elements of the space `T` of all derivatives of the basis functions in a run, which is a sequence of smoothly joined spans:
 //!
 //! ```text
 //! ∫ t n̂ dξ = Σ w t n               for all t in T
 //! ∫ t M̂ dξ = Σ w t M + ∫ v (Π m) dξ - Σ w v m      for all t in T, v' = t;  m = x' × n,  ∫ t Π m dξ = Σ w t m
 //! ```
 //!
-//! These forces are projections of the exact section forces, up to the ends: `n` has an error of order `p` in the span length, `M` of order 2 at
-//! least (1 on linear elements, where it is constant). With the reproducing kernel of `T`, they are weighted sums over the points, with weights that
-//! decay within a few spans. Runs are independent. Where two runs meet, at a joint or at a node of Lagrange elements, each has its own value.
+//! These forces are projections of the exact section forces, also at the ends. In terms of the span length, the error of `n` is of order `p`, the
+//! degree, and the error of `M` at least of order 2 (of order 1 on linear elements, where `M` is constant). With the reproducing kernel of `T`, the
+//! forces are weighted sums over the quadrature points, with weights that decay within a few spans. Runs are independent. Two runs meet at a joint
+//! or at a node of Lagrange elements; there each run has its own value.
 
 use super::sections::{Interpolation, Sections};
 use super::span_points::{SpanGroup, group_of};
 use super::{BeamError, Mesh, Section};
 use crate::geometry::{LowerSplines, Reproduction, Span, Vec2, cross, larger};
 
-/// Weight, relative to the largest, below which it is due to rounding.
+/// Weight that is due to rounding, as a fraction of the largest weight.
 const NO_WEIGHT: f64 = 1e-14;
 
 /// Section forces and strains at a cross section.
 ///
-/// They are components in the section frame, whose first axis is the section normal, of the forces of the following part of the beam on the preceding
-/// one. With material damping they include the viscous forces.
+/// These are the forces that the following part of the beam exerts on the preceding part. The components refer to the section frame, whose first
+/// axis is the section normal. With material damping they include the viscous forces.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct SectionForces {
-    /// Unit normal of the section; zero on a particle, which has no section [-].
+    /// Unit normal of the section [-]; zero on a particle, which has no section.
     pub normal: Vec2,
     /// Axial force `N`, positive in tension [force].
     pub axial: f64,
@@ -41,16 +43,16 @@ pub struct SectionForces {
     pub shear: f64,
     /// Bending moment `M`, positive counter-clockwise [force·length].
     pub moment: f64,
-    /// Axial strain `Γ1`; `N/EA` without damping [-].
+    /// Axial strain `Γ1` [-]. Without damping it is `N/EA`.
     pub axial_strain: f64,
-    /// Shear strain `Γ2`; `Q/GA` without damping [-].
+    /// Shear strain `Γ2` [-]. Without damping it is `Q/GA`.
     pub shear_strain: f64,
-    /// Curvature `κ`, the change of the axis curvature since drawn; `M/EI` without damping [1/length].
+    /// Bending strain `κ`, the change of the curvature since the start [1/length]. Without damping it is `M/EI`.
     pub curvature: f64,
 }
 
 impl SectionForces {
-    /// Section forces for a force in space [force], a moment [force·length] and a section normal of any length.
+    /// Section forces for a force in space [force], a moment [force·length] and a section normal. The normal may have any length.
     pub(super) fn of(section: &Section, normal: Vec2, force: Vec2, moment: f64) -> Self {
         let normal = normal.normalize();
         let (axial, shear) = (normal.dot(&force), cross(normal, force));
@@ -65,7 +67,7 @@ impl SectionForces {
         }
     }
 
-    /// Adds a viscous force in space [force] and moment [force·length]. Strains are unchanged.
+    /// Adds a viscous force in space [force] and a viscous moment [force·length]. Strains do not change.
     pub(crate) fn with_viscous(self, (force, moment): (Vec2, f64)) -> Self {
         Self {
             axial: self.axial + self.normal.dot(&force),
@@ -75,14 +77,14 @@ impl SectionForces {
         }
     }
 
-    /// Strain energy per length as drawn, `(N Γ1 + Q Γ2 + M κ)/2`, for section forces without a viscous part [energy/length].
+    /// Strain energy per initial length, `(N Γ1 + Q Γ2 + M κ)/2` [energy/length]. The section forces must not contain a viscous part.
     pub fn strain_energy(&self) -> f64 {
         let Self { axial, shear, moment, axial_strain, shear_strain, curvature, .. } = *self;
         0.5 * (axial * axial_strain + shear * shear_strain + moment * curvature)
     }
 }
 
-/// Place of a beam, with the weights of the quadrature points for its section forces.
+/// Place of a beam, with the weights of the quadrature points in the sums for its section forces.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct SectionPlace {
     pub(super) force_shares: Vec<ForceShare>,
@@ -115,20 +117,20 @@ impl SectionPlace {
     }
 }
 
-/// Weights of a point for `Γ`.
+/// Weights of a quadrature point for `Γ` in the section forces of a place.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct ForceShare {
     pub(super) span: usize,
     pub(super) point: usize,
-    /// Weight of its normal [-].
+    /// Weight of the section normal at the point [-].
     pub(super) of_normal: f64,
-    /// Weight of its section force [-].
+    /// Weight of the section force at the point [-].
     pub(super) of_force: f64,
-    /// Weight of its `w x' × n` in the moment [-].
+    /// Weight, in the moment, of the contribution `w x' × n` of the point [-].
     pub(super) of_couple: f64,
 }
 
-/// Weight of a point for `κ`.
+/// Weight of a quadrature point for `κ` in the moment of a place.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct MomentShare {
     pub(super) span: usize,
@@ -136,11 +138,11 @@ pub(super) struct MomentShare {
     pub(super) of_moment: f64,
 }
 
-/// Quadrature points of a beam in the order of the parameter, by runs.
+/// Quadrature points of a beam in the order of the parameter, grouped into runs of smoothly joined spans.
 #[derive(Debug, Clone)]
 pub struct SectionPoints {
     runs: Vec<SmoothRun>,
-    /// Largest number of points for the interpolation of the normal, half of them on either side.
+    /// Largest number of points from which the normal is interpolated. Half of them are on either side of the place.
     most: usize,
 }
 
@@ -152,7 +154,7 @@ struct SmoothRun {
     of_moment: Vec<PointAt>,
 }
 
-/// Quadrature point: parameter and weight, index of its span in the run and in the beam, and its index in the span.
+/// Quadrature point: its parameter and weight, the index of its span in the run and in the beam, and its index in the span.
 #[derive(Debug, Clone, Copy)]
 struct PointAt {
     xi: f64,
@@ -187,20 +189,20 @@ impl SectionPoints {
         Ok(Self { runs, most: (mesh.basis().degree() + 1).next_multiple_of(2) })
     }
 
-    /// Place at a parameter of the mesh. Where two runs meet, the place belongs to the second run.
+    /// Place at a parameter of the mesh. Where two runs meet, it is the place on the second run.
     ///
     /// # Errors
-    /// Fails only if [`of`](Self::of) would.
+    /// Fails in the same cases as [`of`](Self::of).
     pub fn at(&self, xi: f64) -> Result<SectionPlace, BeamError> {
         let run = self.runs.partition_point(|run| run.end() <= xi).min(self.runs.len() - 1);
         self.runs[run].place(xi, self.most)
     }
 
     /// Places along the whole beam with their parameters: the knots, and `within` places in each span. Where two runs meet there are two places,
-    /// first that of the first run.
+    /// first the place on the first run.
     ///
     /// # Errors
-    /// Fails only if [`of`](Self::of) would.
+    /// Fails in the same cases as [`of`](Self::of).
     pub fn along(&self, within: usize) -> Result<Vec<(f64, SectionPlace)>, BeamError> {
         let pieces = (within + 1) as f64;
         let of_run = |run: &SmoothRun| {

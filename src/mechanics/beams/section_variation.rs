@@ -8,7 +8,8 @@ use crate::geometry::{GaussRule, larger};
 /// Largest number of places of a taper.
 const MOST_PLACES: usize = 10_000;
 
-/// Number of Gauss points in a piece of a taper. They integrate cubics, such as the bending stiffness of a linearly varying height.
+/// Number of Gauss points in each piece of a taper. They integrate polynomials of degree five exactly, including the bending stiffness of a
+/// linearly varying height.
 const POINTS: usize = 3;
 
 /// Sections along the axis of a beam.
@@ -16,9 +17,9 @@ const POINTS: usize = 3;
 pub enum SectionVariation {
     /// Uniform section.
     Uniform(Section),
-    /// Stiffness and inertia that are linear between places, given as fractions of the length [-] increasing from 0 to 1.
+    /// Stiffness and inertia that vary linearly between places. Places are fractions of the length [-] and increase from 0 to 1.
     Numbers(Vec<(f64, Section)>),
-    /// Dimensions and material that are linear between places, for solids of one shape.
+    /// Dimensions and material that vary linearly between places, for solids with the same type of shape.
     Dimensions(Vec<(f64, Solid)>),
 }
 
@@ -74,14 +75,14 @@ impl SectionVariation {
             }
             Self::Dimensions(all) => {
                 let (fraction, [before, after]) = between(all, part);
-                // The interpolation of two valid solids is valid.
+                // An interpolation between two valid solids is valid.
                 let solid = before.mixed(&after, fraction);
                 Section::from_solid(solid).unwrap_or_else(|_| Section::of_solid(solid))
             }
         }
     }
 
-    /// Mean over the length; the section itself if uniform.
+    /// Mean section over the length; for a uniform beam its section.
     pub fn mean(&self) -> Section {
         if let Self::Uniform(section) = self {
             return *section;
@@ -96,12 +97,13 @@ impl SectionVariation {
         sum
     }
 
-    /// Largest value of each property.
+    /// Section with the largest value of each property along the beam.
     pub fn largest(&self) -> Section {
         self.sections().into_iter().reduce(|a, b| a.each(&b, larger)).unwrap_or_default()
     }
 
-    /// Speed of the fastest axial wave, `√(EA/ρA)` [length/time]. Between the places of a taper, waves are no faster.
+    /// Speed of the fastest axial wave, `√(EA/ρA)` [length/time]. The maximum over the places of a taper is sufficient, because waves between the
+    /// places are not faster.
     pub fn axial_wave_speed(&self) -> f64 {
         self.sections().iter().map(Section::axial_wave_speed).fold(0.0, larger)
     }
@@ -125,7 +127,7 @@ impl SectionVariation {
     }
 }
 
-/// Values before and after a fraction of the length, and the weight of the second value.
+/// Values at the places before and after a fraction of the length, and the interpolation weight of the second value.
 fn between<T: Copy>(all: &[(f64, T)], part: f64) -> (f64, [T; 2]) {
     let beyond = all.partition_point(|(place, _)| *place <= part).clamp(1, all.len() - 1);
     let [(start, before), (end, after)] = [all[beyond - 1], all[beyond]];
@@ -168,7 +170,7 @@ mod tests {
 
     #[test]
     fn means_are_integrals() {
-        // ∫ h: 0.9 over a quarter, 0.5 over the rest; ∫ h³ by antiderivatives of the linear pieces.
+        // Integral of h: 0.9 over a quarter of the length, 0.5 over the rest. Integral of h³: from antiderivatives on the linear pieces.
         let mean = wedge().mean();
         assert!((mean.mass_per_length - 1.5 * (0.25 * 0.9 + 0.75 * 0.5)).abs() < 1e-14);
         let cubes = 0.25 * (1.0 - 0.8_f64.powi(4)) / (4.0 * 0.2)

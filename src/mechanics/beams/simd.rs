@@ -1,6 +1,6 @@
-//! Values of consecutive quadrature points in the lanes of vector instructions.
+//! Vector lanes: values of consecutive quadrature points that one vector instruction processes together.
 //!
-//! Each lane performs the operations of its point in the same order and without fused operations, so that vectors of any width give identical
+//! Each lane performs the operations of its point in the same order and without fused multiply–add, so that vectors of any width give identical
 //! results.
 
 use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub};
@@ -9,15 +9,15 @@ use pulp::{Simd, bytemuck};
 
 use crate::elementary::sin_cos;
 
-/// Number of lanes, equal to that of common vector instructions.
+/// Number of lanes, which is the number of values in common vector instructions.
 pub(super) const LANES: usize = 4;
 
-/// One number for each of several consecutive points.
+/// Values of one quantity at consecutive points, one in each lane.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[repr(align(32))]
 pub(super) struct Lanes([f64; LANES]);
 
-/// Part of the lanes that is processed by one instruction.
+/// Subset of the lanes that one instruction processes.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct LaneChunk<V> {
     simd: V,
@@ -25,7 +25,7 @@ pub(super) struct LaneChunk<V> {
 }
 
 impl<V: Simd> LaneChunk<V> {
-    /// Number of parts of the lanes.
+    /// Number of such subsets.
     pub(super) const COUNT: usize = {
         assert!(LANES.is_multiple_of(V::F64_LANES), "vectors are no longer than the lanes");
         LANES / V::F64_LANES
@@ -70,7 +70,7 @@ impl Lanes {
     }
 }
 
-/// Number type of point formulas: a scalar, or several lanes.
+/// Number type in formulas for points: a scalar, or values in several lanes.
 pub trait Number:
     Copy
     + Add<Output = Self>
@@ -80,7 +80,7 @@ pub trait Number:
     + Div<Output = Self>
     + Neg<Output = Self>
 {
-    /// Broadcasts a number to all points.
+    /// Number of the same type with the given value in all lanes.
     fn same(self, number: f64) -> Self;
 
     fn abs(self) -> Self;

@@ -1,6 +1,6 @@
-//! Vectorised loops of a step over the spans of a beam.
+//! Loops of a step over the spans of a beam, compiled for vector instructions.
 //!
-//! Points are evaluated in lanes. Their results are accumulated span by span, in the order of the beam.
+//! Several points are evaluated at once in vector lanes. Their results are added span by span, in the order of the beam.
 
 use pulp::{Arch, Simd, WithSimd};
 
@@ -14,9 +14,10 @@ use super::simd::{LANES, LaneChunk, Lanes};
 use super::span_points::{SpanGroup, window_mut};
 use super::{RotationIncrement, Section};
 
-/// Loop over spans. Each loop is a type, so that the compiler uses the selected instructions throughout.
+/// Operation that is repeated for all spans. Each operation is a type, so that the compiler uses the selected vector instructions in the whole
+/// loop.
 pub(super) trait SpanLoop<const N: usize, S> {
-    /// Body of the loop for a group of spans.
+    /// Performs the operation for a group of spans.
     fn at<V: Simd>(&mut self, simd: V, group: &mut SpanGroup<N, S>);
 
     fn over(self, groups: &mut [SpanGroup<N, S>])
@@ -43,7 +44,7 @@ impl<const N: usize, S, W: SpanLoop<N, S>> WithSimd for LoopRange<'_, N, S, W> {
     }
 }
 
-/// Inputs of internal forces other than the spans: section, collocation, increments, and the factor of the forces.
+/// Inputs for internal forces: section, collocation, increments, and the factor of the forces.
 #[derive(Clone, Copy)]
 pub(super) struct SpanInputs<'a> {
     pub(super) section: &'a Section,
@@ -64,7 +65,7 @@ impl ForcesFrom<'_> {
     }
 }
 
-/// Adds the internal forces for the current section forces.
+/// Adds the internal forces, computed from the present section forces.
 pub(super) struct ForceAssembly<'a> {
     pub(super) iterate: SpanInputs<'a>,
     pub(super) forces: ForcesFrom<'a>,
@@ -113,7 +114,7 @@ impl<const N: usize, S: Sections> SpanLoop<N, S> for ForceAssembly<'_> {
     }
 }
 
-/// Adds the condensed internal forces, and calls the sink with the tangent of each span.
+/// Adds the internal forces, strain mismatches condensed out, and calls the sink with the tangent matrix of each span.
 pub(super) struct Linearisation<'a> {
     pub(super) iterate: SpanInputs<'a>,
     pub(super) forces: ForcesFrom<'a>,
@@ -208,7 +209,7 @@ impl<const N: usize, S: Sections> SpanLoop<N, S> for MismatchForces<'_> {
     }
 }
 
-/// Updates section forces after a correction of the increments.
+/// Updates the section forces after an iteration has corrected the increments.
 #[derive(Clone, Copy)]
 pub(super) struct ForceCorrection<'a> {
     pub(super) section: &'a Section,

@@ -1,8 +1,9 @@
-//! Partition of the spans of a beam for concurrent work, with results identical to those of one thread.
+//! Division of the spans of a beam into parts that threads process concurrently. Results are identical to those of one thread.
 //!
-//! The beam is cut at control points. Each part owns the control points up to the next cut, and the spans that involve no other control points. A few
-//! spans lie across a cut. Because of rounding, each sum must be made in the order of the spans. Spans across a cut are therefore added twice: first
-//! to the control points on the right of the cut, and, when all parts are processed, to the control points on its left.
+//! The beam is cut at control points. Each part owns the control points up to the next cut, and the spans with these control points only. A few
+//! spans have control points on both sides of a cut. The terms of each sum must be added in the order of the spans, because the order affects
+//! rounding. Hence the contributions of spans across a cut are computed twice. First they are added to the control points after the cut. When all
+//! parts are completed, they are added to the control points before the cut.
 
 use std::ops::Range;
 
@@ -15,13 +16,13 @@ use crate::threads::run_concurrently;
 type PartOf<'a, const N: usize, S, C> =
     (&'a mut C, &'a mut [SpanGroup<N, S>], usize, &'a mut [Movement]);
 
-/// Largest number of concurrent parts. A few cores exhaust the memory bandwidth.
+/// Largest number of concurrent parts. More parts are not faster, because a few cores exhaust the memory bandwidth.
 pub(super) const MOST_PARTS: usize = 8;
 
 /// Smallest number of spans in a part. Smaller parts gain little, and cost time if the other cores are busy (docs/studies.md).
 const SMALLEST_PART: usize = 4000;
 
-/// Smallest number of spans in a part for light operations, which take less than a tenth of the time of tangents.
+/// Smallest number of spans in a part for light operations. These take less than a tenth of the time of computing tangents.
 const SMALLEST_LIGHT_PART: usize = 2000;
 
 fn count_spans<const N: usize, S>(groups: &[SpanGroup<N, S>]) -> usize {
@@ -48,7 +49,7 @@ impl SpanPartition {
         Self::new(groups, most.min(MOST_PARTS).min(count_spans(groups) / SMALLEST_PART))
     }
 
-    /// Partition into `count` parts of similar size.
+    /// Returns a partition into `count` parts of similar size.
     fn new<const N: usize, S: Sections>(groups: &[SpanGroup<N, S>], count: usize) -> Self {
         let cut = |part: usize| {
             let behind = part * groups.len() / count;
@@ -72,7 +73,7 @@ impl SpanPartition {
         !self.cuts.is_empty() && spans >= SMALLEST_LIGHT_PART * self.count()
     }
 
-    /// Applies a light operation to each span independently, with concurrent parts.
+    /// Applies a light operation to each span independently. Parts are processed concurrently.
     pub(super) fn each<const N: usize, S: Sections>(
         &self,
         groups: &mut [SpanGroup<N, S>],
@@ -104,10 +105,10 @@ impl SpanPartition {
         run_concurrently(parts, |(points, sums)| work(points, sums));
     }
 
-    /// Accumulates contributions of spans to control points, with concurrent parts.
+    /// Adds contributions of spans to control points. Parts are processed concurrently.
     ///
     /// `work` is called with the context of a part, some spans, the first control point of its sums, and the sums. For spans across a cut it is
-    /// called twice, and must do the same both times.
+    /// called twice, and must compute the same values both times.
     pub(super) fn sum<const N: usize, S: Sections, C: Send>(
         &self,
         groups: &mut [SpanGroup<N, S>],

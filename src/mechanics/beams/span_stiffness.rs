@@ -1,13 +1,14 @@
-//! Static stiffness of a span in factored form: strains with their stiffnesses, and the geometric stiffness of section forces.
+//! Static stiffness of a span in factored form. It consists of strains with their stiffnesses, and of the geometric stiffness due to section
+//! forces.
 //!
 //! ```text
-//! δΓ = Λᵀ δg - J (Γ + e1) δω        δκ = δω'        the rows B, with the stiffness w C and w EI
+//! δΓ = Λᵀ δg - J (Γ + e1) δω        δκ = δω'        these are the rows of B, with the stiffness C: w diag(EA, GA) and w EI
 //! K_g = p qᵀ + q pᵀ      p·δ = w (Λ J N·δg - ½ g·ΛN δω)      q·δ = δω
 //! ```
 //!
-//! `K = Bᵀ C B + K_g`. The sum is not formed, because rounding of the large first term would hide its soft modes.
+//! The stiffness is `K = Bᵀ C B + K_g`. The sum is not formed, because rounding errors of the large first term would exceed its small eigenvalues.
 
-/// Kind of a strain of a beam.
+/// Type of a strain of a beam.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum StrainKind {
     /// Axial strain.
@@ -18,26 +19,26 @@ pub enum StrainKind {
     Bending,
 }
 
-/// Static stiffness of one span of a beam: rows with an entry for each component (x, y, rotation) of each of its control points.
+/// Static stiffness of one span of a beam. Each row has an entry for each component (x, y, rotation) of each control point of the span.
 #[derive(Debug, Clone, Default)]
 pub struct SpanStiffness {
     /// First control point of the span.
     pub first: usize,
-    /// Rows of derivatives of strains and curvatures with respect to displacements and rotations, in sequence [1/length; shear by rotation: -;
-    /// curvature by rotation: 1/length].
+    /// Rows of derivatives of strains and curvatures with respect to displacements and rotations, one after the other [1/length; shear by rotation:
+    /// -; curvature by rotation: 1/length].
     pub strains: Vec<f64>,
     /// Stiffness of each strain or curvature, times the integration length [force·length, force·length³].
     pub stiffness: Vec<f64>,
-    /// Kind of the strain of each row; empty for bodies that are not beams.
+    /// Type of the strain in each row; empty for bodies that are not beams.
     pub kinds: Vec<StrainKind>,
-    /// Pairs of rows `p` and `q` of the geometric stiffness of section forces, in sequence [force; force·length for rotations, -].
+    /// Pairs of rows `p` and `q` of the geometric stiffness, one after the other [force; force·length for rotations, -].
     pub twists: Vec<f64>,
-    /// For each pair, the fraction of its section force that may be due to rounding [-].
+    /// For each pair of rows, the fraction of its section force that may be due to rounding [-].
     pub rounding_fractions: Vec<f64>,
 }
 
 impl SpanStiffness {
-    /// Removes all rows and starts another span, with the first control point `first`.
+    /// Removes all rows and starts another span, whose first control point is `first`.
     pub fn begin(&mut self, first: usize) {
         self.first = first;
         self.strains.clear();
@@ -47,7 +48,7 @@ impl SpanStiffness {
         self.rounding_fractions.clear();
     }
 
-    /// Adds a row of a strain or curvature: its derivatives with respect to x, y and rotation of each control point.
+    /// Adds the row of a strain or curvature: its derivatives with respect to x, y and rotation of each control point.
     pub(super) fn add_strain<const N: usize>(
         &mut self,
         kind: StrainKind,

@@ -1,4 +1,4 @@
-//! Places of a body.
+//! Places on a body.
 
 use serde::{Deserialize, Serialize};
 
@@ -12,7 +12,7 @@ pub enum BodyIndex {
     Beam(usize),
     /// Index among the particles of the scene.
     Particle(usize),
-    /// Index among the rigid bodies of the scene, and the point: the centre of mass (0) or one of its points (from 1).
+    /// Index among the rigid bodies of the scene, and index of the point: the centre of mass (0) or another point (from 1).
     Rigid(usize, usize),
 }
 
@@ -21,25 +21,25 @@ pub enum BodyIndex {
 pub struct Station {
     /// Body of the station.
     pub body: BodyIndex,
-    /// Arc length from the start of the beam as drawn; zero on particles and rigid bodies [length].
+    /// Arc length from the start of the beam in the initial configuration [length]; zero on particles and rigid bodies.
     pub arc_length: f64,
 }
 
-/// Place on a body of a model, with its nonzero basis functions.
+/// Place on a body of a model, with the basis functions that are nonzero there.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct BodyPoint {
     /// Index of the body in the model: beams, then particles, then rigid bodies.
     pub body: usize,
-    /// First control point with a nonzero function.
+    /// First control point whose basis function is nonzero at the place.
     pub first: usize,
     shape: [f64; MAX_DEGREE + 1],
     order: usize,
-    /// Angle of the axis tangent as drawn, or of a rigid body [rad].
+    /// Initial angle of the axis tangent, or of the rigid body [rad].
     pub tangent_angle: f64,
 }
 
 impl Station {
-    /// Station of a beam at an arc length [length] as drawn.
+    /// Station of a beam at an initial arc length [length].
     pub fn on_beam(beam: usize, arc_length: f64) -> Self {
         Self { body: BodyIndex::Beam(beam), arc_length }
     }
@@ -49,18 +49,18 @@ impl Station {
         Self { body: BodyIndex::Particle(particle), arc_length: 0.0 }
     }
 
-    /// Centre of mass (0) or point (from 1) of a rigid body.
+    /// Station at the centre of mass (0) or another point (from 1) of a rigid body.
     pub fn on_rigid_body(body: usize, point: usize) -> Self {
         Self { body: BodyIndex::Rigid(body, point), arc_length: 0.0 }
     }
 
-    /// Returns true if both stations coincide within rounding; `length` is the length of the body.
+    /// Returns true if both stations coincide within rounding. `length` is the length of the body.
     pub fn is_at(&self, other: &Self, length: f64) -> bool {
         let apart = (self.arc_length - other.arc_length).abs();
         self.body == other.body && apart <= ROUNDING_OF_PLACES * length
     }
 
-    /// Index of the beam of the station, if it is on one.
+    /// Index of the beam of the station; `None` on other bodies.
     pub fn beam(&self) -> Option<usize> {
         match self.body {
             BodyIndex::Beam(beam) => Some(beam),
@@ -84,25 +84,26 @@ impl Station {
 }
 
 impl BodyPoint {
-    /// Point of a particle.
+    /// Place of a particle.
     pub fn of_particle(body: usize) -> Self {
         Self::of_point(body, 0, 0.0)
     }
 
-    /// Point of a rigid body by the index of its control point (0 is the centre of mass), with the initial angle of the body [rad].
+    /// Place of a point of a rigid body. `point` is the index of its control point (0 is the centre of mass), `angle` the initial angle of the body
+    /// [rad].
     pub fn of_point(body: usize, point: usize, angle: f64) -> Self {
         let mut shape = [0.0; MAX_DEGREE + 1];
         shape[0] = 1.0;
         Self { body, first: point, shape, order: 1, tangent_angle: angle }
     }
 
-    /// Point of a beam at a parameter of its mesh.
+    /// Place of a beam at a parameter of its mesh.
     ///
     /// # Errors
     /// Fails if the parameter lies outside the mesh, or the axis has no tangent there.
     pub fn at(body: usize, axis: &Curve, mesh: &Mesh, xi: f64) -> Result<Self, GeometryError> {
         let values = mesh.basis().evaluate(xi)?;
-        // At a break, some functions of the span are zero. Their control points are excluded.
+        // At a break, some functions of the span are zero. Control points of such functions are left out.
         let is_here = |value: &f64| *value != 0.0;
         let skipped = values.values().iter().position(is_here).unwrap_or(0);
         let last = values.values().iter().rposition(is_here).unwrap_or(0);
@@ -114,12 +115,12 @@ impl BodyPoint {
         Ok(Self { body, first: values.first + skipped, shape, order: here.len(), tangent_angle })
     }
 
-    /// Nonzero basis functions [-].
+    /// Values of the nonzero basis functions [-].
     pub fn shape(&self) -> &[f64] {
         &self.shape[..self.order]
     }
 
-    /// Pairs of control point and basis function.
+    /// Pairs of a control point and its basis function.
     pub fn weights(&self) -> impl Iterator<Item = (usize, f64)> + '_ {
         (self.first..).zip(self.shape().iter().copied())
     }
@@ -131,7 +132,7 @@ impl BodyPoint {
             .map_or(self.first, |(index, _)| index)
     }
 
-    /// Interpolates values of the control points.
+    /// Interpolates values that are given at all control points.
     pub fn interpolate(&self, values: &[Vec2]) -> Vec2 {
         self.weights().map(|(index, weight)| values[index] * weight).sum()
     }

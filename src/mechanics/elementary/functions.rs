@@ -1,7 +1,8 @@
-//! Trigonometric, hyperbolic and exponential functions and their inverses, from the crate `libm`, a Rust port of the functions of musl and FreeBSD.
+//! Trigonometric, hyperbolic and exponential functions and their inverses. They come from the crate `libm`, a Rust port of the functions of musl
+//! and FreeBSD.
 //!
-//! Errors are mostly below one unit in the last place; for hyperbolic functions below two units. Angles are in radians; undefined values are NaN, as
-//! in IEEE 754.
+//! Errors are mostly below one unit in the last place, and below two units for hyperbolic functions. Angles are in radians. Undefined values are
+//! NaN as required by IEEE 754.
 
 /// Sine of an angle [rad], identical on every machine.
 #[inline]
@@ -15,7 +16,7 @@ pub fn cos(angle: f64) -> f64 {
     libm::cos(angle)
 }
 
-/// Sine and cosine of an angle [rad], equal to [`sin`] and [`cos`] but cheaper to compute together.
+/// Sine and cosine of an angle [rad]. They equal [`sin`] and [`cos`] but take less time.
 #[inline]
 pub fn sin_cos(angle: f64) -> (f64, f64) {
     libm::sincos(angle)
@@ -128,7 +129,7 @@ mod tests {
     use super::*;
     use proptest::prelude::*;
 
-    /// Distance of two numbers in units in the last place.
+    /// Distance of two numbers as a multiple of the unit in the last place.
     fn apart(a: f64, b: f64) -> u64 {
         let place = |x: f64| match x.to_bits() as i64 {
             bits if bits < 0 => i64::MIN - bits,
@@ -163,7 +164,7 @@ mod tests {
         assert_eq!((sin(-0.0).to_bits(), cos(0.0)), ((-0.0_f64).to_bits(), 1.0));
     }
 
-    // The functions of the machine are accurate to about one unit, so the results must be close.
+    // The functions of the machine are accurate to about one unit in the last place, so both results must be close to each other.
     proptest! {
         #[test]
         fn they_are_those_of_the_machine_but_for_the_last_bits(

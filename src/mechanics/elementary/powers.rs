@@ -6,9 +6,9 @@ pub fn square(x: f64) -> f64 {
     x * x
 }
 
-/// Integer power by repeated squaring, from the lowest bit of the exponent on; `1/xⁿ` for negative exponents.
+/// Integer power, computed by repeated squaring from the lowest bit of the exponent on. For a negative exponent `-n` it is `1/xⁿ`.
 ///
-/// This fixes the order of multiplications and every rounding error. For `f64::powi` the compiler chooses the order.
+/// The order of multiplications and therefore every rounding error is fixed. For `f64::powi` the compiler chooses the order.
 #[inline]
 pub fn whole_power(x: f64, exponent: i32) -> f64 {
     let (mut power, mut squares, mut left) = (1.0, x, exponent.unsigned_abs());
@@ -25,7 +25,7 @@ pub fn whole_power(x: f64, exponent: i32) -> f64 {
     if exponent < 0 { 1.0 / power } else { power }
 }
 
-/// Power with any exponent; exact if an integer power of an integer has at most 53 bits. Undefined powers are NaN.
+/// Power with any exponent. It is exact if an integer power of an integer has at most 53 bits. Undefined powers are NaN.
 #[inline]
 pub fn power(x: f64, exponent: f64) -> f64 {
     libm::pow(x, exponent)

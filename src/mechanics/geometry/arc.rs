@@ -8,11 +8,10 @@ use super::{GeometryError, Vec2, perpendicular, unit};
 use crate::elementary::power;
 use std::f64::consts::TAU;
 
-/// Relative rounding error by which an arc may exceed a full turn.
+/// Relative rounding error by which the sweep of an arc may exceed a full turn.
 const ROUNDING: f64 = 1e-12;
 
-/// An arc of a circle of radius `r` about `c`, `x(ξ) = c + r (cos φ, sin φ)` with
-/// `φ = (1 - ξ) φ_from + ξ φ_to` on `[0, 1]`.
+/// Arc of a circle of radius `r` about the point `c`, `x(ξ) = c + r (cos φ, sin φ)` with `φ = (1 - ξ) φ_from + ξ φ_to` on `[0, 1]`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(try_from = "(Vec2, f64, f64, f64)")]
 pub struct CircularArc {
@@ -54,7 +53,7 @@ impl CircularArc {
         Ok(arc)
     }
 
-    /// Angle from start to end, positive counter-clockwise [rad].
+    /// Angle from start to end [rad], positive counter-clockwise.
     pub(super) fn sweep(&self) -> f64 {
         self.to_angle - self.from_angle
     }
@@ -71,7 +70,7 @@ impl CircularArc {
     pub(super) fn derivative(&self, xi: f64, order: usize) -> Result<Vec2, GeometryError> {
         check_inside(xi, 0.0, 1.0)?;
         let outward = unit((1.0 - xi) * self.from_angle + xi * self.to_angle);
-        // Each derivative rotates by +90° and multiplies by the sweep.
+        // Each derivative rotates the vector by +90° and multiplies it by the sweep.
         let turned = match order % 4 {
             0 => outward,
             1 => perpendicular(outward),

@@ -6,10 +6,10 @@ use super::knots::check_inside;
 use super::values::LowDerivatives;
 use super::{BasisValues, GeometryError, KnotVector, LagrangeBasis, MAX_DEGREE, Span, bspline};
 
-/// Distance of a break from a knot, relative to the domain, below which they coincide.
+/// Distance of a break from a knot at which both coincide, as a fraction of the domain.
 const SAME_BREAK: f64 = 1e-10;
 
-/// Basis functions `N_i(ξ)` that sum to one. Each is nonzero on a few spans only.
+/// Basis functions `N_i(ξ)` whose sum is one. Each function is nonzero on a few spans only.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub enum Basis {
     /// B-splines of a knot vector.
@@ -59,7 +59,7 @@ impl Basis {
         }
     }
 
-    /// Span that contains the parameter `xi` [-]; at a break the span on its right.
+    /// Span that contains the parameter `xi` [-]. At a break it is the span on the right.
     ///
     /// # Errors
     /// Fails if `xi` is outside the domain or NaN.
@@ -77,7 +77,7 @@ impl Basis {
         }
     }
 
-    /// Nonzero functions at `xi` and their derivatives, continuous from the right at interior breaks.
+    /// Nonzero functions at `xi` and their derivatives. At interior breaks they are the limits from the right.
     ///
     /// # Errors
     /// Fails if `xi` is outside the domain or NaN.
@@ -85,7 +85,7 @@ impl Basis {
         Ok(self.evaluate_in(&self.span_at(xi)?, xi))
     }
 
-    /// Functions of a span of this basis, extended as polynomials to any `xi`. At the ends of the span these are the one-sided values.
+    /// Functions of a span of this basis at any `xi`. Outside the span their polynomials are extended; at its ends the values are one-sided limits.
     ///
     /// # Panics
     /// May panic if the span belongs to another basis.
@@ -112,7 +112,7 @@ impl Basis {
         low
     }
 
-    /// Number of continuous derivatives at the least smooth interior break; the degree for a single polynomial.
+    /// Number of continuous derivatives at the interior break with the fewest of them. For a single polynomial it is the degree.
     pub fn continuity(&self) -> usize {
         let breaks = self.breaks();
         match self {
@@ -126,8 +126,8 @@ impl Basis {
         }
     }
 
-    /// Interpolation parameter of each function: Greville abscissae of splines, nodes of Lagrange elements. They are strictly increasing and include
-    /// the ends.
+    /// Interpolation parameter of each function: the Greville abscissae of splines, or the nodes of Lagrange elements. They increase strictly and
+    /// include the ends of the domain.
     pub(crate) fn abscissae(&self) -> Vec<f64> {
         match self {
             Self::BSpline(knots) => knots.greville(),
@@ -135,8 +135,8 @@ impl Basis {
         }
     }
 
-    /// Returns a basis of the same kind with about `ratio` times as many spans, at least one between two breaks of reduced continuity. These breaks
-    /// are kept, and the spans between them follow the spacing of this basis.
+    /// Returns a basis of the same type with about `ratio` times as many spans. Breaks of reduced continuity are kept, with at least one span
+    /// between two of them. The lengths of the spans between them vary as in this basis.
     ///
     /// # Errors
     /// Fails if the basis has too many or too short spans.
@@ -167,10 +167,10 @@ impl Basis {
         Ok(Self::BSpline(KnotVector::new(knots.degree(), scaled)?))
     }
 
-    /// Returns the basis with continuity C⁰ at `xi`: the multiplicity of the knot is `degree`, or the Lagrange element is split.
+    /// Returns the basis with continuity C⁰ at `xi`. The multiplicity of the knot becomes `degree`, or the Lagrange element is split.
     ///
-    /// If a knot is closer to `xi` than 1e-10 of the domain, it is used instead of `xi`. At the ends, and where the basis is C⁰ already, nothing
-    /// changes.
+    /// If a knot is closer to `xi` than 1e-10 of the domain, this knot is used instead. At the ends, and where the basis is C⁰ already, the basis
+    /// is not changed.
     ///
     /// # Errors
     /// Fails if `xi` is outside the domain or NaN, or there are too many spans.
@@ -193,7 +193,7 @@ impl Basis {
     }
 }
 
-/// Divides the interval of the breaks into `ratio` times as many spans, rounded up, with the same relative spacing.
+/// Divides the interval of the breaks into `ratio` times as many spans (rounded up), with the same relative variation of their lengths.
 fn respaced(breaks: &[f64], ratio: f64) -> Vec<f64> {
     let old = (breaks.len() - 1) as f64;
     let new = (old * ratio).ceil().max(1.0);

@@ -1,12 +1,12 @@
-//! B-spline basis functions and their derivatives on one span.
+//! Values and derivatives of B-splines on one span.
 
 use super::values::BasisValues;
 use super::{KnotVector, Span};
 
-/// Nonzero B-splines on `span` of `knots` with all derivatives at `xi`, extended as polynomials.
+/// Nonzero B-splines on `span` of `knots` at `xi`, with all derivatives. Outside the span their polynomials are extended.
 ///
-/// The functions and their derivatives follow from the splines of one degree less. The spline `N_m` of degree `q - 1` has the support
-/// `[ξ_m, ξ_{m+q}]` of length `h_m`, and contributes to two splines of degree `q` (The NURBS Book, equations 2.5 and 2.7; the results are those of
+/// The functions and their derivatives are computed from the splines of one degree less. The spline `N_m` of degree `q - 1` has the support `[ξ_m,
+/// ξ_{m+q}]` of length `h_m`, and contributes to two splines of degree `q` (The NURBS Book, equations 2.5 and 2.7; the results are those of
 /// algorithm A2.3):
 ///
 /// ```text
@@ -19,9 +19,9 @@ pub(super) fn evaluate(knots: &KnotVector, span: &Span, xi: f64) -> BasisValues 
     basis
 }
 
-/// Fills rows of zeros with the functions and their derivatives, one order per row.
+/// Fills rows of zeros with the functions and their derivatives. Each row contains the derivatives of one order.
 ///
-/// The degree is a separate argument, so that it can be a compile-time constant.
+/// The degree is a separate argument so that it can be a compile-time constant.
 #[inline(always)]
 pub(super) fn fill<const WIDTH: usize>(
     (knots, degree): (&KnotVector, usize),
@@ -31,7 +31,7 @@ pub(super) fn fill<const WIDTH: usize>(
 ) {
     let most = rows.len() - 1;
     rows[0][0] = 1.0;
-    // `degree` knots before the span, and as many after it.
+    // These are the `degree` knots before the span and the `degree` knots after it.
     let local = &knots.knots()[span.first + 1..=span.first + 2 * degree];
     for q in 1..=degree {
         let supports = local[degree - q..degree]
@@ -45,7 +45,7 @@ pub(super) fn fill<const WIDTH: usize>(
     }
 }
 
-/// Values at `xi` of the functions of one degree more, from the supports of the `lower` functions.
+/// Values at `xi` of the functions of one degree more, computed from the `lower` functions and the ends of their supports.
 #[inline(always)]
 fn raise<const WIDTH: usize>(
     lower: &[f64; WIDTH],
@@ -54,14 +54,14 @@ fn raise<const WIDTH: usize>(
 ) -> [f64; WIDTH] {
     let mut higher = [0.0; WIDTH];
     for (j, (value, (start, end))) in lower.iter().zip(supports).enumerate() {
-        // The quotients are computed first, because they are exactly 0 and 1 at the ends of the span.
+        // The quotients are computed first, because they are then exactly 0 and 1 at the ends of the span.
         higher[j] += (end - xi) / (end - start) * value;
         higher[j + 1] += (xi - start) / (end - start) * value;
     }
     higher
 }
 
-/// Derivatives of one order more of the functions of degree `q`, from the derivatives of the functions of degree `q - 1`.
+/// Derivatives of one order more of the functions of degree `q`, computed from the derivatives of the functions of degree `q - 1`.
 #[inline(always)]
 fn differentiate<const WIDTH: usize>(
     lower: &[f64; WIDTH],
@@ -94,7 +94,7 @@ mod tests {
 
     #[test]
     fn the_example_of_the_nurbs_book_is_reproduced() {
-        // Examples 2.3 and 2.4: degree 2, ξ = 5/2.
+        // Examples 2.3 and 2.4 of The NURBS Book: degree 2, ξ = 5/2.
         let all = vec![0.0, 0.0, 0.0, 1.0, 2.0, 3.0, 4.0, 4.0, 5.0, 5.0, 5.0];
         let knots = KnotVector::new(2, all).unwrap();
         let basis = evaluate(&knots, &knots.spans()[2], 2.5);

@@ -1,16 +1,17 @@
-//! Collocation systems of splines.
+//! Linear systems of equations for the collocation of splines.
 
 use std::ops::{AddAssign, Div, Mul, SubAssign};
 
-/// Row of a collocation system, such as `Σ_i N_i(ξ_r) P_i = x(ξ_r)`.
+/// Row of a collocation system, for example the equation `Σ_i N_i(ξ_r) P_i = x(ξ_r)`.
 pub(super) struct CollocationRow<R> {
     pub(super) first: usize,
     pub(super) entries: Vec<f64>,
     pub(super) right_side: R,
 }
 
-/// Solves a banded system by Gaussian elimination without pivoting. It is stable for the totally positive matrices of B-spline collocation (de Boor &
-/// Pinkus 1977, Numer. Math. 27). It has no fill-in, because the indices of the first and the last nonzero column do not decrease from row to row.
+/// Solves a banded system by Gaussian elimination without row exchanges. This is stable for the totally positive matrices of B-spline collocation
+/// (de Boor & Pinkus 1977, Numer. Math. 27). It causes no additional nonzero entries, because the indices of the first and the last nonzero column
+/// do not decrease from row to row.
 pub(super) fn solve<R>(mut rows: Vec<CollocationRow<R>>) -> Vec<R>
 where
     R: Copy + Default + AddAssign + SubAssign + Mul<f64, Output = R> + Div<f64, Output = R>,

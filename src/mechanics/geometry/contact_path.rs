@@ -6,28 +6,29 @@ use super::piecewise::FunctionOnPath;
 use super::values::{FunctionRow, LOW_ORDERS, LowDerivatives};
 use super::{Basis, GaussRule, MAX_DEGREE, PiecewisePolynomial, Span};
 
-/// Basis functions `B_i` along a path from the parameter ξ₀ to ξ₁, for a point that slides along `Σ B_i(ξ) x_i` during a time step. The divided
-/// differences `(B_i(ξ₁) - B_i(ξ₀)) / (ξ₁ - ξ₀)` are accurate for paths of any length, including zero, and across breaks of any continuity.
+/// Basis functions `B_i` along a path from the parameter ξ₀ to ξ₁. The path belongs to a point that slides along `Σ B_i(ξ) x_i` during a time step.
+/// The divided differences `(B_i(ξ₁) - B_i(ξ₀)) / (ξ₁ - ξ₀)` are accurate for paths of any length, including zero, and across breaks of any
+/// continuity.
 ///
-/// The window contains the functions `first, first + 1, …` that are nonzero anywhere on the spans of the path. Every accessor returns one value for
-/// each of them. Parameters and results are dimensionless.
+/// The functions `first, first + 1, …` are those that are nonzero somewhere on the spans of the path. Every accessor returns one value for each of
+/// them. Parameters and results are dimensionless.
 ///
-/// A path that starts at a break starts in the span in its direction, and a path that ends at a break ends in the span that it has passed. A path of
-/// zero length at a break lies in the span on the right. Outside the domain, the polynomials of the end spans are extended.
+/// If a path starts at a break, its first span is the one in its direction. If it ends at a break, its last span is the one it has passed. A
+/// path of zero length at a break lies in the span on the right. Outside the domain, the polynomials of the end spans are extended.
 #[derive(Debug, Clone)]
 pub struct ContactPath {
-    /// Data shared by all copies for the same beam.
+    /// Data that all copies for the same beam share.
     line: Arc<PathSupport>,
     interval: PathInterval,
-    /// Functions at the start of the path, in its first span, cached for consecutive paths with the same start.
+    /// Functions at the start of the path in its first span. They are cached for consecutive paths with the same start.
     departing: Option<(f64, usize, FunctionRow)>,
     first: usize,
     length: usize,
-    /// Rows of the window, one for each [`PathQuantity`], with capacity for the longest path.
+    /// Values of the functions, with one row for each [`PathQuantity`]. Memory is allocated for the longest path.
     numbers: Vec<f64>,
 }
 
-/// Quantity of each function along a path, in the order of the rows.
+/// Quantity of each function along a path. Rows are stored in this order.
 #[derive(Debug, Clone, Copy)]
 enum PathQuantity {
     Start,
@@ -45,13 +46,13 @@ const QUANTITIES: usize = PathQuantity::Change as usize + 1;
 struct PathSupport {
     basis: Basis,
     spans: Vec<Span>,
-    /// For each span, the number of breaks up to its start at which slopes jump.
+    /// For each span, the number of breaks at or before its start at which derivatives of the basis jump.
     kinks: Vec<usize>,
-    /// Points and weights on `[0, 1]`, exact for polynomials of one degree less than the basis.
+    /// Quadrature points and weights on `[0, 1]`, exact for polynomials of one degree less than the basis.
     rule: Vec<(f64, f64)>,
 }
 
-/// Start and end of a path, with the indices of their spans.
+/// Start and end of a path, and the indices of their spans.
 #[derive(Debug, Clone, Copy)]
 struct PathInterval {
     from: f64,
@@ -64,12 +65,12 @@ struct PathPiece {
     enter: f64,
     leave: f64,
     before: f64,
-    /// Length of the part as a fraction of the path.
+    /// Length of the piece, as a fraction of the path.
     share: f64,
 }
 
 impl ContactPath {
-    /// Creates a path of zero length at the start of the domain of `basis`. Memory for all paths is allocated here;
+    /// Creates a path of zero length at the start of the domain of `basis`. The memory for all paths is allocated here, so
     /// [`set_interval`](Self::set_interval) allocates none.
     pub fn new(basis: Basis) -> Self {
         let room = QUANTITIES * basis.functions();
@@ -89,9 +90,9 @@ impl ContactPath {
         passage
     }
 
-    /// Replaces the path by the path from ξ₀ = `from`, in the domain, to ξ₁ = `to`, which may lie outside.
+    /// Changes the path to the one from ξ₀ = `from` to ξ₁ = `to`. The start must lie in the domain; the end may lie outside.
     ///
-    /// If one of them is not finite, all values are NaN, and the window is that of the span of `from`.
+    /// If one of the parameters is not finite, all values are NaN, and the functions are those of the span of `from`.
     pub fn set_interval(&mut self, from: f64, to: f64) {
         let is_there = self.length > 0 && (self.interval.from, self.interval.to) == (from, to);
         if is_there {
@@ -121,7 +122,7 @@ impl ContactPath {
         &self.line.basis
     }
 
-    /// First basis function of the window.
+    /// First basis function that is nonzero on the spans of the path.
     pub fn first(&self) -> usize {
         self.first
     }
@@ -136,33 +137,34 @@ impl ContactPath {
         self.row(PathQuantity::End)
     }
 
-    /// Means `½ (B_i(ξ₀) + B_i(ξ₁))` of the values at start and end. They sum to one.
+    /// Means `½ (B_i(ξ₀) + B_i(ξ₁))` of the values at the start and at the end. They sum to one.
     pub fn mean(&self) -> &[f64] {
         self.row(PathQuantity::Mean)
     }
 
-    /// One-sided derivatives `B_i'(ξ₁)` at the end of the path. They sum to zero.
+    /// Derivatives `B_i'(ξ₁)` at the end of the path, as limits from inside the path. They sum to zero.
     pub fn slope(&self) -> &[f64] {
         self.row(PathQuantity::Slope)
     }
 
-    /// Divided differences `D_i = (B_i(ξ₁) - B_i(ξ₀)) / (ξ₁ - ξ₀)`: the means of `B_i'` over the path, accurate to rounding, or `B_i'(ξ₀)` for a path
-    /// of zero length. They sum to zero.
+    /// Divided differences `D_i = (B_i(ξ₁) - B_i(ξ₀)) / (ξ₁ - ξ₀)`, which are the means of `B_i'` over the path. They are accurate to rounding. For
+    /// a path of zero length they are `B_i'(ξ₀)`. They sum to zero.
     pub fn difference(&self) -> &[f64] {
         self.row(PathQuantity::Difference)
     }
 
-    /// Derivatives of the divided differences with respect to the end of the path, `∂D_i/∂ξ₁ = (B_i'(ξ₁) - D_i) / (ξ₁ - ξ₀)` for fixed ξ₀, or
-    /// `½ B_i''(ξ₀)` for a path of zero length. They sum to zero.
+    /// Derivatives of the divided differences with respect to the end of the path for fixed ξ₀: `∂D_i/∂ξ₁ = (B_i'(ξ₁) - D_i) / (ξ₁ - ξ₀)`. For a
+    /// path of zero length they are `½ B_i''(ξ₀)`. They sum to zero.
     ///
-    /// They are accurate to rounding, unless `B_i'` jumps on the path. In this case the rounding error of `D_i` is divided by the length of the path.
+    /// They are accurate to rounding unless `B_i'` jumps on the path. In this case they have the rounding error of `D_i` divided by the length of
+    /// the path.
     pub fn change(&self) -> &[f64] {
         self.row(PathQuantity::Change)
     }
 
-    /// Evaluates a piecewise polynomial along the path; NaN if an end of the path is not finite.
+    /// Evaluates a piecewise polynomial along the path. The result is NaN if an end of the path is not finite.
     ///
-    /// The slope of the polynomial may jump only where the slopes of the basis jump.
+    /// The derivative of the polynomial may jump only where derivatives of the basis jump.
     pub fn along(&self, function: &PiecewisePolynomial) -> FunctionOnPath {
         let interval = self.interval;
         if interval.departure == interval.arrival {
@@ -187,12 +189,13 @@ impl ContactPath {
         FunctionOnPath { start, end, slope, difference, change }
     }
 
-    /// Value, first and second derivative with respect to ξ of a piecewise polynomial at the end of the path.
+    /// Value and first and second derivative of a piecewise polynomial with respect to ξ, at the end of the path.
     pub fn at_end(&self, function: &PiecewisePolynomial) -> [f64; 3] {
         function.in_span(self.interval.arrival, self.interval.to)
     }
 
-    /// Number of spans between two parameters, including fractions. For a short path it is the length of the path over the length of its span.
+    /// Number of spans between two parameters, including fractions. For a path within one span it is the length of the path divided by the length
+    /// of the span.
     pub(crate) fn spans_between(&self, from: f64, to: f64) -> f64 {
         let (from, to) = if from <= to { (from, to) } else { (to, from) };
         let PathInterval { departure, arrival, .. } = self.interval(from, to);
@@ -285,7 +288,7 @@ impl ContactPath {
         add(mean, 0, 0.5, end);
     }
 
-    /// Adds the integrals over the path: `D = ∫ B'(ξ₀ + s Δξ) ds` over `0 < s < 1` and its derivative `∫ s B''(ξ₀ + s Δξ) ds`, unless `B'` jumps on
+    /// Adds two integrals over the path with `0 < s < 1`: `D = ∫ B'(ξ₀ + s Δξ) ds`, and its derivative `∫ s B''(ξ₀ + s Δξ) ds` unless `B'` jumps on
     /// the path.
     fn add_quotients<const WIDTH: usize>(&mut self, interval: PathInterval) {
         let PathSupport { basis, spans, kinks, rule } = &*self.line;
@@ -315,7 +318,7 @@ impl ContactPath {
 }
 
 impl PathInterval {
-    /// Indices of the leftmost and the rightmost span.
+    /// Indices of the leftmost and the rightmost span of the path.
     fn lowest_and_highest(self) -> (usize, usize) {
         (self.departure.min(self.arrival), self.departure.max(self.arrival))
     }
@@ -342,7 +345,8 @@ impl PathInterval {
     }
 }
 
-/// For each span, the number of breaks up to its start at which slopes jump: across such a break, at most one function is nonzero on both sides.
+/// For each span, the number of breaks at or before its start at which derivatives jump. At such a break, at most one function is nonzero on both
+/// sides.
 fn kinks(spans: &[Span], degree: usize) -> Vec<usize> {
     let jumps = spans.windows(2).map(|pair| usize::from(pair[1].first - pair[0].first >= degree));
     std::iter::once(0)
@@ -354,7 +358,7 @@ fn kinks(spans: &[Span], degree: usize) -> Vec<usize> {
         .collect()
 }
 
-/// Rows of a window of `length` functions, in the order of [`PathQuantity`].
+/// Splits `numbers` into one row for each [`PathQuantity`]. A row has one number for each of `length` basis functions.
 fn rows(numbers: &mut [f64], length: usize) -> [&mut [f64]; QUANTITIES] {
     let mut rows = numbers.chunks_exact_mut(length);
     std::array::from_fn(|_| rows.next().unwrap_or_default())

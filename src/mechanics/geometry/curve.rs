@@ -6,13 +6,13 @@ use super::knots::check_inside;
 use super::{CircularArc, GeometryError, KnotVector, Line, SplineCurve, Vec2, cross, local_cubic};
 use crate::elementary::{atan2, hypot};
 
-/// Distance of two places, relative to the size of the curve, below which they coincide.
+/// Distance of two points at which they coincide, as a fraction of the size of the curve.
 pub const ROUNDING_OF_PLACES: f64 = 1e-12;
 
-/// Speed `|dx/dξ|`, relative to the mean, below which a curve has no tangent.
+/// Speed `|dx/dξ|` at which a curve has no tangent, as a fraction of the mean speed.
 const STANDSTILL: f64 = 1e-12;
 
-/// Returns true if an arc length lies on a curve with a length, within rounding.
+/// Returns true if an arc length lies on a curve of the given length, within rounding.
 pub fn is_on_length(arc_length: f64, length: f64) -> bool {
     let tolerance = ROUNDING_OF_PLACES * length;
     (-tolerance..=length + tolerance).contains(&arc_length)
@@ -145,7 +145,7 @@ impl Curve {
         }
     }
 
-    /// Parameter [-] at an arc length from the start [length]. If rounding puts the arc length beyond an end, the result is that end.
+    /// Parameter [-] at an arc length from the start [length]. If the arc length is beyond an end only by rounding, the result is this end.
     ///
     /// # Errors
     /// Fails if `arc_length` is outside `[0, length]` or NaN.
@@ -161,7 +161,7 @@ impl Curve {
         }
     }
 
-    /// Derivative `dx/dξ`, or an error if it is zero.
+    /// Derivative `dx/dξ`. Fails if it is zero.
     fn velocity(&self, xi: f64) -> Result<Vec2, GeometryError> {
         let velocity = self.derivative(xi, 1)?;
         let (start, end) = self.domain();

@@ -2,7 +2,8 @@
 
 use super::Vec2;
 
-/// Error of a curve, basis or quadrature rule. Every message names the object, the value, the allowed range and, if not obvious, the remedy.
+/// Error of a curve, basis or quadrature rule. Every message contains the object, the value, the allowed range and, if it is not obvious, the
+/// remedy.
 #[expect(missing_docs, reason = "the messages describe the variants and their fields")]
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum GeometryError {
@@ -48,7 +49,7 @@ pub enum GeometryError {
         previous: f64,
     },
 
-    /// End knot of wrong multiplicity, so that the curve would not end in its end control point.
+    /// End knot with a wrong multiplicity. The curve would not end at its last control point.
     #[error(
         "knots: the {end} knot {knot} has multiplicity {multiplicity}; an open knot vector of degree {degree} \
          repeats it {} times: write {}",
@@ -63,7 +64,7 @@ pub enum GeometryError {
         degree: usize,
     },
 
-    /// Interior knot of too high multiplicity, where the curve would be discontinuous.
+    /// Interior knot with a multiplicity so high that the curve would be discontinuous.
     #[error(
         "knots: the interior knot {knot} has multiplicity {multiplicity}, but at most {degree} (the degree) is allowed for a continuous curve"
     )]
@@ -75,7 +76,7 @@ pub enum GeometryError {
         degree: usize,
     },
 
-    /// Span whose length is due to rounding, between almost equal knots or breaks.
+    /// Span between almost equal knots or breaks, whose length is due to rounding.
     #[error(
         "{object}: the span from {start} to {end} is shorter than 1e-12 of the domain; make the two values equal or move them apart"
     )]

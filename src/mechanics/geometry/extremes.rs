@@ -1,12 +1,12 @@
-//! Extremes that propagate NaN.
+//! Maximum and minimum that propagate NaN.
 
-/// Larger of two numbers; NaN if either is NaN, unlike `f64::max`.
+/// Larger of two numbers. Unlike `f64::max`, it is NaN if either number is NaN.
 #[inline]
 pub fn larger(a: f64, b: f64) -> f64 {
     if a >= b || a.is_nan() { a } else { b }
 }
 
-/// Smaller of two numbers; NaN if either is NaN.
+/// Smaller of two numbers. Unlike `f64::min`, it is NaN if either number is NaN.
 #[inline]
 pub fn smaller(a: f64, b: f64) -> f64 {
     if a <= b || a.is_nan() { a } else { b }

@@ -1,17 +1,17 @@
-//! Representation of a curve in a basis.
+//! Representation of a curve in a given basis.
 
 use super::collocation::{CollocationRow, solve};
 use super::{Basis, Curve, GeometryError, Vec2};
 
-/// Returns the control points (splines) or nodes (Lagrange) of `curve` in `basis` [length], one per function. An affine map takes the domain of the
-/// basis to that of the curve.
+/// Returns the control points (splines) or nodes (Lagrange elements) that represent `curve` in `basis`, one per function [length]. The domain of
+/// the basis is mapped to that of the curve by an affine map.
 ///
-/// The result is exact for lines, and for splines of the same knots. Other curves are interpolated at the [abscissae](Basis::abscissae) of the basis,
-/// including its ends. For smooth curves the error is of order `degree + 1` in the span length. Kinks of the curve are reproduced only at C⁰ breaks
-/// of the basis.
+/// The result is exact for lines, and for splines with the same knots. Other curves are interpolated at the [abscissae](Basis::abscissae) of the
+/// basis, which include the ends. For smooth curves the error is of order `degree + 1` in the span length. Kinks of the curve are represented only
+/// at C⁰ breaks of the basis.
 ///
 /// # Errors
-/// Errors of evaluating the curve only.
+/// Fails if the curve cannot be evaluated.
 pub fn interpolate(curve: &Curve, basis: &Basis) -> Result<Vec<Vec2>, GeometryError> {
     if let (Curve::Spline(spline), Basis::BSpline(knots)) = (curve, basis)
         && spline.knots().is_affine_to(knots)
@@ -22,7 +22,7 @@ pub fn interpolate(curve: &Curve, basis: &Basis) -> Result<Vec<Vec2>, GeometryEr
     let points =
         abscissae.iter().map(|&xi| curve.point(corresponding(xi, basis.domain(), curve.domain())));
     match (curve, basis) {
-        // With control points on the line at these abscissae, splines and Lagrange elements reproduce the line exactly.
+        // If the control points lie on the line at these abscissae, splines and Lagrange elements represent the line exactly.
         (Curve::Line(_), _) | (_, Basis::Lagrange(_)) => points.collect(),
         _ => {
             let rows = abscissae.iter().zip(points).map(|(&xi, point)| {
@@ -38,7 +38,7 @@ pub fn interpolate(curve: &Curve, basis: &Basis) -> Result<Vec<Vec2>, GeometryEr
     }
 }
 
-/// Affine map of `xi` from one interval to another, exact at the ends.
+/// Affine map of `xi` from one interval to another. It is exact at the ends.
 pub fn corresponding(xi: f64, (a, b): (f64, f64), (start, end): (f64, f64)) -> f64 {
     let t = (xi - a) / (b - a);
     ((1.0 - t) * start + t * end).clamp(start, end)

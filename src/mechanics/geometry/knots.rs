@@ -1,4 +1,4 @@
-//! Open knot vectors: breaks of a spline, and its continuity there.
+//! Open knot vectors, which define the breaks of a spline and its continuity at them.
 
 use serde::{Deserialize, Serialize};
 
@@ -11,12 +11,11 @@ pub const MAX_DEGREE: usize = 10;
 /// Largest number of spans (elements) of a basis.
 pub const MAX_SPANS: usize = 400_000;
 
-/// Length of a span, relative to the domain, below which it is rejected as due to rounding.
+/// Length of a span that is rejected because it is due to rounding, as a fraction of the domain.
 const SHORTEST_SPAN: f64 = 1e-12;
 
-/// An open knot vector of some degree `p`: knots `ξ_0 ≤ … ≤ ξ_m` on an interval `[a, b]`, the end
-/// knots repeated exactly `p + 1` times, interior knots at most `p` times (so splines are at least
-/// continuous). Knots are dimensionless. The NURBS Book, section 2.2.
+/// Open knot vector of degree `p`: knots `ξ_0 ≤ … ≤ ξ_m` on an interval `[a, b]`. The end knots are repeated exactly `p + 1` times, interior knots
+/// at most `p` times, so that splines are at least continuous. Knots are dimensionless. See The NURBS Book, section 2.2.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(try_from = "(usize, Vec<f64>)")]
 pub struct KnotVector {
@@ -24,7 +23,7 @@ pub struct KnotVector {
     knots: Vec<f64>,
 }
 
-/// Nonempty knot interval or Lagrange element, on which each function is one polynomial.
+/// Knot interval of nonzero length, or Lagrange element. On it each function is a single polynomial.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Span {
     /// First basis function that is nonzero on the span. The next `degree` functions are the other nonzero ones.
@@ -63,8 +62,8 @@ impl KnotVector {
         Ok(vector)
     }
 
-    /// Creates `spans` equal spans on `[0, 1]` with `continuity` continuous derivatives at the interior knots, whose multiplicity is
-    /// `degree - continuity`.
+    /// Creates `spans` equal spans on `[0, 1]`. At interior knots, splines have `continuity` continuous derivatives, so the multiplicity of the
+    /// knots is `degree - continuity`.
     ///
     /// # Errors
     /// Fails for `spans` outside 1 to [`MAX_SPANS`], `degree` outside 1 to [`MAX_DEGREE`], or `continuity` not below `degree`.
@@ -126,8 +125,8 @@ impl KnotVector {
             - self.knots.partition_point(|&knot| knot < xi)
     }
 
-    /// Index `i` with `ξ_i ≤ xi < ξ_{i+1}`; at the right end, the index of the last nonempty span (The NURBS Book, algorithm A2.1). The functions `i
-    /// - p` to `i` are nonzero there.
+    /// Index `i` with `ξ_i ≤ xi < ξ_{i+1}`. At the right end it is the index of the last nonempty span (The NURBS Book, algorithm A2.1). The
+    /// functions `i - p` to `i` are nonzero there.
     ///
     /// # Errors
     /// Fails if `xi` is outside the domain or NaN.
@@ -141,7 +140,8 @@ impl KnotVector {
     /// Returns the knot vector with `xi` inserted `times` times.
     ///
     /// # Errors
-    /// Fails if `xi` is not strictly inside the domain, is closer to another knot than 1e-12 of the domain, or exceeds the multiplicity `degree`.
+    /// Fails if `xi` is not strictly inside the domain, if it is closer to another knot than 1e-12 of the domain, or if its multiplicity would
+    /// exceed the degree.
     pub fn insert(&self, xi: f64, times: usize) -> Result<Self, GeometryError> {
         let (start, end) = self.domain();
         if !(start < xi && xi < end) {
@@ -161,14 +161,14 @@ impl KnotVector {
         Self::new(self.degree, knots)
     }
 
-    /// Greville abscissae `(ξ_{i+1} + … + ξ_{i+p}) / p`, one per basis function, strictly increasing. Control points on a line at these parameters
-    /// give a parameterisation of uniform speed.
+    /// Greville abscissae `(ξ_{i+1} + … + ξ_{i+p}) / p`, one per basis function, strictly increasing. If the control points lie on a line at these
+    /// parameters, the curve has uniform speed.
     pub fn greville(&self) -> Vec<f64> {
         self.knots[1..self.knots.len() - 1]
             .windows(self.degree)
             .map(|knots| {
                 let (low, high) = (knots[0], knots[knots.len() - 1]);
-                // The mean of equal numbers may be rounded, but the ends must be exact.
+                // The mean of equal numbers may have a rounding error, but the ends must be exact.
                 if low == high {
                     low
                 } else {
@@ -178,7 +178,7 @@ impl KnotVector {
             .collect()
     }
 
-    /// Returns true if an affine map of the parameter transforms this knot vector into `other`, up to rounding.
+    /// Returns true if an affine map of the parameter converts this knot vector to `other`, up to rounding.
     pub(super) fn is_affine_to(&self, other: &Self) -> bool {
         self.degree == other.degree
             && self.knots.len() == other.knots.len()

@@ -1,4 +1,4 @@
-//! Lagrange polynomials on elements, the bases of classical finite elements.
+//! Lagrange polynomials on elements, as in classical finite elements.
 
 use serde::{Deserialize, Serialize};
 
@@ -7,11 +7,11 @@ use super::knots::{check_degree, check_inside, check_span_lengths, check_spans};
 use super::values::{BasisValues, FunctionRow};
 use super::{GeometryError, Span};
 
-/// Largest degree of Lagrange elements. Equispaced nodes are unsuitable for higher degrees.
+/// Largest degree of Lagrange elements. For higher degrees equally spaced nodes are unsuitable.
 const LARGEST_DEGREE: usize = 3;
 
-/// Continuous piecewise Lagrange polynomials with `degree + 1` equispaced nodes per element. End nodes are shared, so there are
-/// `elements · degree + 1` nodes and functions.
+/// Continuous piecewise Lagrange polynomials with `degree + 1` equally spaced nodes per element. Neighbouring elements share a node, so there are
+/// `elements · degree + 1` nodes and as many functions.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(try_from = "(usize, Vec<f64>)")]
 pub struct LagrangeBasis {
@@ -86,7 +86,7 @@ impl LagrangeBasis {
         (0..self.breaks.len() - 1).map(|element| self.span(element)).collect()
     }
 
-    /// Element that contains the parameter `xi` [-]; at a break the element on its right.
+    /// Element that contains the parameter `xi` [-]. At a break it is the element on the right.
     ///
     /// # Errors
     /// Fails if `xi` is outside the domain or NaN.
@@ -119,14 +119,14 @@ impl LagrangeBasis {
         Self::new(self.degree, breaks)
     }
 
-    /// Polynomials of the element `span` with all derivatives at any `xi`.
+    /// Polynomials of the element `span` at any `xi`, with all derivatives.
     pub(crate) fn evaluate_in(&self, span: &Span, xi: f64) -> BasisValues {
         let mut basis = BasisValues::zeros(span.first, self.degree);
         self.fill(span, xi, basis.rows_mut());
         basis
     }
 
-    /// Fills rows of zeros with the functions and their derivatives, one order per row.
+    /// Fills rows of zeros with the functions and their derivatives. Each row contains the derivatives of one order.
     pub(super) fn fill<const WIDTH: usize>(&self, span: &Span, xi: f64, rows: &mut [[f64; WIDTH]]) {
         for j in 0..=self.degree {
             let derivatives = self.polynomial(span, j, xi);
@@ -134,8 +134,8 @@ impl LagrangeBasis {
         }
     }
 
-    /// `L_j = Π_{m≠j} (ξ - ξ_m) / (ξ_j - ξ_m)` and its derivatives, multiplied factor by factor. For a linear factor `f`, Leibniz' rule is
-    /// `(f g)⁽ᵏ⁾ = f g⁽ᵏ⁾ + k f' g⁽ᵏ⁻¹⁾`.
+    /// Polynomial `L_j = Π_{m≠j} (ξ - ξ_m) / (ξ_j - ξ_m)` and its derivatives. It is multiplied factor by factor. For a linear factor `f`, Leibniz'
+    /// rule is `(f g)⁽ᵏ⁾ = f g⁽ᵏ⁾ + k f' g⁽ᵏ⁻¹⁾`.
     fn polynomial(&self, span: &Span, j: usize, xi: f64) -> FunctionRow {
         let mut derivatives = FunctionRow::default();
         derivatives[0] = 1.0;

@@ -3,34 +3,34 @@
 use super::{GaussRule, Span, larger};
 use nalgebra::{DMatrix, DVector};
 
-/// Function of the parameter ξ of a basis that is a polynomial of one degree on each of its spans.
+/// Function of the parameter ξ of a basis. It is a polynomial on each span of the basis, of the same degree on all spans.
 #[derive(Debug, Clone)]
 pub struct PiecewisePolynomial {
     spans: Vec<(f64, f64)>,
-    /// Coefficients of all spans in sequence: `Σ c_k t^k` with `t` from -1 to 1 on the span.
+    /// Coefficients of all spans, one span after the other. The function is `Σ c_k t^k`, where `t` runs from -1 to 1 on the span.
     coefficients: Vec<f64>,
     count: usize,
-    /// Points and weights on `[0, 1]`, exact for polynomials of one degree less than the function.
+    /// Quadrature points and weights on `[0, 1]`, exact for polynomials of one degree less than the function.
     rule: Vec<(f64, f64)>,
 }
 
-/// Function along a path between two parameters, with its mean slope.
+/// Function along a path between two parameters, with its divided difference.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct FunctionOnPath {
     /// Value at the start `ξ0` of the path.
     pub start: f64,
     /// Value at the end `ξ1` of the path.
     pub end: f64,
-    /// One-sided derivative at the end of the path.
+    /// Derivative at the end of the path, as limit from inside the path.
     pub slope: f64,
     /// Divided difference `D = (f(ξ1) - f(ξ0))/(ξ1 - ξ0)`, accurate to rounding for paths of any length.
     pub difference: f64,
-    /// Derivative of the divided difference with respect to the end of the path, `∂D/∂ξ1` for a fixed start.
+    /// Derivative `∂D/∂ξ1` of the divided difference with respect to the end of the path, for a fixed start.
     pub change: f64,
 }
 
 impl PiecewisePolynomial {
-    /// Creates a function from a row of coefficients for each span: `Σ c_k t^k` with `t` from -1 to 1 on the span.
+    /// Creates a function from a row of coefficients for each span. It is `Σ c_k t^k`, where `t` runs from -1 to 1 on the span.
     pub fn new(spans: &[Span], rows: &[Vec<f64>]) -> Self {
         let count = rows.first().map_or(1, Vec::len);
         let place = |span: &Span| (0.5 * (span.start + span.end), 0.5 * (span.end - span.start));
@@ -42,8 +42,8 @@ impl PiecewisePolynomial {
         }
     }
 
-    /// Integral of a function over consecutive spans, from the start of the first span. On each span the function is interpolated at `points` Gauss
-    /// points.
+    /// Creates the integral of a function over consecutive spans, starting at the first span. On each span the function is interpolated at `points`
+    /// Gauss points.
     pub fn integral(spans: &[Span], points: usize, function: impl Fn(&Span, f64) -> f64) -> Self {
         let rule = GaussRule::legendre(points);
         let places: Vec<f64> = rule.iter_on(-1.0, 1.0).map(|(t, _)| t).collect();
@@ -67,12 +67,12 @@ impl PiecewisePolynomial {
         Self::new(spans, &rows)
     }
 
-    /// Points and weights on `[0, 1]` that integrate the derivative exactly on a part of a span.
+    /// Quadrature points and weights on `[0, 1]` by which the derivative of the function is integrated exactly over a part of a span.
     pub(super) fn rule(&self) -> &[(f64, f64)] {
         &self.rule
     }
 
-    /// Largest of the values in the middle of the spans.
+    /// Largest of the values at the centres of the spans.
     pub(crate) fn largest_in_middle(&self) -> f64 {
         let middles = self.spans.iter().enumerate();
         middles.map(|(span, (middle, _))| self.in_span(span, *middle)[0]).fold(0.0, larger)
@@ -138,7 +138,7 @@ mod tests {
         let span = |start, end| Span { first: 0, start, end };
         let rows = [vec![1.0, 2.0, 3.0], vec![0.5, 0.0, -1.0]];
         let function = PiecewisePolynomial::new(&[span(0.0, 2.0), span(2.0, 2.5)], &rows);
-        // 1 + 2t + 3t² at ξ = 1.5, t = ½, dt/dξ = 1; ½ - t² at ξ = 2.5, t = 1, dt/dξ = 4.
+        // First span: 1 + 2t + 3t² at ξ = 1.5, where t = ½ and dt/dξ = 1. Second span: ½ - t² at ξ = 2.5, where t = 1 and dt/dξ = 4.
         assert_eq!(function.in_span(0, 1.5), [2.75, 5.0, 6.0]);
         assert_eq!(function.in_span(1, 2.5), [-0.5, -8.0, -32.0]);
     }

@@ -1,4 +1,4 @@
-//! Planar vectors and their two products.
+//! Planar vectors, with their scalar and cross product.
 
 use crate::elementary::sin_cos;
 

@@ -1,24 +1,24 @@
-//! Symmetric positive definite band matrices, and the band of their inverse.
+//! Symmetric positive definite band matrices, and entries of their inverse near the diagonal.
 
-/// Pivot, relative to the diagonal entry, below which the matrix counts as singular.
+/// Ratio of a pivot to the diagonal entry below which the matrix counts as singular.
 const ROUNDING: f64 = 1e-11;
 
-/// Symmetric positive definite band matrix, such as the Gram matrix of splines. Entries outside the band are zero.
+/// Symmetric positive definite band matrix, for example the matrix of scalar products of splines. Entries outside the band are zero.
 #[derive(Debug, Clone)]
 pub struct PositiveBand {
-    /// Row `i` holds the entries `(i, i), (i, i + 1), …`.
+    /// Row `i` contains the entries `(i, i), (i, i + 1), …`.
     rows: Vec<Vec<f64>>,
 }
 
 /// Factors `L D Lᵀ` of a [`PositiveBand`], with a unit diagonal of `L`.
 #[derive(Debug, Clone)]
 pub struct PositiveFactors {
-    /// Row `i` holds `D_i` and the entries `(i + 1, i), (i + 2, i), …` of `L`.
+    /// Row `i` contains `D_i` and the entries `(i + 1, i), (i + 2, i), …` of `L`.
     columns: Vec<Vec<f64>>,
 }
 
 impl PositiveBand {
-    /// Creates a zero matrix of a size with entries up to `half_bandwidth` from the diagonal.
+    /// Creates a zero matrix of the given size. Entries can be up to `half_bandwidth` columns away from the diagonal.
     pub fn zeros(size: usize, half_bandwidth: usize) -> Self {
         Self { rows: vec![vec![0.0; half_bandwidth + 1]; size] }
     }
@@ -28,7 +28,7 @@ impl PositiveBand {
         self.rows.len()
     }
 
-    /// Adds `factor · vᵢ vⱼ` to the rows and columns from `first` on, one for each entry of `v`.
+    /// Adds `factor · v vᵀ`. The first entry of `v` belongs to the row and column `first`.
     pub(crate) fn add_square(&mut self, first: usize, factor: f64, v: &[f64]) {
         for (row, (left, a)) in self.rows[first..].iter_mut().zip(v.iter().enumerate()) {
             row.iter_mut().zip(&v[left..]).for_each(|(entry, b)| *entry += factor * a * b);
@@ -41,14 +41,14 @@ impl PositiveBand {
         self.rows[low].get(high - low).copied().unwrap_or(0.0)
     }
 
-    /// Factorises as `L D Lᵀ`; `None` if a pivot is not positive or is due to rounding.
+    /// Computes the factors `L D Lᵀ`; `None` if a pivot is not positive or is due to rounding.
     pub fn factorise(&self) -> Option<PositiveFactors> {
         let mut columns = self.rows.clone();
         for at in 0..columns.len() {
             let (done, rest) = columns.split_at_mut(at + 1);
             let column = &mut done[at];
             let pivot = column[0];
-            // For linearly dependent rows, the pivot is due to rounding.
+            // If rows are linearly dependent, the pivot consists of rounding errors.
             if !(pivot > ROUNDING * self.rows[at][0] && pivot.is_finite()) {
                 return None;
             }
@@ -76,14 +76,15 @@ impl PositiveFactors {
         }
     }
 
-    /// Entries of the inverse up to `width` from its diagonal; `width` is at least the half-bandwidth.
+    /// Entries of the inverse that are up to `width` columns away from its diagonal. `width` must be at least the half-bandwidth.
     ///
-    /// From `Lᵀ Z = D⁻¹ L⁻¹`, starting with the last row (Takahashi, Fagan & Chin 1973; Erisman & Tinney 1975).
+    /// They are computed from `Lᵀ Z = D⁻¹ L⁻¹`, where `Z` is the inverse, starting with the last row (Takahashi, Fagan & Chin 1973; Erisman &
+    /// Tinney 1975).
     pub fn inverse(&self, width: usize) -> PositiveBand {
         let size = self.columns.len();
         let mut inverse = PositiveBand::zeros(size, width);
         for (row, column) in self.columns.iter().enumerate().rev() {
-            // The diagonal depends on the other entries of its row.
+            // The diagonal entry is computed last, because it depends on the other entries of its row.
             for away in (0..=width.min(size - 1 - row)).rev() {
                 let known = (row + 1..size).zip(&column[1..]);
                 let products = known.map(|(at, factor)| factor * inverse.get(at, row + away));

@@ -7,7 +7,7 @@ use std::f64::consts::PI;
 /// Largest number of points of a rule.
 const MOST_POINTS: usize = 64;
 
-/// Gauss–Legendre rule of `n` points, exact for polynomials up to degree `2n - 1`.
+/// Gauss–Legendre rule with `n` points, exact for polynomials up to degree `2n - 1`.
 #[derive(Debug, Clone, PartialEq)]
 pub struct GaussRule {
     /// Points on `[-1, 1]`, increasing and exactly symmetric about 0.
@@ -17,7 +17,7 @@ pub struct GaussRule {
 }
 
 impl GaussRule {
-    /// Returns the Gauss–Legendre rule of `n` points, accurate to rounding.
+    /// Returns the Gauss–Legendre rule with `n` points, accurate to rounding.
     ///
     /// # Errors
     /// Fails for `n` outside 1 to 64.
@@ -29,8 +29,8 @@ impl GaussRule {
         }
     }
 
-    /// Rule of `n` points by Newton's method on the Legendre polynomial, starting from Tricomi's estimate, with weights `2 / ((1 - x²) P'_n(x)²)`
-    /// (Abramowitz & Stegun 25.4.29).
+    /// Rule with `n` points. The points are the zeros of the Legendre polynomial, found by Newton's method from Tricomi's estimate. The weights are
+    /// `2 / ((1 - x²) P'_n(x)²)` (Abramowitz & Stegun 25.4.29).
     pub(super) fn legendre(n: usize) -> Self {
         let (mut points, mut weights) = (vec![0.0; n], vec![0.0; n]);
         for i in 0..n.div_ceil(2) {
@@ -60,7 +60,7 @@ impl GaussRule {
     }
 }
 
-/// `P_n(x)` and `P'_n(x)` by the three-term recurrence, for `|x| < 1`.
+/// Legendre polynomial `P_n(x)` and its derivative `P'_n(x)` for `|x| < 1`, by the three-term recurrence.
 fn legendre_polynomial(n: usize, x: f64) -> (f64, f64) {
     let (mut before, mut value) = (1.0, x);
     for k in 2..=n {

@@ -1,34 +1,35 @@
-//! Projections of functions onto derivatives of splines.
+//! Projection of functions onto the space of derivatives of splines.
 
 use super::spline_rule::{lower_count, lower_splines};
 use super::{Basis, BasisValues, GaussRule, GeometryError, Span};
 
-/// Space `T` of the derivatives of the functions of a run of spans, with their scalar products.
+/// Space `T` of the derivatives of the basis functions in a run of spans, with their scalar products.
 ///
-/// The integrals of a function with all elements of `T` determine its projection `Π f`. Its error for smooth functions is of order `p`, up to the
-/// ends of the run.
+/// The scalar products of a function `f` with all elements of `T` determine its projection `Π f`. For smooth functions, the error of the projection
+/// is of order `p` up to the ends of the run, where `p` is the degree of the basis.
 #[derive(Debug, Clone)]
 pub struct LowerSplines {
     basis: Basis,
     run: Vec<Span>,
     count: usize,
-    /// Factors `L D Lᵀ` of `∫ T_t T_u dξ`: row t holds the pivot and the factors of the following rows.
+    /// Factors `L D Lᵀ` of the matrix of scalar products `∫ T_t T_u dξ`. Row t contains the pivot and the factors of the following rows.
     factors: Vec<Vec<f64>>,
 }
 
-/// Reproducing kernel at a place of a run: `ρ` in `T` with `∫ ρ t dξ = t(ξ)` for all t in `T`, and a spline `v` with `v' = ρ`.
+/// Reproducing kernel at a place ξ of a run. It is the function `ρ` in `T` with `∫ ρ t dξ = t(ξ)` for all t in `T`, stored as a spline `v` with `v'
+/// = ρ`.
 #[derive(Debug, Clone)]
 pub struct Reproduction<'a> {
     splines: &'a LowerSplines,
     kernel: Vec<f64>,
-    /// Coefficients of `v`, one per function of the run.
+    /// Coefficients of `v`, one per basis function of the run.
     integral: Vec<f64>,
-    /// Coefficients of `Π v`.
+    /// Coefficients of the projection `Π v`.
     projected: Vec<f64>,
 }
 
 impl LowerSplines {
-    /// Creates the derivatives of consecutive spans that are joined at least C¹.
+    /// Creates the space for consecutive spans that are joined at least C¹.
     ///
     /// # Errors
     /// Fails if there is no Gauss rule for the degree.
@@ -48,8 +49,8 @@ impl LowerSplines {
         Ok(splines)
     }
 
-    /// Calls `add` for every point of a rule that integrates products of a function and a derivative exactly, with the index of the first derivative,
-    /// the weight, the derivatives and the functions.
+    /// Calls `add` for every point of a quadrature rule that integrates products of a function and a derivative exactly. The arguments are the
+    /// index of the first derivative, the weight, the derivatives and the functions.
     fn integrate(
         &self,
         mut add: impl FnMut(usize, f64, &[f64], &BasisValues),
@@ -85,7 +86,7 @@ impl LowerSplines {
         values
     }
 
-    /// Reproducing kernel of a place on a span of the run.
+    /// Reproducing kernel at the place `xi` on a span of the run.
     ///
     /// # Errors
     /// Fails if there is no Gauss rule for the degree.
@@ -96,7 +97,7 @@ impl LowerSplines {
             *value = lower;
         }
         let kernel = self.solve(here);
-        // N_a' = T_(a-1) - T_a, so v' = Σ (v_(t+1) - v_t) T_t.
+        // Since N_a' = T_(a-1) - T_a, the derivative is v' = Σ (v_(t+1) - v_t) T_t.
         let steps = kernel.iter().scan(0.0, |sum, step| {
             *sum += step;
             Some(*sum)
@@ -114,12 +115,12 @@ impl LowerSplines {
 }
 
 impl Reproduction<'_> {
-    /// Kernel `ρ` at a parameter of a span.
+    /// Value of the kernel `ρ` at a parameter of a span.
     pub(crate) fn kernel(&self, span: &Span, xi: f64) -> f64 {
         self.combine(&self.kernel, span, &self.splines.basis.evaluate_in(span, xi))
     }
 
-    /// Difference `Π v - v` at a parameter of a span: the projection error of the integral of the kernel `ρ`.
+    /// Value of `Π v - v` at a parameter of a span: the projection error of the integral of the kernel `ρ`.
     pub(crate) fn projection_error(&self, span: &Span, xi: f64) -> f64 {
         let values = self.splines.basis.evaluate_in(span, xi);
         let functions = values.values().iter().zip(&self.integral[self.splines.first(span)..]);
@@ -133,7 +134,7 @@ impl Reproduction<'_> {
     }
 }
 
-/// Factors `L D Lᵀ` of a symmetric positive definite matrix, given by rows from the diagonal on.
+/// Factors `L D Lᵀ` of a symmetric positive definite matrix. Its rows are given starting with the diagonal entry.
 fn factorised(mut rows: Vec<Vec<f64>>) -> Vec<Vec<f64>> {
     for t in 0..rows.len() {
         let (done, rest) = rows.split_at_mut(t + 1);
@@ -196,7 +197,7 @@ mod tests {
                         place.projection_error(on, at) * slope(on, at)
                     });
                     assert!(missed.abs() < 1e-10, "{missed:e}");
-                    // v' = ρ, so v(end) - v(start) = ∫ ρ dξ = 1.
+                    // Since v' = ρ, v(end) - v(start) = ∫ ρ dξ = 1.
                     let ends = [place.integral[0], place.integral[basis.functions() - 1]];
                     assert!((ends[1] - ends[0] - 1.0).abs() < 1e-10);
                 }

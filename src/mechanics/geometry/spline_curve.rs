@@ -6,7 +6,7 @@ use super::arc_length::{integrate, invert};
 use super::error::{finite, finite_point};
 use super::{BasisValues, GeometryError, KnotVector, Span, Vec2, bspline};
 
-/// Accuracy of arc lengths, relative to the length of the control polygon.
+/// Accuracy of arc lengths, as a fraction of the length of the control polygon.
 const LENGTH_ACCURACY: f64 = 1e-14;
 
 /// B-spline curve `x(ξ) = Σ_i N_i(ξ) P_i` (The NURBS Book, section 3.2), with its arc length at the knots.
@@ -17,7 +17,7 @@ pub struct SplineCurve {
     control_points: Vec<Vec2>,
     #[serde(skip)]
     spans: Vec<Span>,
-    /// Arc lengths at the starts of the spans and at the end of the last span.
+    /// Arc lengths at the starts of the spans, followed by the arc length at the end of the curve.
     #[serde(skip)]
     lengths: Vec<f64>,
     #[serde(skip)]
@@ -137,8 +137,8 @@ impl SplineCurve {
     }
 }
 
-/// Control points after a single insertion of `xi`. Each new control point divides a side of the old control polygon in the ratio in which `xi`
-/// divides the support of a spline of one degree less.
+/// Control points after `xi` has been inserted once as a knot. Each new control point divides a side of the old control polygon. The ratio is that
+/// in which `xi` divides the support of a spline of one degree less.
 fn insert_once(knots: &KnotVector, points: &[Vec2], xi: f64) -> Result<Vec<Vec2>, GeometryError> {
     let (span, degree, multiplicity) = (knots.span_at(xi)?, knots.degree(), knots.multiplicity(xi));
     let divide = |i: usize| {

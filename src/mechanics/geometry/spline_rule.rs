@@ -1,28 +1,28 @@
-//! Gauss quadrature for splines with the smallest number of points that determines the derivatives.
+//! Gauss quadrature for splines with the smallest number of points from which all derivatives are determined.
 
 use super::collocation::{CollocationRow, solve};
 use super::{Basis, BasisValues, GaussRule, Span};
 
-/// Quadrature points of each span of a run with their weights: `∫ f dξ ≈ Σ weight · f(point)`.
+/// Quadrature points of each span of a run, with their weights: `∫ f dξ ≈ Σ weight · f(point)`.
 pub type RunRule = Vec<Vec<(f64, f64)>>;
 
-/// Difference of span lengths, relative to them, below which they are equal.
+/// Difference of two span lengths that count as equal, as a fraction of the lengths.
 const EQUAL: f64 = 1e-9;
 
-/// Patch rule: as many points as linearly independent derivatives of the functions of a run of spans, with weights that integrate all these
-/// derivatives exactly.
+/// Computes the patch rule of a run of spans. It has as many points as there are linearly independent derivatives of the basis functions, and its
+/// weights integrate all these derivatives exactly.
 ///
-/// The spans are consecutive and joined at least C¹. The derivatives of their `F` functions of degree `p` span the `P = F - 1` splines `T` of degree
-/// `p - 1`. The points are the zeros of the spline of degree `p` that is orthogonal to all of `T`. For a single span they are the Gauss points of
-/// polynomials. On equal spans of full continuity, far from the ends, the orthogonal spline alternates. Its zeros are the middles of spans for odd
-/// degrees, and the knots for even degrees.
+/// The spans are consecutive and joined at least C¹. The derivatives of the `F` basis functions of degree `p` form the space of the `P = F - 1`
+/// splines `T` of degree `p - 1`. The points of the rule are the zeros of the spline of degree `p` that is orthogonal to all of `T`. For a single
+/// span they are the Gauss points. On equal spans of full continuity, far from the ends, the orthogonal spline alternates. Its zeros are then the
+/// centres of spans for odd degrees, and the knots for even degrees.
 ///
-/// For cubics of full continuity on three or more equal spans, the common mesh, other points are better by a factor of two in the error: two Gauss
-/// points in the first and last spans, and the middles of the other spans (docs/theory.md, section 4).
+/// A common mesh consists of cubic functions of full continuity on three or more equal spans. For it, other points have half the error: two Gauss
+/// points in the first and in the last span, and the centres of the other spans (docs/theory.md, section 4).
 ///
-/// The orthogonal spline has `P` zeros because of total positivity (de Boor, A Practical Guide to Splines, rev. ed. 2001, chapter XI). Positive
-/// weights, and `Σ w T² ≥ 0.79 ∫ T² dξ`, are not proven but tested for every degree and continuity. Returns `None` if rounding leaves fewer zeros or
-/// a weight that is not positive; no such spans are known.
+/// The orthogonal spline has `P` zeros because of total positivity (de Boor, A Practical Guide to Splines, rev. ed. 2001, chapter XI). That weights
+/// are positive, and that `Σ w T² ≥ 0.79 ∫ T² dξ`, is not proven but tested for every degree and continuity. The result is `None` if fewer zeros
+/// are found because of rounding, or if a weight is not positive. No spans with this result are known.
 pub fn patch_rule(basis: &Basis, run: &[Span]) -> Option<RunRule> {
     if let [span] = run {
         return gauss_points(basis.degree(), span).map(|rule| vec![rule]);
@@ -61,8 +61,8 @@ fn middles(run: &[Span]) -> Option<Vec<Vec<f64>>> {
     run.iter().enumerate().map(of).collect()
 }
 
-/// Splines of one degree less as sums of derivatives: `T_t = -Σ_(a ≤ t) N'_a` is a positive multiple of a B-spline, with integral one. The splines
-/// that are nonzero on a span have the indices of the functions of the span, except the last.
+/// Splines of one degree less as sums of derivatives. `T_t = -Σ_(a ≤ t) N'_a` is a positive multiple of a B-spline, and its integral is one. The
+/// splines that are nonzero on a span have the same indices as the functions of the span, except the last.
 pub fn lower_splines(values: &BasisValues) -> impl Iterator<Item = f64> + '_ {
     let partial = values.slopes().iter().scan(0.0, |sum, slope| {
         *sum -= slope;
@@ -80,14 +80,14 @@ fn empty_rows(count: usize, room: usize) -> Vec<CollocationRow<f64>> {
     std::iter::repeat_with(row).take(count).collect()
 }
 
-/// Coefficients of the spline of the run that is orthogonal to all lower splines, normalised to a last coefficient of one.
+/// Coefficients of the spline in the run that is orthogonal to all splines of one degree less. The last coefficient is normalised to one.
 ///
 /// Its equations `Σ_s ∫ T_t N_s dξ q_s = 0` have a totally positive matrix with one more column than rows.
 fn orthogonal_spline(basis: &Basis, run: &[Span]) -> Option<Vec<f64>> {
     let (degree, offset) = (basis.degree(), run.first()?.first);
     let unknowns = lower_count(basis, run)?;
     let mut rows = empty_rows(unknowns, 2 * degree + 1);
-    // Products of degree 2p - 1.
+    // The products have degree 2p - 1.
     let gauss = GaussRule::new(degree).ok()?;
     for span in run {
         let from = span.first - offset;
@@ -115,7 +115,8 @@ fn orthogonal_spline(basis: &Basis, run: &[Span]) -> Option<Vec<f64>> {
     coefficients.iter().all(|coefficient| coefficient.is_finite()).then_some(coefficients)
 }
 
-/// Search places of a span, from -1 to 1 and denser towards its ends like Gauss points. At most one zero lies between two neighbouring places.
+/// Places of a span, from -1 to 1, between which zeros are searched. They are denser towards the ends, like Gauss points, so that at most one zero
+/// lies between two of them.
 fn places(degree: usize) -> Vec<f64> {
     let count = 8 * (degree + 1);
     let place = |at: usize| {
@@ -125,7 +126,7 @@ fn places(degree: usize) -> Vec<f64> {
     (0..count).map(place).collect()
 }
 
-/// Zeros of a spline on each span; `None` unless their number is that of the basis functions of one degree less.
+/// Zeros of a spline on each span. `None` unless their total number equals the number of basis functions of one degree less.
 fn zeros(basis: &Basis, run: &[Span], coefficients: &[f64]) -> Option<Vec<Vec<f64>>> {
     let (degree, offset) = (basis.degree(), run.first()?.first);
     let places = places(degree);
@@ -135,7 +136,7 @@ fn zeros(basis: &Basis, run: &[Span], coefficients: &[f64]) -> Option<Vec<Vec<f6
         .collect();
     let mut found = Vec::with_capacity(run.len());
     for (at, (span, piece)) in run.iter().zip(&pieces).enumerate() {
-        // The value at the end of a span is taken from the start of the next span, so that zeros at knots are counted exactly once.
+        // At the end of a span, the value at the start of the next span is used, so that a zero at a knot is counted exactly once.
         let end = pieces.get(at + 1).map_or_else(|| piece.value(1.0), |next| next.value(-1.0));
         let starts = places.iter().map(|t| (*t, piece.value(*t)));
         let values: Vec<(f64, f64)> = starts.chain([(1.0, end)]).collect();
@@ -150,7 +151,7 @@ fn zeros(basis: &Basis, run: &[Span], coefficients: &[f64]) -> Option<Vec<Vec<f6
     (found.iter().map(Vec::len).sum::<usize>() == lower_count(basis, run)?).then_some(found)
 }
 
-/// Polynomial of a span, `Σ c_k t^k` with t from -1 to 1.
+/// Polynomial `Σ c_k t^k` of a span, where t runs from -1 to 1.
 struct Polynomial(Vec<f64>);
 
 impl Polynomial {
@@ -172,7 +173,7 @@ impl Polynomial {
         self.0.iter().rev().fold(0.0, |sum, coefficient| sum * t + coefficient)
     }
 
-    /// Zero between two places with values of opposite sign, by bisection. `low` is the value at the left place.
+    /// Zero between two places with values of opposite sign, found by bisection. `low` is the value at the left place.
     fn zero_between(&self, mut left: f64, mut right: f64, low: f64) -> f64 {
         if low == 0.0 {
             return left;
@@ -196,9 +197,9 @@ impl Polynomial {
 /// `points` lists the quadrature points of each span; their total is one less than the number of basis functions. Returns `None` if no such weights
 /// exist or a weight is not finite.
 ///
-/// The weights solve a collocation system with the splines of one degree less, whose matrix is totally positive (F. Auricchio, F. Calabrò, T. J. R.
-/// Hughes, A. Reali & G. Sangalli, A simple algorithm for obtaining nearly optimal quadrature rules for NURBS-based isogeometric analysis, Comput.
-/// Methods Appl. Mech. Eng. 249-252 (2012) 15-27).
+/// The weights are the solution of a collocation system with the splines of one degree less, whose matrix is totally positive (F. Auricchio, F.
+/// Calabrò, T. J. R. Hughes, A. Reali & G. Sangalli, A simple algorithm for obtaining nearly optimal quadrature rules for NURBS-based isogeometric
+/// analysis, Comput. Methods Appl. Mech. Eng. 249-252 (2012) 15-27).
 fn derivative_weights(basis: &Basis, run: &[Span], points: &[Vec<f64>]) -> Option<Vec<f64>> {
     let (first, last) = (run.first()?, run.last()?);
     let unknowns = lower_count(basis, run)?;
@@ -217,14 +218,14 @@ fn derivative_weights(basis: &Basis, run: &[Span], points: &[Vec<f64>]) -> Optio
             number += 1;
         }
     }
-    // Every point must lie in the support of its spline (Schoenberg & Whitney 1953).
+    // Every point must lie within the support of its spline (Schoenberg & Whitney 1953).
     let has_own = |(at, row): (usize, &CollocationRow<f64>)| {
         (row.first..row.first + row.entries.len()).contains(&at)
     };
     if number != unknowns || !rows.iter().enumerate().all(has_own) {
         return None;
     }
-    // ∫ N'_a dξ is the difference of N_a between both ends.
+    // The integral ∫ N'_a dξ is the difference between the values of N_a at both ends.
     let ends = [(first, first.start, 1.0), (last, last.end, -1.0)];
     for (span, xi, sign) in ends {
         let from = span.first - first.first;

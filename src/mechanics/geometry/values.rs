@@ -1,23 +1,23 @@
-//! Nonzero basis functions at one parameter, with all their derivatives.
+//! Basis functions that are nonzero at a parameter, with all their derivatives.
 
 use super::{MAX_DEGREE, Vec2};
 
-/// Capacity for the functions of one span, and for their derivatives of order 0 to the degree.
+/// Largest number of functions of one span. Their derivatives of order 0 to the degree need as many rows.
 const WIDTH: usize = MAX_DEGREE + 1;
 
-/// One value for each nonzero function of a span; only the first `degree + 1` are used.
+/// One value for each nonzero function of a span. Only the first `degree + 1` values are used.
 pub(super) type FunctionRow = [f64; WIDTH];
 
 const ZERO: FunctionRow = [0.0; WIDTH];
 
-/// The `degree + 1` basis functions `N_first … N_{first+degree}` of one span and all their derivatives with respect to ξ, at one parameter. All other
-/// functions are zero there. Values are dimensionless, and stored without heap allocation.
+/// The `degree + 1` basis functions `N_first … N_{first+degree}` of one span, and all their derivatives with respect to ξ, at one parameter. All
+/// other functions are zero there. Values are dimensionless and need no allocated memory.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct BasisValues {
     /// Index in the basis of the first nonzero function.
     pub first: usize,
     degree: usize,
-    /// Derivatives of order `k` in row `k`.
+    /// Derivatives with respect to ξ. Row `k` contains those of order `k`.
     rows: [FunctionRow; WIDTH],
 }
 
@@ -31,17 +31,17 @@ impl BasisValues {
         &mut self.rows[..=self.degree]
     }
 
-    /// Values `N_first(ξ) …`, `degree + 1` of them. They sum to one.
+    /// Values `N_first(ξ) …` of the `degree + 1` functions. They sum to one.
     pub fn values(&self) -> &[f64] {
         self.derivatives(0)
     }
 
-    /// First derivatives `N'_first(ξ) …` with respect to ξ, `degree + 1` of them. They sum to zero.
+    /// First derivatives `N'_first(ξ) …` of the `degree + 1` functions with respect to ξ. They sum to zero.
     pub fn slopes(&self) -> &[f64] {
         self.derivatives(1)
     }
 
-    /// Derivatives of the given `order` with respect to ξ, `degree + 1` of them. Above the degree they are zero.
+    /// Derivatives of the given `order` of the `degree + 1` functions with respect to ξ. Above the degree they are zero.
     pub fn derivatives(&self, order: usize) -> &[f64] {
         let row = if order <= self.degree { &self.rows[order] } else { &ZERO };
         &row[..=self.degree]
@@ -53,7 +53,7 @@ impl BasisValues {
     /// Panics if there are fewer points than basis functions.
     pub(crate) fn combine(&self, order: usize, points: &[Vec2]) -> Vec2 {
         let points = &points[self.first..=self.first + self.degree];
-        // The derivatives sum to zero, so another origin changes nothing but rounding, which is smallest for a near origin.
+        // The derivatives sum to zero, so the origin of the points affects rounding only. Rounding is smallest for a near origin.
         let origin = if order == 0 { Vec2::zeros() } else { points[0] };
         self.derivatives(order).iter().zip(points).map(|(n, point)| *n * (point - origin)).sum()
     }

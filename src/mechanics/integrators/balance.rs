@@ -1,4 +1,4 @@
-//! Equations of one step with their work space, shared by all integrators.
+//! Equations of one step and the memory to solve them, shared by all integrators.
 
 use super::prescribed::BalancedAt;
 use super::{FailureSource, Interval, Mechanism, Solution, Stage, StepError};
@@ -6,17 +6,17 @@ use crate::elementary::square;
 use crate::linalg::BorderedMatrix;
 use crate::newton::{Equations, Newton, NewtonError, NewtonReport, ResidualNorms, Tolerance};
 
-/// Largest rotation increment `Δω` (mean rate times step). Beyond it the direction of rotation is ambiguous.
+/// Largest rotation increment `Δω`, which is mean rate times step. For larger increments the direction of rotation is ambiguous.
 const LARGEST_INCREMENT: f64 = std::f64::consts::PI;
 
-/// Smallest chord of a slider path in the mean configuration, relative to the path. If a rotation of about π folds the path, the contact equations
-/// have no defined direction and spurious solutions exist.
+/// Smallest chord of the path of a slider in the mean configuration, as a fraction of the length of the path. If a rotation of about π folds the
+/// path, the contact equations have no defined direction, and spurious solutions exist.
 const SHORTEST_CHORD: f64 = 1e-3;
 
-/// Coefficients of a method in the balance of a step.
+/// Coefficients of an integrator in the balance of a step.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct BalanceCoefficients {
-    /// Factor `ι` of the inertia: the acceleration is `ι d/Δt²` plus the carried part [-].
+    /// Factor `ι` of the inertia. The acceleration is `ι d/Δt²` plus the part that is known at the start of the step [-].
     pub(super) inertia: f64,
     pub(super) stage: Stage,
     /// Factor of the forces that depend on the increments [-].
@@ -25,16 +25,16 @@ pub(super) struct BalanceCoefficients {
 }
 
 impl BalanceCoefficients {
-    /// Balance of methods with `(v0 + v1)/2 = Δq/Δt` and the acceleration `(v1 - v0)/Δt`.
+    /// Coefficients of methods with `(v0 + v1)/2 = Δq/Δt` and the acceleration `(v1 - v0)/Δt`.
     pub(super) fn mean(stage: Stage, weight: f64) -> Self {
         Self { inertia: 2.0, stage, weight, prescribed: BalancedAt::Mean }
     }
 }
 
-/// `R(d, z) = ι/Δt² M d + weight · F(stage, u) + carried + G(u, z)`, `u = Δt v0 + d`.
+/// Balance of a step: `R(d, z) = ι/Δt² M d + weight · F(stage, u) + constant + G(u, z)` with the increment `u = Δt v0 + d`.
 ///
-/// Here `z` are the constraint multipliers and `G` their forces, averaged over the step. The unknown is not the increment `u`, but its deviation `d`
-/// from a motion with constant velocity. Then the rounding error of `v1 = v0 + 2/Δt d` is relative to the velocity change, so that momenta do not
+/// Here `z` are the constraint multipliers and `G` their forces, averaged over the step. The unknown is not the increment `u` but its deviation `d`
+/// from a motion with constant velocity. Hence the rounding error of `v1 = v0 + 2/Δt d` is relative to the velocity change, and momenta do not
 /// drift over many steps.
 pub(super) struct StepBalance<'a> {
     mechanism: &'a mut dyn Mechanism,
@@ -69,7 +69,7 @@ impl StepBalance<'_> {
         self.mechanism.worst(part, residual)
     }
 
-    /// `ι/Δt²`
+    /// Factor `ι/Δt²` of the inertia.
     fn inertia(&self) -> f64 {
         self.rule.inertia / square(self.duration)
     }
@@ -115,16 +115,16 @@ impl Equations for StepBalance<'_> {
 #[derive(Debug, Clone)]
 pub(super) struct StepSolver {
     newton: Newton,
-    /// `Δt v0`
+    /// Increments `Δt v0` of a motion with constant velocity.
     free_increments: Vec<f64>,
     unknowns: Vec<f64>,
     increments: Vec<f64>,
-    /// Part of the residual that is independent of the increments.
+    /// Part of the residual that does not depend on the increments.
     constant_residual: Vec<f64>,
     rates: Vec<f64>,
     residual: Vec<f64>,
     balanced: Vec<(Stage, f64)>,
-    /// True if the method balances the change of momentum.
+    /// True if the integrator balances the change of momentum.
     balances_rates: bool,
 }
 
@@ -169,7 +169,7 @@ impl StepSolver {
         self.balances_rates = true;
     }
 
-    /// Adds a share of the forces of a stage at zero increments to the balance of the step.
+    /// Adds `share` times the forces of a stage at zero increments to the balance of the step.
     pub(super) fn carry(&mut self, mechanism: &mut dyn Mechanism, stage: Stage, share: f64) {
         self.increments.fill(0.0);
         mechanism.add_forces(stage, &self.increments, share, &mut self.constant_residual);
@@ -201,7 +201,7 @@ impl StepSolver {
         self.unknowns.copy_from_slice(solution);
     }
 
-    /// Solves the balance of the step by a callback, which receives the Newton solver, the equations, their unknowns and their residual.
+    /// Solves the balance of the step by a callback. The callback receives the Newton solver, the equations, their unknowns and their residual.
     pub(super) fn solve_by(
         &mut self,
         mechanism: &mut dyn Mechanism,
@@ -257,7 +257,7 @@ impl StepSolver {
         }
     }
 
-    /// Copies the prescribed increments, and adds the inertia of prescribed degrees of freedom to the balance of the step.
+    /// Copies the prescribed increments, and adds the inertia forces of prescribed degrees of freedom to the balance of the step.
     fn take_prescribed(&mut self, mechanism: &mut dyn Mechanism, at: BalancedAt) {
         let movements = self.free_increments.len();
         let prescribed = mechanism.prescribed();
@@ -279,8 +279,8 @@ impl StepSolver {
         self.accept(mechanism, |_, v0, d| v0 + twice_inverse * d);
     }
 
-    /// Accepts the increments of the step. `rate` computes the final rate of an unknown from its index, its initial rate and its deviation from
-    /// constant velocity.
+    /// Ends the step with the present increments. `rate` computes the final rate of an unknown from its index, its initial rate and its deviation
+    /// from constant velocity.
     pub(super) fn accept(
         &mut self,
         mechanism: &mut dyn Mechanism,

@@ -1,19 +1,20 @@
-//! Energy-decaying, momentum-conserving integrator.
+//! Integrator that conserves momenta and never increases the energy.
 
 use super::balance::{BalanceCoefficients, StepSolver};
 use super::{Integrator, Interval, Mechanism, Stage, StepError};
 use crate::newton::{NewtonReport, Tolerance};
 
-/// Energy–momentum method with section forces for a strain later than the midpoint. It damps high frequencies, and conserves linear and angular
-/// momentum to rounding for any step size.
+/// Energy–momentum method in which the strain for the section forces is taken later than in the middle of the step. It damps high frequencies, and
+/// conserves linear and angular momentum to rounding for any step size.
 ///
-/// `M (v1 - v0)/Δt + F(damped midpoint) = 0`, `(v0 + v1)/2 = Δq/Δt`, with
+/// `M (v1 - v0)/Δt + F(damped midpoint) = 0`, `(v0 + v1)/2 = Δq/Δt`, with the section forces
 /// `N̄ = C (½(Γ0 + Γ1) + χ/2 ΔΓ)`, `M̄ = EI (½(κ0 + κ1) + χ/2 Δκ)`, `χ ≥ 0`.
 ///
-/// A step dissipates exactly the energy `χ/2 ∫ ΔΓ·C ΔΓ + EI Δκ² dX`. The order is one, or two for `χ = 0`, the energy–momentum method.
+/// A step dissipates exactly the energy `χ/2 ∫ ΔΓ·C ΔΓ + EI Δκ² dX`. The method is of first order. For `χ = 0` it is the energy–momentum method, of
+/// second order.
 ///
-/// After F. Armero & I. Romero, Comput. Methods Appl. Mech. Eng. 190 (2001) 2603–2649, who add dissipation to the averaged stresses of a conserving
-/// method. Here the added stress is linear in the strain.
+/// The method follows F. Armero & I. Romero, Comput. Methods Appl. Mech. Eng. 190 (2001) 2603–2649, who add dissipation to the averaged stresses of
+/// a conserving method. Here the added stress is linear in the strain.
 #[derive(Debug, Clone)]
 pub struct EnergyDecaying {
     solver: StepSolver,
@@ -24,7 +25,7 @@ impl EnergyDecaying {
     /// Stages at which loads are evaluated.
     pub const STAGES: &[Stage] = &[Stage::Midpoint];
 
-    /// Creates the method with dissipation `chi` [-] and work space for a mechanism.
+    /// Creates the method with the dissipation `chi` [-], and allocates memory for a mechanism.
     pub fn new(chi: f64, mechanism: &dyn Mechanism, tolerance: Tolerance) -> Self {
         Self { solver: StepSolver::new(mechanism, tolerance), chi }
     }

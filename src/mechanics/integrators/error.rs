@@ -7,9 +7,9 @@ use std::rc::Rc;
 use super::{Interval, Overshoot};
 use crate::newton::NewtonError;
 
-/// Error from outside the mechanics of a step. It is displayed unchanged, and can be downcast to its type.
+/// Error that does not come from the mechanics of a step. It is displayed unchanged, and can be downcast to its type.
 ///
-/// It is not `Send`, because it may come from a script function whose errors are not.
+/// The type is not `Send`, because the error may come from a script function, and errors of script functions are not.
 #[derive(Debug, Clone)]
 pub struct ExternalError(Rc<dyn Error>);
 
@@ -19,13 +19,13 @@ impl ExternalError {
         Self(Rc::new(error))
     }
 
-    /// The wrapped error if it is of type `E`.
+    /// Returns the wrapped error if it is of type `E`.
     pub fn downcast_ref<E: Error + 'static>(&self) -> Option<&E> {
         self.0.downcast_ref()
     }
 }
 
-/// Errors with equal messages are equal.
+/// Two errors with equal messages are treated as equal.
 impl PartialEq for ExternalError {
     fn eq(&self, other: &Self) -> bool {
         self.0.to_string() == other.0.to_string()
@@ -44,10 +44,10 @@ impl Error for ExternalError {
     }
 }
 
-/// Location of a failed step in a mechanism.
+/// Place in a mechanism at which a step failed.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum FailureSource {
-    /// Equation or matrix row of an unknown.
+    /// Unknown with the given index: its equation or its row of the matrix.
     Unknown(usize),
     /// Named object.
     Named(String),
@@ -60,7 +60,7 @@ fn at(culprit: Option<&FailureSource>) -> String {
     }
 }
 
-/// Rejected step. The mechanism is in its state at the start of the step.
+/// Step that failed. The mechanism is in its state at the start of the step.
 #[expect(missing_docs, reason = "the messages describe the variants and their fields")]
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum StepError {
@@ -68,11 +68,11 @@ pub enum StepError {
     Newton {
         /// Interval of the step [time].
         interval: Interval,
-        /// Reason, with the residual history.
+        /// Reason, with the residual norms of all iterations.
         source: Box<NewtonError>,
-        /// Newton iterations of earlier substeps.
+        /// Number of Newton iterations of earlier substeps.
         before: usize,
-        /// Location of the failure, if known.
+        /// Place of the failure, if known.
         failure_source: Option<Box<FailureSource>>,
     },
     #[error(
@@ -82,7 +82,7 @@ pub enum StepError {
     Rotation {
         /// Interval of the step [time].
         interval: Interval,
-        /// Rotation increment `Δω` of the section, mean rate times step [rad].
+        /// Rotation increment `Δω` of the section, which is mean rate times step [rad].
         rotation: f64,
         iterations: usize,
     },
@@ -93,11 +93,11 @@ pub enum StepError {
     Chord {
         /// Interval of the step [time].
         interval: Interval,
-        /// Ratio of the chord to the length of the path of the slider, in the mean configuration [-].
+        /// Chord of the path of the slider in the mean configuration, as a fraction of the length of the path [-].
         chord: f64,
         iterations: usize,
     },
-    /// Constraint limit that is passed within the step, so that the step must end at the limit.
+    /// Limit of a constraint that is passed within the step. The step must be repeated so that it ends at the limit.
     #[error(
         "limit {} of a constraint is exceeded within the step of {:.3e} from t = {}",
         overshoot.limit, interval.duration(), interval.start
@@ -105,7 +105,7 @@ pub enum StepError {
     Overshoot {
         /// Interval of the step [time].
         interval: Interval,
-        /// Passed limit, and the overshoot.
+        /// Limit that was passed, and the distance beyond it.
         overshoot: Overshoot,
         iterations: usize,
     },
@@ -119,7 +119,7 @@ pub enum StepError {
 }
 
 impl StepError {
-    /// Number of factorisations tried in the step.
+    /// Number of factorisations in the failed step.
     pub fn factorisations(&self) -> usize {
         match self {
             Self::Newton { source, before, .. } => source.factorisations() + before,

@@ -3,27 +3,28 @@
 use super::{EnergyMomentum, Integrator, Interval, Mechanism, Stage, StepError};
 use crate::newton::{NewtonReport, Tolerance};
 
-/// Lengths of the first three substeps as fractions of the step. The last three have the same lengths in reverse order.
+/// Lengths of the first three of seven substeps, as fractions of the step. The last three have the same lengths in reverse order.
 ///
-/// They satisfy five equations: order four, and no response of vibrations with a phase of 2π or 4π per step to slow loads (theory.md 8.3).
+/// They satisfy five equations. These are the conditions of order four, and the condition that slow loads do not excite vibrations with a phase of
+/// 2π or 4π per step (theory.md 8.3).
 const SHARES: [f64; 3] =
     [0.161_052_153_814_088_86, 0.193_890_122_365_726_64, 0.426_192_546_250_769_94];
 
-/// Ends of the substeps as fractions of the step. The fourth substep runs backwards in time.
+/// End times of the substeps, as fractions of the step. The fourth substep runs backwards in time.
 const ENDS: [f64; 7] = {
     let [a, b, c] = SHARES;
     [a, a + b, a + b + c, 1.0 - (a + b + c), 1.0 - (a + b), 1.0 - a, 1.0]
 };
 
-/// Seven energy–momentum steps of relative lengths `a, b, c, 1 - 2(a + b + c), c, b, a`, the fourth one backwards in time. Each substep conserves
-/// energy, linear and angular momentum to rounding, and so does the whole step.
+/// Fourth-order method. A step consists of seven energy–momentum substeps with the lengths `a, b, c, 1 - 2(a + b + c), c, b, a`; the fourth one
+/// runs backwards in time. Each substep conserves energy, linear and angular momentum to rounding, and so does the whole step.
 ///
-/// The leading error of a symmetric second-order method is proportional to `Δt³` per step. It cancels because the cubes of the lengths sum to zero,
-/// which gives order four. The lengths are small, which keeps the remaining error small. They are chosen such that slow loads do not excite
-/// unresolved vibrations.
+/// In a step of a symmetric second-order method, the leading error is proportional to `Δt³`. These errors cancel because the sum of the cubes of
+/// the substep lengths is zero, so that the method has order four. The remaining error is small because the lengths are small. The lengths are
+/// chosen such that slow loads do not excite unresolved vibrations.
 ///
-/// Compositions of this kind: R. I. McLachlan, On the numerical integration of ordinary differential equations by symmetric composition methods, SIAM
-/// J. Sci. Comput. 16 (1995) 151–168. The coefficients are original.
+/// Methods of this type: R. I. McLachlan, On the numerical integration of ordinary differential equations by symmetric composition methods, SIAM J.
+/// Sci. Comput. 16 (1995) 151–168. The coefficients were computed for this program.
 #[derive(Debug, Clone)]
 pub struct FourthOrder {
     substep: EnergyMomentum,
@@ -36,16 +37,16 @@ impl FourthOrder {
     /// Lengths of the longest forward substep and of the backward substep, as fractions of a step.
     pub const LONGEST: [f64; 2] = [SHARES[2], ENDS[3] - ENDS[2]];
 
-    /// Creates the method with work space for a mechanism.
+    /// Creates the method, and allocates memory for a mechanism.
     pub fn new(mechanism: &mut dyn Mechanism, tolerance: Tolerance) -> Self {
-        // Allocates the checkpoint before the first step.
+        // This allocates the memory for the saved state before the first step.
         mechanism.checkpoint().save_state();
         Self { substep: EnergyMomentum::new(mechanism, tolerance) }
     }
 }
 
 impl Integrator for FourthOrder {
-    /// Iterations are summed over all substeps.
+    /// The reported iterations are the sum over all substeps.
     fn step(
         &mut self,
         mechanism: &mut dyn Mechanism,
@@ -55,7 +56,7 @@ impl Integrator for FourthOrder {
     }
 }
 
-/// Takes the substeps in sequence. If one fails, the mechanism is restored to the start of the step.
+/// Takes the substeps one after the other. If one fails, the mechanism is restored to the start of the step.
 pub(super) fn in_parts(
     mechanism: &mut dyn Mechanism,
     interval: Interval,
@@ -82,7 +83,7 @@ mod tests {
     use super::*;
     use std::f64::consts::TAU;
 
-    /// Composition of M. Suzuki (1990).
+    /// Substep ends of the method of M. Suzuki (1990).
     const SUZUKI: [f64; 5] = [
         0.414_490_771_794_375_7,
         0.828_981_543_588_751_4,
@@ -96,12 +97,12 @@ mod tests {
         starts.zip(ends).map(|(start, end)| end - start).collect()
     }
 
-    /// Phase of a vibration with this `ω Δt` per step.
+    /// Phase per step of a vibration with the given `ω Δt`.
     fn turn(parts: &[f64], frequency: f64) -> f64 {
         parts.iter().map(|part| 2.0 * (0.5 * part * frequency).atan()).sum()
     }
 
-    /// Frequency at which the phase exceeds an angle.
+    /// Frequency `ω Δt` above which the phase per step exceeds an angle; `None` if there is none.
     fn passage(parts: &[f64], angle: f64) -> Option<f64> {
         let (mut low, mut high) = (1.0, 1e4);
         if turn(parts, high) < angle {
@@ -114,8 +115,8 @@ mod tests {
         Some(low)
     }
 
-    /// Largest amplitude in 3000 steps of a vibration under a sine load with phase `load` per step, started from its static response and relative to
-    /// it.
+    /// Largest amplitude of a vibration in 3000 steps under a sine load with the phase `load` per step. The vibration starts from its static
+    /// response, which is also the unit of the amplitude.
     fn amplitude(parts: &[f64], frequency: f64, load: f64) -> f64 {
         let (mut place, mut rate, mut largest) = (0.0_f64, load, 0.0_f64);
         for step in 0..3000 {
@@ -123,7 +124,7 @@ mod tests {
             for part in parts {
                 let ended = begun + part;
                 let mean = ((load * begun).cos() - (load * ended).cos()) / (load * part);
-                // With unit stiffness and static response: rate' = ω² (mean - place), both at the midpoint.
+                // Stiffness and static response are 1, so rate' = ω² (mean - place), with both values in the middle of the substep.
                 let stiffness = (0.5 * part * frequency).powi(2);
                 let moved = (part * rate + 2.0 * stiffness * (mean - place)) / (1.0 + stiffness);
                 (place, rate, begun) = (place + moved, 2.0 * moved / part - rate, ended);

@@ -6,8 +6,8 @@ use super::{Integrator, Interval, Mechanism, Stage, StepError};
 use crate::elementary::square;
 use crate::newton::{NewtonReport, Tolerance};
 
-/// Newmark's formulas with inertia and forces balanced at different times. High frequencies are damped by up to the factor `ρ∞` per step, low
-/// frequencies very little. Neither energy nor momenta are conserved.
+/// Generalized-α method: Newmark's formulas, with inertia and forces balanced at different times. High frequencies are damped by a factor of down
+/// to `ρ∞` per step, low frequencies very little. Neither energy nor momenta are conserved. Second order.
 ///
 /// ```text
 /// M ((1-αm) a1 + αm a0) + (1-αf) F(end) + αf F(start) = 0
@@ -15,16 +15,16 @@ use crate::newton::{NewtonReport, Tolerance};
 /// αm = (2ρ∞ - 1)/(ρ∞ + 1)     αf = ρ∞/(ρ∞ + 1)     γ = ½ - αm + αf     β = ¼ (1 - αm + αf)²
 /// ```
 ///
-/// Rotation increments are those of the angle. Accelerations `a` are part of the state. They are unknown at the start, after an impact, and at a jump
-/// of a load. In this case a step of the trapezoidal rule determines them as `(v1 - v0)/Δt`. With `ρ∞ = 1` all steps are steps of the trapezoidal
-/// rule. Second order.
+/// Rotation increments are increments of the angle. Accelerations `a` are part of the state. They are unknown at the start, after an impact, and at
+/// a jump of a load. In these cases a step of the trapezoidal rule determines them as `(v1 - v0)/Δt`. With `ρ∞ = 1` all steps are steps of the
+/// trapezoidal rule.
 ///
-/// J. Chung & G. M. Hulbert, J. Appl. Mech. 60 (1993) 371–375.
+/// Reference: J. Chung & G. M. Hulbert, J. Appl. Mech. 60 (1993) 371–375.
 #[derive(Debug, Clone)]
 pub struct GeneralizedAlpha {
     solver: StepSolver,
     weights: Weights,
-    /// Accelerations `a` at the start of the step, then at its end.
+    /// Accelerations `a`: before the solution of a step those at its start, afterwards those at its end.
     accelerations: Vec<f64>,
 }
 
@@ -57,7 +57,8 @@ impl GeneralizedAlpha {
     /// Stages at which forces are evaluated.
     pub const STAGES: &[Stage] = &[Stage::Start, Stage::End];
 
-    /// Creates the method with `ρ∞` [-] and work space for a mechanism, whose state then includes accelerations.
+    /// Creates the method with the parameter `ρ∞` [-], and allocates memory for a mechanism. The state of the mechanism then includes
+    /// accelerations.
     pub fn new(rho_infinity: f64, mechanism: &mut dyn Mechanism, tolerance: Tolerance) -> Self {
         mechanism.accelerated().enable_accelerations();
         Self {
@@ -91,7 +92,7 @@ impl GeneralizedAlpha {
     ) -> Result<NewtonReport, StepError> {
         let Self { solver, weights, accelerations } = self;
         let Weights { inertia_before, forces_before, gamma, beta } = *weights;
-        // a1 = d/(β Δt²) - (½/β - 1) a0
+        // The acceleration at the end is a1 = d/(β Δt²) - (½/β - 1) a0.
         let carried = weights.carried();
         solver.carry_inertia(
             mechanism,

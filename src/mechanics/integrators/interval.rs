@@ -7,7 +7,7 @@ pub struct Interval {
     pub start: f64,
     /// End [time].
     pub end: f64,
-    /// Stored because it is more accurate than the difference of two large times.
+    /// Duration. It is stored because the difference of two large times is less accurate.
     duration: f64,
     ending: IntervalEnd,
 }
@@ -15,7 +15,7 @@ pub struct Interval {
 /// Meaning of the end of an interval.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum IntervalEnd {
-    /// End of a substep. Actions at the end of a step are postponed.
+    /// End of a substep. Sliders at stops are released only at the end of a whole step.
     Substep,
     /// End of a step.
     Step,
@@ -27,12 +27,12 @@ impl Interval {
         Self { start, end, duration: end - start, ending: IntervalEnd::Step }
     }
 
-    /// Interval of an exact duration; only its end is rounded [time].
+    /// Interval with an exact duration. Only its end time is rounded [time].
     pub fn lasting(start: f64, duration: f64) -> Self {
         Self { start, end: start + duration, duration, ending: IntervalEnd::Step }
     }
 
-    /// Part between two fractions of the duration [-]; backwards in time if the second is smaller.
+    /// Part of the interval between two fractions of its duration [-]. It runs backwards in time if the second fraction is smaller.
     pub fn part(&self, from: f64, to: f64) -> Self {
         let duration = (to - from) * self.duration;
         let start = self.start + from * self.duration;
@@ -47,7 +47,7 @@ impl Interval {
         self.duration
     }
 
-    /// Kind of the end.
+    /// Meaning of the end of the interval.
     pub fn ending(&self) -> IntervalEnd {
         self.ending
     }

@@ -1,4 +1,4 @@
-//! Time integrators for an abstract mechanism. They do not depend on beams.
+//! Time integrators for an abstract mechanism. This module does not depend on beams.
 
 mod balance;
 mod energy_decaying;

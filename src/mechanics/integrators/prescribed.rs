@@ -1,20 +1,20 @@
 //! Prescribed motions of degrees of freedom, which are not unknowns.
 
-/// Prescribed motions of a mechanism in the present step, numbered after the unknowns and the constraint multipliers. All vectors are empty if
-/// nothing is prescribed.
+/// Prescribed motions of a mechanism in the present step. They are numbered after the unknowns and the constraint multipliers. All vectors are
+/// empty if nothing is prescribed.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct PrescribedKinematics {
-    /// Increments in the step, after zeros for constraint multipliers [length, rad].
+    /// Increments in the step [length, rad]. They follow zeros for the constraint multipliers, as in the other vectors.
     pub increments: Vec<f64>,
-    /// Rates at the end of the step, after zeros for constraint multipliers [length/time, 1/time].
+    /// Rates at the end of the step [length/time, 1/time].
     pub rates: Vec<f64>,
-    /// Mean accelerations `(v1 - v0)/Δt`, after zeros for constraint multipliers [length/time², 1/time²].
+    /// Mean accelerations `(v1 - v0)/Δt` over the step [length/time², 1/time²].
     pub mean_accelerations: Vec<f64>,
-    /// Accelerations just after the start and just before the end of the step, after zeros for constraint multipliers [length/time², 1/time²].
+    /// Accelerations just after the start and just before the end of the step [length/time², 1/time²].
     pub accelerations: [Vec<f64>; 2],
 }
 
-/// Acceleration of prescribed degrees of freedom in the balance of a method.
+/// Acceleration of prescribed degrees of freedom that a method uses in its balance.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum BalancedAt {
     Mean,
@@ -22,7 +22,7 @@ pub(super) enum BalancedAt {
 }
 
 impl PrescribedKinematics {
-    /// Creates zeros for `count` degrees of freedom after `constraints` multipliers.
+    /// Creates vectors of zeros: `constraints` entries for the multipliers, followed by `count` entries for prescribed degrees of freedom.
     pub fn new(constraints: usize, count: usize) -> Self {
         let zeros = vec![0.0; if count > 0 { constraints + count } else { 0 }];
         Self {

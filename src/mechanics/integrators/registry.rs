@@ -1,4 +1,4 @@
-//! Registry of the integrators with their claims, used by tests and help.
+//! List of the integrators and their claims, used by tests and help.
 
 use serde::{Deserialize, Serialize};
 
@@ -25,23 +25,23 @@ pub enum Method {
     FourthOrder,
     /// [`GeneralizedAlpha`] of Chung & Hulbert.
     GeneralizedAlpha {
-        /// Spectral radius `ρ∞`: amplification of the highest frequency per step [-].
+        /// Spectral radius `ρ∞`, the factor by which the amplitude of the highest frequency changes in each step [-].
         rho_infinity: f64,
     },
 }
 
-/// Claim of a method about the energy.
+/// Claim of a method about the conservation of energy.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum EnergyClaim {
-    /// Energy is conserved to rounding.
+    /// The energy is conserved to rounding.
     Conserved,
-    /// Energy never grows beyond rounding.
+    /// The energy never increases by more than rounding.
     NonIncreasing,
     /// No claim.
     Unclaimed,
 }
 
-/// Claims of a method for nonlinear problems, with loads and supports accounted for.
+/// Claims of a method for nonlinear problems. The exchange with loads and supports is included.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Claims {
     /// Order of convergence in time.
@@ -66,12 +66,12 @@ impl Claims {
     }
 }
 
-/// Parameter of a family of methods.
+/// Parameter of a method.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct MethodParameter {
     /// Name in scripts.
     pub name: &'static str,
-    /// Description in a sentence.
+    /// Description as a sentence.
     pub meaning: &'static str,
     /// Smallest value [-].
     pub least: f64,
@@ -108,13 +108,13 @@ pub struct IntegratorEntry {
     pub method: Method,
     /// Name in scripts and reports.
     pub name: &'static str,
-    /// Recommended use in a sentence.
+    /// Recommended use as a sentence.
     pub summary: &'static str,
     /// Claims of the method.
     pub claims: Claims,
     /// Parameter, if the method has one.
     pub parameter: Option<MethodParameter>,
-    /// Reference.
+    /// Reference to the literature.
     pub source: &'static str,
 }
 
@@ -220,7 +220,7 @@ impl Method {
         }
     }
 
-    /// Step size for which the longest substep in the same time direction has this duration [time].
+    /// Step size for which the longest substep lasts `duration` [time]. A negative duration refers to substeps backwards in time.
     pub fn step_with_part(&self, duration: f64) -> f64 {
         let [onwards, back] = match self {
             Self::FourthOrder => FourthOrder::LONGEST,
@@ -229,7 +229,7 @@ impl Method {
         duration / if duration < 0.0 { back } else { onwards }
     }
 
-    /// Value of the parameter [-], if the method has one.
+    /// Value of the parameter of the method [-]; `None` if it has none.
     pub fn parameter(&self) -> Option<f64> {
         match *self {
             Self::EnergyMomentum | Self::Trapezoidal | Self::FourthOrder => None,
@@ -263,7 +263,7 @@ impl Method {
         }
     }
 
-    /// Creates the integrator with work space for a mechanism, whose state then includes the data that the method needs.
+    /// Creates the integrator, and allocates memory for a mechanism. The state of the mechanism then includes the data that the method needs.
     pub fn build(
         &self,
         mechanism: &mut dyn Mechanism,

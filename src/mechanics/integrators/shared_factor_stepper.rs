@@ -1,4 +1,4 @@
-//! Steps of several similar mechanisms with the factors of one of them.
+//! Steps of several similar mechanisms that share the factorised matrix of one of them.
 
 use super::balance::{BalanceCoefficients, StepSolver};
 use super::fourth_order::in_parts;
@@ -6,11 +6,12 @@ use super::{EnergyMomentum, Interval, Mechanism, Method, Stage, StepError};
 use crate::linalg::BorderedLu;
 use crate::newton::{NewtonReport, Tolerance};
 
-/// Method that also advances companions: mechanisms of the same structure as the leader with slightly different parameters and states.
+/// Integrator that advances a mechanism, the leader, together with companions. These are mechanisms of the same structure with slightly different
+/// parameters and states.
 ///
-/// The balance of a companion, `R(u; p + δ) = 0`, is solved from the solution of the leader with the factors of the last Newton iteration of the
-/// leader. Each correction reduces the error by a factor of the order of `δ` plus the size of that iteration, so a few corrections without
-/// factorisation reach rounding.
+/// The balance `R(u; p + δ) = 0` of a companion is solved iteratively. The iteration starts from the solution of the leader and uses the factors of
+/// the last Newton iteration of the leader. Each correction reduces the error by a factor of the order of `δ` plus the size of that Newton
+/// iteration. A few corrections without factorisation therefore reach rounding.
 #[derive(Debug, Clone)]
 pub struct SharedFactorStepper {
     leader: StepSolver,
@@ -24,17 +25,18 @@ enum SubstepCount {
     OfFourthOrder,
 }
 
-/// Work of a step with companions.
+/// Solver statistics of a step with companions.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SharedFactorWork {
-    /// Work of the leader, the same as without companions.
+    /// Statistics of the leader. They are the same as without companions.
     pub leader: NewtonReport,
-    /// Total work of all companions, or the error of one that failed. Iterations are counted where the factors of the leader were insufficient.
+    /// Statistics of all companions together, or the error of one that failed. The iterations are additional factorisations, needed where the
+    /// factors of the leader did not suffice.
     pub companions: Result<NewtonReport, StepError>,
 }
 
 impl SharedFactorStepper {
-    /// Creates the method with work space for a mechanism and its companions; `None` if the method does not support companions.
+    /// Creates the integrator for a leader and its companions; `None` if the method does not support companions.
     pub fn of(method: Method, leader: &mut dyn Mechanism, tolerance: Tolerance) -> Option<Self> {
         let parts = match method {
             Method::EnergyMomentum => SubstepCount::One,
@@ -46,8 +48,8 @@ impl SharedFactorStepper {
         Some(Self { leader, follower, parts })
     }
 
-    /// Advances the leader over the interval, bit for bit as without companions, and the companions. If a companion fails, the states of all
-    /// companions are undefined and the leader continues.
+    /// Advances the leader and the companions over the interval. The result of the leader is bit for bit the same as without companions. If a
+    /// companion fails, the states of all companions are undefined, and the leader continues.
     ///
     /// # Errors
     /// Errors of the step of the leader. The leader is then unchanged, and the states of the companions are undefined.

@@ -4,11 +4,11 @@ use super::balance::{BalanceCoefficients, StepSolver};
 use super::{Integrator, Interval, Mechanism, Stage, StepError};
 use crate::newton::{NewtonReport, Tolerance};
 
-/// Newmark's method with β = 1/4, γ = 1/2, in increments of a step. It conserves linear momentum; for linear problems also energy and angular
-/// momentum.
+/// Trapezoidal rule, which is Newmark's method with β = 1/4 and γ = 1/2, in terms of the increments of a step. It conserves linear momentum, and
+/// for linear problems also energy and angular momentum.
 ///
-/// `M (v1 - v0)/Δt + ½ F(start) + ½ F(end) = 0`, `(v0 + v1)/2 = Δq/Δt`: Newmark's accelerations are those of the balance at both ends, with loads on
-/// a line that has their mean and their change over the step. Second order.
+/// `M (v1 - v0)/Δt + ½ F(start) + ½ F(end) = 0`, `(v0 + v1)/2 = Δq/Δt`. Newmark's accelerations are those of the balance at both ends. The loads at
+/// both ends are on a straight line that has the mean of the loads over the step and their change in the step. Second order.
 ///
 /// N. M. Newmark, A method of computation for structural dynamics, J. Eng. Mech. Div. ASCE 85 (1959) 67–94.
 #[derive(Debug, Clone)]
@@ -20,7 +20,7 @@ impl Trapezoidal {
     /// Stages at which forces are evaluated.
     pub const STAGES: &[Stage] = &[Stage::Start, Stage::End];
 
-    /// Creates the method with work space for a mechanism.
+    /// Creates the method, and allocates memory for a mechanism.
     pub fn new(mechanism: &dyn Mechanism, tolerance: Tolerance) -> Self {
         Self { solver: StepSolver::new(mechanism, tolerance) }
     }

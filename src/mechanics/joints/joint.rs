@@ -1,6 +1,7 @@
-//! Joints that tie displacement components, which then share an unknown.
+//! Joints. They tie displacement components of two stations, which then share an unknown.
 //!
-//! Both partners have the same increments in every step of any method. The joint has no gap, does no work, and transmits force and moment unchanged.
+//! Both stations have the same increments in every step, whatever the integrator. Hence a joint has no gap, does no work, and transmits force and
+//! moment unchanged.
 
 use serde::{Deserialize, Serialize};
 
@@ -10,16 +11,16 @@ use crate::geometry::Vec2;
 /// Component of the displacement and rotation of a section.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Component {
-    /// Displacement along the first axis [length].
+    /// Displacement along the first axis of the plane [length].
     X,
-    /// Displacement along the second axis [length].
+    /// Displacement along the second axis of the plane [length].
     Y,
-    /// Rotation about the third axis [rad].
+    /// Rotation in the plane [rad].
     Rotation,
 }
 
 impl Component {
-    /// All components, in the order of an increment.
+    /// All components, in the order in which increments store them.
     pub const ALL: [Self; 3] = [Self::X, Self::Y, Self::Rotation];
 
     /// Name in messages, such as `x`.
@@ -52,7 +53,7 @@ pub enum Components {
 }
 
 impl Components {
-    /// Set of the components that satisfy a predicate; `None` if it is empty.
+    /// Set of the components for which a predicate is true; `None` if it is empty.
     pub fn among(is_in: impl Fn(Component) -> bool) -> Option<Self> {
         match Component::ALL.map(is_in) {
             [false, false, false] => None,
@@ -66,7 +67,7 @@ impl Components {
         }
     }
 
-    /// Components of the set, in the order of an increment.
+    /// Components of the set, in the order in which increments store them.
     pub fn list(self) -> &'static [Component] {
         match self {
             Self::X => &Component::ALL[..1],
@@ -80,16 +81,16 @@ impl Components {
     }
 }
 
-/// Components that a joint ties.
+/// Type of a joint, which determines the components that it ties.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub enum JointKind {
     /// Hinge: ties positions, leaves rotations free.
     Hinge,
-    /// Rigid joint: ties positions and rotations, so that the angle between the sections stays as drawn. With the ground it is a clamp.
+    /// Rigid joint: ties positions and rotations, so that the initial angle between the sections is kept. With the ground it is a clamp.
     Rigid,
     /// Support: fixes some components of a station, leaves the others free.
     Support(Components),
-    /// Inclined roller: a station is free along a unit vector that is not an axis, fixed across the vector, and free to rotate.
+    /// Inclined roller: the station is free along a unit vector that is not parallel to an axis, fixed across this vector, and free to rotate.
     InclinedRoller(Vec2),
     /// Inclined guide: an inclined roller with fixed rotation.
     InclinedGuide(Vec2),
@@ -98,9 +99,9 @@ pub enum JointKind {
 /// Partner of the station of a joint.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub enum Partner {
-    /// Ground, at the place of the station as drawn.
+    /// Ground, at the initial position of the station.
     Ground,
-    /// Station at the same place, of another beam or the same one.
+    /// Station of another beam or the same beam at the same place.
     Station(Station),
 }
 
@@ -120,25 +121,25 @@ pub struct Joint {
 enum MotionLine {
     Horizontal,
     Vertical,
-    /// Along a unit vector [-].
+    /// Direction of a unit vector that is not parallel to an axis [-].
     Inclined(Vec2),
 }
 
 impl MotionLine {
-    /// Line along a vector of any length; `None` for zero.
+    /// Line along a vector of any nonzero length; `None` for a zero vector.
     fn along(direction: Vec2) -> Option<Self> {
         match (direction.x == 0.0, direction.y == 0.0) {
             (true, true) => None,
             (false, true) => Some(Self::Horizontal),
             (true, false) => Some(Self::Vertical),
-            // The vector is scaled first, because squares of very large or small numbers overflow or become zero.
+            // The vector is scaled first, because the squares of very large or small numbers overflow or become zero.
             (false, false) => Some(Self::Inclined((direction / direction.amax()).normalize())),
         }
     }
 }
 
 impl JointKind {
-    /// Roller along a direction with free rotation; a support if the direction is an axis. `None` for zero.
+    /// Roller that is free along a direction and free to rotate. If the direction is parallel to an axis it is a support. `None` for a zero vector.
     pub fn roller(along: Vec2) -> Option<Self> {
         Some(match MotionLine::along(along)? {
             MotionLine::Horizontal => Self::Support(Components::Y),
@@ -147,7 +148,8 @@ impl JointKind {
         })
     }
 
-    /// Guide along a direction with fixed rotation; a support if the direction is an axis. `None` for zero.
+    /// Guide that is free along a direction, with fixed rotation. If the direction is parallel to an axis it is a support. `None` for a zero
+    /// vector.
     pub fn guide(along: Vec2) -> Option<Self> {
         Some(match MotionLine::along(along)? {
             MotionLine::Horizontal => Self::Support(Components::YRotation),
@@ -156,7 +158,7 @@ impl JointKind {
         })
     }
 
-    /// Components tied by this kind, without the direction across an inclined roller.
+    /// Components tied by a joint of this type. The direction across an inclined roller is not included.
     pub fn components(self) -> &'static [Component] {
         match self {
             Self::Hinge => &Component::ALL[..2],
@@ -167,7 +169,7 @@ impl JointKind {
         }
     }
 
-    /// Unit vector of the free direction, for inclined kinds [-].
+    /// Unit vector of the free direction of an inclined roller or guide [-]; `None` for other types.
     pub fn inclined(self) -> Option<Vec2> {
         match self {
             Self::InclinedRoller(along) | Self::InclinedGuide(along) => Some(along),
@@ -180,7 +182,7 @@ impl JointKind {
         self.components().contains(&Component::Rotation)
     }
 
-    /// Description of the kind with its partner, such as `clamp`.
+    /// Description of the joint type for a partner, such as `clamp`.
     pub fn describe(self, partner: &Partner) -> &'static str {
         match (self, partner) {
             (Self::Hinge, _) => "hinge",

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-/// Object that can be released, by its index among the objects of its kind.
+/// Object that can be released. The value is its index among the objects of the same type.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Releasable {
     /// Joint: a hinge, a rigid joint, a clamp, a support.
@@ -15,12 +15,12 @@ pub enum Releasable {
     Drive(usize),
 }
 
-/// Trigger of a release.
+/// Event that triggers a release.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub enum Trigger {
     /// Time after the start, at which a step ends [time].
     Time(f64),
-    /// Call by the user of the simulation, between two steps.
+    /// Call by the user of the simulation between two steps.
     Outside,
 }
 

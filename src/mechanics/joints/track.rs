@@ -2,14 +2,14 @@
 
 use serde::{Deserialize, Serialize};
 
-/// Beams that meet end to end. A slider passes from one beam to the next, repeatedly on closed tracks.
+/// Beams that meet end to end. A slider passes from one beam to the next, on closed tracks any number of times.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Track {
     /// Name in messages.
     pub name: String,
     /// Beams in the order of the track; at least one.
     pub beams: Vec<TrackBeam>,
-    /// Continuation after the last beam.
+    /// Behaviour after the last beam.
     pub end: TrackEnd,
 }
 
@@ -31,7 +31,7 @@ pub enum TrackDirection {
     Backward,
 }
 
-/// Continuation of a track after its last beam.
+/// Behaviour of a track after its last beam.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum TrackEnd {
     /// The track ends.
@@ -56,7 +56,8 @@ impl TrackDirection {
         }
     }
 
-    /// Converts the arc length from the entry of the track to the arc length from the start of the beam, and vice versa [length].
+    /// Converts the arc length from the point where the track enters the beam to the arc length from the start of the beam, or the other way round
+    /// [length].
     pub fn along(self, length: f64, arc_length: f64) -> f64 {
         match self {
             Self::Forward => arc_length,
@@ -64,7 +65,7 @@ impl TrackDirection {
         }
     }
 
-    /// Sign of displacements along the track that lead towards the end of the beam [-].
+    /// Sign of displacements towards the end of the beam for a positive displacement along the track [-].
     pub fn sign(self) -> f64 {
         match self {
             Self::Forward => 1.0,

@@ -1,29 +1,29 @@
-//! Elimination order of the unknowns of a band together with the delayed unknowns of blocks, and the resulting profile.
+//! Order in which the unknowns of a band and the delayed unknowns of blocks are eliminated, and the resulting profile of the matrix.
 
 use super::block::{Block, MOST_DELAYED, UNTOUCHED};
 use super::{BlockLayout, reverse_cuthill_mckee};
 
-/// Largest work of the elimination, relative to that of the band without blocks, for which the order of the band is kept.
+/// Largest ratio of the work of the elimination to the work for the band without blocks, for which the order of the band is kept.
 const LARGEST_WORK: usize = 4;
 
-/// Order of the unknowns of a band that are not eliminated in blocks, including delayed unknowns, and the profile of the matrix.
+/// Order of the unknowns of a band that are not eliminated in blocks, including delayed unknowns, and the resulting profile of the matrix.
 ///
 /// The order depends only on the unknowns that the blocks touch. The delayed unknowns of a block follow the last unknown that the block touches,
-/// because they have a pivot there.
+/// because there they have a pivot.
 #[derive(Debug, Clone)]
 pub(super) struct Arrangement {
     layout: BlockLayout,
-    /// Place of each unknown of the band; `NOWHERE` if it is eliminated in a block.
+    /// Place of each unknown of the band in this order; `UNTOUCHED` if it is eliminated in a block.
     pub(super) position: Vec<usize>,
-    /// End of the run of consecutive places that contains each unknown of the band.
+    /// For each unknown of the band, the end of the run of consecutive places that contains it.
     pub(super) run_ends: Vec<usize>,
-    /// First place of the delayed unknowns of each block; `NOWHERE` if the block delays none.
+    /// First place of the delayed unknowns of each block; `UNTOUCHED` if the block delays none.
     pub(super) delayed: Vec<usize>,
     pub(super) ends: Vec<usize>,
     own_ends: Vec<usize>,
     /// For each unknown in the order of elimination, the number of delayed unknowns that follow it.
     delayed_after: Vec<usize>,
-    /// Touched unknowns of the blocks when the order was made.
+    /// Unknowns that the blocks touched when the order was determined.
     ordered_for: Vec<usize>,
     touched: Vec<usize>,
 }
@@ -51,7 +51,7 @@ impl Arrangement {
         self.ends.len()
     }
 
-    /// Updates the order, if blocks touch other unknowns than before, and the profile.
+    /// Updates the order if blocks touch other unknowns than before, and updates the profile.
     pub(super) fn fit(&mut self, blocks: &[Block]) {
         self.touched.clear();
         for block in blocks.iter().filter(|block| block.can_delay_unknowns()) {
@@ -84,7 +84,7 @@ impl Arrangement {
         of_band.enumerate().for_each(|(next, position)| *position = next);
     }
 
-    /// Uses a bandwidth-reducing order of the band including the unknowns touched by blocks.
+    /// Uses an order of the band that has a small bandwidth, including the couplings by blocks.
     fn use_level_order(&mut self, blocks: &[Block]) {
         self.use_natural_order();
         let position = |&at: &usize| Some(self.position[at]).filter(|&place| place != UNTOUCHED);
@@ -101,7 +101,8 @@ impl Arrangement {
         }
     }
 
-    /// Inserts delayed unknowns after the unknowns that their blocks touch, and computes the profile.
+    /// Numbers the unknowns and computes the profile. The delayed unknowns of a block follow the last unknown of the band that is coupled to the
+    /// block.
     fn number(&mut self, blocks: &[Block]) {
         let delaying = |block: &&Block| block.can_delay_unknowns() && !block.touched.is_empty();
         self.delayed_after.fill(0);
@@ -111,7 +112,7 @@ impl Arrangement {
         for block in blocks.iter().filter(delaying) {
             self.delayed_after[last(block, &self.position)] += MOST_DELAYED;
         }
-        // Converts counts to starts.
+        // Converts the numbers of delayed unknowns to the places at which they start.
         let mut shift = 0;
         for (place, behind) in self.delayed_after.iter_mut().enumerate() {
             shift += std::mem::replace(behind, place + 1 + shift);
@@ -126,7 +127,7 @@ impl Arrangement {
                 size += MOST_DELAYED;
             }
         }
-        // The next place starts after the delayed unknowns of the previous one.
+        // Each place starts after the delayed unknowns that follow the previous place.
         for position in self.position.iter_mut().filter(|position| **position != UNTOUCHED) {
             *position = position.checked_sub(1).map_or(0, |before| self.delayed_after[before]);
         }
@@ -158,7 +159,7 @@ impl Arrangement {
     }
 }
 
-/// Extends the profile of coupled places to the last of them.
+/// Extends the profile at each coupled place to the last of these places.
 fn couple(ends: &mut [usize], places: impl Iterator<Item = usize> + Clone) {
     let last = places.clone().max().unwrap_or(0);
     places.for_each(|place| ends[place] = ends[place].max(last));

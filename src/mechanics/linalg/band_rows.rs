@@ -1,14 +1,14 @@
-//! Row views of a banded matrix for the assembly of entries, splittable for threads.
+//! Views of rows of a banded matrix, to which entries are added. Views can be split for threads.
 
 use std::ops::Range;
 
 use pulp::{Arch, Simd, WithSimd};
 
-/// Consecutive rows of a [`BandedMatrix`](super::BandedMatrix) for the assembly of entries.
+/// Consecutive rows of a [`BandedMatrix`](super::BandedMatrix), to which entries are added.
 #[derive(Debug)]
 pub struct BandRows<'a> {
     pub(super) rows: Range<usize>,
-    /// Stored entries from the first of these rows on, row by row.
+    /// Stored entries, row by row, starting with the first of these rows.
     pub(super) entries: &'a mut [f64],
     pub(super) stride: usize,
     /// Index of the diagonal entry among the stored entries of a row.
@@ -16,7 +16,7 @@ pub struct BandRows<'a> {
     pub(super) half_bandwidth: usize,
 }
 
-/// Row of a banded matrix for the assembly of entries.
+/// Single row of a banded matrix, to which entries are added.
 pub struct BandRow<'a> {
     entries: &'a mut [f64],
     row: usize,
@@ -39,12 +39,12 @@ impl BandRows<'_> {
         self.rows.clone()
     }
 
-    /// Reborrows the same rows.
+    /// Returns a shorter-lived view of the same rows.
     pub(crate) fn reborrow(&mut self) -> BandRows<'_> {
         BandRows { rows: self.rows.clone(), entries: self.entries, ..*self }
     }
 
-    /// Splits the rows into those before `row` and those from it on.
+    /// Splits the rows into the rows before `row` and the others.
     pub fn split_at(self, row: usize) -> (Self, Self) {
         let Self { rows, entries, stride, centre, half_bandwidth } = self;
         let (before, behind) = entries.split_at_mut((row - rows.start) * stride);
@@ -76,7 +76,7 @@ impl BandRows<'_> {
         BandRow { entries, row, centre: self.centre, half_bandwidth: self.half_bandwidth }
     }
 
-    /// Adds `values` to the entries of `row` from `first_column` on.
+    /// Adds `values` to the entries of `row`, starting at `first_column`.
     #[inline]
     pub fn add_to_row(&mut self, row: usize, first_column: usize, values: &[f64]) {
         let at = self.offset(row, first_column);
@@ -85,9 +85,9 @@ impl BandRows<'_> {
         }
     }
 
-    /// Adds a `width` by `width` block, row by row, to the rows and columns from `first` on.
+    /// Adds a block of `width` by `width` values, given row by row. Its first row and column is `first`.
     pub(crate) fn add_block(&mut self, first: usize, width: usize, values: &[f64]) {
-        // The widths of spans of degree 1 to 3 are compile-time constants.
+        // Compile-time constants for the widths of spans of degree 1 to 3.
         match width {
             6 => self.add_fixed_block::<6>(first, values),
             9 => self.add_fixed_block::<9>(first, values),
@@ -105,7 +105,7 @@ impl BandRows<'_> {
         Arch::new().dispatch(AddBlock::<WIDTH> { entries: self.entries, at, stride, values });
     }
 
-    /// Adds values to the diagonal with an `offset` of columns (negative below the main diagonal), from `row` on.
+    /// Adds values to a diagonal, starting at `row`. `offset` is its number of columns to the right of the main diagonal, or negative to the left.
     #[inline]
     pub(crate) fn add_to_diagonal(&mut self, row: usize, offset: isize, values: &[f64]) {
         if !values.is_empty() {
@@ -116,8 +116,8 @@ impl BandRows<'_> {
     }
 }
 
-/// Adds a block to rows with a fixed number of stored entries. The first row of the block starts at `at`, and each further row one entry to the left
-/// of the previous one.
+/// Addition of a block to rows with a fixed number of stored entries. The first row of the block starts at the stored entry `at`, and each further
+/// row one entry to the left of the previous row.
 struct AddBlock<'a, const WIDTH: usize> {
     entries: &'a mut [f64],
     at: usize,

@@ -1,7 +1,7 @@
-//! Square banded matrix and its pivoted LU factorisation.
+//! Square banded matrix, and its LU factorisation with row exchanges.
 //!
-//! Rows are stored in sequence with space for the fill-in of row exchanges, so that elimination is a sequence of short vector updates (Golub & Van
-//! Loan, Matrix Computations, 4th ed., section 4.3.5).
+//! Rows are stored one after the other, with space for the additional entries that row exchanges cause. Elimination is then a sequence of short
+//! vector operations (Golub & Van Loan, Matrix Computations, 4th ed., section 4.3.5).
 
 use pulp::Arch;
 
@@ -18,14 +18,14 @@ pub struct BandedMatrix {
     storage: Storage,
 }
 
-/// Factors `P A = L U` of a [`BandedMatrix`], kept in its storage.
+/// Factors `P A = L U` of a [`BandedMatrix`]. They replace its entries in memory.
 #[derive(Debug)]
 pub struct BandedLu<'a> {
     factors: Factors<'a>,
 }
 
 impl BandedMatrix {
-    /// Creates a zero matrix of `size` rows with entries up to `half_bandwidth` from the diagonal.
+    /// Creates a zero matrix of `size` rows. Entries can be up to `half_bandwidth` columns away from the diagonal.
     pub fn zeros(size: usize, half_bandwidth: usize) -> Self {
         Self { size, half_bandwidth, storage: Storage::zeros(size, half_bandwidth) }
     }
@@ -45,7 +45,7 @@ impl BandedMatrix {
         self.storage.clear();
     }
 
-    /// All rows, for the assembly of entries.
+    /// View of all rows, to which entries are added.
     #[inline]
     pub(crate) fn rows_mut(&mut self) -> BandRows<'_> {
         let (stride, centre) = (self.storage.stride(), self.storage.centre());
@@ -83,12 +83,12 @@ impl BandedMatrix {
         &mut self.storage
     }
 
-    /// Makes rows of different units comparable in row exchanges, by the diagonal.
+    /// Sets row sizes from the diagonal entries. Row exchanges use them to compare rows of different units.
     pub(crate) fn weigh_rows(&mut self) {
         self.storage.weigh_rows();
     }
 
-    /// Makes rows of different units comparable in row exchanges, by their squared sizes.
+    /// Sets the squared row sizes. Row exchanges use them to compare rows of different units.
     pub(super) fn set_row_sizes(&mut self, sizes: impl Iterator<Item = f64>) {
         self.storage.sizes.iter_mut().zip(sizes).for_each(|(size, given)| *size = given);
     }
@@ -109,7 +109,7 @@ impl BandedLu<'_> {
         Arch::new().dispatch(Substitution { factors: self.factors, x });
     }
 
-    /// Replaces `W` right-hand sides with interleaved entries by their solutions.
+    /// Replaces `W` right-hand sides by their solutions. Their entries are interleaved.
     ///
     /// Rows before `first` must be zero.
     pub(crate) fn solve_strip<const W: usize>(&self, x: &mut [[f64; W]], first: usize) {
@@ -131,7 +131,7 @@ mod tests {
         #[test]
         fn the_banded_solution_is_the_dense_one(
             size in 1_usize..40, half_bandwidth in 0_usize..12, entries in prop::collection::vec(-1.0..1.0_f64, 2000),
-            // Diagonals with no, some or many row exchanges.
+            // Dominance of the diagonal for which no, some or many rows are exchanged.
             diagonal in prop::sample::select(vec![0.0, 0.5, 3.0, 30.0]),
         ) {
             let mut matrix = BandedMatrix::zeros(size, half_bandwidth);
@@ -187,7 +187,7 @@ mod tests {
         assert_eq!(matrix.factorise().unwrap_err(), LinearError::Singular { unknown: 1, size: 3 });
     }
 
-    /// Matrix of small integers with a dominant diagonal.
+    /// Matrix of small integers with a dominant diagonal. Its products are exact.
     fn whole_numbers(size: usize, half_bandwidth: usize) -> BandedMatrix {
         let mut matrix = BandedMatrix::zeros(size, half_bandwidth);
         for i in 0..size {
@@ -209,7 +209,8 @@ mod tests {
             }
             let singular = |unknown| LinearError::Singular { unknown, size: 12 };
             assert_eq!(column.factorise().unwrap_err(), singular(zero));
-            // Rows are exchanged until the zero row remains, with the last one, which has only its diagonal.
+            // Row exchanges move the zero row down until only the last row follows it. The last row has only a diagonal entry there, so it is not
+            // exchanged.
             assert_eq!(row.factorise().unwrap_err(), singular(zero.max(10)));
         }
     }
@@ -236,7 +237,7 @@ mod tests {
     #[test]
     fn graded_rows_are_solved_as_well_as_by_a_dense_matrix_with_pivoting() {
         let size = 24;
-        // Powers of two up to 1e12 keep the right-hand side of a solution of ones exact.
+        // Powers of two up to 1e12 are used, so that the right-hand side for a solution of ones is exact.
         let gradings: [fn(i32) -> i32; 4] =
             [|_| 0, |i| 40 * i / 23, |i| 40 - 40 * i / 23, |i| 7 * i % 41];
         for (number, grading) in gradings.into_iter().enumerate() {
@@ -267,7 +268,7 @@ mod tests {
         assert_eq!(matrix.factorise().unwrap_err(), LinearError::NotFinite { unknown: 0, size: 2 });
     }
 
-    /// Bit patterns of the factors and solutions computed with one instruction set; `None` if there are no factors.
+    /// Bit patterns of the factors and of a solution, computed with one instruction set; `None` if the factorisation fails.
     fn worked_on(arch: Arch, matrix: &BandedMatrix, right: &[f64]) -> Option<Vec<u64>> {
         let mut storage = matrix.storage.clone();
         arch.dispatch(Elimination(storage.rows_mut())).ok()?;

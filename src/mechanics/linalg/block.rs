@@ -1,10 +1,11 @@
-//! Block of a local border: a few unknowns outside a band, with the few unknowns of the band that are coupled to them. Each block is eliminated on
-//! its own.
+//! Block of a local border: a few unknowns outside a band, and the few unknowns of the band that are coupled to them. Each block is eliminated
+//! separately.
 //!
 //! The block is a small dense matrix, like the front of a multifrontal method (Duff & Reid 1983, The multifrontal solution of indefinite sparse
-//! symmetric linear equations, ACM Trans. Math. Softw. 9, 302–325). Its own unknowns are eliminated with complete pivoting, and the Schur complement
-//! on the touched unknowns is added to the band. Some own unknowns have no pivot yet, because they are coupled to the band only through a constraint
-//! (the contact force of a supported slave). These are *delayed*: they are inserted into the band next to the touched unknowns.
+//! symmetric linear equations, ACM Trans. Math. Softw. 9, 302–325). Its own unknowns are eliminated with complete pivoting, and the Schur
+//! complement for the touched unknowns is added to the band. Some unknowns of the block may have no pivot yet, because only a constraint couples
+//! them to the band (for example the contact force of a supported slave). These unknowns are *delayed*: they are inserted into the band after the
+//! touched unknowns.
 
 use pulp::{Simd, WithSimd};
 
@@ -19,7 +20,7 @@ const LANES: usize = 4;
 /// Largest number of delayed unknowns of a block.
 pub(super) const MOST_DELAYED: usize = 2;
 
-/// Largest contribution of a pivot to a diagonal entry of the band, relative to the largest diagonal entry of the touched unknowns.
+/// Largest contribution of a pivot to a diagonal entry of the band, as a multiple of the largest diagonal entry at the touched unknowns.
 const LARGEST_FILL: f64 = 100.0;
 
 /// Index for an unknown of the band that a block does not touch.
@@ -64,8 +65,8 @@ pub(super) struct Block {
     corner: [[f64; BLOCK]; BLOCK],
     /// Unknowns of the band that the block touches, except its own unknowns.
     pub(super) touched: Vec<usize>,
-    /// Rows of the dense matrix: own unknowns, unknowns of the block, touched unknowns. After elimination it holds the factors and the Schur
-    /// complement.
+    /// Rows of the dense matrix, in the order: own unknowns, unknowns of the block, touched unknowns. After elimination it contains the factors and
+    /// the Schur complement.
     front: Vec<f64>,
     /// Buffer: the vectors of a pivot row, with zeros up to the pivot.
     pivot_row: Vec<[f64; LANES]>,
@@ -74,7 +75,7 @@ pub(super) struct Block {
     pub(super) pivots: usize,
     /// Units of the rows and unknowns of the block.
     units: [(BorderUnit, BorderUnit); BLOCK],
-    /// Factors of rows and columns that make the entries of the dense matrix comparable, in the order of elimination.
+    /// Factors of rows and columns by which the entries of the dense matrix become comparable, in the order of elimination.
     row_factors: Vec<f64>,
     column_factors: Vec<f64>,
     /// Largest diagonal entry of the band at the touched unknowns.
@@ -150,12 +151,12 @@ impl Block {
         self.corner[row][column]
     }
 
-    /// Number of unknowns that may be eliminated in the block.
+    /// Number of unknowns that the block can eliminate.
     pub(super) fn candidates(&self) -> usize {
         self.own.len() + BLOCK
     }
 
-    /// Returns true if unknowns of the block may be delayed, because the block has no own unknowns in the band.
+    /// Returns true if unknowns of the block may be delayed. This is the case if the block has no own unknowns in the band.
     pub(super) fn can_delay_unknowns(&self) -> bool {
         self.own.is_empty()
     }
@@ -178,7 +179,7 @@ impl Block {
         if left < self.delayed() { self.row_factors[self.pivots + left] } else { 1.0 }
     }
 
-    /// Eliminates the own unknowns of the block. `places` is a buffer of `UNTOUCHED` entries, which are restored on return.
+    /// Eliminates the own unknowns and the unknowns of the block. `places` is a buffer whose entries are all `UNTOUCHED`, also on return.
     ///
     /// # Errors
     /// Fails if there is no pivot; the error contains the index in the block.
@@ -248,7 +249,7 @@ impl Block {
         self.own.iter().chain(&self.touched).for_each(|&at| places[at] = UNTOUCHED);
     }
 
-    /// Sets the factors that convert rows to forces and columns to lengths, by the largest stiffness of the band.
+    /// Sets the factors that convert rows to forces and columns to lengths. They are computed from the largest stiffness of the band.
     fn set_scale_factors(&mut self, band: &BandedMatrix) {
         let Self { own, touched, units, row_factors, column_factors, stiffness, .. } = self;
         let of_band = |at: &usize| {
@@ -347,16 +348,16 @@ impl Block {
         }
     }
 
-    /// Rows of the Schur complement with their indices: first those of delayed unknowns, whose elimination is postponed to the band, then those of the
-    /// band unknowns coupled to the block.
+    /// Rows of the Schur complement with their indices. First come the rows of delayed unknowns, which are eliminated in the band, then the rows of
+    /// the touched unknowns of the band.
     pub(super) fn schur_complement(&self) -> impl Iterator<Item = (usize, &[f64])> {
         let (size, stride, first) = (self.size(), self.stride(), self.pivots);
         let rows = self.front.chunks_exact(stride).map(move |row| &row[..size]).skip(first);
         rows.map(move |row| &row[first..]).enumerate()
     }
 
-    /// Eliminates a right-hand side. `own` holds its entries of own unknowns and of the block in pivot order; `subtract` receives the contributions
-    /// to touched unknowns.
+    /// Eliminates a right-hand side. `own` contains its entries for the own unknowns and the block, in the order of pivots. `subtract` receives the
+    /// contributions to the entries of touched unknowns.
     pub(super) fn substitute(&self, own: &mut [f64], mut subtract: impl FnMut(usize, f64)) {
         let rows = self.front.chunks_exact(self.stride());
         for (at, row) in rows.enumerate() {
@@ -369,7 +370,7 @@ impl Block {
         }
     }
 
-    /// Solves for the eliminated unknowns, which come first in `all`, from the delayed and touched unknowns after them.
+    /// Solves for the eliminated unknowns, which are first in `all`. The delayed and touched unknowns after them are known.
     pub(super) fn back_substitute(&self, all: &mut [f64]) {
         let (size, stride) = (self.size(), self.stride());
         for at in (0..self.pivots).rev() {
@@ -380,7 +381,8 @@ impl Block {
         }
     }
 
-    /// Entries of a vector in the order of pivot rows, from own unknowns and the block.
+    /// Entries of a right-hand side in the order of the pivot rows. They are taken from `own` for own unknowns and from `block` for unknowns of the
+    /// block.
     pub(super) fn by_rows<'a>(
         &'a self,
         own: impl Fn(usize) -> f64 + 'a,
@@ -392,7 +394,7 @@ impl Block {
         })
     }
 
-    /// Unknown at each place of the columns: `Ok` for the band, `Err` for the block.
+    /// Unknown that belongs to each column in the order of pivots: `Ok` for an unknown of the band, `Err` for an unknown of the block.
     pub(super) fn unknowns(&self) -> impl Iterator<Item = Result<usize, usize>> + '_ {
         self.column_at
             .iter()

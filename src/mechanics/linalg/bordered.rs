@@ -1,7 +1,7 @@
-//! Banded matrix with a border of additional columns and rows with arbitrary couplings.
+//! Banded matrix with a border: additional columns and rows that may have entries anywhere.
 //!
-//! A border of few unknowns is stored as dense columns, which leave the band unchanged. A border of many blocks, each of which touches few unknowns
-//! of the band, is eliminated locally, with work proportional to the number of blocks.
+//! If the border has few unknowns, it is stored as dense columns, which do not change the band. If it consists of many blocks, each of which
+//! touches few unknowns of the band, the blocks are eliminated separately. The work is then proportional to the number of blocks.
 
 use super::block::BLOCK;
 use super::full_border::FullLu;
@@ -10,14 +10,14 @@ use super::local_border::LocalLu;
 use super::two_ended::{TwoEnded, TwoEndedLu};
 use super::{BandedLu, BandedMatrix, BlockLayout, FullBorder, LinearError, LocalBorder};
 
-/// Square matrix that is banded except for its last rows and columns, the border.
+/// Square matrix that is banded except for its last rows and columns, which are the border.
 #[derive(Debug, Clone)]
 pub struct BorderedMatrix {
     band: BandedMatrix,
     border: Border,
-    /// Joint elimination, if the band alone may be singular.
+    /// Elimination of band and border together, used if the band alone may be singular.
     joint_elimination: Option<JointElimination>,
-    /// Elimination from both ends, if the band is long and has no border.
+    /// Elimination from both ends, used if the band is long and has no border.
     ends: Option<Box<TwoEnded>>,
 }
 
@@ -26,22 +26,22 @@ pub struct BorderedMatrix {
 pub struct BorderShape {
     /// Number of border rows and columns.
     pub width: usize,
-    /// Largest number of entries of the border rows in the columns of the band.
+    /// Largest number of entries that the border rows have in the columns of the band.
     pub row_entries: usize,
 }
 
-/// Unit of a border row or of a border unknown. In the band itself, unknowns are lengths and rows are forces.
+/// Unit of a border row or of a border unknown. Unknowns of the band are lengths, and its rows are forces.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub enum BorderUnit {
     /// Force.
     #[default]
     Force,
-    /// Unit that becomes a length when it is multiplied by this number.
+    /// Any other unit. Multiplied by this number it becomes a length.
     Length(f64),
 }
 
 impl BorderUnit {
-    /// Factor that converts a row of this unit to forces. `stiffness` is a typical stiffness of the band [force/length].
+    /// Factor that converts a row of this unit to forces. `stiffness` is a typical stiffness in the band [force/length].
     pub(super) fn row_factor(self, stiffness: f64) -> f64 {
         match self {
             Self::Force => 1.0,
@@ -49,7 +49,8 @@ impl BorderUnit {
         }
     }
 
-    /// Factor that converts derivatives with respect to an unknown of this unit to derivatives with respect to a length.
+    /// Factor that converts derivatives with respect to an unknown of this unit to derivatives with respect to a length. `stiffness` is a typical
+    /// stiffness in the band [force/length].
     pub(super) fn column_factor(self, stiffness: f64) -> f64 {
         match self {
             Self::Force => stiffness,
@@ -63,11 +64,11 @@ impl BorderUnit {
 pub enum Border {
     /// Dense columns and rows.
     Full(FullBorder),
-    /// Blocks of five unknowns, each of which touches few unknowns of the band and no other block.
+    /// Blocks of five unknowns. Each block touches few unknowns of the band, and no other block.
     Local(Box<LocalBorder>),
 }
 
-/// Factors of a [`BorderedMatrix`], kept in its storage.
+/// Factors of a [`BorderedMatrix`]. They replace its entries in memory.
 #[derive(Debug)]
 pub struct BorderedLu<'a>(BorderFactors<'a>);
 
@@ -96,7 +97,7 @@ impl Border {
         }
     }
 
-    /// Adds `value` to the part `B`, at a row of the band and a column of the border.
+    /// Adds `value` to the part `B`, at the given row of the band and column of the border.
     pub fn add_to_column(&mut self, row: usize, border_column: usize, value: f64) {
         match self {
             Self::Full(border) => border.add_to_column(row, border_column, value),
@@ -107,7 +108,7 @@ impl Border {
         }
     }
 
-    /// Adds `value` to the part `C`, at a row of the border and a column of the band.
+    /// Adds `value` to the part `C`, at the given row of the border and column of the band.
     pub fn add_to_row(&mut self, border_row: usize, column: usize, value: f64) {
         match self {
             Self::Full(border) => border.add_to_row(border_row, column, value),
@@ -153,7 +154,7 @@ impl Border {
         }
     }
 
-    /// Sets the units of the row and of the unknown at an index of the border. Row exchanges and pivots depend on them.
+    /// Sets the units of the row and of the unknown with a given index of the border. The choice of pivots depends on them.
     pub(crate) fn set_units(&mut self, at: usize, row: BorderUnit, unknown: BorderUnit) {
         match self {
             Self::Full(border) => border.set_units(at, row, unknown),
@@ -176,7 +177,7 @@ impl Border {
 }
 
 impl BorderedMatrix {
-    /// Creates a zero matrix of `size` band rows with entries up to `half_bandwidth` from the diagonal, and a dense border.
+    /// Creates a zero matrix with a dense border. Its band has `size` rows, with entries up to `half_bandwidth` columns away from the diagonal.
     pub fn zeros(size: usize, half_bandwidth: usize, border: BorderShape) -> Self {
         Self {
             band: BandedMatrix::zeros(size, half_bandwidth),
@@ -190,7 +191,7 @@ impl BorderedMatrix {
         }
     }
 
-    /// Creates a zero matrix of `size` band rows with entries up to `half_bandwidth` from the diagonal, and a border of blocks.
+    /// Creates a zero matrix with a border of blocks. Its band has `size` rows, with entries up to `half_bandwidth` columns away from the diagonal.
     pub fn with_blocks(size: usize, half_bandwidth: usize, layout: BlockLayout) -> Self {
         Self {
             band: BandedMatrix::zeros(size, half_bandwidth),
@@ -200,8 +201,8 @@ impl BorderedMatrix {
         }
     }
 
-    /// Returns the matrix with joint elimination of its dense border and the band, for bands that alone may be singular. The last `full` rows and
-    /// columns couple with all others and remain a border.
+    /// Returns the matrix with joint elimination of band and dense border, for bands that may be singular alone. The last `full` rows and columns
+    /// have entries everywhere and remain a border.
     pub(crate) fn with_joint_elimination(self, full: usize) -> Self {
         Self {
             joint_elimination: Some(JointElimination::new(self.size(), full)),
@@ -210,7 +211,7 @@ impl BorderedMatrix {
         }
     }
 
-    /// Sets the number of threads for a long band, with unchanged results.
+    /// Sets the number of threads for a long band. Results do not change.
     pub fn use_threads(&mut self, threads: usize) {
         if let Some(ends) = &mut self.ends {
             ends.use_threads(threads);
@@ -232,7 +233,7 @@ impl BorderedMatrix {
         &mut self.band
     }
 
-    /// Border, for the assembly of entries.
+    /// Border, to which entries are added.
     pub fn border_mut(&mut self) -> &mut Border {
         &mut self.border
     }
@@ -246,7 +247,7 @@ impl BorderedMatrix {
         self.border.clear();
     }
 
-    /// Entry at `(row, column)`; zero outside band and border.
+    /// Entry at `(row, column)`; zero outside the band and the border.
     pub fn get(&self, row: usize, column: usize) -> f64 {
         let place = |at: usize| at.checked_sub(self.band.size()).map_or(Ok(at), Err);
         match (place(row), place(column)) {
@@ -284,7 +285,7 @@ impl BorderedMatrix {
 }
 
 impl BorderedLu<'_> {
-    /// Replaces the right-hand side `x` by the solution of `A x = b`. The entries of the border are last.
+    /// Replaces the right-hand side `x` by the solution of `A x = b`. The entries of the border are last in `x`.
     pub fn solve(&mut self, x: &mut [f64]) {
         match &mut self.0 {
             BorderFactors::Band(factors) => factors.solve(x),
@@ -340,7 +341,7 @@ mod tests {
 
     #[test]
     fn what_only_the_border_holds_is_solved_with_it() {
-        // Three masses on springs of stiffness 2 and 3, of which the border fixes the last. The last border row is dense.
+        // Three masses are connected by springs of stiffness 2 and 3, and the border fixes the last mass. The last border row is dense.
         let border = BorderShape { width: 2, row_entries: 4 };
         let mut matrix = BorderedMatrix::zeros(3, 1, border).with_joint_elimination(1);
         for (at, stiffness) in [2e6, 3e6].into_iter().enumerate() {
@@ -367,9 +368,9 @@ mod tests {
         }
     }
 
-    /// Solution of a contact on a band of positions and angles, in units of length and force, scaled back.
+    /// Solution of a contact problem on a band of positions and angles, in other units of length and force. The result is converted back.
     fn in_units(length: f64, force: f64, mut matrix: BorderedMatrix, seed: f64) -> Vec<f64> {
-        // Units of the rows, and of the unknowns.
+        // Units of the rows and of the unknowns of the band.
         let of_band = [(force, length), (force, length), (force * length, 1.0)];
         let of_contact = [(length, force), (length, force), (force, force), (force, force)];
         let of_way = [(force, 1.0)];

@@ -1,31 +1,31 @@
-//! Small linear complementarity problems, for simultaneous impacts of several contacts.
+//! Small linear complementarity problems, which occur in simultaneous impacts of several contacts.
 
 use super::{BandedMatrix, LinearError};
 
-/// Condition on an unknown and its response.
+/// Condition on a pair of an unknown and its response.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Pairing {
-    /// Equality: the response is zero for any value of the unknown.
+    /// Equality: the response is zero, and the unknown may have any value.
     Equality,
-    /// Complementarity: unknown and response are nonnegative, and one of them is zero.
+    /// Complementarity: unknown and response are not negative, and at least one of them is zero.
     Complementary,
 }
 
-/// Number of block exchanges without progress before single exchanges are used.
+/// Number of exchanges of all violating pairs without progress, after which pairs are exchanged one by one.
 const MOST_BLOCK_EXCHANGES: usize = 3;
 
-/// Negative unknown or response, relative to the largest, below which it counts as zero.
+/// Negative unknown or response that counts as zero, as a fraction of the largest one.
 const NOTHING: f64 = 1e-13;
 
 /// Solves a linear complementarity problem for the unknowns `z` with the responses `w = A z + q`: `w = 0` for equality pairs, `0 ≤ z ⟂ w ≥ 0` for
 /// complementary pairs.
 ///
-/// `A` is given by rows and need not be symmetric. The solution is unique if `A` is positive definite, or becomes so by elimination of the equality
-/// pairs. The method is block principal pivoting: all violating pairs are exchanged at once (Júdice & Pires 1994), so that the result does not depend
-/// on their order. If this cycles, pairs are exchanged one by one (Murty 1974).
+/// `A` is given by its rows and need not be symmetric. The solution is unique if `A` is positive definite, or becomes so by elimination of the
+/// equality pairs. The method is block principal pivoting: all violating pairs are exchanged at once (Júdice & Pires 1994), so that the result does
+/// not depend on their order. If this does not make progress, pairs are exchanged one by one (Murty 1974).
 ///
 /// # Errors
-/// Fails if the matrix of the nonzero unknowns is singular.
+/// Fails if the submatrix of the nonzero unknowns is singular.
 pub fn complementary(
     matrix: &[Vec<f64>],
     q: &[f64],
@@ -75,7 +75,7 @@ mod tests {
     use super::*;
     use proptest::prelude::*;
 
-    /// `B Bᵀ + 0.01`
+    /// Positive definite matrix `B Bᵀ + 0.01`, where `B` contains the entries.
     fn definite(size: usize, entries: &[f64]) -> Vec<Vec<f64>> {
         let rows: Vec<&[f64]> = entries.chunks(size).collect();
         let product =
@@ -88,7 +88,7 @@ mod tests {
     fn what_is_taken_along_by_another_is_not_pushed() {
         let matrix = [vec![2.0, 1.9], vec![1.9, 2.0]];
         let pairings = [Pairing::Complementary; 2];
-        // The response of the second unknown to the first alone is sufficient.
+        // The first unknown alone makes the response of the second pair positive.
         assert_eq!(complementary(&matrix, &[-2.0, -0.1], &pairings).unwrap(), [1.0, 0.0]);
         let tied = [Pairing::Complementary, Pairing::Equality];
         let both = complementary(&matrix, &[-2.0, -0.1], &tied).unwrap();
@@ -118,7 +118,7 @@ mod tests {
                     }
                 }
             }
-            // The same in reverse order.
+            // The same problem in reverse order.
             let turned: Vec<Vec<f64>> = matrix.iter().rev().map(|row| row.iter().rev().copied().collect()).collect();
             let q: Vec<f64> = q.into_iter().rev().collect();
             let pairings: Vec<Pairing> = pairings.into_iter().rev().collect();

@@ -1,9 +1,10 @@
 //! Double-double arithmetic.
 //!
-//! T. J. Dekker, Numer. Math. 18 (1971) 224–242; Y. Hida, X. S. Li & D. H. Bailey, Algorithms for quad-double precision floating point arithmetic,
-//! ARITH-15 (2001) 155–162. Products are split by fused multiply–add.
+//! References: T. J. Dekker, Numer. Math. 18 (1971) 224–242; Y. Hida, X. S. Li & D. H. Bailey, Algorithms for quad-double precision floating point
+//! arithmetic, ARITH-15 (2001) 155–162. Products are split into two parts by fused multiply–add.
 //!
-//! Fused multiply–add is rounded once according to IEEE 754, in hardware or software, so results are identical on every machine.
+//! IEEE 754 requires that fused multiply–add is rounded once. Results are therefore identical on every machine, whether it is computed in hardware
+//! or software.
 #![allow(clippy::disallowed_methods)]
 
 use pulp::Simd;
@@ -32,7 +33,7 @@ impl DoubleDouble {
         Self::renormalised(sum, lost + (self.low + other.low))
     }
 
-    /// Product `self · factor` with a number of 16 digits.
+    /// Product `self · factor`, where the factor has 16 digits.
     #[inline(always)]
     pub(super) fn times(self, factor: f64) -> Self {
         let Self { high, low } = Self::product(self.high, factor);
@@ -50,7 +51,7 @@ impl DoubleDouble {
     #[inline(always)]
     pub(super) fn inverse(self) -> Self {
         let guess = 1.0 / self.high;
-        // `1 - guess · self` is small and exactly known.
+        // The remainder `1 - guess · self` is small and computed exactly.
         let rest = (-guess).mul_add(self.low, (-guess).mul_add(self.high, 1.0));
         Self::renormalised(guess, guess * rest)
     }
@@ -62,21 +63,21 @@ impl DoubleDouble {
     }
 }
 
-/// Row of double-double numbers with separate high and low parts, for vector instructions.
+/// Row of double-double numbers. High and low parts are stored separately for vector instructions.
 #[derive(Debug)]
 pub(super) struct DoubleDoubles<'a> {
     pub(super) high: &'a [f64],
     pub(super) low: &'a [f64],
 }
 
-/// Mutable row of double-double numbers with separate high and low parts, for vector instructions.
+/// Mutable row of double-double numbers. High and low parts are stored separately for vector instructions.
 #[derive(Debug)]
 pub(super) struct DoubleDoublesMut<'a> {
     pub(super) high: &'a mut [f64],
     pub(super) low: &'a mut [f64],
 }
 
-/// Subtracts `factor` times a row from another row. Both have 32 digits.
+/// Subtracts `factor` times a row from another row. Both rows have 32 digits.
 #[inline(always)]
 pub(super) fn subtract_multiple<S: Simd>(
     simd: S,
@@ -114,7 +115,7 @@ pub(super) fn subtract_multiple<S: Simd>(
     }
 }
 
-/// Adds `factor` times a row of 16 digits to a row of 32 digits.
+/// Adds `factor` times a row with 16 digits to a row with 32 digits.
 #[inline(always)]
 pub(super) fn add_multiple<S: Simd>(
     simd: S,

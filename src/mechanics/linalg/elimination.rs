@@ -1,37 +1,37 @@
-//! Blocked Gaussian elimination of a banded matrix.
+//! Gaussian elimination of a banded matrix by panels of columns.
 //!
-//! A panel of columns is eliminated without row exchanges if no multiplier is large. The entries of the panel alone determine the multipliers
-//! (threshold pivoting: Duff, Erisman & Reid, Direct Methods for Sparse Matrices, 2nd ed., section 5.2). The rows below are then updated once for the
-//! whole panel, without fill-in. Otherwise the columns of the panel are eliminated one by one with partial pivoting.
+//! A panel of columns is eliminated without row exchanges if all multipliers are small. They depend only on the entries of the panel (threshold
+//! pivoting: Duff, Erisman & Reid, Direct Methods for Sparse Matrices, 2nd ed., section 5.2). The rows below are then updated once for the whole
+//! panel, without additional nonzero entries. Otherwise the columns of the panel are eliminated one by one with partial pivoting.
 //!
-//! For a matrix with a profile, rows and columns outside the profile are skipped. Row exchanges and fill-in stay inside a profile that never
-//! decreases.
+//! In a matrix with a profile, rows and columns outside the profile are skipped. Row exchanges and additional nonzero entries stay inside the
+//! profile, because its ends do not decrease from row to row.
 
 use pulp::{Simd, WithSimd};
 
 use super::storage::ActiveRows;
 use super::{LinearError, fixed_band};
 
-/// Vector length.
+/// Number of values in a vector instruction.
 const LANES: usize = 4;
 
-/// Number of columns eliminated together, equal to the vector length. Panels then write and read aligned vectors. Reads across two recently written
-/// vectors would stall the processor.
+/// Number of columns that are eliminated together. It equals the vector length, so that panels write and read aligned vectors. A read that overlaps
+/// two recently written vectors would stall the processor.
 pub(super) const PANEL: usize = LANES;
 
-/// Smallest half-bandwidth for which a row has space for a panel followed by whole vectors.
+/// Smallest half-bandwidth for which a row has space for a panel and whole vectors after it.
 pub(super) const SMALLEST_HALF_BANDWIDTH: usize = PANEL + LANES - 2;
 
-/// Square of the largest multiplier that needs no row exchange, for rows of equal norm.
+/// Square of the largest multiplier for which rows of equal norm are not exchanged.
 const LARGEST_SQUARE: f64 = 64.0;
 
-/// Returns true if a multiplier needs no row exchange, for the squared sizes of the pivot row and of the eliminated row.
+/// Returns true if a multiplier is so small that no rows are exchanged. The squared sizes of the pivot row and of the eliminated row are given.
 #[inline(always)]
 pub(super) fn is_small(multiplier: f64, pivot_row: f64, row: f64) -> bool {
     multiplier * multiplier * pivot_row <= LARGEST_SQUARE * row
 }
 
-/// Gaussian elimination with row exchanges. It replaces a banded matrix by its factors, panel by panel.
+/// Gaussian elimination with row exchanges. It replaces a banded matrix by its factors.
 pub(super) struct Elimination<'a>(pub(super) ActiveRows<'a>);
 
 impl WithSimd for Elimination<'_> {
@@ -39,12 +39,12 @@ impl WithSimd for Elimination<'_> {
 
     #[inline(always)]
     fn with_simd<S: Simd>(mut self, simd: S) -> Self::Output {
-        // The half-bandwidths of beams of degree 2 and 3 are compile-time constants. Degree 1 gains nothing.
+        // Compile-time constants for the half-bandwidths of beams of degree 2 and 3. For degree 1 they would not save time.
         match self.0.reach {
             8 => eliminate(simd, &mut self.0, 8, eliminate_fixed::<S, 8, 8, 28>),
             11 => eliminate(simd, &mut self.0, 11, eliminate_fixed::<S, 11, 12, 37>),
             reach => {
-                // Columns behind the last entry are zero.
+                // All columns after the last entry are zero.
                 let width = reach.next_multiple_of(LANES);
                 eliminate(simd, &mut self.0, reach, |simd, storage, first| {
                     eliminate_panel(simd, storage, first, [reach, reach], width)
@@ -54,8 +54,8 @@ impl WithSimd for Elimination<'_> {
     }
 }
 
-/// Elimination of a matrix with a profile: for each index the last row with an entry in the column, and the last column with an entry in the row. The
-/// profile never decreases, and continues for one panel after the last row.
+/// Elimination of a matrix with a profile. For each index, the profile gives the last row with an entry in the column, which is also the last
+/// column with an entry in the row. It does not decrease from one index to the next, and continues for one panel after the last row.
 pub(super) struct ProfileElimination<'a>(pub(super) ActiveRows<'a>, pub(super) &'a [usize]);
 
 impl WithSimd for ProfileElimination<'_> {
@@ -78,7 +78,8 @@ fn eliminate_fixed<S: Simd, const REACH: usize, const WIDTH: usize, const STRIDE
     fixed_band::eliminate_panel::<S, REACH, WIDTH, STRIDE>(simd, &mut rows[first..], sizes)
 }
 
-/// `reach` is the half-bandwidth of the storage. `eliminate_plain` eliminates a panel without previous fill-in, as [`eliminate_panel`] does.
+/// Eliminates a band matrix of half-bandwidth `reach`. Panels without additional nonzero entries from earlier row exchanges are eliminated by
+/// `eliminate_plain`, all others by [`eliminate_panel`].
 #[inline(always)]
 fn eliminate<S: Simd>(
     simd: S,
@@ -86,7 +87,7 @@ fn eliminate<S: Simd>(
     reach: usize,
     eliminate_plain: impl Fn(S, &mut ActiveRows<'_>, usize) -> bool,
 ) -> Result<(), LinearError> {
-    // Last column with an entry in the rows above.
+    // Last column in which the rows above have an entry.
     let mut filled = 0;
     for first in (0..storage.columns).step_by(PANEL) {
         let next = first + PANEL;
@@ -124,8 +125,8 @@ fn eliminate_in_profile<S: Simd>(
         let next = first + PANEL;
         let below = ends[next - 1] + 1 - next;
         let width = filled.max(ends[next - 1]) + 1 - next;
-        // Entries are zero after the last column and below the last row. The compile-time constants are the sizes of cubic beams, also with a point
-        // that slides from one span to the next.
+        // Columns after the last entry and rows below the last row are zero. The compile-time constants are the sizes for cubic beams, without and
+        // with a point that slides from one span to the next.
         let is_eliminated = match below.max(width) {
             ..=9 if reach > 10 => eliminate_panel(simd, storage, first, [reach, 9], 12),
             ..=11 if reach > 10 => eliminate_panel(simd, storage, first, [reach, 11], 12),
@@ -150,7 +151,7 @@ fn eliminate_in_profile<S: Simd>(
 }
 
 pub(super) struct PanelFactors {
-    /// Multipliers left of the diagonal; entries of the upper factor on the diagonal and right of it.
+    /// Entries of the factors in the panel: multipliers to the left of the diagonal, and the upper factor on and to the right of it.
     pub(super) factors: [[f64; PANEL]; PANEL],
     pub(super) inverses: [f64; PANEL],
     /// True if no multiplier is large and all entries are finite.
@@ -180,8 +181,8 @@ impl PanelFactors {
     }
 }
 
-/// Eliminates the columns of a panel from the rows below and the columns after it. Returns false without changes if rows should be exchanged. The
-/// first entry of `reach` is the half-bandwidth of the storage.
+/// Eliminates the columns of a panel from the rows below and the columns after it. Returns false without changing anything if rows should be
+/// exchanged. The first entry of the last argument is the half-bandwidth of the storage.
 #[inline(always)]
 fn eliminate_panel<S: Simd>(
     simd: S,
@@ -249,7 +250,7 @@ pub(super) fn subtract<S: Simd, const COUNT: usize>(
     rows: [&[f64]; COUNT],
     from: &mut [f64],
 ) {
-    // A loop is used, because a closure that is not inlined would lose the vector instructions.
+    // This is a loop, because a closure that is not inlined would lose the vector instructions.
     let mut splat = [simd.splat_f64s(0.0); COUNT];
     let (mut heads, mut tails): ([&[S::f64s]; COUNT], [&[f64]; COUNT]) =
         ([&[]; COUNT], [&[]; COUNT]);
@@ -259,7 +260,7 @@ pub(super) fn subtract<S: Simd, const COUNT: usize>(
     }
     let (vectors, rest) = S::as_mut_simd_f64s(from);
     for (at, vector) in vectors.iter_mut().enumerate() {
-        // A copy is used, because the compiler cannot exclude that the target is one of the rows.
+        // This copy is needed because the compiler cannot exclude that the target is one of the rows.
         let mut left = *vector;
         for (multiplier, row) in splat.iter().zip(&heads) {
             left = simd.sub_f64s(left, simd.mul_f64s(*multiplier, row[at]));
@@ -273,7 +274,7 @@ pub(super) fn subtract<S: Simd, const COUNT: usize>(
     }
 }
 
-/// Eliminates one column with partial pivoting. Returns the last column with an entry. Columns and rows end at `end`.
+/// Eliminates one column with partial pivoting. Returns the last column with an entry. `end` gives the end of the profile.
 fn eliminate_column(
     storage: &mut ActiveRows<'_>,
     column: usize,
@@ -284,7 +285,7 @@ fn eliminate_column(
     let (stride, rows) = (3 * reach + PANEL, &mut *storage.rows);
     let last_row = end(column).min(size - 1);
     let diagonal = column * stride + reach + PANEL - 1;
-    // One row down, the entry of the same column is `stride - 1` further on.
+    // The entry in the same column one row below is stored `stride - 1` places later.
     let entry = |row: usize| rows[diagonal + (row - column) * (stride - 1)].abs();
     let relative = |row: usize| entry(row) / storage.sizes[row].sqrt();
     let (mut pivot_row, mut largest) = (column, relative(column));

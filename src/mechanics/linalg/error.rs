@@ -3,7 +3,7 @@
 /// Linear system without a unique solution in floating-point arithmetic.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 pub enum LinearError {
-    /// Column without usable pivot in a singular or nearly singular matrix.
+    /// Column without usable pivot. The matrix is singular or nearly singular.
     #[error("the matrix is singular: no pivot for unknown {unknown} of {size}")]
     Singular {
         /// Index of the column, from 0.
@@ -22,7 +22,7 @@ pub enum LinearError {
 }
 
 impl LinearError {
-    /// Index of the column of the error, from 0.
+    /// Index of the column in which the error occurred, from 0.
     pub fn unknown(self) -> usize {
         let (Self::Singular { unknown, .. } | Self::NotFinite { unknown, .. }) = self;
         unknown
@@ -35,7 +35,7 @@ impl LinearError {
         }
     }
 
-    /// Converts the error of a matrix block that starts after `rows` other rows.
+    /// Converts the error of a block of a matrix that starts after `rows` other rows.
     pub(super) fn offset_by_rows(self, rows: usize) -> Self {
         match self {
             Self::Singular { unknown, size } => {

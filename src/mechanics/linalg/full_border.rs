@@ -1,24 +1,24 @@
-//! Dense border of a banded matrix, eliminated by blocks.
+//! Dense border of a banded matrix. It is eliminated by means of the factors of the band.
 //!
 //! ```text
 //! [ A  B ] [x]   [f]        Z = A⁻¹ B      y = A⁻¹ f
 //! [ C  D ] [z] = [g]        (D - C Z) z = g - C y      x = y - Z z
 //! ```
 //!
-//! Any couplings of the border leave the width of the band unchanged (Govaerts & Pryce, Block elimination with one iterative refinement solves
-//! bordered linear systems accurately, BIT 30 (1990) 490–507; the caller decides on refinement).
+//! The border may have entries anywhere without changing the width of the band (Govaerts & Pryce, Block elimination with one iterative refinement
+//! solves bordered linear systems accurately, BIT 30 (1990) 490–507). The caller decides whether the solution is refined.
 
 use super::{BandedLu, BandedMatrix, BorderShape, BorderUnit, LinearError};
 use crate::elementary::square;
 
-/// Number of border columns stored and solved together: the number of unknowns of a sliding contact, a compile-time constant.
+/// Number of border columns that are stored and solved together. It is a compile-time constant, the number of unknowns of a sliding contact.
 const STRIP: usize = 5;
 
-/// Weight of lengths relative to forces in the choice of pivots. Equations of forces, such as that of a frictionless contact, are preferred if this
-/// loses at most four digits, so that a zero force is exactly zero.
+/// Weight of lengths in comparison with forces in the choice of pivots. Equations of forces, such as that of a frictionless contact, are preferred
+/// as long as this loses at most four digits. Then a zero force is exactly zero.
 const LENGTHS: f64 = 1e-4;
 
-/// Columns of `B`; after the factorisation columns of `Z`.
+/// Some columns of `B`. After the factorisation they contain columns of `Z`.
 #[derive(Debug, Clone)]
 struct BorderStrip {
     rows: Vec<[f64; STRIP]>,
@@ -30,7 +30,7 @@ struct BorderStrip {
 pub struct FullBorder {
     width: usize,
     strips: Vec<BorderStrip>,
-    /// Entries of `C`: (row of the border, column, value). Entries at the same place add up.
+    /// Entries of `C` (row of the border, column, value). Values for the same row and column must be added up.
     rows: Vec<(usize, usize, f64)>,
     corner: Box<BandedMatrix>,
     /// Units of the border rows and unknowns.
@@ -41,9 +41,9 @@ pub struct FullBorder {
 pub(super) struct FullLu<'a> {
     width: usize,
     band: BandedLu<'a>,
-    /// `Z`
+    /// Columns of the matrix `Z`.
     solved: &'a [BorderStrip],
-    /// `C`
+    /// Entries of the part `C`.
     rows: &'a [(usize, usize, f64)],
     complement: BandedLu<'a>,
 }
@@ -101,7 +101,8 @@ impl FullBorder {
         self.units[at] = (row, unknown);
     }
 
-    /// Scales rows of the complement with different units by the largest compliance of its lengths, so that they can be compared.
+    /// Scales the rows of the matrix `D - C Z`. Rows of lengths are scaled by the largest compliance, so that they can be compared with rows of
+    /// forces.
     fn weigh_rows(&mut self) {
         let compliances = self.units.iter().enumerate().map(|(at, units)| match units {
             (BorderUnit::Length(_), BorderUnit::Force) => self.corner.get(at, at).abs(),
@@ -128,7 +129,7 @@ impl FullBorder {
         self.corner.get(border_row, border_column)
     }
 
-    /// All nonzero entries of the matrix of this border and a band: row, column, value. Entries at the same place add up.
+    /// All nonzero entries of the matrix of this border and a band, as row, column and value. Values for the same row and column must be added up.
     pub(super) fn entries_with(&self, band: &BandedMatrix) -> Vec<(usize, usize, f64)> {
         let (Self { width, strips, rows, corner, .. }, n) = (self, band.size());
         let reach = band.half_bandwidth();
@@ -149,7 +150,7 @@ impl FullBorder {
         all.filter(|(.., value)| *value != 0.0).collect()
     }
 
-    /// Factorises a matrix with this border and a factorised band.
+    /// Factorises a matrix that consists of this border and an already factorised band.
     pub(super) fn factorise<'a>(
         &'a mut self,
         band: BandedLu<'a>,
@@ -179,7 +180,7 @@ impl FullBorder {
 }
 
 impl FullLu<'_> {
-    /// Replaces the right-hand side `x` by the solution. The entries of the border are last.
+    /// Replaces the right-hand side `x` by the solution. The entries of the border are last in `x`.
     pub(super) fn solve(&self, x: &mut [f64]) {
         let (x, z) = x.split_at_mut(x.len() - self.width);
         self.band.solve(x);

@@ -1,4 +1,4 @@
-//! Border of many blocks that each touch few unknowns of the band, eliminated locally.
+//! Border of many blocks. Each block touches few unknowns of the band and is eliminated separately.
 //!
 //! ```text
 //! [ A    B1   B2  … ]
@@ -7,7 +7,7 @@
 //! [ …             … ]
 //! ```
 //!
-//! The work is proportional to the number of blocks and unknowns. Blocks may move along the band.
+//! The work is proportional to the number of blocks and unknowns. The blocks may touch other unknowns of the band in every factorisation.
 
 use std::sync::Arc;
 
@@ -18,28 +18,28 @@ use super::block::{BLOCK, Block, BlockElimination, UNTOUCHED};
 use super::profile::{ProfileLu, ProfileMatrix};
 use super::{BandedMatrix, LinearError};
 
-/// Additional half-bandwidth that is allocated in advance.
+/// Half-bandwidth that is allocated in addition to that of the band.
 const EXTRA_HALF_BANDWIDTH: usize = 16;
 
-/// Structure of the blocks of a border, and of the band beside them.
+/// Structure of the blocks of a border and of its band.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct BlockLayout {
-    /// For each block, the unknowns of the band that only this block couples with others. They are eliminated with the block.
+    /// For each block, the unknowns of the band that no other block couples with others. They are eliminated with the block.
     pub own: Vec<Vec<usize>>,
-    /// Groups of coupled unknowns of the band.
+    /// Groups of unknowns of the band that are coupled with each other.
     pub groups: Arc<[Vec<usize>]>,
-    /// Number of entries of a block that are allocated in advance.
+    /// Number of entries for which each block allocates memory in advance.
     pub block_entries: usize,
 }
 
-/// Border of blocks of five unknowns, with the elimination order of their Schur complements.
+/// Border of blocks of five unknowns, and the order in which the band is eliminated after them.
 #[derive(Debug, Clone)]
 pub struct LocalBorder {
     blocks: Vec<Block>,
     arrangement: Arrangement,
-    /// Band with the Schur complements of the blocks, in the order of the arrangement.
+    /// Band plus the Schur complements of the blocks, in the order of the arrangement.
     matrix: ProfileMatrix,
-    /// Buffer: place of each unknown of the band in a block; `NOWHERE` while unused.
+    /// Buffer: place of each unknown of the band in a block. All entries are `UNTOUCHED` while the buffer is not used.
     places: Vec<usize>,
     right: Vec<f64>,
     own: Vec<f64>,
@@ -91,7 +91,7 @@ impl LocalBorder {
         border_column % BLOCK
     }
 
-    /// Entry at a row and a column; `Ok` for the band, `Err` for the border.
+    /// Entry at a row and a column. Each index is `Ok` for the band and `Err` for the border.
     pub(super) fn get(&self, row: Result<usize, usize>, column: Result<usize, usize>) -> f64 {
         let block = |at: usize| (&self.blocks[at / BLOCK], at % BLOCK);
         match (row, column) {
@@ -126,7 +126,7 @@ impl LocalBorder {
         Ok(LocalLu { blocks, arrangement, factors, right, own, all })
     }
 
-    /// Copies the band in the order of the arrangement.
+    /// Copies the band, in the order of the arrangement.
     fn copy(&mut self, band: &BandedMatrix) {
         let Arrangement { position, run_ends: runs_to, .. } = &self.arrangement;
         for (row, &place) in position.iter().enumerate().filter(|(_, place)| **place != UNTOUCHED) {
@@ -168,7 +168,7 @@ fn add_schur_complement(
             }
         }
     }
-    // Unused places of delayed unknowns get an identity row.
+    // Places of delayed unknowns that are not used get a row of the identity matrix.
     if delayed != UNTOUCHED {
         for place in delayed + count..delayed + super::block::MOST_DELAYED {
             matrix.set_row_size(place, 1.0);
@@ -178,7 +178,7 @@ fn add_schur_complement(
 }
 
 impl LocalLu<'_> {
-    /// Replaces the right-hand side `x` by the solution. The entries of the border are last.
+    /// Replaces the right-hand side `x` by the solution. The entries of the border are last in `x`.
     pub(super) fn solve(&mut self, x: &mut [f64]) {
         let Arrangement { position, delayed, .. } = self.arrangement;
         let (x, z) = x.split_at_mut(position.len());
@@ -234,7 +234,7 @@ mod tests {
     use nalgebra::{DMatrix, DVector};
     use proptest::prelude::*;
 
-    /// Touched unknowns of a block: the first of some consecutive ones, their number, and one far away.
+    /// Unknowns that a block touches: the first of some consecutive ones, their number, and optionally one at another place.
     type Touch = (usize, usize, Option<usize>);
 
     const OWN: usize = 2;
@@ -253,7 +253,7 @@ mod tests {
         (BlockLayout { own, groups: groups.into(), block_entries: 10 }, next)
     }
 
-    /// Entries like those of a band with contacts, whose forces do not depend on each other.
+    /// Fills a matrix like that of a band with contacts whose forces do not depend on each other.
     fn fill(
         matrix: &mut BorderedMatrix,
         layout: &BlockLayout,
@@ -315,7 +315,7 @@ mod tests {
         let (size, own) = (300, [false; 30]);
         let (layout, all) = layout(size, 2, &own);
         let mut matrix = BorderedMatrix::with_blocks(all, 2, layout.clone());
-        // As for two beams of 150 unknowns that cross each other at every place.
+        // The blocks correspond to two beams of 150 unknowns that cross each other everywhere.
         let touches: Vec<Touch> =
             (0..30).map(|block| (5 * block, 3, Some(150 + 5 * block))).collect();
         let mut value = 0.3_f64;

@@ -1,17 +1,17 @@
-//! Bandwidth-reducing numbering: reverse Cuthill–McKee (George & Liu 1981).
+//! Numbering of unknowns with a small bandwidth: reverse Cuthill–McKee ordering (George & Liu 1981).
 
 use std::collections::VecDeque;
 
-/// Numbering of unknowns that are coupled in groups.
+/// Numbering of unknowns that are coupled within groups.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Ordering {
     /// New number of each unknown: `position[old]`.
     pub position: Vec<usize>,
-    /// Half-bandwidth: largest difference of new numbers in a group.
+    /// Half-bandwidth, which is the largest difference of new numbers within a group.
     pub half_bandwidth: usize,
 }
 
-/// Orders `count` unknowns; those in a group are coupled with each other.
+/// Numbers `count` unknowns. All unknowns of a group are coupled with each other.
 ///
 /// The given numbering is kept unless the reverse Cuthill–McKee numbering is narrower.
 pub fn reverse_cuthill_mckee(count: usize, groups: &[Vec<usize>]) -> Ordering {
@@ -42,7 +42,7 @@ fn order_by_levels(count: usize, groups: &[Vec<usize>]) -> Vec<usize> {
     }
     let neighbours =
         |node: usize| groups_of[node].iter().flat_map(|&group| groups[group].iter().copied());
-    // Nodes with few couplings are close to a free end of the structure, where the levels should start.
+    // The levels should start at a free end of the structure. Unknowns with few couplings are close to a free end.
     let degree =
         |node: usize| groups_of[node].iter().map(|&group| groups[group].len()).sum::<usize>();
 
@@ -77,7 +77,7 @@ fn order_by_levels(count: usize, groups: &[Vec<usize>]) -> Vec<usize> {
     position
 }
 
-/// Node at the end of the component that contains `seed`, by two sweeps over the levels.
+/// Unknown at an end of the connected component that contains `seed`. It is found by two passes over the levels.
 fn farthest<I: Iterator<Item = usize>>(
     seed: usize,
     count: usize,

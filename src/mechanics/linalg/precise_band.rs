@@ -1,7 +1,7 @@
 //! Symmetric band matrix with about 32 digits, and its elimination.
 //!
-//! The stiffness of a slender beam is a sum `Bᵀ C B` of terms of very different magnitudes. In soft modes the large terms cancel, and with 16 digits
-//! the remaining stiffness would be lost. With 32 digits it is accurate, and so are the signs of the pivots of `L D Lᵀ`.
+//! The stiffness of a slender beam is a sum `Bᵀ C B` of terms of very different magnitudes. For soft modes the large terms cancel. With 16 digits
+//! the remaining stiffness would be lost. With 32 digits the stiffness and the signs of the pivots of `L D Lᵀ` are accurate.
 
 use pulp::{Arch, Simd, WithSimd};
 
@@ -9,21 +9,21 @@ use super::double_double::{DoubleDouble, DoubleDoublesMut, add_multiple};
 use super::symmetric_factors::{Pivots, SymmetricFactors, eliminate};
 use super::{LinearError, SymmetricSparse};
 
-/// Symmetric band matrix of double-double numbers. Entries `(i, j)` are zero for `|i - j|` above the half-bandwidth.
+/// Symmetric band matrix of double-double numbers. Entries `(i, j)` are zero if `|i - j|` exceeds the half-bandwidth.
 #[derive(Debug, Clone)]
 pub struct PreciseBand {
     pub(super) size: usize,
     pub(super) half_bandwidth: usize,
-    /// High parts of the upper triangle: row `i` holds the columns `i ..= i + b`, padded with zeros to whole vectors.
+    /// High parts of the upper triangle. Row `i` contains the columns `i ..= i + b` for the half-bandwidth `b`, and zeros up to whole vectors.
     pub(super) high: Vec<f64>,
     pub(super) low: Vec<f64>,
 }
 
-/// Number of padding zeros per row.
+/// Number of additional zeros per row.
 pub(super) const MARGIN: usize = 3;
 
 impl PreciseBand {
-    /// Creates a zero matrix of `size` rows with entries up to `half_bandwidth` from the diagonal.
+    /// Creates a zero matrix of `size` rows. Entries can be up to `half_bandwidth` columns away from the diagonal.
     pub fn zeros(size: usize, half_bandwidth: usize) -> Self {
         let count = size * (half_bandwidth + 1 + MARGIN);
         Self { size, half_bandwidth, high: vec![0.0; count], low: vec![0.0; count] }
@@ -48,7 +48,7 @@ impl PreciseBand {
         self.high[row * self.stride()]
     }
 
-    /// Adds `factor r rᵀ`. Entry `k` of `r` belongs to the unknown `unknowns[k]`, and is ignored if `unknowns[k]` is at least the size.
+    /// Adds `factor r rᵀ`. Entry `k` of `r` belongs to the unknown `unknowns[k]`. It is ignored if this number is not below the size.
     pub(crate) fn add_square(&mut self, unknowns: &[usize], factor: f64, r: &[f64]) {
         let is_consecutive = unknowns.windows(2).all(|pair| pair[1] == pair[0] + 1);
         if is_consecutive && unknowns.last().is_some_and(|last| *last < self.size) {
@@ -63,7 +63,7 @@ impl PreciseBand {
             if row < self.size && a != 0.0 {
                 let a = DoubleDouble::product(factor, a);
                 for (&column, &b) in unknowns.iter().zip(r) {
-                    // Each pair of different unknowns occurs twice and is used once.
+                    // Each pair of different unknowns occurs twice. Only the one in the upper triangle is used.
                     if row <= column && column < self.size {
                         self.add_double_double(row, column, a.times(b));
                     }
@@ -72,7 +72,7 @@ impl PreciseBand {
         }
     }
 
-    /// Adds `p qᵀ + q pᵀ`. Entries `k` of `p` and `q` belong to the unknown `unknowns[k]`, and are ignored if `unknowns[k]` is at least the size.
+    /// Adds `p qᵀ + q pᵀ`. Entries `k` of `p` and `q` belong to the unknown `unknowns[k]`. They are ignored if this number is not below the size.
     pub(crate) fn add_product(&mut self, unknowns: &[usize], p: &[f64], q: &[f64]) {
         for ((&row, &p_a), &q_a) in unknowns.iter().zip(p).zip(q) {
             for ((&column, &p_b), &q_b) in unknowns.iter().zip(p).zip(q) {
@@ -103,7 +103,7 @@ impl PreciseBand {
         SymmetricFactors::of(self, shift, other)
     }
 
-    /// Signs of the pivots of `A + σ M`, where `A` is this matrix, `σ` is `shift` and `M` is `other`. Zero rows count for neither sign.
+    /// Signs of the pivots of `A + σ M`, where `A` is this matrix, `σ` is `shift` and `M` is `other`. Zero rows have no sign.
     ///
     /// # Errors
     /// Fails if the pivot of a nonzero row is zero, or a pivot is not finite.

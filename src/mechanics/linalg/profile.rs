@@ -1,6 +1,6 @@
-//! Profile matrix with pivoted LU factorisation.
+//! Matrix with a profile, and its LU factorisation with row exchanges.
 //!
-//! The profile is rebuilt in the same memory, so that couplings may change. Storage and elimination of rows are those of
+//! The profile can be changed without allocating memory, so that couplings may change. Storage and elimination of rows are the same as those of a
 //! [`BandedMatrix`](super::BandedMatrix).
 
 use pulp::Arch;
@@ -10,15 +10,16 @@ use super::elimination::{PANEL, ProfileElimination};
 use super::storage::{Factors, Storage};
 use super::substitution::ProfileSubstitution;
 
-/// Square matrix with a profile: for each index the last row with an entry in the column, and the last column with an entry in the row.
+/// Square matrix with a profile. For each index, the profile gives the last row with an entry in the column, which is also the last column with an
+/// entry in the row.
 #[derive(Debug, Clone)]
 pub(super) struct ProfileMatrix {
     storage: Storage,
-    /// Profile by index. It never decreases, and continues for one panel after the last row.
+    /// Profile. It does not decrease from one index to the next, and continues for one panel after the last row.
     ends: Vec<usize>,
 }
 
-/// Factors `P A = L U` of a [`ProfileMatrix`], kept in its storage.
+/// Factors `P A = L U` of a [`ProfileMatrix`]. They replace its entries in memory.
 #[derive(Debug)]
 pub(super) struct ProfileLu<'a> {
     factors: Factors<'a>,
@@ -31,8 +32,8 @@ impl ProfileMatrix {
         Self { storage: Storage::zeros(size, half_bandwidth), ends }
     }
 
-    /// Sets the matrix to zero with the smallest nondecreasing profile that covers the given ends. Entries within the half-bandwidth but outside the
-    /// profile must be zero.
+    /// Sets the matrix to zero and changes its profile to the smallest nondecreasing one that covers `ends`. Entries within the half-bandwidth but
+    /// outside the profile must remain zero.
     pub(super) fn remake(&mut self, ends: &[usize], half_bandwidth: usize) {
         self.ends.clear();
         let (mut furthest, mut reach) = (0, half_bandwidth);
@@ -53,14 +54,14 @@ impl ProfileMatrix {
         self.storage.rows[at] += value;
     }
 
-    /// Copies entries of a row to the columns from `first` on. Entries outside the profile must be zero.
+    /// Copies values to a row, starting at the column `first`. Values outside the profile must be zero.
     #[inline]
     pub(super) fn copy_to_row(&mut self, row: usize, first: usize, values: &[f64]) {
         let at = row * self.storage.stride() + first + self.storage.centre() - row;
         self.storage.rows[at..at + values.len()].copy_from_slice(values);
     }
 
-    /// Makes rows of different units comparable in row exchanges, by the diagonal.
+    /// Sets row sizes from the diagonal entries. Row exchanges use them to compare rows of different units.
     pub(super) fn weigh_rows(&mut self) {
         self.storage.weigh_rows();
     }
@@ -99,7 +100,7 @@ mod tests {
             diagonal in prop::sample::select(vec![0.0, 0.5, 3.0, 30.0]),
         ) {
             let mut matrix = ProfileMatrix::with_capacity(1, 0);
-            // The second pass uses another profile.
+            // The second solution has another profile.
             for shift in [0, 7] {
                 let size = reaches.len();
                 let ends: Vec<usize> =

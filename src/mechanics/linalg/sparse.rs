@@ -7,7 +7,7 @@ use super::strips::VectorStrip;
 /// Symmetric matrix in compressed row storage.
 #[derive(Debug, Clone)]
 pub struct SymmetricSparse {
-    /// Start of each row among the entries, and the end of the last.
+    /// Index of the first entry of each row, followed by the number of entries.
     starts: Vec<usize>,
     /// Columns of the entries, sorted in each row.
     columns: Vec<u32>,
@@ -15,8 +15,8 @@ pub struct SymmetricSparse {
 }
 
 impl SymmetricSparse {
-    /// Creates the matrix from entries (row, column, value) of both triangles, in any order. Entries at the same place add up. `give` is called
-    /// twice, first to count and then to store the entries.
+    /// Creates the matrix from entries (row, column, value) of both triangles, given in any order. Values for the same row and column are added up.
+    /// `give` is called twice, first to count the entries and then to store them.
     ///
     /// # Panics
     /// Panics if there are more than 2³² rows.
@@ -28,7 +28,7 @@ impl SymmetricSparse {
         let mut next = starts.clone();
         let (mut columns, mut values) = (vec![0_u32; starts[size]], vec![0.0; starts[size]]);
         give(&mut |row, column, value| {
-            // Sorted insertion; most entries arrive in order.
+            // Entries are inserted in the order of columns. Most of them are given in this order.
             let (first, mut at) = (starts[row], next[row]);
             while at > first && columns[at - 1] as usize > column {
                 (columns[at], values[at]) = (columns[at - 1], values[at - 1]);
@@ -81,7 +81,7 @@ impl SymmetricSparse {
         self.row(row).find(|(column, _)| *column == row).map_or(0.0, |(_, value)| value)
     }
 
-    /// Writes the product `M x` with four vectors to `product`, and zeros to its remaining entries.
+    /// Multiplies the matrix by the four vectors of `x`. Entries of `product` beyond the size of the matrix are set to zero.
     pub fn times(&self, x: &VectorStrip, product: &mut VectorStrip) {
         Arch::new().dispatch(SparseProduct { matrix: self, x, product });
     }

@@ -1,37 +1,38 @@
-//! Row storage of a banded matrix for elimination and substitution.
+//! Storage of the rows of a banded matrix during elimination and substitution.
 
 use std::ops::Range;
 
 use super::elimination::{PANEL, SMALLEST_HALF_BANDWIDTH};
 use crate::elementary::square;
 
-/// Rows of a banded matrix, with data of the elimination.
+/// Rows of a banded matrix, and data for the elimination.
 ///
-/// After the rows follow identity rows that complete the last panel, and zero rows that the elimination may access.
+/// The rows are followed by identity rows, which complete the last panel, and by zero rows, which the elimination may access.
 #[derive(Debug, Clone)]
 pub(super) struct Storage {
     pub(super) size: usize,
     /// Half-bandwidth `b`, at least `SMALLEST_HALF_BANDWIDTH`.
     pub(super) reach: usize,
-    /// Row `i` holds the columns `i - b - (PANEL - 1) ..= i + 2 b`. Factors hold the multipliers left of the diagonal, and the inverse pivot on the
-    /// diagonal.
+    /// Row `i` contains the columns `i - b - (PANEL - 1) ..= i + 2 b`. After factorisation it contains the multipliers to the left of the diagonal
+    /// and the inverse pivot on the diagonal.
     pub(super) rows: Vec<f64>,
     pub(super) pivots: Vec<usize>,
-    /// Last column with an entry in each row of the upper factor.
+    /// For each row of the upper factor, the last column with an entry.
     pub(super) last_columns: Vec<usize>,
-    /// Multipliers of the rows below a panel, until the panel is accepted.
+    /// Multipliers of the rows below a panel. They are stored here until the panel is accepted.
     pub(super) multipliers: Vec<[f64; PANEL]>,
-    /// Squared sizes of the rows, by which entries of equations of different units are compared. They are equal unless set, and are exchanged
-    /// together with the rows.
+    /// Squared sizes of the rows. Entries of equations with different units are compared by means of them. By default they are equal. Row exchanges
+    /// exchange them too.
     pub(super) sizes: Vec<f64>,
 }
 
-/// Rows of a banded matrix during elimination, stored as in [`Storage`].
+/// Rows of a banded matrix during elimination, stored as described for [`Storage`].
 #[derive(Debug)]
 pub(super) struct ActiveRows<'a> {
     /// Number of rows, without the identity rows.
     pub(super) size: usize,
-    /// Number of columns to eliminate: all columns, or a multiple of the panel width after which as many rows follow as a column reaches.
+    /// Number of columns to be eliminated: all columns, or a multiple of the panel width. In the second case, as many rows follow as a column can
+    /// reach.
     pub(super) columns: usize,
     pub(super) reach: usize,
     pub(super) rows: &'a mut [f64],
@@ -66,7 +67,7 @@ impl Storage {
         storage
     }
 
-    /// Resets the storage to zero for another size. Memory is allocated only for a new maximum.
+    /// Sets the storage to zero and changes its size. Memory is allocated only if the size exceeds all earlier ones.
     pub(super) fn remake(&mut self, size: usize, half_bandwidth: usize) {
         (self.size, self.reach) = (size, half_bandwidth.max(SMALLEST_HALF_BANDWIDTH));
         self.pivots.resize(size, 0);
@@ -113,8 +114,8 @@ impl Storage {
         }
     }
 
-    /// Sets the squared sizes of the rows to their diagonal entries, as if the matrix were scaled from both sides to a unit diagonal. Rows without a
-    /// diagonal entry (constraints) get their largest scaled entry, and so do rows that are coupled only to constraints.
+    /// Sets the squared sizes of the rows to their diagonal entries, as if rows and columns were scaled to a unit diagonal. Rows of constraints
+    /// have no diagonal entry; their size is the largest scaled entry. The same applies to rows that are coupled only to constraints.
     pub(super) fn weigh_rows(&mut self) {
         let (stride, centre) = (self.stride(), self.centre());
         let Self { size, reach, rows, sizes, .. } = self;
@@ -143,7 +144,7 @@ impl Storage {
             if *size == 0.0 {
                 *size = largest(&mut coupled.map(by_constraint).filter(|size| size.is_finite()));
             }
-            // Rows without entries.
+            // This applies to rows without entries.
             if *size == 0.0 {
                 *size = 1.0;
             }

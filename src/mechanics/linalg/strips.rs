@@ -1,27 +1,27 @@
-//! Strips of four vectors for vector instructions.
+//! Strips of four vectors, which vector instructions process together.
 
 use pulp::{Arch, Simd, WithSimd};
 
 /// Number of vectors in a strip.
 pub const STRIP_WIDTH: usize = 4;
 
-/// Four interleaved vectors: entry `i` of all four vectors is followed by entry `i + 1`.
+/// Four interleaved vectors: the entries `i` of all four vectors are followed by the entries `i + 1`.
 pub type VectorStrip = [[f64; STRIP_WIDTH]];
 
-/// Four by four matrix, row by row, for products of two strips.
+/// Matrix of four by four numbers, row by row, for products of two strips.
 pub type Square4 = [[f64; STRIP_WIDTH]; STRIP_WIDTH];
 
-/// Products `Xᵀ Y` of two strips: entry `(i, j)` belongs to vector `i` of `x` and vector `j` of `y`.
+/// Products `Xᵀ Y` of two strips. Entry `(i, j)` is the product of vector `i` of `x` and vector `j` of `y`.
 pub fn products(x: &VectorStrip, y: &VectorStrip) -> Square4 {
     Arch::new().dispatch(Products { x, y })
 }
 
-/// Subtracts linear combinations of the vectors of `x` from those of `from`: `Y ← Y - X G`.
+/// Subtracts linear combinations of the vectors of `x` from the vectors of `from`: `Y ← Y - X G`.
 pub fn subtract_combination(x: &VectorStrip, by: &Square4, from: &mut VectorStrip) {
     Arch::new().dispatch(LinearCombination { x, by, from });
 }
 
-/// Replaces the vectors of a strip by linear combinations of them: `X ← X G`.
+/// Replaces the vectors of a strip by linear combinations of the same vectors: `X ← X G`.
 pub fn combine(x: &mut VectorStrip, by: &Square4) {
     Arch::new().dispatch(Replacement { x, by });
 }

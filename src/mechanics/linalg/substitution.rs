@@ -1,6 +1,6 @@
 //! Substitution with the factors of a banded matrix.
 //!
-//! Each sum adds the most recent result last, so that the processor evaluates the sums of several rows concurrently.
+//! Each sum adds the most recently computed value last, so that the processor can evaluate the sums of several rows concurrently.
 
 use pulp::{Simd, WithSimd};
 
@@ -8,7 +8,7 @@ use super::elimination::PANEL;
 use super::fixed_band;
 use super::storage::Factors;
 
-/// Forward and backward substitution, which replaces a right-hand side by the solution.
+/// Forward and backward substitution. They replace a right-hand side by the solution.
 pub(super) struct Substitution<'a> {
     pub(super) factors: Factors<'a>,
     pub(super) x: &'a mut [f64],
@@ -25,7 +25,7 @@ impl WithSimd for Substitution<'_> {
     }
 }
 
-/// Forward substitution with the eliminated columns, which also reduces the right-hand side of the remaining rows.
+/// Forward substitution with the eliminated columns. It also updates the right-hand side of the remaining rows.
 pub(super) struct Forward<'a> {
     pub(super) factors: Factors<'a>,
     pub(super) x: &'a mut [f64],
@@ -37,7 +37,7 @@ impl WithSimd for Forward<'_> {
     #[inline(always)]
     fn with_simd<S: Simd>(self, _: S) {
         let Self { factors, x } = self;
-        // The half-bandwidths of beams of degree 1 to 3 are compile-time constants.
+        // Compile-time constants for the half-bandwidths of beams of degree 1 to 3.
         match factors.reach {
             6 => substitute_forward_fixed::<6, 22>(&factors, x),
             8 => substitute_forward_fixed::<8, 28>(&factors, x),
@@ -47,7 +47,7 @@ impl WithSimd for Forward<'_> {
     }
 }
 
-/// Backward substitution in the eliminated rows, for known values of the unknowns after them.
+/// Backward substitution in the eliminated rows. The unknowns after them are known.
 pub(super) struct Backward<'a> {
     pub(super) factors: Factors<'a>,
     pub(super) x: &'a mut [f64],
@@ -85,7 +85,7 @@ impl WithSimd for ProfileSubstitution<'_> {
     }
 }
 
-/// Substitution for several right-hand sides with interleaved entries. Rows before `first` must be zero.
+/// Substitution for `W` right-hand sides with interleaved entries. Rows before `first` must be zero.
 pub(super) struct StripSubstitution<'a, const W: usize> {
     pub(super) factors: Factors<'a>,
     pub(super) x: &'a mut [[f64; W]],
@@ -101,7 +101,7 @@ impl<const W: usize> WithSimd for StripSubstitution<'_, W> {
     }
 }
 
-/// `reach` is the half-bandwidth of the factors. The multipliers of a column end at the row given by `end`.
+/// Forward substitution with factors of half-bandwidth `reach`. The multipliers of a column end at the row given by `end`.
 #[inline(always)]
 fn substitute_forward(
     factors: &Factors<'_>,
@@ -220,7 +220,7 @@ fn substitute_row(factors: &Factors<'_>, reach: usize, x: &mut [f64], row: usize
     };
 }
 
-/// First unknown of a row, for known values of the unknowns after it.
+/// First unknown of a row, computed from the known unknowns after it.
 #[inline(always)]
 fn back_substitute(row: &[f64], x: &[f64]) -> f64 {
     let known = row[1..].iter().zip(&x[1..]).rev();
@@ -231,7 +231,7 @@ fn back_substitute(row: &[f64], x: &[f64]) -> f64 {
 fn substitute_strip<const W: usize>(factors: &Factors<'_>, x: &mut [[f64; W]], first: usize) {
     let (size, reach, rows) = (factors.size, factors.reach, factors.rows);
     let (stride, centre) = (3 * reach + PANEL, reach + PANEL - 1);
-    // A row exchange changes entries up to the half-bandwidth before the row.
+    // A row exchange changes entries in up to `reach` earlier columns.
     for column in first.saturating_sub(reach)..size {
         x.swap(column, factors.pivots[column]);
         let value = x[column];

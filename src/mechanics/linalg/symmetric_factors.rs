@@ -1,8 +1,8 @@
-//! `L D Lᵀ` factorisation of a symmetric band matrix. Elimination uses 32 digits, storage and substitution 16.
+//! `L D Lᵀ` factorisation of a symmetric band matrix. The elimination uses 32 digits, storage and substitution 16 digits.
 //!
-//! For a positive definite sum of terms of very different magnitudes, the pivots have very different magnitudes but the columns of `L` do not.
-//! Rounding `L` and `D` at the end changes each term by a relative amount, which has the same effect as rounding the entries of `B` (theory, section
-//! 15).
+//! For a positive definite sum of terms of very different magnitudes, the pivots have very different magnitudes but the columns of `L` do not. `L`
+//! and `D` are rounded at the end. This changes each term by a relative amount only, which has the same effect as rounding the entries of `B`
+//! (theory, section 15).
 
 use pulp::{Arch, Simd, WithSimd};
 
@@ -11,14 +11,14 @@ use super::precise_band::{MARGIN, PreciseBand};
 use super::strips::VectorStrip;
 use super::{LinearError, SymmetricSparse};
 
-/// Properties of a symmetric matrix from the pivots of `L D Lᵀ` without row exchanges.
+/// Properties of a symmetric matrix, computed from the pivots of `L D Lᵀ` without row exchanges.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Pivots {
-    /// Number of negative pivots, which equals the number of negative eigenvalues (Sylvester's law of inertia; Golub & Van Loan, Matrix Computations,
+    /// Number of negative pivots. It equals the number of negative eigenvalues (Sylvester's law of inertia; Golub & Van Loan, Matrix Computations,
     /// 4th ed., section 4.4).
     pub negative: usize,
-    /// Largest reduction of a diagonal entry in the elimination, relative to the entry [-]; at most 1 for a positive definite matrix. The rounding
-    /// error of the matrix is multiplied by it.
+    /// Largest reduction of a diagonal entry in the elimination, as a multiple of the entry [-]. The rounding error of the matrix is multiplied by
+    /// this number. It is at most 1 for a positive definite matrix.
     pub growth: f64,
 }
 
@@ -45,17 +45,17 @@ impl SymmetricFactors {
         Ok(Self { size, reach, multipliers, inverse_pivots, pivots })
     }
 
-    /// Number of negative pivots and growth.
+    /// Number of negative pivots, and growth of the elimination.
     pub(crate) fn pivots(&self) -> Pivots {
         self.pivots
     }
 
-    /// Multipliers below the diagonal in a column of `L`, and the inverse pivot of the column.
+    /// Multipliers below the diagonal in a column of `L`, and the inverse of its pivot.
     pub fn column(&self, column: usize) -> (&[f64], f64) {
         (&self.multipliers[column * self.reach..][..self.reach], self.inverse_pivots[column])
     }
 
-    /// Replaces four right-hand sides by their solutions. As many zeros as the half-bandwidth must follow them in memory.
+    /// Replaces four right-hand sides by their solutions. They must be followed in memory by as many zeros as the half-bandwidth.
     pub fn solve(&self, x: &mut VectorStrip) {
         assert!(x.len() >= self.size + self.reach, "a strip has a margin");
         Arch::new().dispatch(SymmetricSubstitution { factors: self, x });
@@ -64,7 +64,7 @@ impl SymmetricFactors {
 
 type Kept<'a> = (&'a mut [f64], &'a mut [f64]);
 
-/// Eliminates the symmetric matrix `A + σ M` column by column, and stores columns and pivots if requested.
+/// Eliminates the symmetric matrix `A + σ M` column by column. If requested, columns and pivots are stored in `kept`.
 pub(super) fn eliminate(
     band: &PreciseBand,
     shift: f64,
@@ -86,7 +86,7 @@ impl WithSimd for SymmetricElimination<'_> {
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) -> Self::Output {
-        // The half-bandwidths of beams of degree 1 to 3 are compile-time constants.
+        // Compile-time constants for the half-bandwidths of beams of degree 1 to 3.
         match self.band.half_bandwidth {
             5 => self.run(simd, 5),
             8 => self.run(simd, 8),
@@ -96,7 +96,7 @@ impl WithSimd for SymmetricElimination<'_> {
     }
 }
 
-/// Vector length.
+/// Number of values in a vector instruction.
 const LANES: usize = MARGIN + 1;
 
 impl SymmetricElimination<'_> {
@@ -104,10 +104,10 @@ impl SymmetricElimination<'_> {
     fn run<S: Simd>(self, simd: S, reach: usize) -> Result<Pivots, LinearError> {
         let Self { band, shift, other, mut kept } = self;
         let (size, stride) = (band.size, reach + 1 + MARGIN);
-        // Circular buffer of active rows: row `i` is at `i` modulo their number.
+        // Circular buffer of the rows that can change. The index of row `i` is `i` modulo their number.
         let rows = reach + 1;
         let (mut high, mut low) = (vec![0.0; rows * stride], vec![0.0; rows * stride]);
-        // Original diagonal entries, and the total reduction of each.
+        // Initial value of each diagonal entry, and its total reduction.
         let (mut start, mut taken) = (vec![0.0_f64; rows], vec![0.0_f64; rows]);
         let mut pivots = Pivots { negative: 0, growth: 0.0 };
         let mut loaded = 0;
@@ -136,7 +136,7 @@ impl SymmetricElimination<'_> {
             if pivot.high == 0.0 {
                 let is_alone = pivot_high.iter().all(|entry| *entry == 0.0);
                 if kept.is_none() && is_alone {
-                    // A zero row has no sign.
+                    // The pivot of a zero row counts neither as positive nor as negative.
                     continue;
                 }
                 return Err(LinearError::Singular { unknown: at, size });
@@ -214,7 +214,7 @@ fn substitute(factors: &SymmetricFactors, reach: usize, x: &mut VectorStrip) {
     for column in (0..factors.size).rev() {
         let multipliers = &factors.multipliers[column * reach..][..reach];
         let (value, known) = x[column..].split_at_mut(1);
-        // Two sums are evaluated concurrently.
+        // Two sums are used, so that the processor evaluates them concurrently.
         let mut sums = [[0.0; 4]; 2];
         for (at, (multiplier, known)) in multipliers.iter().zip(&known[..reach]).enumerate() {
             for (sum, known) in sums[at % 2].iter_mut().zip(known) {
@@ -226,7 +226,7 @@ fn substitute(factors: &SymmetricFactors, reach: usize, x: &mut VectorStrip) {
             *value = *value * inverse - (even + odd);
         }
     }
-    // Sets entries to zero that forward elimination has written after the last row.
+    // Forward elimination has written entries after the last row. They are set to zero.
     x[factors.size..].fill([0.0; 4]);
 }
 
@@ -292,7 +292,7 @@ mod tests {
         #[test]
         fn entries_of_unknowns_in_any_order_add_up(entries in prop::collection::vec(-1.0..1.0_f64, 8)) {
             let (mut band, mut dense) = (PreciseBand::zeros(5, 4), DMatrix::<f64>::zeros(5, 5));
-            // One unknown is repeated, one is outside.
+            // One unknown occurs twice, and one is outside the matrix.
             let unknowns = [3, 1, 3, 7];
             let (p, q) = entries.split_at(4);
             band.add_square(&unknowns, 2.0, p);

@@ -1,8 +1,8 @@
-//! Elimination of a long band from both ends, concurrently in two threads.
+//! Elimination of a long band from both ends in two concurrent threads.
 //!
-//! The rows after the middle are reversed in place (last row and last column first) and eliminated like the first rows. The remainder in the middle
-//! is a small dense matrix (twisted or "burn at both ends" factorisation: Golub & Van Loan, Matrix Computations, 4th ed., section 4.3; van der Vorst,
-//! Parallel Computing 5 (1987) 45–54). With one thread, the operations have the same order and give the same bits.
+//! The rows after the middle are reversed in memory (last row and last column first) and eliminated like the first rows. A small dense matrix
+//! remains in the middle (twisted or "burn at both ends" factorisation: Golub & Van Loan, Matrix Computations, 4th ed., section 4.3; van der Vorst,
+//! Parallel Computing 5 (1987) 45–54). With one thread, the same operations are made in the same order, so the bits are the same.
 
 use pulp::Arch;
 
@@ -12,10 +12,10 @@ use super::substitution::{Backward, Forward};
 use super::{BandedLu, BandedMatrix, LinearError};
 use crate::threads::both;
 
-/// Smallest number of rows for elimination from both ends. Shorter bands gain little from a second thread.
+/// Smallest number of rows for elimination from both ends. For shorter bands a second thread saves little time.
 const FEWEST_ROWS: usize = 6000;
 
-/// Work space of the elimination from both ends.
+/// Memory for the elimination from both ends.
 #[derive(Debug, Clone)]
 pub(super) struct TwoEnded {
     cut: BandCut,
@@ -23,7 +23,7 @@ pub(super) struct TwoEnded {
     multipliers: Vec<[f64; PANEL]>,
     middle: BandedMatrix,
     right: Vec<f64>,
-    /// Unknowns in and after the middle, in reverse order.
+    /// Unknowns of the middle and after it, in reverse order.
     reversed: Vec<f64>,
 }
 
@@ -31,9 +31,9 @@ pub(super) struct TwoEnded {
 struct BandCut {
     size: usize,
     reach: usize,
-    /// Number of columns eliminated from the first column onwards, in whole panels.
+    /// Number of columns that are eliminated forwards, starting with the first column. It is a multiple of the panel width.
     upper: usize,
-    /// Number of columns eliminated from the last column backwards, in whole panels.
+    /// Number of columns that are eliminated backwards, starting with the last column. It is a multiple of the panel width.
     lower: usize,
 }
 
@@ -69,7 +69,7 @@ impl BandCut {
 }
 
 impl TwoEnded {
-    /// Creates the work space if the band is long enough.
+    /// Allocates the memory if the band is long enough; otherwise `None`.
     pub(super) fn worthwhile(size: usize, half_bandwidth: usize) -> Option<Self> {
         (size >= FEWEST_ROWS && size > 16 * half_bandwidth).then(|| Self::new(size, half_bandwidth))
     }
@@ -115,7 +115,7 @@ impl TwoEnded {
         let storage = band.storage_mut();
         let (stride, centre) = (storage.stride(), storage.centre());
         let (before, behind) = (cut.upper_rows(), size - cut.lower_rows());
-        // The diagonal of a reversed row is at another index. Zeros at the end of the row between both parts serve as padding that is never filled.
+        // In a reversed row the diagonal is at another index. Zeros at the end of the row between both parts are not used by the elimination.
         let shift = 2 * reach - centre;
         let (rows, lower) = storage.rows[..size * stride].split_at_mut(behind * stride - shift);
         let (pivots, lower_pivots) = storage.pivots.split_at_mut(behind);
@@ -159,7 +159,7 @@ impl TwoEnded {
                 true => (0, row, column),
                 false => (behind, size - 1 - row, size - 1 - column),
             };
-            // Fill-in extends to twice the half-bandwidth.
+            // Row exchanges cause additional nonzero entries up to twice the half-bandwidth.
             let is_stored = column <= row + 2 * reach;
             if is_stored {
                 storage.rows[(first + row) * stride + column + centre - row]
@@ -251,7 +251,7 @@ mod tests {
         let mut x = right.to_vec();
         let mut factors = ends.factorise(&mut band).unwrap();
         factors.solve(&mut x);
-        // Solves again with the same factors.
+        // The same factors are used for a second solution.
         x.copy_from_slice(right);
         factors.solve(&mut x);
         x
@@ -262,7 +262,7 @@ mod tests {
         fn the_solution_from_both_ends_is_that_from_one_and_the_same_on_two_threads(
             size in 60_usize..200, half_bandwidth in prop::sample::select(vec![1_usize, 5, 6, 8, 11, 14]),
             entries in prop::collection::vec(-1.0..1.0_f64, 2000),
-            // Diagonals with no, some or many row exchanges.
+            // Dominance of the diagonal for which no, some or many rows are exchanged.
             diagonal in prop::sample::select(vec![0.0, 0.5, 3.0, 30.0]),
         ) {
             let mut matrix = BandedMatrix::zeros(size, half_bandwidth);

@@ -1,32 +1,32 @@
-//! Continuity check of prescribed motions that are script functions.
+//! Check that prescribed motions given by script functions are continuous.
 //!
-//! A function can be evaluated at single times only. Near the start it is evaluated at decreasing times. The differences of `√t`, whose rate is
-//! infinite, lie between those of smooth functions and of jumps. Within a step, if the difference of two consecutive values exceeds the sum of all
-//! other differences, the interval is bisected thirty times, each time keeping the half with the larger difference. The difference persists at a
-//! jump; otherwise it tends to zero.
+//! A function can be evaluated at single times only. To detect a jump at the start, it is evaluated at two small times. The ratio of its changes
+//! distinguishes jumps, functions such as `√t` with an infinite rate, and smooth functions. To detect a jump within a step, the differences of
+//! consecutive values are compared. If one difference exceeds the sum of all others, its interval is bisected thirty times, keeping the half with
+//! the larger difference each time. At a jump the difference remains; otherwise it tends to zero.
 
 use super::{LimitSide, LoadError, Schedule};
 use crate::elementary::whole_power;
 
-/// Difference, in rounding units of the values, above which it is significant.
+/// Difference that is significant, as a multiple of the rounding error of the values.
 const ROUNDINGS: f64 = 1e3;
 
-/// Exponents `i` of the sampling times `8⁻ⁱ` close to the start.
+/// Exponents `i` of the two sampling times `8⁻ⁱ` close to the start.
 const CLOSE: [i32; 2] = [12, 13];
 
-/// Ratio of the distances from the start value at these times above which the function jumps. It is 1 for a jump, 0.35 for `√t`, 0.125 for smooth
-/// functions.
+/// Ratio of the changes from the start value up to these two times, above which the function jumps. It is 1 for a jump, 0.35 for `√t`, and 0.125
+/// for smooth functions.
 const LEFT_OF_A_JUMP_AT_START: f64 = 0.7;
 const LEFT_OF_A_POWER_AT_START: f64 = 0.16;
 
-/// Number of bisections before and after a difference is recorded.
+/// Number of bisections before a difference is recorded, and again after it.
 const HALVINGS: usize = 15;
 
-/// Remaining fraction of the recorded difference above which the function jumps. It is 1 for a jump, at most 6e-3 for `√t`, 3e-5 for smooth
+/// Remaining fraction of the recorded difference above which the function jumps. It is 1 for a jump, at most 6e-3 for `√t`, and 3e-5 for smooth
 /// functions.
 const LEFT_OF_A_JUMP: f64 = 0.5;
 
-/// Ratio of a difference to the sum of all other differences in a step above which it is examined.
+/// Smallest ratio of the largest difference in a step to the sum of all others for which a jump is searched.
 const JUMP_RATIO: f64 = 1.05;
 
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -53,7 +53,8 @@ fn rounded(number: f64) -> f64 {
     format!("{number:.6e}").parse().unwrap_or(number)
 }
 
-/// Jump or infinite rate of a schedule just after t = 0; `None` if it has no script function, or if its values are too close to decide.
+/// Jump or infinite rate of a schedule just after t = 0. `None` if there is none, if the schedule has no script function, or if the values are too
+/// close to decide.
 ///
 /// # Errors
 /// Fails if the function fails or a value is not finite.
@@ -72,7 +73,7 @@ pub(super) fn jump_at_start(schedule: &Schedule) -> Result<Option<Jump>, LoadErr
     Ok(is_steep.then_some(Jump { time: 0.0, before, after, is_jump: is_whole }))
 }
 
-/// Jump of a schedule between the times of a step, whose values are given; `None` if there is no sign of a jump.
+/// Jump of a schedule within a step. `values` are its values at the given `times` of the step. `None` if they do not indicate a jump.
 ///
 /// # Errors
 /// Fails if the function fails or a value is not finite.
@@ -104,7 +105,7 @@ pub(super) fn jump_between(
     Ok(jumps.then_some(Jump { time, before, after, is_jump: true }))
 }
 
-/// Bisects several times, each time keeping the half with the larger difference.
+/// Bisects an interval several times, and keeps the half with the larger difference each time.
 fn halve(schedule: &Schedule, ends: &mut [(f64, f64); 2]) -> Result<(), LoadError> {
     for _ in 0..HALVINGS {
         let [(t0, v0), (t1, v1)] = *ends;

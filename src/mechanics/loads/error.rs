@@ -15,7 +15,7 @@ impl FunctionError {
     }
 }
 
-/// Errors with equal messages are equal.
+/// Two errors with equal messages are treated as equal.
 impl PartialEq for FunctionError {
     fn eq(&self, other: &Self) -> bool {
         self.0.to_string() == other.0.to_string()
@@ -28,14 +28,14 @@ impl fmt::Display for FunctionError {
     }
 }
 
-/// Transparent wrapper of its cause.
+/// Shows the wrapped error as its own.
 impl Error for FunctionError {
     fn source(&self) -> Option<&(dyn Error + 'static)> {
         Some(&*self.0)
     }
 }
 
-/// Schedule that is invalid, or has no value at some time.
+/// Schedule that is invalid or has no value at some time.
 #[expect(missing_docs, reason = "the messages describe the variants and their fields")]
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum LoadError {

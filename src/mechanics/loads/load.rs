@@ -6,17 +6,17 @@ use super::Schedule;
 use crate::beams::Station;
 use crate::geometry::Vec2;
 
-/// Frame of the direction of a load.
+/// Frame in which the direction of a load is constant.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 pub enum LoadFrame {
     /// Fixed direction in space.
     #[default]
     Dead,
-    /// Follower direction, which rotates with the section. Components are along and across the axis as drawn.
+    /// Frame of the section: the direction rotates with the section (follower load). Components are along and across the initial axis.
     Follower,
 }
 
-/// Kind and place of a load.
+/// Type and place of a load.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub enum LoadKind {
     /// Force at a station [force].
@@ -25,29 +25,29 @@ pub enum LoadKind {
         station: Station,
         /// Force at a schedule factor of 1 [force].
         force: Vec2,
-        /// Frame of its direction.
+        /// Frame in which its direction is constant.
         frame: LoadFrame,
     },
     /// Moment at a station [force·length].
     Moment {
         /// Station of the moment.
         station: Station,
-        /// Moment at a schedule factor of 1, counter-clockwise [force·length].
+        /// Moment at a schedule factor of 1 [force·length], positive counter-clockwise.
         moment: f64,
     },
-    /// Force per length along a whole beam as drawn [force/length].
+    /// Force per initial length along a whole beam [force/length].
     Line {
         /// Index of the beam in its scene.
         beam: usize,
-        /// Force per length of the axis as drawn at a schedule factor of 1 [force/length].
+        /// Force per initial length of the axis at a schedule factor of 1 [force/length].
         force: Vec2,
-        /// Frame of its direction.
+        /// Frame in which its direction is constant.
         frame: LoadFrame,
     },
 }
 
 impl LoadKind {
-    /// Quantity, dimension and magnitude at a schedule factor of 1, for columns.
+    /// Name, dimension and magnitude of the load at a schedule factor of 1, for columns.
     pub fn measure(&self) -> (&'static str, &'static str, f64) {
         match self {
             Self::Force { force, .. } => ("force", "force", force.norm()),
@@ -62,10 +62,10 @@ impl LoadKind {
 pub struct Load {
     /// Name in messages.
     pub name: String,
-    /// Kind and place.
+    /// Type and place.
     pub kind: LoadKind,
-    /// Factor over time.
+    /// Factor as a function of time.
     pub schedule: Schedule,
-    /// Name in columns of histories, which then include its work.
+    /// Name in the columns of histories, which then have a column with its work; `None` for loads without such columns.
     pub title: Option<String>,
 }

@@ -1,4 +1,4 @@
-//! Motion prescribed as a function of time: increments and rates in a step.
+//! Motion that is prescribed as a function of time: its increments and rates in a step.
 
 use serde::{Deserialize, Serialize};
 
@@ -6,7 +6,7 @@ use super::continuity::{jump_at_start, jump_between};
 use super::{LimitSide, LoadError, Schedule, StepMean, VALUES_OF_A_MEAN};
 use crate::geometry::larger;
 
-/// Prescribed motion, by displacement or rate.
+/// Prescribed motion. Either the displacement or the rate is given as a function of time.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub enum PrescribedMotion {
     /// Displacement from the start as a function of time [length, rad].
@@ -15,24 +15,24 @@ pub enum PrescribedMotion {
     Rate(Schedule),
 }
 
-/// Prescribed motion in a step.
+/// Values of a prescribed motion in a step.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct MotionInStep {
     /// Increment in the step [length, rad].
     pub increment: f64,
-    /// Right limit of the rate at the start of the step [length/time, rad/time].
+    /// Rate just after the start of the step [length/time, rad/time].
     pub first_rate: f64,
     /// Rounding error of the first rate [length/time, rad/time].
     pub rounding: f64,
-    /// Left limit of the rate at the end of the step [length/time, rad/time].
+    /// Rate just before the end of the step [length/time, rad/time].
     pub rate: f64,
-    /// One-sided derivatives of the rate at the start and the end, from inside the step [length/time², rad/time²].
+    /// Derivatives of the rate at the start and at the end, as limits from inside the step [length/time², rad/time²].
     pub accelerations: [f64; 2],
-    /// Mean of a prescribed rate; zero for displacements [length/time, rad/time].
+    /// Mean of a prescribed rate over the step [length/time, rad/time]; zero for a prescribed displacement.
     pub mean: StepMean,
 }
 
-/// Initial values of a motion.
+/// Rate and acceleration at the start of a motion.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct MotionAtStart {
     /// Rate just after the start [length/time, rad/time].
@@ -41,28 +41,29 @@ pub struct MotionAtStart {
     pub acceleration: f64,
 }
 
-/// `cos(π/4)`. Together with the ends and the middle of a step, `±INNER` are the extremes of the Chebyshev polynomial of degree four.
+/// The number `cos(π/4)`. The ends of a step, its middle and `±INNER` are the extremes of the Chebyshev polynomial of degree four.
 const INNER: f64 = std::f64::consts::FRAC_1_SQRT_2;
 
-/// Sampling times of a displacement in a step, on [-1, 1].
+/// Times in a step at which a displacement is evaluated, on [-1, 1].
 const NODES: [f64; 5] = [-1.0, -INNER, 0.0, INNER, 1.0];
 
-/// Weights for the first derivative of the interpolation polynomial at the end of [-1, 1] (Trefethen, Spectral Methods in MATLAB, 2000, chapter 6).
+/// Weights of the values for the first derivative of the interpolation polynomial at the end of [-1, 1] (Trefethen, Spectral Methods in MATLAB,
+/// 2000, chapter 6).
 const RATE_AT_END: [f64; 5] = [0.5, 2.0 / (-1.0 - INNER), 2.0, 2.0 / (INNER - 1.0), 5.5];
 
-/// Weights for the second derivative at the same place.
+/// Weights of the values for the second derivative at the end of [-1, 1].
 const BENT_AT_END: [f64; 5] = [5.0, 12.0 * INNER - 20.0, 18.0, -12.0 * INNER - 20.0, 17.0];
 
-/// Jump of the rate at a declared break, relative to the rate, below which the motion is smooth.
+/// Jump of the rate at a declared break for which the motion counts as smooth, as a fraction of the rate.
 const SMOOTH: f64 = 1e-6;
 
-/// Bound of the rounding error of a rate, in rounding units of the values over the step length.
+/// Largest rounding error of a rate, as a multiple of the rounding error of the values divided by the step length.
 const ROUNDINGS: f64 = 1e3;
 
-/// Ratio of consecutive time spans in the search for initial derivatives. The first span is one unit of time.
+/// Ratio of consecutive time spans in the computation of initial derivatives. The first span is one unit of time.
 const SHRINKS: f64 = 0.125;
 
-/// Number of time spans in this search.
+/// Number of time spans in the computation of initial derivatives.
 const SPANS: usize = 14;
 
 impl PrescribedMotion {
@@ -73,7 +74,7 @@ impl PrescribedMotion {
         }
     }
 
-    /// Number of calls of script functions by [`over`](Self::over), without those that follow a jump.
+    /// Number of script function calls in [`over`](Self::over), excluding additional calls after a jump has been found.
     pub(crate) fn calls_in_step(&self) -> usize {
         let schedule = self.schedule();
         match self {
@@ -82,10 +83,10 @@ impl PrescribedMotion {
         }
     }
 
-    /// Evaluates the motion between two times with the difference `duration`, which may be negative [time].
+    /// Evaluates the motion between two times. `duration` is their difference, which may be negative [time].
     ///
-    /// A rate is integrated as in [`Schedule::mean`]. The rate of a displacement is that of the polynomial of
-    /// degree four through five values inside the step, so that it does not depend on values beyond kinks at the ends.
+    /// A prescribed rate is integrated as described for [`Schedule::mean`]. The rate of a prescribed displacement is computed from five values
+    /// inside the step, by a polynomial of degree four. Values beyond kinks at the ends therefore do not affect it.
     ///
     /// # Errors
     /// Fails if the function fails, a value is not finite, or a displacement jumps or has an infinite rate.
@@ -125,7 +126,7 @@ impl PrescribedMotion {
                     &[start, 0.5 * (start + end), end],
                     &[first, middle, last],
                 )?;
-                // A jump of the rate within the step is a kink of the motion. The rate at the end then replaces the rate at the start.
+                // A jump of the rate within the step is a kink of the motion. In this case the rate at the end replaces the rate at the start.
                 let first_rate = jump.map_or(first, |_| last);
                 let rounding = ROUNDINGS * f64::EPSILON * size_of(&[first, middle, last]);
                 Ok(MotionInStep {
@@ -140,8 +141,8 @@ impl PrescribedMotion {
         }
     }
 
-    /// Jump of the rate at the start of a step, relative to the rate `before` at the end of the last step [length/time, rad/time]. It is evaluated at
-    /// declared breaks and for controllers; `None` if the rate is continuous.
+    /// Jump of the rate at the start of a step [length/time, rad/time]; `before` is the rate at the end of the last step. It is computed at
+    /// declared breaks and for controllers. `None` if the rate is continuous.
     ///
     /// # Errors
     /// Fails if the function fails or a value is not finite.
@@ -179,8 +180,8 @@ impl PrescribedMotion {
 
     /// Initial rate and acceleration of a motion that starts at a time.
     ///
-    /// The time scale of the function is unknown. The derivatives of a displacement are therefore computed over decreasing time spans, and taken
-    /// where the results for two consecutive spans agree best.
+    /// The time scale of the function is unknown. Hence the derivatives of a displacement are computed over decreasing time spans. The result is
+    /// taken where two consecutive spans agree best.
     ///
     /// # Errors
     /// Fails if the function fails or a value is not finite just after the start.
@@ -208,7 +209,7 @@ impl PrescribedMotion {
                     let both = [&mut found.rate, &mut found.acceleration];
                     for (at, number) in both.into_iter().enumerate() {
                         let miss: f64 = now[at] - before[at];
-                        // Among spans with equal agreement, the shortest is used.
+                        // If several spans agree equally well, the shortest one is used.
                         if miss.abs() <= least[at] {
                             (least[at], *number) = (miss.abs(), now[at]);
                         }
@@ -245,7 +246,7 @@ fn size_of(values: &[f64]) -> f64 {
     values.iter().fold(0.0, |size, value| size.max(value.abs()))
 }
 
-/// Sampling times of a displacement in a step.
+/// Times in a step at which a displacement is evaluated.
 fn nodes(start: f64, end: f64) -> [f64; 5] {
     let (middle, half) = (0.5 * (start + end), 0.5 * (end - start));
     NODES.map(|node| middle + half * node)
@@ -268,7 +269,7 @@ fn reversed(mut values: [f64; 5]) -> [f64; 5] {
     values
 }
 
-/// Weighted sum of the differences from the last value, which has less cancellation than the sum of the values.
+/// Weighted sum of the differences from the last value. It has less cancellation than the weighted sum of the values.
 fn sum(weights: &[f64; 5], values: &[f64; 5]) -> f64 {
     weights.iter().zip(values).map(|(weight, value)| weight * (value - values[4])).sum()
 }

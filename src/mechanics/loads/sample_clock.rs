@@ -1,15 +1,16 @@
-//! Sampling and action times of digital controllers.
+//! Times at which digital controllers sample and act.
 
 use super::{LoadError, multiple};
 
-/// Clock of a digital controller. It samples at `n T`, `n = 0, 1, …`. Each command acts from `n T + delay` until the next command acts.
+/// Clock of a digital controller. It samples at the times `n T`, `n = 0, 1, …`. The command of a sample acts from `n T + delay` until the next
+/// command starts to act.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SampleClock {
     period: f64,
     delay: f64,
 }
 
-/// Difference of two times, in periods, below which they are equal.
+/// Difference of two times that count as equal, as a fraction of the period.
 const SAME: f64 = 1e-9;
 
 impl SampleClock {
@@ -40,17 +41,18 @@ impl SampleClock {
         self.delay
     }
 
-    /// Time of a sample, by its index [time].
+    /// Time of the sample with a given index [time].
     pub fn sample(&self, number: u64) -> f64 {
         multiple(self.period, number)
     }
 
-    /// Index of the last sample at or before a time; times closer than `slack` are equal [time]. `None` before the first sample.
+    /// Index of the last sample at or before a time. Times count as equal if they differ by less than `slack` [time]. `None` before the first
+    /// sample.
     fn last_by(&self, time: f64, slack: f64) -> Option<u64> {
         if time < -slack {
             return None;
         }
-        // Rounding may give the next or previous sample, but no other.
+        // Because of rounding, this may be the next or the previous sample.
         let number = ((time + slack).max(0.0) / self.period) as u64;
         if number > 0 && self.sample(number) > time + slack {
             return Some(number - 1);
@@ -59,12 +61,12 @@ impl SampleClock {
         Some(if self.sample(next) <= time + slack { next } else { number })
     }
 
-    /// Index of the sample at a time; times closer than `slack` are equal [time]. `None` if there is no sample at this time.
+    /// Index of the sample at a time. Times count as equal if they differ by less than `slack` [time]. `None` if there is no sample at this time.
     pub fn sample_at(&self, time: f64, slack: f64) -> Option<u64> {
         self.last_by(time, slack).filter(|number| time - self.sample(*number) <= slack)
     }
 
-    /// Index of the sample whose command acts just after a time [time]; `None` before the first command acts.
+    /// Index of the sample whose command acts just after a time [time]; `None` before the first command starts to act.
     pub fn sample_active_after(&self, time: f64, slack: f64) -> Option<u64> {
         self.last_by(time - self.delay, slack)
     }
@@ -74,7 +76,7 @@ impl SampleClock {
         self.sample_at(time - self.delay, SAME * self.period).is_some()
     }
 
-    /// Next time after `now` of a sample or of the start of a command [time].
+    /// Time of the next event after `now`: a sample, or the start of a command [time].
     pub fn next(&self, now: f64, slack: f64) -> f64 {
         let after = |time: f64| {
             self.sample(self.last_by(time, slack).map_or(0, |last| last.saturating_add(1)))
@@ -83,7 +85,7 @@ impl SampleClock {
     }
 }
 
-/// Formats a time, with a power of ten for very small or large values.
+/// Formats a time. Very small and very large values are written with a power of ten.
 fn time_text(time: f64) -> String {
     if (1e-4..1e7).contains(&time) { time.to_string() } else { format!("{time:e}") }
 }

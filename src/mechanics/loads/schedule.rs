@@ -1,4 +1,4 @@
-//! Factors of loads over time.
+//! Schedules: factors of loads as functions of time.
 
 mod breaks;
 mod means;
@@ -15,10 +15,10 @@ use super::stored_schedule::StoredTerm;
 use super::{FunctionError, LoadError, SampleClock};
 use crate::elementary::{sin, whole_power};
 
-/// Function of time provided by the caller, such as a closure of a script.
+/// Function of time that the caller provides, for example a closure of a script.
 pub type ScheduleFunction = Rc<dyn Fn(f64) -> Result<f64, FunctionError>>;
 
-/// Side of a limit in time, for schedules that jump.
+/// Side from which a limit in time is taken, for schedules that jump.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum LimitSide {
     /// Limit from earlier times.
@@ -33,7 +33,8 @@ pub enum LimitSide {
 pub enum Schedule {
     /// Constant factor [-].
     Constant(f64),
-    /// Linear interpolation of (time, factor) points, constant before the first point and after the last. A repeated time is a jump.
+    /// Linear interpolation between (time, factor) points. The factor is constant before the first point and after the last. A time that occurs
+    /// twice is a jump.
     Table(Vec<(f64, f64)>),
     /// Factor `amplitude · sin(rate · t + phase)`.
     Sine {
@@ -49,18 +50,18 @@ pub enum Schedule {
         /// Duration of the pulse [time].
         duration: f64,
     },
-    /// Arbitrary function of time with declared breaks.
+    /// Any function of time, with declared breaks.
     Function {
         /// Function of time.
         function: ScheduleFunction,
         /// Times of jumps and kinks [time].
         breaks: Vec<f64>,
     },
-    /// Command of a controller that is sampled at every step. The caller sets the value at the start of the step; it is constant within the step.
+    /// Command of a controller that is sampled at every step. The caller sets the value at the start of the step. It is constant within the step.
     Sampled(Rc<Cell<f64>>),
-    /// Command of a digital controller. The caller sets the value when the command starts to act; it is constant until the next command.
+    /// Command of a digital controller. The caller sets the value when the command starts to act. It is constant until the next command.
     DigitalController {
-        /// Cell of the value.
+        /// Cell that contains the present value.
         value: Rc<Cell<f64>>,
         /// Clock of the controller.
         clock: SampleClock,
@@ -71,7 +72,7 @@ pub enum Schedule {
         operation: Operation,
         /// Operands.
         parts: Rc<(Schedule, Schedule)>,
-        /// Number of elementary schedules.
+        /// Number of elementary schedules in both operands together.
         size: usize,
     },
 }
@@ -93,10 +94,10 @@ impl std::fmt::Debug for Schedule {
     }
 }
 
-/// Number of evaluations of a script function per [mean](Schedule::mean).
+/// Number of evaluations of a script function for a [mean](Schedule::mean).
 pub const VALUES_OF_A_MEAN: usize = GAUSS.len() + 2;
 
-/// Three-point Gauss rule on [-1, 1].
+/// Points and weights of the Gauss rule with three points on [-1, 1].
 const GAUSS: [(f64, f64); 3] =
     [(-0.774_596_669_241_483_4, 5.0 / 9.0), (0.0, 8.0 / 9.0), (0.774_596_669_241_483_4, 5.0 / 9.0)];
 
@@ -134,7 +135,7 @@ impl Schedule {
         Ok(Self::Constant(factor))
     }
 
-    /// Returns a schedule that is 1 up to `time`, then 0.
+    /// Returns a schedule that is 1 until `time`, and 0 afterwards.
     ///
     /// # Errors
     /// Fails if the time is not positive and finite.
@@ -152,7 +153,7 @@ impl Schedule {
         Ok(Self::Table(vec![(from, 0.0), (to, 1.0)]))
     }
 
-    /// Returns a schedule that is 1 between two times, else 0.
+    /// Returns a schedule that is 1 between two times, and 0 at other times.
     ///
     /// # Errors
     /// Fails if the times are not finite, or `to` is not later than `from`.
@@ -170,7 +171,7 @@ impl Schedule {
         Ok(Self::SmoothPulse { duration })
     }
 
-    /// Returns the schedule `amplitude · sin(rate · t + phase)` [-; rad/time, rad].
+    /// Returns the schedule `amplitude · sin(rate · t + phase)` with amplitude [-], rate [rad/time] and phase [rad].
     ///
     /// # Errors
     /// Fails if a number is not finite.
@@ -206,7 +207,7 @@ impl Schedule {
     /// Returns the sum or product of two schedules.
     ///
     /// # Errors
-    /// Fails if there are too many parts.
+    /// Fails if the result would have too many elementary schedules.
     pub fn combined(operation: Operation, a: Self, b: Self) -> Result<Self, LoadError> {
         let size = a.size().saturating_add(b.size());
         if size > MOST_PARTS {
@@ -248,7 +249,7 @@ impl Schedule {
         if let Self::Combined { size, .. } = self { *size } else { 1 }
     }
 
-    /// Factor [-] at a time, as a limit from one side.
+    /// Factor [-] at a time. At a jump it is the limit from the given side.
     ///
     /// # Errors
     /// Fails if a function fails or the value is not finite.

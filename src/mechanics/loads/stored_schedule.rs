@@ -1,4 +1,4 @@
-//! Stored schedules: terms in reverse Polish notation, which can be read without recursion.
+//! Schedules in stored form: terms in reverse Polish notation, which can be read without recursion.
 
 use serde::ser::Error;
 use serde::{Deserialize, Serialize, Serializer};
@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize, Serializer};
 use super::schedule::MOST_PARTS;
 use super::{LoadError, Operation, Schedule};
 
-/// Term of a stored schedule: an elementary schedule, or an operation on the two preceding terms.
+/// Term of a stored schedule: an elementary schedule, or an operation on two preceding operands.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(super) enum StoredTerm {
     Constant(f64),

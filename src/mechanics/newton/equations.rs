@@ -1,15 +1,15 @@
-//! Interface between the Newton solver and a set of equations.
+//! Interface between the Newton solver and the equations to be solved.
 
 use crate::linalg::BorderedMatrix;
 
-/// Relative residual norms of a set of equations.
+/// Relative norms of the parts of a residual.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct ResidualNorms {
-    /// Largest residual force, relative to the scale of the forces [-].
+    /// Largest residual force, as a fraction of the scale of the forces [-].
     pub force: f64,
-    /// Largest difference between the strains of the section forces and of the configuration [-].
+    /// Largest difference between the strains of the section forces and the strains of the configuration [-].
     pub strain: f64,
-    /// Largest constraint violation, relative to its scale [-].
+    /// Largest constraint violation, as a fraction of its scale [-].
     pub constraint: f64,
 }
 
@@ -19,7 +19,7 @@ impl ResidualNorms {
         [self.force, self.strain, self.constraint].iter().all(|part| part.is_finite())
     }
 
-    /// Part with the largest norm, or with a NaN.
+    /// Part whose norm is the largest, or NaN.
     pub fn worst(&self) -> ResidualPart {
         let others =
             [(ResidualPart::Strain, self.strain), (ResidualPart::Constraint, self.constraint)];
@@ -48,21 +48,26 @@ pub enum ResidualPart {
     Constraint,
 }
 
-/// Nonlinear equations `R(u) = 0` with optional internal unknowns at integration points.
+/// Nonlinear equations `R(u) = 0`. They may have internal unknowns at integration points.
 ///
-/// The internal unknowns (section forces) are condensed. They enter the linear system through [`linearise`](Equations::linearise) and are updated by
-/// [`correct`](Equations::correct) (Magisano, Leonetti & Garcea 2017, "mixed integration point" Newton).
+/// The internal unknowns (section forces) are condensed out. They enter the linear system through [`linearise`](Equations::linearise) and are
+/// updated by [`correct`](Equations::correct) (Magisano, Leonetti & Garcea 2017, "mixed integration point" Newton).
 pub trait Equations {
-    /// Fills the condensed residual and tangent at `u`. Both are zero on entry.
+    /// Computes residual and tangent at `u`, with internal unknowns condensed out. Both are zero on entry.
     fn linearise(&mut self, u: &[f64], residual: &mut [f64], tangent: &mut BorderedMatrix);
 
-    /// Condenses the residual that the last call of [`imbalance`](Equations::imbalance) filled, by the last linearisation, for a correction with its
-    /// factors.
+    /// Prepares a correction with the factors of the last linearisation: condenses the internal unknowns out of the residual that the last call of
+    /// [`imbalance`](Equations::imbalance) computed.
     fn condense(&mut self, residual: &mut [f64]);
 
-    /// Updates the internal unknowns for a correction of `u`, by the last linearisation.
+    /// Updates the internal unknowns after a correction of `u`, by means of the last linearisation.
     fn correct(&mut self, correction: &[f64]);
 
-    /// Fills the residual at `u` for the current internal unknowns, and returns its norms.
+    /// Computes the residual at `u` with the present internal unknowns, and returns its norms.
     fn imbalance(&mut self, u: &[f64], residual: &mut [f64]) -> ResidualNorms;
+
+    /// Called before every iteration. Returns false to stop the solution.
+    fn goes_on(&mut self) -> bool {
+        true
+    }
 }

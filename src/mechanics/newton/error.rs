@@ -1,9 +1,9 @@
-//! Errors of a Newton solve.
+//! Errors of Newton's method.
 
 use super::ResidualNorms;
 use crate::linalg::LinearError;
 
-/// Failed Newton solve.
+/// Failed solution by Newton's method.
 #[expect(missing_docs, reason = "the messages describe the variants and their fields")]
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum NewtonError {
@@ -24,10 +24,15 @@ pub enum NewtonError {
         /// Residual norms after each iteration.
         history: Vec<ResidualNorms>,
     },
+    #[error("interrupted after {} Newton iterations", history.len())]
+    Interrupted {
+        /// Residual norms after each iteration.
+        history: Vec<ResidualNorms>,
+    },
 }
 
 impl NewtonError {
-    /// Number of tangents that were factorised, including failures.
+    /// Number of tangents that were factorised, including failed factorisations.
     pub fn factorisations(&self) -> usize {
         self.history().len() + usize::from(matches!(self, Self::Linear { .. }))
     }
@@ -37,6 +42,7 @@ impl NewtonError {
         match self {
             Self::NotConverged { history }
             | Self::NotFinite { history }
+            | Self::Interrupted { history }
             | Self::Linear { history, .. } => history,
         }
     }
@@ -44,7 +50,7 @@ impl NewtonError {
 
 type NamedResidualPart = (&'static str, fn(&ResidualNorms) -> f64);
 
-/// Convergence history of the part of the residual that is largest in the last iteration.
+/// Convergence history of one part of the residual, the largest one in the last iteration.
 fn describe(history: &[ResidualNorms]) -> String {
     let last = history.last().copied().unwrap_or_default();
     let parts: [NamedResidualPart; 3] = [

@@ -1,4 +1,4 @@
-//! Newton's method with a new tangent in every iteration, and corrections with existing factors where these are sufficient.
+//! Newton's method. Every iteration factorises a new tangent. If this suffices, corrections reuse earlier factors.
 
 use serde::{Deserialize, Serialize};
 
@@ -6,19 +6,20 @@ use super::{Equations, NewtonError, ResidualNorms};
 use crate::elementary::whole_power;
 use crate::linalg::{BorderShape, BorderedLu, BorderedMatrix};
 
-/// Residual norm below which existing factors are used, while they reduce it.
+/// Residual norm below which earlier factors are reused as long as they reduce it.
 const NEAR: f64 = 1e-4;
 
-/// Number of corrections that cost as much as one iteration with new factors, which squares the residual.
+/// Largest number of corrections with earlier factors that take less time than one iteration with new factors, which squares the residual.
 const MOST_CORRECTIONS: i32 = 5;
 
-/// Largest number of corrections with the factors of similar equations. Each correction should gain some digits.
+/// Largest number of corrections with the factors of similar equations. Each correction should gain several digits.
 const MOST_SHARED_CORRECTIONS: usize = 12;
 
-/// Residual norm at which a solution with the factors of similar equations is accepted: a billionth of the residual change due to a perturbation [-].
+/// Residual norm at which a solution with the factors of similar equations is accepted [-]. It is a billionth of the residual change that a
+/// perturbation causes.
 const FOLLOWED: f64 = 1e-14;
 
-/// Ratio of two successive residuals above which a correction has reached rounding.
+/// Ratio of two successive residuals above which rounding prevents a further reduction.
 const STANDSTILL: f64 = 0.1;
 
 /// Convergence tolerances and iteration limit of Newton's method.
@@ -30,7 +31,7 @@ pub struct Tolerance {
     pub strain: f64,
     /// Tolerance of the relative constraint violation [-].
     pub constraint: f64,
-    /// Residual norm [-] above which a converged solution is corrected once more with the last factors, down to rounding.
+    /// Residual norm above which a converged solution is corrected once more with the last factors, down to rounding [-].
     pub polish: f64,
     /// Largest number of iterations.
     pub iterations: usize,
@@ -43,8 +44,8 @@ impl Default for Tolerance {
 }
 
 impl Tolerance {
-    /// Returns true if a further correction with existing factors is useful, from the reduction by the last correction and the number of corrections
-    /// left.
+    /// Returns true if a further correction with the present factors is useful. `factor` is the reduction of the residual by the last correction,
+    /// `corrections` the number of corrections that are still allowed.
     fn is_worth_correcting(
         &self,
         imbalance: &ResidualNorms,
@@ -65,19 +66,19 @@ impl Tolerance {
     }
 }
 
-/// Work of a Newton solve with its final residual norms.
+/// Statistics of a solution, with its final residual norms.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct NewtonReport {
-    /// Number of iterations, each with one factorisation.
+    /// Number of iterations. Each has one factorisation.
     pub iterations: usize,
-    /// Number of corrections with existing factors, each about a third of the work of an iteration.
+    /// Number of corrections that reuse factors. Each takes about a third of the time of an iteration.
     pub corrections: usize,
     /// Final residual norms.
     pub imbalance: ResidualNorms,
 }
 
 impl NewtonReport {
-    /// Report of two consecutive solutions: the total work, and the residual norms of the second solution.
+    /// Combines the reports of two consecutive solutions: sum of the work, and residual norms of the second solution.
     pub fn then(self, next: Self) -> Self {
         Self {
             iterations: self.iterations + next.iterations,
@@ -87,18 +88,18 @@ impl NewtonReport {
     }
 }
 
-/// Newton's method with its work space. Solving allocates no memory unless it fails.
+/// Newton's method with the memory that it needs. A solution allocates no memory unless it fails.
 #[derive(Debug, Clone)]
 pub struct Newton {
     tolerance: Tolerance,
     tangent: BorderedMatrix,
     correction: Vec<f64>,
-    /// Residual norms after each iteration, including its corrections.
+    /// Residual norms after each iteration and its corrections.
     history: Vec<ResidualNorms>,
 }
 
 impl Newton {
-    /// Creates a solver for `unknowns` unknowns, with a tangent of the given half-bandwidth followed by a border.
+    /// Creates a solver for `unknowns` unknowns. The tangent is a band with the given half-bandwidth, and a border.
     pub fn new(
         unknowns: usize,
         half_bandwidth: usize,
@@ -108,7 +109,7 @@ impl Newton {
         Self::of(BorderedMatrix::zeros(unknowns, half_bandwidth, border), tolerance)
     }
 
-    /// Creates a solver with the given tangent storage, which determines the elimination.
+    /// Creates a solver with the given tangent. The type of its border determines how it is eliminated.
     pub fn of(tangent: BorderedMatrix, tolerance: Tolerance) -> Self {
         Self {
             correction: Vec::with_capacity(tangent.size()),
@@ -118,12 +119,12 @@ impl Newton {
         }
     }
 
-    /// Iterates `u` until the equations converge; `residual` holds the last residual.
+    /// Iterates `u` until the equations are satisfied. Afterwards `residual` contains the last residual.
     ///
-    /// `residual` may be longer than the unknowns. Additional entries (reactions) are not set to zero.
+    /// `residual` may be longer than the unknowns. Its additional entries are reactions, which are not required to be zero.
     ///
     /// # Errors
-    /// Fails if the iteration limit is reached, the tangent is singular, or a number is not finite.
+    /// Fails if the iteration limit is reached, the tangent is singular, a number is not finite, or the equations stop the solution.
     pub fn solve(
         &mut self,
         equations: &mut impl Equations,
@@ -133,10 +134,10 @@ impl Newton {
         self.solve_and(equations, u, residual, |_, _| ())
     }
 
-    /// Solves as [`solve`](Self::solve) does, and calls `then` with the solution and the last factors.
+    /// Solves the equations in the same way as [`solve`](Self::solve), and calls `hand_on` with the solution and the last factors.
     ///
     /// # Errors
-    /// Errors of [`solve`](Self::solve). In this case `then` is not called.
+    /// Errors of [`solve`](Self::solve). In this case `hand_on` is not called.
     pub(crate) fn solve_and(
         &mut self,
         equations: &mut impl Equations,
@@ -147,6 +148,9 @@ impl Newton {
         self.history.clear();
         let mut corrections = 0;
         while self.history.len() < self.tolerance.iterations {
+            if !equations.goes_on() {
+                return Err(NewtonError::Interrupted { history: self.history.clone() });
+            }
             self.tangent.clear();
             residual.fill(0.0);
             equations.linearise(u, residual, &mut self.tangent);
@@ -168,7 +172,7 @@ impl Newton {
                 factor = imbalance.largest() / before;
                 corrections += 1;
             }
-            // A residual that is not finite is not corrected, so that no correction conceals it.
+            // If the residual is not finite, there are no corrections, which might hide this error.
             self.history.push(imbalance);
             if !imbalance.is_finite() {
                 return Err(NewtonError::NotFinite { history: self.history.clone() });
@@ -182,8 +186,8 @@ impl Newton {
         Err(NewtonError::NotConverged { history: self.history.clone() })
     }
 
-    /// Solves almost to rounding with the factors of similar equations, starting from their solution. If this does not converge, it continues as
-    /// [`solve`](Self::solve).
+    /// Solves the equations almost to rounding with the factors of similar equations. The iteration starts from the solution of these equations. If
+    /// it does not converge, it is continued by [`solve`](Self::solve).
     ///
     /// # Errors
     /// Errors of [`solve`](Self::solve).
@@ -196,7 +200,7 @@ impl Newton {
     ) -> Result<NewtonReport, NewtonError> {
         self.tangent.clear();
         residual.fill(0.0);
-        // Only the condensation of internal unknowns is needed; the tangent is not used.
+        // This call is needed for condensing out internal unknowns. Its tangent is not used.
         equations.linearise(u, residual, &mut self.tangent);
         let mut before = f64::INFINITY;
         for corrections in 1..=MOST_SHARED_CORRECTIONS {
@@ -236,7 +240,7 @@ fn correct(
 mod tests {
     use super::*;
 
-    /// `x² = 2` and `x y = 1`, without internal unknowns.
+    /// Equations `x² = 2` and `x y = 1` without internal unknowns.
     struct SquareRoot;
 
     impl Equations for SquareRoot {
@@ -276,7 +280,7 @@ mod tests {
         assert!((u[0] - 2.0_f64.sqrt()).abs() < 1e-15 && (u[1] - 0.5_f64.sqrt()).abs() < 1e-15);
     }
 
-    /// `x = 0`, with residual norms from a list.
+    /// Equation `x = 0` that reports the residual norms of a list.
     struct SpoiltByCorrections {
         imbalances: std::vec::IntoIter<ResidualNorms>,
     }

@@ -1,4 +1,4 @@
-//! Step selection by a tolerance.
+//! Selection of the step size by a tolerance.
 
 use super::StepControl;
 use super::controller::{StepController, StepSizeState};
@@ -9,13 +9,13 @@ use crate::elementary::power;
 use crate::integrators::{Interval, Method};
 use crate::system::{Scene, System};
 
-/// Default smallest step, relative to the first step.
+/// Default smallest step, as a fraction of the first step.
 const SMALLEST: f64 = 1e-6;
 
-/// Default largest step, relative to the first step. It bounds the steps of a scene without motion.
+/// Default largest step, as a multiple of the first step. It bounds the steps of a scene without motion.
 const LARGEST: f64 = 1e6;
 
-/// Smallest step in units of the rounding of the time.
+/// Smallest step, as a multiple of the rounding error of the time.
 const ROUNDINGS: f64 = 64.0;
 
 /// Constant data of the step selection in a run.
@@ -37,7 +37,7 @@ pub(super) struct StepPlan {
     pub(super) is_least: bool,
 }
 
-/// Order of a method in a scene. Numerically damped methods are of second order in scenes without deformable elements.
+/// Order of accuracy of a method in a scene. Numerically damped methods are of second order in scenes without deformable elements.
 fn order_of(method: Method, scene: &Scene) -> u32 {
     let strains = !scene.beams.is_empty() || scene.springs().next().is_some();
     match method {
@@ -82,7 +82,7 @@ impl Adaptive {
             (now + wish, false)
         };
         let interval = Interval::between(now, end);
-        // The duration is rounded to the spacing of times; the requested size is not.
+        // The duration of the interval has the rounding error of its end times, so it may be smaller than the requested size.
         let is_least = wish <= least || interval.duration() <= least;
         StepPlan { interval, is_cut, is_least }
     }

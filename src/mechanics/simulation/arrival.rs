@@ -27,16 +27,16 @@ pub struct Arrival {
     pub time: f64,
     /// Slider and end of its master.
     pub limit: MasterLimit,
-    /// Index of the beam, for a slider on a track.
+    /// Index of the beam on which a slider on a track arrived; `None` for other sliders.
     pub beam: Option<usize>,
     /// Outcome of the arrival.
     pub kind: ArrivalKind,
-    /// Impulse on the master in the impact, which is not part of the contact forces [mass·length/time].
+    /// Impulse on the master in the impact [mass·length/time]. The contact forces do not contain it.
     pub impulse: Vec2,
 }
 
 impl ArrivalKind {
-    /// Word for scripts, such as `bounced`.
+    /// Word for the outcome in scripts, such as `bounced`.
     pub fn name(self) -> &'static str {
         match self {
             Self::Stopped => "stopped",
@@ -49,7 +49,7 @@ impl ArrivalKind {
 }
 
 impl Arrival {
-    /// Description such as `slider 'ring' bounced off the end of its beam at t = 1.5`, with the name of the beam on tracks.
+    /// Description such as `slider 'ring' bounced off the end of its beam at t = 1.5`. On tracks it contains the name of the beam.
     pub fn describe(&self, slider: &str, beam: Option<&str>) -> String {
         let end = self.limit.end.name();
         let beam = beam.map_or_else(|| "its beam".to_owned(), |name| format!("beam '{name}'"));

@@ -5,25 +5,25 @@ use crate::beams::Station;
 use crate::geometry::{BasisValues, GeometryError, Vec2, cross};
 use crate::system::{Scene, System, SystemError};
 
-/// Beam axes of a scene as drawn.
+/// Initial axes of the beams of a scene.
 pub struct Axes<'a> {
     scene: &'a Scene,
     drawn: System,
 }
 
-/// Station of a beam, with the geometry of its axis as drawn.
+/// Station of a beam, with the initial geometry of the axis there.
 #[derive(Debug, Clone)]
 pub struct AxisStation {
     values: BasisValues,
     degree: usize,
-    /// Derivative `r0'` with respect to the parameter of the mesh, as drawn [length].
+    /// Derivative `r0'` of the initial position with respect to the parameter of the mesh [length].
     drawn_slope: Vec2,
-    /// Curvature as drawn [1/length].
+    /// Initial curvature [1/length].
     drawn_curvature: f64,
 }
 
 impl<'a> Axes<'a> {
-    /// Beam axes of a scene as drawn.
+    /// Computes the initial axes of the beams of a scene.
     ///
     /// # Errors
     /// Fails if the scene cannot be built.
@@ -31,7 +31,7 @@ impl<'a> Axes<'a> {
         Ok(Self { scene, drawn: System::assemble(scene)? })
     }
 
-    /// Stations along each beam. Station `k` of a beam is the place `k · Outline::places_a_station(degree)` of its outline.
+    /// Returns stations along each beam. Station `k` of a beam is the place with number `k · Outline::places_a_station(degree)` in its outline.
     ///
     /// # Errors
     /// Fails if a station lies outside its mesh (internal error).
@@ -44,7 +44,7 @@ impl<'a> Axes<'a> {
         self.drawn.meshes().iter().enumerate().map(of_beam).collect()
     }
 
-    /// Station of a beam; `None` on a particle.
+    /// Returns a station of a beam; `None` for a particle.
     ///
     /// # Errors
     /// Fails if the station lies outside its beam.
@@ -68,7 +68,7 @@ impl<'a> Axes<'a> {
 }
 
 impl AxisStation {
-    /// Creates a station from basis values and the control points as drawn [length].
+    /// Creates a station from values of the basis functions and the initial control points [length].
     fn new(values: BasisValues, degree: usize, drawn: &[Vec2]) -> Self {
         let drawn_slope = values.combine(1, drawn);
         let mut station = Self { values, degree, drawn_slope, drawn_curvature: 0.0 };
@@ -76,18 +76,18 @@ impl AxisStation {
         station
     }
 
-    /// Position for given control points of the beam [length].
+    /// Position of the station, computed from control points of the beam [length].
     pub fn position(&self, points: &[Vec2]) -> Vec2 {
         self.values.combine(0, points)
     }
 
-    /// Elongation of the axis, `|r'| / |r0'| - 1` [-]. It equals the axial strain if shear is small.
+    /// Elongation of the axis, `|r'| / |r0'| - 1` [-]. For small shear it equals the axial strain.
     pub fn stretch(&self, points: &[Vec2]) -> f64 {
         self.values.combine(1, points).norm() / self.drawn_slope.norm() - 1.0
     }
 
-    /// Change of the axis curvature per length as drawn, positive counter-clockwise [1/length]. It equals the bending strain κ except for the
-    /// gradient of shear. NaN for elements of degree one.
+    /// Change of the curvature of the axis per initial length, positive counter-clockwise [1/length]. It differs from the bending strain κ by the
+    /// derivative of the shear angle. NaN for elements of degree one.
     pub fn curvature(&self, points: &[Vec2]) -> f64 {
         match self.degree {
             ..=1 => f64::NAN,
@@ -95,12 +95,12 @@ impl AxisStation {
         }
     }
 
-    /// Unit tangent of the axis, towards the end of the beam.
+    /// Unit tangent of the axis, directed towards the end of the beam.
     pub fn direction(&self, points: &[Vec2]) -> Vec2 {
         self.values.combine(1, points).normalize()
     }
 
-    /// Derivative `θ' / |r0'|` of the axis angle θ [1/length].
+    /// Derivative `θ' / |r0'|` of the axis angle θ with respect to the initial arc length [1/length].
     fn turning(&self, points: &[Vec2]) -> f64 {
         let (slope, second) = (self.values.combine(1, points), self.values.combine(2, points));
         cross(slope, second) / slope.norm_squared() / self.drawn_slope.norm()
@@ -113,7 +113,7 @@ mod tests {
     use crate::elementary::{cos, sin};
     use crate::geometry::{Basis, KnotVector, LagrangeBasis};
 
-    /// Control points of a basis, each placed by its abscissa on an axis of length 2.
+    /// Control points of a basis. Each is placed by its abscissa on an axis of length 2.
     fn along(basis: &Basis, place: impl Fn(f64) -> Vec2) -> Vec<Vec2> {
         basis.abscissae().into_iter().map(|xi| place(2.0 * xi)).collect()
     }
@@ -135,7 +135,7 @@ mod tests {
     fn a_parabola_has_the_curvature_of_its_top() {
         let basis = Basis::BSpline(KnotVector::uniform(1, 2, 1).unwrap());
         let drawn = along(&basis, |s| Vec2::new(s, 0.0));
-        // y = (x - 1)²/4 from x = 0 to 2: its second derivative is 1/2.
+        // The curve is y = (x - 1)²/4 from x = 0 to 2. Its second derivative is 1/2.
         let now = [Vec2::new(0.0, 0.25), Vec2::new(1.0, -0.25), Vec2::new(2.0, 0.25)];
         let station = AxisStation::new(basis.evaluate(0.5).unwrap(), 2, &drawn);
         assert!((station.curvature(&now) - 0.5).abs() < 1e-12);

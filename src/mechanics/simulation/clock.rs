@@ -1,17 +1,17 @@
-//! End times of the steps of a run.
+//! Times at which the steps of a run end.
 
 use super::TimeGrid;
 use super::controller::StepSizeState;
 use super::step_retry::StepRetry;
 
-/// Time grid with the progress of the present step and run.
+/// Time grid, with the progress within the present step and the present run.
 #[derive(Debug, Clone)]
 pub(super) struct StepClock {
     pub(super) grid: TimeGrid,
-    /// Size of the next step; only for variable steps.
+    /// Size of the next step; `None` for fixed steps.
     pub(super) step_size: Option<StepSizeState>,
     pub(super) retry: Option<StepRetry>,
-    /// End time of the present run; infinite for single steps [time].
+    /// End time of the present run [time]; infinite for single steps.
     pub(super) goal: f64,
 }
 

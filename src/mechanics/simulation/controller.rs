@@ -1,13 +1,13 @@
 //! PI controller of the step size.
 //!
-//! K. Gustafsson, Control theoretic techniques for stepsize selection in explicit Runge–Kutta methods, ACM Trans. Math. Softw. 17
+//! References: K. Gustafsson, Control theoretic techniques for stepsize selection in explicit Runge–Kutta methods, ACM Trans. Math. Softw. 17
 //! (1991) 533–554; E. Hairer & G. Wanner, Solving Ordinary Differential Equations II (1996), section IV.2.
 
 use serde::{Deserialize, Serialize};
 
 use crate::elementary::power;
 
-/// Ratio of the next step to the longest step that would be accepted.
+/// Ratio of the selected step to the longest step whose error would be allowed.
 const SAFETY: f64 = 0.9;
 
 const MOST_GROWTH: f64 = 5.0;
@@ -16,31 +16,31 @@ const LEAST_GROWTH: f64 = 0.2;
 
 const SECOND_REJECTION_FACTOR: f64 = 0.5;
 
-/// Exponent of the error of the last step.
+/// Exponent of the error of the last step in the formula of the PI controller.
 const NOW: f64 = 0.7;
 
-/// Exponent of the error of the previous step.
+/// Exponent of the error of the step before the last in the formula of the PI controller.
 const BEFORE: f64 = 0.4;
 
-/// Smallest error, relative to the allowed error. Smaller errors are replaced by it.
+/// Smallest error that the controller uses, as a fraction of the allowed error. Smaller errors are replaced by it.
 const LEAST_ERROR: f64 = 1e-4;
 
-/// Constant parameters of the step controller, with its bounds [time].
+/// Constant parameters of the step size controller: order of the error, first step size and bounds [time].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct StepController {
-    /// Exponent of the step size in the error of a step [-].
+    /// Exponent of the step size in the error of a single step [-].
     pub(super) order: f64,
     pub(super) first: f64,
     pub(super) smallest: f64,
     pub(super) largest: f64,
 }
 
-/// Size of the next step with the controller state; part of the state of a simulation.
+/// Size of the next step, and state of the controller. It is part of the state of a simulation.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub(super) struct StepSizeState {
     /// Size of the next step if no event shortens it [time].
     pub(super) unconstrained_size: f64,
-    /// Error of the last step that no event shortened, relative to the allowed error [-]; `None` if unknown.
+    /// Error of the last step that no event shortened, as a fraction of the allowed error [-]; `None` if unknown.
     pub(super) error: Option<f64>,
     /// Number of rejected or failed attempts at the next step.
     pub(super) tries: usize,
@@ -48,9 +48,9 @@ pub(super) struct StepSizeState {
 
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct TriedStep {
-    /// Duration [time].
+    /// Duration of the step [time].
     pub(super) duration: f64,
-    /// Error relative to the allowed error [-].
+    /// Error as a fraction of the allowed error [-].
     pub(super) error: f64,
 }
 
@@ -59,7 +59,7 @@ impl StepController {
         StepSizeState { unconstrained_size: self.first, error: None, tries: 0 }
     }
 
-    /// Returns true if the step size that the state requests is not below the smallest.
+    /// Returns true if a state read from a file is valid: step size within the bounds, plausible error and number of attempts.
     pub(super) fn allows(&self, state: &StepSizeState) -> bool {
         let is_error = state.error.is_none_or(|error| error >= LEAST_ERROR && error.is_finite());
         (self.smallest..=self.largest).contains(&state.unconstrained_size)
@@ -81,14 +81,14 @@ impl StepController {
             None => self.room(error),
             Some(last) => power(self.room(error), NOW) / power(self.room(last), BEFORE),
         };
-        // After a failed attempt the step size does not grow.
+        // After a failed attempt the step size must not grow.
         let most = if state.tries > 0 { 1.0 } else { MOST_GROWTH };
         let wish = trial.duration * growth.clamp(LEAST_GROWTH, most);
         *state =
             StepSizeState { unconstrained_size: self.bounded(wish), error: Some(error), tries: 0 };
     }
 
-    /// Updates the state after an accepted step that an event shortened. The step size may increase, but not decrease.
+    /// Updates the state after an accepted step that an event shortened. The step size may increase but not decrease.
     pub(super) fn accept_cut(&self, state: &mut StepSizeState, trial: TriedStep) {
         let mut alone = StepSizeState { error: None, ..*state };
         self.accept(&mut alone, trial);
@@ -99,27 +99,27 @@ impl StepController {
         };
     }
 
-    /// Updates the state after a step with too large an error.
+    /// Updates the state after a step whose error is too large.
     pub(super) fn reject(&self, state: &mut StepSizeState, trial: TriedStep) {
         let most = if state.tries > 0 { SECOND_REJECTION_FACTOR } else { SAFETY };
-        // A NaN error counts as infinite.
+        // A NaN error is treated as infinite.
         let error = if trial.error.is_nan() { f64::INFINITY } else { trial.error };
         self.shorten(state, trial.duration, self.room(error).clamp(LEAST_GROWTH, most));
     }
 
-    /// Updates the state after a step of a duration [time] that was not solved.
+    /// Updates the state after a step of a duration [time] whose equations could not be solved.
     pub(super) fn fail(&self, state: &mut StepSizeState, duration: f64) {
         self.shorten(state, duration, SECOND_REJECTION_FACTOR);
     }
 
-    /// Factor by which a step with this error could have been longer.
+    /// Factor by which a step with this error could have been longer, with a safety margin.
     fn room(&self, error: f64) -> f64 {
         SAFETY * power(error, -1.0 / self.order)
     }
 
     fn shorten(&self, state: &mut StepSizeState, duration: f64, part: f64) {
         state.tries += 1;
-        // The end of a step may overflow, and so may its duration.
+        // The end of a step may overflow. Its duration is then infinite, and the requested size is used.
         state.unconstrained_size = self.bounded(duration.min(state.unconstrained_size) * part);
     }
 
@@ -135,7 +135,7 @@ mod tests {
     const CONTROLLER: StepController =
         StepController { order: 3.0, first: 0.1, smallest: 1e-3, largest: 10.0 };
 
-    /// Accepted sizes up to t = 1 for an error of `(size/right)³`.
+    /// Sizes of accepted steps up to t = 1, for an error of `(size/right)³`.
     fn sizes(first: f64, right: impl Fn(usize) -> f64) -> (Vec<f64>, usize) {
         let mut state = StepSizeState { unconstrained_size: first, ..CONTROLLER.start() };
         let (mut sizes, mut rejected) = (Vec::new(), 0);

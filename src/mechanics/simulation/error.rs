@@ -4,7 +4,7 @@ use super::{DerivativeError, StepSizeError};
 use crate::integrators::{MethodError, StepError};
 use crate::system::{SystemError, rounded};
 
-/// Run that could not start or continue. Its history up to the last successful step is kept.
+/// Run that could not start or continue. The history up to the last successful step is kept.
 #[expect(missing_docs, reason = "the messages describe the variants and their fields")]
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum SimulationError {
@@ -17,19 +17,24 @@ pub enum SimulationError {
     /// Invalid step size or tolerance.
     #[error(transparent)]
     StepSize(#[from] StepSizeError),
-    /// Derivatives with respect to parameters are unavailable.
+    /// Derivatives with respect to parameters that are not available.
     #[error(transparent)]
     Derivative(#[from] DerivativeError),
-    /// Sensor of a mean force in a simulation with a method that has no mean forces.
+    /// Sensor of a mean force, recorded with a method that does not provide mean forces.
     #[error(
         "'{sensor}' is a mean force over a step, which the method {method} does not provide; record the present force, or use energy_momentum"
     )]
     NoMeanForces { sensor: String, method: &'static str },
+    /// Slider with friction in a simulation with a method that does not support it.
+    #[error(
+        "slider '{slider}' has friction, which the method {method} does not support; use the method energy_momentum"
+    )]
+    FrictionMethod { slider: String, method: &'static str },
     #[error(
         "a controller with a sampling period of {period:e} would be sampled more than {most} times in a step of dt = {dt:e}"
     )]
     TooManySamples {
-        /// Sampling period of the controller [time].
+        /// Sampling period of a controller [time].
         period: f64,
         /// Step size [time].
         dt: f64,
@@ -44,7 +49,7 @@ pub enum SimulationError {
         rest_position: f64,
         /// Value of the function [length, rad].
         function_value: f64,
-        /// Time of that value [time].
+        /// Time at which the function has this value [time].
         time: f64,
     },
     #[error("the simulation is already at t = {now} and cannot run to t = {end}")]
@@ -60,7 +65,7 @@ pub enum SimulationError {
     Step {
         /// End of the last successful step [time].
         time: f64,
-        /// Size of the failed step of the grid [time].
+        /// Size of the failed step of the time grid [time].
         dt: f64,
         /// Largest number of parts into which the step was divided.
         divisions: u64,
@@ -78,7 +83,7 @@ pub enum SimulationError {
         tolerance: f64,
         /// Size of the last attempted step [time].
         dt: f64,
-        /// Error of that step, relative to the allowed error [-].
+        /// Error of the last attempted step, as a fraction of the allowed error [-].
         error: f64,
         /// Smallest allowed step [time].
         smallest: f64,
@@ -98,22 +103,22 @@ pub enum SimulationError {
         conditions: String,
     },
     #[error(
-        "slider '{slider}' reaches the {end} of its beam shortly after t = {}, but no step that ends there converges, down to dt/{divisions} (dt = {}); use a smaller dt or a finer mesh{conditions}", rounded(*time), step_size(*dt)
+        "slider '{slider}' {event} shortly after t = {}, but no step that ends there converges, down to dt/{divisions} (dt = {}); use a smaller dt or a finer mesh{conditions}", rounded(*time), step_size(*dt)
     )]
     EventLocation {
         slider: String,
-        /// End of its master: `start` or `end`.
-        end: &'static str,
+        /// Event in words, such as `reaches the end of its beam`.
+        event: String,
         /// End of the last successful step [time].
         time: f64,
-        /// Size of the step of the grid [time].
+        /// Size of the failed step of the time grid [time].
         dt: f64,
         /// Largest number of parts into which the step was divided.
         divisions: u64,
         /// Extreme conditions before the step, appended to the message; may be empty.
         conditions: String,
     },
-    /// Load without a finite value, or slider that is too fast for its rule. Smaller steps do not help.
+    /// Load without a finite value, or slider that is too fast for its sliding rule. Smaller steps do not help.
     #[error("{source}")]
     Load { source: StepError },
     #[error("the run has ended: {ending}")]

@@ -10,8 +10,8 @@ use crate::system::{Placement, System, SystemState};
 
 /// Takes two half steps, and compares them with a discarded whole step.
 ///
-/// For a method of order `p`, the error of the half steps is `1/(2^p - 1)` times the difference (Richardson). The half steps are kept without
-/// extrapolation. An extrapolation would be more accurate, but would lose the conservation properties of the method.
+/// For a method of order `p`, the error of the half steps is `1/(2^p - 1)` times the difference (Richardson). The result of the half steps is not
+/// extrapolated. Extrapolation would be more accurate, but would lose the conservation properties of the method.
 #[derive(Default)]
 pub(super) struct StepDoubling {
     start: SystemState,
@@ -25,28 +25,29 @@ pub(super) struct StepDoubling {
 }
 
 pub(super) struct DoubledStep {
-    /// Total work of the half steps and the whole step.
+    /// Number of iterations and corrections of the half steps and the whole step together.
     pub(super) report: NewtonReport,
     pub(super) tried_step: TriedStep,
-    /// Error of positions alone, relative to the allowed error [-].
+    /// Error of positions and angles without the error of corner crossings, as a fraction of the allowed error [-].
     position_error: f64,
 }
 
 impl DoubledStep {
-    /// Returns the step with the error of positions only, for the smallest step. There, an unresolved impact must not cause a rejection.
+    /// Returns the step with the error of positions only. It is used for the smallest step, where an unresolved impact must not cause a rejection.
     pub(super) fn judged_by_places(self) -> Self {
         let trial = TriedStep { error: self.position_error, ..self.tried_step };
         Self { tried_step: trial, ..self }
     }
 
-    /// Returns the step after its second half was repeated, with the total work and an additional error relative to the allowed error.
+    /// Returns the step after its second half has been repeated. `report` contains the total work, `error` is an additional error as a fraction of
+    /// the allowed error.
     pub(super) fn resampled(self, report: NewtonReport, error: f64) -> Self {
         let trial = TriedStep { error: larger(self.tried_step.error, error), ..self.tried_step };
         Self { report, tried_step: trial, position_error: larger(self.position_error, error) }
     }
 }
 
-/// Step of which a part failed. The mechanism is in the state at the start of that part.
+/// Step in which an attempt failed.
 pub(super) struct FailedStep {
     pub(super) source: StepError,
     pub(super) before: usize,
@@ -58,7 +59,8 @@ impl StepDoubling {
         Self { length, allowed, ..Self::default() }
     }
 
-    /// Takes two half steps over an interval and returns their error. The intermediate state is stored if a buffer is given.
+    /// Takes a whole step, then two half steps over the same interval, and returns their error. If a buffer `between` is given, the state between
+    /// the half steps is stored in it.
     pub(super) fn step(
         &mut self,
         integrator: &mut dyn Integrator,
@@ -91,7 +93,8 @@ impl StepDoubling {
         Ok(DoubledStep { report, tried_step: trial, position_error: of_places })
     }
 
-    /// Takes a step that follows successful steps. On failure, the model is restored to the start of the first of them.
+    /// Takes a step that follows successful steps since [`step`](Self::step) began. On failure, the model is restored to the start of the first of
+    /// them.
     pub(super) fn take_or_restore(
         &self,
         integrator: &mut dyn Integrator,
@@ -102,7 +105,7 @@ impl StepDoubling {
         take(integrator, model, step, before).inspect_err(|_| self.restore_start(model))
     }
 
-    /// Restores the start of the last pair of half steps.
+    /// Restores the start of the last interval given to [`step`](Self::step).
     pub(super) fn restore_start(&self, model: &mut System) {
         model.restore(&self.start);
     }

@@ -1,21 +1,22 @@
-//! Length scale and first step size of a scene.
+//! Length scale of a scene, and size of the first step.
 
 use crate::elementary::square;
 use crate::geometry::larger;
 use crate::integrators::Mechanism;
 use crate::system::{Scene, System, UnknownKind};
 
-/// First step of a scene without beams, as a fraction of the time in which it moves by its own size.
+/// First step of a scene without beams, as a fraction of the time in which it moves by its length scale.
 const PART: f64 = 1e-3;
 
-/// Smallest distance `v²/g` in which gravity generates the start speed that counts as a length scale, relative to the distance from the origin.
+/// Smallest distance `v²/g`, with the start speed `v`, that is used as a length scale. It is a fraction of the largest distance of a body from the
+/// origin.
 const SHORTEST_WAY: f64 = 1e-3;
 
-/// Length scale of a scene: its [size](Scene::size). For isolated particles it is the distance in which gravity generates the start speed, or, if
-/// that is short, the largest distance from the origin.
+/// Length scale of a scene: its [size](Scene::size). For isolated particles it is the distance `v²/g` in which gravity `g` generates the start
+/// speed `v`. If this distance is very short, it is the largest distance of a body from the origin.
 ///
-/// A scene without any of these lengths, such as a particle that starts at the origin almost at rest, has no length scale, and 1 [length] defines
-/// one: only there the steps depend on the unit.
+/// A scene may have none of these lengths, for example a particle that starts at the origin almost at rest. Then the length scale is 1 [length],
+/// and only in this case the steps depend on the unit of length.
 pub(super) fn length_of(scene: &Scene) -> f64 {
     let is_length = |length: &f64| *length > 0.0 && length.is_finite();
     let places = scene.particles.iter().map(|particle| particle.position);
@@ -47,8 +48,8 @@ pub(super) fn shortest_wave_time(scene: &Scene) -> Option<f64> {
 
 /// Initial size of variable steps [time].
 ///
-/// It is the [shortest wave time](shortest_wave_time). Without beams it is a fraction of the time in which start velocities or weight
-/// displace a particle by the length scale, or the forces if there are neither. If nothing moves, there is no time scale, and 1 [time] defines one.
+/// It is the [shortest wave time](shortest_wave_time). Without beams, it is a fraction of the time in which start velocities or weight displace a
+/// body by the length scale. Without start velocities and weight, the other forces are used. If nothing moves, the time scale is 1 [time].
 pub(super) fn first_step(scene: &Scene, model: &mut System) -> f64 {
     if let Some(shortest) = shortest_wave_time(scene) {
         return shortest;
@@ -63,7 +64,7 @@ pub(super) fn first_step(scene: &Scene, model: &mut System) -> f64 {
     PART * if pushed > 0.0 { (length / pushed).sqrt() } else { 1.0 }
 }
 
-/// Largest rate of a position, or of a rotation times a length. Prescribed degrees of freedom follow the unknowns and count as positions.
+/// Largest rate of a position, or of an angle multiplied by `length`. Prescribed degrees of freedom follow the unknowns and count as positions.
 fn fastest(model: &System, rates: &[f64], length: f64) -> f64 {
     let kinds = model.unknown_kinds().iter().map(Some).chain(std::iter::repeat(None));
     let rates = rates.iter().zip(kinds).map(|(rate, kind)| match kind {
@@ -83,7 +84,7 @@ mod tests {
 
     const LENGTHS: [f64; 4] = [1e-9, 1e-3, 1.0, 1e6];
 
-    /// A particle in units of length and time.
+    /// Scene of one particle, with the unit of length `a` and the unit of time `t`.
     fn particle(at: Vec2, velocity: Vec2, gravity: f64, force: f64, (a, t): (f64, f64)) -> Scene {
         let mut scene = Scene::new("isolated");
         let bead = ParticleDefinition { name: "bead".to_owned(), position: at * a };

@@ -6,23 +6,23 @@ use super::columns::{self, Column, ExtraColumn};
 use crate::geometry::{Vec2, larger, smaller};
 use crate::system::Measures;
 
-/// Row of the history: measures at the end of a step, and its solver statistics.
+/// Row of the history: energy and momenta at the end of a step, and statistics of the solver in this step.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct Sample {
-    /// Energies, momenta and exchanged work and impulses at the end of the step.
+    /// Energies, momenta, work and impulses at the end of the step.
     pub measures: Measures,
-    /// Length of the step; zero in the first row [time].
+    /// Length of the step [time]; zero in the first row.
     pub dt: f64,
-    /// Newton iterations of the step; for variable steps the total of the whole step and its two halves.
+    /// Newton iterations of the step. For variable steps it is the total of the whole step and its two halves.
     pub newton_iterations: usize,
-    /// Number of failed attempts before the step.
+    /// Number of failed attempts at the step.
     pub retries: usize,
-    /// Energy that dampers returned in the backward part of the step. It is not stored in files [energy].
+    /// Energy that dampers returned in the backward part of the step [energy]. It is not stored in files.
     #[serde(skip)]
     pub returned: f64,
 }
 
-/// Quantity that is constant when loads and supports are accounted for.
+/// Quantity that is constant if the exchange with loads and supports is included.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Invariant {
     /// Energy balance `E - W + D` [energy].
@@ -44,7 +44,7 @@ impl Invariant {
         ("gap", Self::Gap),
     ];
 
-    /// Value of the invariant in a row. Scalars are in the first component.
+    /// Value of the invariant in a row. A scalar is in the first component.
     pub fn value(self, row: &Measures) -> Vec2 {
         match self {
             Self::Energy => Vec2::new(row.energy.total() - row.work + row.dissipated, 0.0),
@@ -54,7 +54,7 @@ impl Invariant {
         }
     }
 
-    /// Description in words and symbols.
+    /// Description of the invariant in words and symbols.
     pub fn describe(self) -> &'static str {
         match self {
             Self::Energy => "energy E - W + D",
@@ -65,18 +65,18 @@ impl Invariant {
     }
 }
 
-/// Lower bounds of the scales of drifts.
+/// Lower bounds of the scales by which drifts are divided.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct DriftScales {
     /// Mass of the whole scene [mass].
     pub mass: f64,
-    /// Length scale of the scene [length]; zero if there is none, as for a single particle at the origin.
+    /// Length scale of the scene [length]. It is zero if there is none, for example for a single particle at the origin.
     pub length: f64,
-    /// Rounding error of the strain energy [energy]. Energy drifts are relative to at least this value.
+    /// Rounding error of the strain energy [energy]. Energy drifts are divided by at least this value.
     pub rounding_energy: f64,
 }
 
-/// History of a run: rows of measures in the order of time.
+/// History of a run: one row for each recorded time, in the order of time.
 #[derive(Debug, Clone, Default)]
 pub struct History {
     samples: Vec<Sample>,
@@ -95,13 +95,13 @@ impl History {
         Self { samples: Vec::new(), extra_columns, extra: Vec::new(), scales }
     }
 
-    /// Reserves memory for further rows.
+    /// Reserves memory for `rows` further rows.
     pub(crate) fn reserve(&mut self, rows: usize) {
         self.samples.reserve(rows);
         self.extra.reserve(rows * self.extra_columns.len());
     }
 
-    /// Appends a row: the sample, and the values of the additional columns in their order.
+    /// Appends a row. `extra` contains the values of the additional columns in their order.
     ///
     /// # Panics
     /// Panics if the number of values differs from the number of additional columns.
@@ -132,7 +132,7 @@ impl History {
         &self.extra
     }
 
-    /// Returns a history with the same columns and the given rows; `None` if the number of values does not fit.
+    /// Returns a history with the same columns and the given rows; `None` if the number of additional values does not fit.
     pub(super) fn with_rows(&self, samples: Vec<Sample>, extra: Vec<f64>) -> Option<Self> {
         let fits = samples.len().checked_mul(self.extra_columns.len()) == Some(extra.len());
         let extra_columns = self.extra_columns.clone();
@@ -144,7 +144,7 @@ impl History {
         &self.samples
     }
 
-    /// Rows between two times, ends included.
+    /// Returns the rows between two times. Rows at these times are included.
     pub fn between(&self, from: f64, to: f64) -> Self {
         let steps = self.samples.iter().map(|row| row.dt).filter(|dt| *dt > 0.0);
         let slack = 1e-9 * steps.reduce(f64::min).unwrap_or(0.0);
@@ -158,7 +158,7 @@ impl History {
         inside
     }
 
-    /// Name and dimension of each column, the additional ones last.
+    /// Names and dimensions of the columns. The additional columns follow the standard ones.
     pub fn columns(&self) -> impl Iterator<Item = (&str, &'static str)> {
         let fixed = Self::COLUMNS.iter().map(|column| (column.name, column.dimension));
         let extra = self.extra_columns.iter().map(|column| (&*column.name, column.dimension));
@@ -180,10 +180,10 @@ impl History {
         Some(rows.map(|row| row[index]).collect())
     }
 
-    /// Values of a column, each averaged with the value of the previous row. The first two values are kept, because quantities of a step, such as
-    /// contact forces, have no value at the start.
+    /// Values of a column, each averaged with the value of the previous row. The first two values are not averaged, because quantities of a step,
+    /// such as contact forces, have no value at the start.
     ///
-    /// The average removes oscillations from step to step. It belongs to the middle of the step.
+    /// The average removes oscillations from step to step. It is the value in the middle of the step.
     pub fn averaged(&self, name: &str) -> Option<Vec<f64>> {
         let mut column = self.column(name)?;
         for row in (1..column.len()).rev().filter(|row| self.samples[row - 1].dt > 0.0) {
@@ -192,10 +192,11 @@ impl History {
         Some(column)
     }
 
-    /// Deviation of an invariant from its value in the first row, relative to the largest energy, momentum or angular momentum of all rows; the gap
-    /// is absolute.
+    /// Difference of an invariant from its value in the first row, divided by a scale: the largest energy, momentum or angular momentum of all
+    /// rows. The gap is not divided.
     ///
-    /// The scale of momenta includes `sqrt(2 m K)`, for bodies of zero momentum, and the sum of the magnitudes of all exchanged impulses.
+    /// For bodies of zero momentum, the scale of momenta is at least `sqrt(2 m K)`, with the kinetic energy `K`, and at least the sum of the
+    /// magnitudes of all exchanged impulses.
     pub fn drifts(&self, invariant: Invariant) -> Vec<f64> {
         let Some(first) = self.samples.first().map(|row| row.measures) else { return Vec::new() };
         let scale = self.scale(invariant, &first);
@@ -235,7 +236,7 @@ impl History {
         }
     }
 
-    /// Largest increase of `E - W + D` above an earlier value, relative to the scale of [`drifts`](Self::drifts); NaN if an energy is NaN or there
+    /// Largest increase of `E - W + D` above an earlier value, divided by the scale of [`drifts`](Self::drifts). NaN if an energy is NaN or there
     /// are no rows.
     pub fn energy_growth(&self) -> f64 {
         let Some(first) = self.samples.first().map(|row| row.measures) else { return f64::NAN };
@@ -251,7 +252,7 @@ impl History {
         }
     }
 
-    /// Largest of the [`drifts`](Self::drifts) of an invariant; NaN if one is NaN or there are no rows.
+    /// Largest of the [`drifts`](Self::drifts) of an invariant. NaN if one of them is NaN or there are no rows.
     pub fn drift(&self, invariant: Invariant) -> f64 {
         if self.samples.is_empty() {
             return f64::NAN;
@@ -269,7 +270,7 @@ mod tests {
         history_with(vec![], energies)
     }
 
-    /// The additional columns contain 10, 20, … in the first row, 11, 21, … in the second.
+    /// Creates a history whose additional columns contain 10, 20, … in the first row and 11, 21, … in the second.
     fn history_with(extra: Vec<ExtraColumn>, energies: &[f64]) -> History {
         let width = extra.len();
         let scales = DriftScales { mass: 1.0, length: 1.0, rounding_energy: 0.0 };

@@ -1,11 +1,11 @@
-//! Cached properties of a scene as drawn.
+//! Cached properties of the initial configuration of a scene.
 
 use std::cell::OnceCell;
 
 use super::Outline;
 use crate::system::SystemError;
 
-/// Cached properties of a scene as drawn: outlines of its beams, and its lowest period.
+/// Cached properties of the initial configuration: outlines of the beams, and the lowest period of vibration.
 #[derive(Debug, Default)]
 pub(super) struct InitialGeometry {
     outlines: OnceCell<Vec<Outline>>,
@@ -24,7 +24,7 @@ impl InitialGeometry {
         Ok(self.outlines.get_or_init(|| outlines))
     }
 
-    /// Lowest period of the scene as drawn, if it has one [time].
+    /// Lowest period of vibration in the initial configuration [time]; `None` without one.
     pub(super) fn lowest_period(&self, find: impl FnOnce() -> Option<f64>) -> Option<f64> {
         *self.lowest_period.get_or_init(find)
     }

@@ -1,4 +1,4 @@
-//! Simulation runs and their records.
+//! Simulation runs and their recorded results.
 
 mod adaptive;
 mod archive;

@@ -1,8 +1,8 @@
-//! Monitors of runs.
+//! Monitors, which observe and may stop runs.
 
 /// Observer of a run that may stop it.
 pub trait Monitor {
-    /// Called with the present time after every step and every failed attempt. Returns `false` to stop the run.
+    /// Receives the present time after every step and every failed attempt. Returns `false` to stop the run.
     fn continues(&mut self, time: f64) -> bool;
 }
 

@@ -1,28 +1,28 @@
-//! Drawing geometry of beams, particles and rigid bodies: lines, and marks at knots or nodes.
+//! Geometry of beams, particles and rigid bodies for drawing: lines, and marks at knots or nodes.
 
 use crate::beams::{BodyPoint, Mesh};
 use crate::elementary::atan2;
 use crate::geometry::{Vec2, cross, perpendicular};
 use crate::system::{BeamDefinition, RigidBodyDefinition, Scene, SystemError};
 
-/// Number of points per span for degrees above one.
+/// Number of points per span for spline degrees above one.
 const POINTS_A_SPAN: usize = 8;
 
 fn pieces(degree: usize) -> usize {
     if degree == 1 { 1 } else { POINTS_A_SPAN }
 }
 
-/// Places of a body that a picture needs: points of a beam axis and its knots or nodes, or points of a rigid body.
+/// Places on a body from which it is drawn: points of a beam axis and its knots or nodes, or points of a rigid body.
 #[derive(Debug, Clone)]
 pub struct Outline {
     line: Vec<BodyPoint>,
     marks: Vec<BodyPoint>,
-    /// Corners of the polygon of a rigid body, in coordinates along and left of the line from the centre to one of its points, in units of the line's
-    /// length.
+    /// Corners of the polygon of a rigid body. Their coordinates are along and to the left of the line from the centre to one of the points of the
+    /// body, in units of the length of this line.
     corners: Vec<Vec2>,
 }
 
-/// Configuration of a scene for drawing, in plain points [length].
+/// Configuration of a scene for drawing, given by the coordinates of points [length].
 #[derive(Debug, Clone, PartialEq)]
 pub struct Configuration {
     /// Time [time].
@@ -31,14 +31,14 @@ pub struct Configuration {
     pub lines: Vec<Vec<Vec2>>,
     /// Polyline around each rigid body with points [length].
     pub bodies: Vec<Vec<Vec2>>,
-    /// Knots or nodes of all beams [length].
+    /// Positions of the knots or nodes of all beams [length].
     pub marks: Vec<Vec2>,
-    /// Particles, then the centres of rigid bodies [length].
+    /// Positions of the particles, then of the centres of rigid bodies [length].
     pub particles: Vec<Vec2>,
 }
 
 impl Outline {
-    /// Outlines of the beams of a scene on their meshes, then of rigid bodies with points.
+    /// Creates the outlines of the beams of a scene on their meshes, then of rigid bodies with points off the centre.
     ///
     /// # Errors
     /// Fails if an axis has a point without a tangent.
@@ -63,8 +63,8 @@ impl Outline {
         scene.beams.iter().zip(meshes).enumerate().map(of_beam).chain(bodies).collect()
     }
 
-    /// With one point, the line starts at the centre; with two points it passes through the centre; with more points it is a polygon around the
-    /// centre.
+    /// For a body with one point, the line starts at the centre and ends at the point. With two points it passes through the centre; with more
+    /// points it is a polygon around the centre.
     fn of_rigid_body(index: usize, body: &RigidBodyDefinition) -> Self {
         if !body.outline.is_empty() {
             return Self::polygon(index, body);
@@ -97,8 +97,8 @@ impl Outline {
         Self { line: line.into(), marks: Vec::new(), corners }
     }
 
-    /// Corners of the closed polygon of a rigid body, in coordinates along and left of the line between both places of its [line](Self::line), in
-    /// units of that line's length.
+    /// Corners of the closed polygon of a rigid body. Their coordinates are along and to the left of the line between the two places of
+    /// [`line`](Self::line), in units of the length of this line.
     pub fn corners(&self) -> &[Vec2] {
         &self.corners
     }
@@ -127,7 +127,7 @@ impl Outline {
         breaks.windows(2).flat_map(within).chain(breaks.last().copied()).collect()
     }
 
-    /// Number of line places between stations of the axis. There are two stations per span, or one for straight spans.
+    /// Number of places of the outline per station of the axis. There are two stations per span, or one for straight spans.
     pub fn places_a_station(degree: usize) -> usize {
         pieces(degree).div_ceil(2)
     }
@@ -142,12 +142,12 @@ impl Outline {
         &self.line
     }
 
-    /// Knots or nodes.
+    /// Places of knots or nodes.
     pub fn marks(&self) -> &[BodyPoint] {
         &self.marks
     }
 
-    /// Draws a configuration from the control points of all bodies [length]: beams, then particles, then rigid bodies.
+    /// Computes a configuration for drawing from the control points of all bodies [length]: beams, then particles, then rigid bodies.
     pub fn draw(outlines: &[Self], time: f64, control_points: &[&[Vec2]]) -> Configuration {
         let at = |place: &BodyPoint| place.interpolate(control_points[place.body]);
         let beams = outlines.partition_point(Self::is_of_beam);

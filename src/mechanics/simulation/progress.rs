@@ -1,4 +1,4 @@
-//! Progress of a run: work, last step, and arrivals of sliders.
+//! Progress of a run: solver statistics, last step, and arrivals of sliders.
 
 use std::rc::Rc;
 use std::time::Duration;
@@ -9,37 +9,38 @@ use super::{Arrival, ArrivalKind, ReleaseEvent, Sample};
 use crate::integrators::Interval;
 use crate::newton::NewtonReport;
 
-/// Work counters of a run.
+/// Solver statistics of a run.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct WorkCounts {
-    /// Successful steps. Two half steps that were compared with a whole step count as one.
+    /// Number of successful steps. Two half steps that are compared with a whole step count as one.
     pub steps: usize,
-    /// Newton iterations of successful steps, each with a new factorisation. For variable steps they include the whole step and its two halves.
+    /// Newton iterations of successful steps, each with a new factorisation. For variable steps they include those of the whole step and its two
+    /// halves.
     pub newton_iterations: usize,
-    /// Corrections of successful steps with existing factors.
+    /// Corrections of successful steps that reuse earlier factors of the matrix.
     pub corrections: usize,
-    /// Largest number of Newton iterations of a step. For variable steps it is the total of the whole step and its two halves.
+    /// Largest number of Newton iterations in one step. For variable steps it is the total of the whole step and its two halves.
     pub newton_max: usize,
-    /// Factorisations, including those of failed attempts.
+    /// Number of factorisations, including those of failed attempts.
     pub factorisations: usize,
-    /// Failed attempts at steps.
+    /// Number of failed attempts at steps.
     pub retries: usize,
-    /// Steps rejected by the tolerance.
+    /// Number of steps rejected by the tolerance.
     pub rejected: usize,
-    /// Attempted steps in the search for arrivals of sliders.
+    /// Number of attempted steps in the search for arrivals of sliders.
     pub arrival_tries: usize,
-    /// Wall time spent in steps. It is not stored in files, because files of equal runs must be equal.
+    /// Wall-clock time spent in steps. It is not stored in files, so that files of equal runs are equal.
     #[serde(skip)]
     pub wall: Duration,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(super) struct StepTaken {
-    /// Length of the last step; zero before the first [time].
+    /// Length of the last step [time]; zero before the first step.
     pub(super) dt: f64,
     pub(super) newton_iterations: usize,
     pub(super) retries: usize,
-    /// Energy that dampers returned in its backward part [energy].
+    /// Energy that dampers returned in the backward part of the last step [energy].
     pub(super) returned: f64,
 }
 
@@ -50,13 +51,13 @@ impl StepTaken {
     }
 }
 
-/// Progress of a run: work, last step, arrivals and releases.
+/// Progress of a run: solver statistics, last step, arrivals and releases.
 #[derive(Debug, Clone, Default)]
 pub(super) struct RunProgress {
     pub(super) counts: WorkCounts,
     pub(super) last_step: StepTaken,
     pub(super) arrivals: Vec<Arrival>,
-    /// Releases in their order, shared with snapshots.
+    /// Releases in the order of their execution. The list is shared with snapshots.
     pub(super) releases: Rc<[ReleaseEvent]>,
 }
 

@@ -1,17 +1,17 @@
-//! Selection of the recorded states of a run.
+//! Rule that selects the states of a run to be recorded.
 
 use std::num::NonZeroUsize;
 
 use serde::{Deserialize, Serialize};
 
-/// Selection of recorded states. The start, the ends of runs and the arrivals of sliders are always recorded.
+/// Rule that selects the states to be recorded. The start, the ends of runs and the arrivals of sliders are always recorded.
 ///
-/// States that are not recorded are not measured. The present state has a temporary row.
+/// Energies and sensors are evaluated for recorded states only. In addition, the present state has a temporary row.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Recording {
-    /// Every n-th step.
+    /// Every n-th step is recorded.
     Every(NonZeroUsize),
-    /// No additional states.
+    /// No other states are recorded.
     Nothing,
 }
 
@@ -35,7 +35,7 @@ impl Recording {
         self == Self::default()
     }
 
-    /// Description such as `every 100 steps`.
+    /// Description of the rule, such as `every 100 steps`.
     pub fn describe(self) -> String {
         match self {
             Self::Every(count) if count == NonZeroUsize::MIN => "every step".to_owned(),

@@ -1,4 +1,4 @@
-//! Releases during a run.
+//! Release that was executed during a run.
 
 use serde::{Deserialize, Serialize};
 
@@ -7,6 +7,6 @@ use serde::{Deserialize, Serialize};
 pub struct ReleaseEvent {
     /// Index of the release in the scene.
     pub release: usize,
-    /// Time of the release, between two steps [time].
+    /// Time of the release [time]. It is the end of one step and the start of the next.
     pub time: f64,
 }

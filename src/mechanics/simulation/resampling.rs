@@ -1,4 +1,4 @@
-//! Error of variable steps due to controllers that are sampled only at the start of a step.
+//! Error of variable steps that arises because controllers are sampled only at the start of a step.
 
 use super::adaptive::StepPlan;
 use super::error_estimate::{DoubledStep, FailedStep, StepDoubling};
@@ -7,19 +7,18 @@ use crate::geometry::larger;
 use crate::integrators::{Integrator, Interval};
 use crate::system::{Drive, Placement, Scene, System, SystemState};
 
-/// Allowed distance between both results of the second half, in units of the length scale times a power of the tolerance. With this value, the
-/// measured error accumulated in the time scale of a motion is about half the tolerance (theory.md, section 13.1).
+/// Allowed distance between the two results of the second half step, in units of the length scale times a power of the tolerance. With this value,
+/// the measured error that accumulates in the time scale of a motion is about half the tolerance (theory.md, section 13.1).
 const SHARE: f64 = 4.0;
 
-/// Error estimate for steps with a controller sample in each half.
+/// Error estimate for steps in which controllers are sampled at the start of each half.
 ///
-/// The whole step and its halves first use the controller values at the start, which gives the error of the method. Then the run pauses in the middle
-/// of the step, the controllers are sampled, and the second half is repeated. A sampled force is late by half a step on average, which changes
-/// positions by the third power of the step size in one step and by the first power in a run. For a sampled rate the power in one step is two. The
-/// difference between both second halves may therefore be that power of the tolerance.
-/// halves may therefore be that power of the tolerance.
+/// First, the whole step and its halves use the controller values at the start, which gives the error of the method. Then the run pauses in the
+/// middle of the step, the controllers are sampled, and the second half is repeated. A sampled force is late by half a step on average. This
+/// changes positions by the third power of the step size in one step, and by the first power in a run. For a sampled rate the change in one step is
+/// of second power. The difference between the two results of the second half may therefore be of the same power of the tolerance.
 pub(super) struct Resampling {
-    /// Power of the step size in the position difference [-].
+    /// Power of the step size in the difference of positions in one step [-].
     order: i32,
     allowed: f64,
     length: f64,
@@ -36,7 +35,7 @@ struct HalfStep {
 }
 
 impl Resampling {
-    /// Creates the estimate for a scene with a length scale; `None` without controllers that are sampled at every step.
+    /// Creates the estimate for a scene with a length scale; `None` if no controller is sampled at every step.
     pub(super) fn of(scene: &Scene, length: f64, tolerance: f64) -> Option<Self> {
         let all =
             scene.schedules().filter(|(_, schedule)| schedule.is_sampled_every_step()).count();
@@ -74,7 +73,8 @@ impl Resampling {
         self.half_step = Some(HalfStep { plan, doubled });
     }
 
-    /// Repeats the second half of a paused step with new controller values. The error of the step is the larger of both errors.
+    /// Repeats the second half of a paused step with new controller values. The error of the step is the larger one of the error of the method and
+    /// the error of sampling.
     pub(super) fn resume(
         &mut self,
         doubling: &mut StepDoubling,

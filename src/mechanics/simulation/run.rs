@@ -1,4 +1,4 @@
-//! Time loop: steps on the grid, halved and repeated on failure.
+//! Time loop. Steps end on a grid; a step that fails is halved and repeated.
 
 mod adapting;
 mod back;
@@ -38,7 +38,7 @@ use crate::system::{Scene, System};
 
 const MOST_DRY_STEPS: usize = 10_000;
 
-/// Largest number of controller samples per step.
+/// Largest number of controller samples within one step.
 const MOST_SAMPLES: f64 = 1e4;
 
 /// Integrator, step size and tolerance of a simulation.
@@ -46,7 +46,7 @@ const MOST_SAMPLES: f64 = 1e4;
 pub struct SimulationSettings {
     /// Integrator.
     pub method: Method,
-    /// Step size, or its control.
+    /// Fixed step size, or tolerance of variable steps.
     pub dt: StepSize,
     /// Tolerance of the Newton solver.
     pub tolerance: Tolerance,
@@ -82,11 +82,11 @@ impl Simulation {
         Self::start_while(scene, settings, &mut || true)
     }
 
-    /// Builds a scene and starts the simulation, as [`start`](Self::start) does. `goes_on` is called repeatedly during the assembly; if it returns
+    /// Builds a scene and starts the simulation, with a way to stop the assembly. `goes_on` is called repeatedly during the assembly; if it returns
     /// false, the start ends with an error.
     ///
     /// # Errors
-    /// Errors of [`start`](Self::start), or if the assembly is stopped.
+    /// Errors of [`start`](Self::start), or an error if the assembly is stopped.
     pub fn start_while(
         scene: Scene,
         settings: SimulationSettings,
@@ -100,7 +100,7 @@ impl Simulation {
     /// starts at the time of the equilibrium.
     ///
     /// # Errors
-    /// Fails if the step size or a method parameter is out of range, or a drive of the equilibrium is not at the value of its function.
+    /// Fails if the step size or a method parameter is out of range, or if the position of a drive in the equilibrium differs from its function.
     pub fn start_at_rest(
         rest: &Equilibrium,
         settings: SimulationSettings,
@@ -128,6 +128,11 @@ impl Simulation {
     ) -> Result<Self, SimulationError> {
         settings.dt.check()?;
         settings.method.check()?;
+        let with_friction = scene.sliders.iter().find(|slider| slider.friction > 0.0);
+        if let Some(slider) = with_friction.filter(|_| settings.method != Method::EnergyMomentum) {
+            let (slider, method) = (slider.name.clone(), settings.method.entry().name);
+            return Err(SimulationError::FrictionMethod { slider, method });
+        }
         model.divide(cores());
         let integrator = settings.method.build(&mut model, settings.tolerance);
         let breaks = scene.schedules().flat_map(|(_, schedule)| schedule.breaks());
@@ -167,7 +172,7 @@ impl Simulation {
         })
     }
 
-    /// Sets the largest number of threads for large scenes, by default the number of cores. Results do not depend on it.
+    /// Sets the largest number of threads for large scenes. The default is the number of cores. Results do not depend on it.
     pub fn use_threads(&mut self, most: usize) {
         self.model.divide(most);
     }
@@ -202,7 +207,7 @@ impl Simulation {
         &self.record.trajectory
     }
 
-    /// Work counters.
+    /// Solver statistics.
     pub fn counts(&self) -> &WorkCounts {
         &self.progress.counts
     }
@@ -222,20 +227,20 @@ impl Simulation {
         self.clock.grid.has_reached(self.time(), time)
     }
 
-    /// Distance of two times below which they count as equal [time].
+    /// Difference of two times below which they count as equal [time].
     pub fn slack(&self) -> f64 {
         self.clock.grid.slack(self.time())
     }
 
-    /// Requires a step to end at a future time.
+    /// Requires that a step ends at the given future time.
     pub fn cut_at(&mut self, time: f64) {
         self.clock.grid.cut_at(time);
     }
 
-    /// Takes one step, to the next point or cut of the time grid.
+    /// Takes one step to the next end time of the grid.
     ///
     /// # Errors
-    /// Fails if no step is solved, an arrival has ended the run, or the monitor stops it.
+    /// Fails if the equations of the step have no solution, an arrival has ended the run, or the monitor stops it.
     pub fn step(&mut self, monitor: &mut dyn Monitor) -> Result<(), SimulationError> {
         if let Some(ending) = self.ending() {
             return Err(SimulationError::Ended { ending });
@@ -246,10 +251,10 @@ impl Simulation {
         stepped
     }
 
-    /// Runs until a time, which ends the last step, or until a slider ends the run.
+    /// Runs until `end`, where the last step ends, or until a slider ends the run.
     ///
     /// # Errors
-    /// Fails if the time has passed, no step is solved, or the monitor stops the run.
+    /// Fails if `end` is in the past, the equations of a step have no solution, or the monitor stops the run.
     pub fn run_to(&mut self, end: f64, monitor: &mut dyn Monitor) -> Result<(), SimulationError> {
         self.check_end(end)?;
         let now = self.time();
@@ -275,12 +280,12 @@ impl Simulation {
         }
     }
 
-    /// Advances the time without solving (dry run). The history gets rows of a static scene.
+    /// Advances the time without solving equations (dry run). The history gets the rows that a motionless scene would have.
     ///
     /// Dry runs check scripts. If there are very many steps, only the first and the last are recorded.
     ///
     /// # Errors
-    /// Fails if the time has passed or is not finite, or the monitor stops the run.
+    /// Fails if `end` is in the past or not finite, or the monitor stops the run.
     pub fn dry_run_to(
         &mut self,
         end: f64,
@@ -288,7 +293,7 @@ impl Simulation {
     ) -> Result<(), SimulationError> {
         self.check_end(end)?;
         self.clock.goal = end;
-        // Perturbed runs add their own rows.
+        // The perturbed runs make dry runs themselves, which add their own rows.
         let mut beside = self.stepper.sensitivities.take();
         let pretended = self.dry_run_alone_to(end, monitor);
         if let Some(sensitivities) = &mut beside {
@@ -346,7 +351,7 @@ impl Simulation {
                 stepped
             }
         };
-        // An interrupted step continues later with the same size.
+        // An interrupted step is continued later with the same size.
         if !matches!(stepped, Err(SimulationError::Interrupted { .. })) {
             self.clock.retry = None;
         }

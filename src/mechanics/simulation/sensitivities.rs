@@ -35,17 +35,18 @@ pub enum PerturbedSide {
     Minus,
 }
 
-/// Work counters of the derivatives of a run.
+/// Solver statistics of the derivatives of a run.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct DerivativeCounts {
-    /// Solutions with the factors of the main run.
+    /// Number of linear solutions with the factors of the main run.
     pub solves: usize,
-    /// Additional factorisations where the factors of the main run were insufficient.
+    /// Number of additional factorisations, needed where the factors of the main run were not accurate enough.
     pub factorisations: usize,
 }
 
-/// Derivatives of a run. The state `s₁` after a step solves `R(s₁; s₀, p) = 0`, so its derivative solves `∂R/∂s₁ s₁' = -∂R/∂s₀ s₀' - ∂R/∂p` with the
-/// factorised matrix of the step. The right-hand side is the difference of two residuals, at `p ± δ` and from the states `s₀ ± δ s₀'`.
+/// Derivatives of a run with respect to parameters. The state `s₁` after a step satisfies `R(s₁; s₀, p) = 0`, with the state `s₀` before the step
+/// and the parameter `p`. Hence the derivative `s₁'` solves `∂R/∂s₁ s₁' = -∂R/∂s₀ s₀' - ∂R/∂p` with the factorised matrix of the step. The
+/// right-hand side is computed from the difference of two residuals, at `p ± δ` and from the states `s₀ ± δ s₀'`.
 pub(super) struct Sensitivities {
     stepper: SharedFactorStepper,
     parameters: Vec<PerturbedRuns>,
@@ -59,7 +60,7 @@ impl Sensitivities {
     /// Creates the derivatives of a run at its start.
     ///
     /// # Errors
-    /// Fails if the method has no derivatives, or a perturbed scene cannot be built or has another structure.
+    /// Fails if the method has no derivatives, or if a perturbed scene cannot be built or has another structure.
     pub(super) fn new(
         run: &mut Simulation,
         variations: Vec<Variation>,
@@ -90,10 +91,10 @@ impl Sensitivities {
         })
     }
 
-    /// Takes a step of the run and its perturbed runs.
+    /// Takes a step of the main run and of its perturbed runs.
     ///
     /// # Errors
-    /// Errors of the step of the run.
+    /// Errors of the step of the main run.
     pub(super) fn step(
         &mut self,
         model: &mut System,
@@ -135,11 +136,11 @@ impl Sensitivities {
         }
     }
 
-    /// Applies a release of the main run to the perturbed runs. Positions and rates are continuous and the time does not depend on parameters, so the
-    /// derivatives are those of the renumbered state.
+    /// Applies a release of the main run to the perturbed runs. Positions and rates are continuous, and the time of the release does not depend on
+    /// parameters. Hence the derivatives of the state are not changed by the release, except for their numbering.
     ///
     /// # Errors
-    /// Fails if a perturbed scene cannot be built, which succeeded before.
+    /// Fails if a perturbed scene cannot be built again, although it was built before.
     pub(super) fn release(
         &mut self,
         release: usize,
@@ -173,7 +174,7 @@ impl Sensitivities {
 
     pub(super) fn dry_run_to(&mut self, end: f64) {
         self.each(|twin| {
-            // The main run reports the same errors.
+            // Errors are ignored here, because the main run has and reports the same errors.
             let _: Result<(), SimulationError> = twin.dry_run_to(end, &mut NoMonitor);
         });
     }
@@ -188,7 +189,7 @@ impl Sensitivities {
         }
     }
 
-    /// Stops the computation of derivatives. An earlier reason is kept.
+    /// Stops the computation of derivatives. If it has been stopped before, the earlier reason is kept.
     pub(super) fn disable(&mut self, reason: DerivativeError) {
         let _: &mut DerivativeError = self.end_reason.get_or_insert(reason);
     }
@@ -205,7 +206,7 @@ impl Sensitivities {
         self.parameters.iter().map(|twins| (twins.name.as_str(), twins.distance))
     }
 
-    /// Perturbed run of a parameter.
+    /// Perturbed run for a parameter.
     ///
     /// # Errors
     /// Fails if there are no derivatives.
@@ -223,10 +224,10 @@ impl Sensitivities {
         }
     }
 
-    /// Perturbed run of a parameter, with its history up to the end of the derivatives.
+    /// Perturbed run for a parameter, with its history up to the time at which the derivatives ended.
     ///
     /// # Errors
-    /// Fails if the main run was changed after the derivatives were computed.
+    /// Fails if the main run has been changed after the derivatives were computed.
     pub(super) fn perturbed_with_history(
         &self,
         parameter: usize,

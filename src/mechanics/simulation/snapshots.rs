@@ -1,4 +1,4 @@
-//! Snapshots of a simulation within a memory limit.
+//! Snapshots of a simulation, stored within a memory limit.
 
 use std::collections::VecDeque;
 use std::rc::Rc;
@@ -9,13 +9,13 @@ use super::step_retry::StepRetry;
 use super::{ReleaseEvent, WorkCounts};
 use crate::system::SystemState;
 
-/// State of a simulation, sufficient to continue bit for bit.
+/// State of a simulation from which it can be continued bit for bit.
 #[derive(Debug, Clone)]
 pub(super) struct Snapshot {
     pub(super) state: SystemState,
     /// Time of the snapshot [time].
     pub(super) time: f64,
-    /// Number of history rows to keep on restoring the snapshot.
+    /// Number of history rows that remain when the snapshot is restored.
     pub(super) rows: usize,
     pub(super) last_step: StepTaken,
     pub(super) arrivals: usize,
@@ -23,12 +23,12 @@ pub(super) struct Snapshot {
     pub(super) counts: WorkCounts,
     pub(super) passed: u64,
     pub(super) retry: Option<StepRetry>,
-    /// Size of the next step, for variable steps.
+    /// Size of the next step; `None` for fixed steps.
     pub(super) step_size: Option<StepSizeState>,
 }
 
 impl Snapshot {
-    /// Number of steps so far, which identifies the snapshot.
+    /// Number of steps up to the snapshot, which identifies the snapshot.
     pub(super) fn steps(&self) -> usize {
         self.counts.steps
     }
@@ -38,19 +38,19 @@ impl Snapshot {
     }
 }
 
-/// Snapshots of a simulation: the first one, and the most recent ones within a memory limit.
+/// Snapshots of a simulation: the first one, and as many recent ones as the memory limit allows.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Snapshots {
     /// Memory limit [bytes].
     limit: usize,
     first: Option<Snapshot>,
-    /// Recent snapshots, in the order of time, one per step.
+    /// Recent snapshots in the order of time, one for each step.
     recent: VecDeque<Snapshot>,
     most: usize,
 }
 
 impl Snapshots {
-    /// Changes the memory limit [bytes]. `present` gives the first snapshot if there is none.
+    /// Changes the memory limit [bytes]. If there is no snapshot yet, `present` creates the first one.
     pub(super) fn set_limit(&mut self, limit: usize, present: impl FnOnce() -> Snapshot) {
         let kept = std::mem::take(self);
         let first = if limit == 0 { None } else { Some(kept.first.unwrap_or_else(present)) };
@@ -67,7 +67,7 @@ impl Snapshots {
         self.limit
     }
 
-    /// Present memory of the snapshots [bytes].
+    /// Memory that the snapshots use [bytes].
     pub(super) fn bytes(&self) -> usize {
         let states: usize = self.all().map(|snapshot| snapshot.state.bytes()).sum();
         states
@@ -78,7 +78,7 @@ impl Snapshots {
         self.first.as_ref()
     }
 
-    /// Steps and times of the snapshots, in order.
+    /// Step numbers and times of the snapshots, in their order.
     pub(super) fn places(&self) -> impl Iterator<Item = (usize, f64)> {
         self.all().map(|snapshot| (snapshot.steps(), snapshot.time))
     }
@@ -91,14 +91,14 @@ impl Snapshots {
         self.all().count()
     }
 
-    /// First step from which on all snapshots up to step `now` are kept.
+    /// First step from which on the snapshots of all steps up to `now` are stored.
     pub(super) fn unbroken_from(&self, now: usize) -> Option<usize> {
         let first = self.first.as_ref()?.steps();
         let oldest = self.recent.front().map_or(now, Snapshot::steps);
         Some(if oldest == first + 1 { first } else { oldest })
     }
 
-    /// Snapshot after a number of steps; `None` if it is not kept.
+    /// Snapshot after a number of steps; `None` if it is not stored.
     pub(super) fn find(&self, steps: usize) -> Option<&Snapshot> {
         if let Some(first) = self.first.as_ref().filter(|first| first.steps() == steps) {
             return Some(first);
@@ -107,7 +107,7 @@ impl Snapshots {
         self.recent.get(at)
     }
 
-    /// Last snapshot at or before a time, in a run of `now` steps; `None` if a later step before the time may be missing.
+    /// Last snapshot at or before a time, in a run of `now` steps. `None` if snapshots between it and the time may have been discarded.
     pub(super) fn last_until(&self, time: f64, now: usize) -> Option<&Snapshot> {
         let unbroken = self.unbroken_from(now)?;
         let last = self.all().take_while(|snapshot| snapshot.time <= time).last()?;
@@ -119,8 +119,8 @@ impl Snapshots {
         self.recent.truncate(self.recent.partition_point(|snapshot| snapshot.steps() <= steps));
     }
 
-    /// Returns a state to be overwritten with the next snapshot. If the store is full, it is taken from the oldest snapshot. `None` if snapshots are
-    /// disabled.
+    /// Returns a buffer for the state of the next snapshot. If the memory limit is reached, the oldest snapshot gives its buffer. `None` if
+    /// snapshots are disabled.
     pub(super) fn blank(&mut self) -> Option<SystemState> {
         let first = self.first.as_ref().filter(|_| self.most > 0)?;
         let is_full = self.recent.len() >= self.most;
@@ -128,7 +128,7 @@ impl Snapshots {
         Some(oldest.map_or_else(|| first.state.blank(), |oldest| oldest.state))
     }
 
-    /// Stores a snapshot whose state was written into a [`blank`](Self::blank).
+    /// Stores a snapshot whose state was written into a buffer from [`blank`](Self::blank).
     pub(super) fn push(&mut self, snapshot: Snapshot) {
         let count = self.recent.len();
         if count == self.recent.capacity() {

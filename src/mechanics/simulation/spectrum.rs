@@ -1,33 +1,35 @@
-//! Spectrum of a column over time.
+//! Frequency spectrum of a column over time.
 //!
-//! The mean is subtracted, the rows are weighted with a Blackman–Harris window (F. J. Harris, Proc. IEEE 66 (1978) 51-83: side lobes of -92 dB), and
-//! zeros are appended. A parabola through the logarithms of the three values around each maximum gives its frequency and amplitude. The Fourier
-//! transform is computed by the algorithm of Cooley and Tukey (1965) with the sines of this crate, so that results are identical on all machines.
+//! The mean is subtracted, the rows are weighted with a Blackman–Harris window function (F. J. Harris, Proc. IEEE 66 (1978) 51-83: side lobes of
+//! -92 dB), and zeros are appended. A parabola through the logarithms of the three values around each maximum gives its frequency and amplitude.
+//! The Fourier transform is computed by the algorithm of Cooley and Tukey (1965) with the sines of this crate, so that results are identical on all
+//! machines.
 
 use std::f64::consts::TAU;
 
 use super::TimeSeries;
 use crate::elementary::{cos, exp, ln, sin_cos};
 
-/// Difference of the spacing of two rows, relative to the spacing, below which the rows are evenly spaced.
+/// Difference of two row spacings below which the rows are evenly spaced, as a fraction of the spacing.
 const EVEN: f64 = 1e-6;
 
-/// Smallest number of rows for the window.
+/// Smallest number of rows to which the window function is applied.
 const FEWEST: usize = 16;
 
-/// Smallest ratio of padded to original length.
+/// Smallest ratio of the length with appended zeros to the original length.
 const PADDING: usize = 4;
 
-/// Height of a maximum, relative to the largest, below which it may be a side lobe of the window.
+/// Height of a maximum that may be a side lobe of the window function, as a fraction of the largest maximum.
 const SIDE_LOBES: f64 = 5e-5;
 
-/// Coefficients of the Blackman–Harris window.
+/// Coefficients of the Blackman–Harris window function.
 const WINDOW: [f64; 4] = [0.35875, -0.48829, 0.14128, -0.01168];
 
-/// Half width of the main lobe, in units of one period over all rows. Lower frequencies belong to the mean.
+/// Half width of the main lobe of the window function. Its unit is the frequency with one period over all rows. Lower frequencies cannot be
+/// distinguished from the mean.
 const LOBE: f64 = 4.0;
 
-/// Vibration in a column.
+/// Vibration found in a column.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SpectrumPeak {
     /// Frequency [1/time].
@@ -58,7 +60,8 @@ fn six_digits(number: f64) -> f64 {
 impl TimeSeries {
     /// Strongest vibrations of the column, at most `most`, in decreasing order of amplitude.
     ///
-    /// Vibrations whose frequencies differ by less than about four periods over all rows are not separated. Slower vibrations are not detected.
+    /// Two vibrations are not separated if their numbers of periods over all rows differ by less than about four. Vibrations with fewer than about
+    /// four periods are not detected.
     ///
     /// # Errors
     /// Fails if there are too few or unevenly spaced rows, or a value is NaN.
@@ -73,7 +76,7 @@ impl TimeSeries {
         let dt = self.spacing()?;
         let magnitudes = self.windowed_magnitudes();
         let highest = magnitudes.iter().copied().fold(0.0, f64::max);
-        // Frequencies are in units of the padded transform.
+        // Frequencies are counted in units of the frequency with one period over the padded length.
         let size = 2 * (magnitudes.len() - 1);
         let lobe = (LOBE * size as f64 / count as f64) as usize;
         let is_peak = |at: &usize| {
@@ -108,7 +111,7 @@ impl TimeSeries {
         Ok((self.times[count - 1] - self.times[0]) / (count - 1) as f64)
     }
 
-    /// Amplitudes at multiples of a frequency, from zero to half the sampling rate.
+    /// Amplitudes at multiples of a base frequency, from zero to half the sampling rate.
     fn windowed_magnitudes(&self) -> Vec<f64> {
         let count = self.values.len();
         let weights: Vec<f64> = (0..count)
@@ -118,7 +121,7 @@ impl TimeSeries {
             })
             .collect();
         let whole: f64 = weights.iter().sum();
-        // After subtraction of the window-weighted mean, the transform at frequency zero is zero.
+        // The subtracted mean is weighted with the window function, so the transform at frequency zero is zero.
         let sum: f64 = weights.iter().zip(&self.values).map(|(weight, value)| weight * value).sum();
         let mean = sum / whole;
         let size = (PADDING * count).next_power_of_two();
@@ -131,7 +134,7 @@ impl TimeSeries {
     }
 }
 
-/// In-place Fourier transform; the length is a power of two.
+/// Fourier transform in place. The length must be a power of two.
 fn transform(numbers: &mut [(f64, f64)]) {
     let size = numbers.len();
     let bits = size.trailing_zeros();
@@ -212,7 +215,7 @@ mod tests {
         of.values[3] = 0.0;
         of.times[39] += 0.05;
         assert!(matches!(of.spectrum(1), Err(SpectrumError::Uneven { .. })));
-        // A constant has no vibration.
+        // A constant column has no vibration.
         assert_eq!(sampled(64, 0.1, |_| 2.0).spectrum(3).unwrap().len(), 0);
     }
 }

@@ -16,11 +16,11 @@ pub struct TimeSeries {
 pub struct Summary {
     /// Smallest value.
     pub min: f64,
-    /// Time of its first occurrence [time].
+    /// Time at which the smallest value first occurs [time].
     pub min_at: f64,
     /// Largest value.
     pub max: f64,
-    /// Time of its first occurrence [time].
+    /// Time at which the largest value first occurs [time].
     pub max_at: f64,
     /// Time average `∫ f dt / T`.
     pub mean: f64,
@@ -31,7 +31,7 @@ pub struct Summary {
 }
 
 impl TimeSeries {
-    /// Extremes, means and integral of the column; `None` if it is empty. If a value is NaN, all results are NaN.
+    /// Extremes, means and integral of the column; `None` if the column is empty. If any value is NaN, all results are NaN.
     pub fn summary(&self) -> Option<Summary> {
         let first = (*self.values.first()?, *self.times.first()?);
         let rows = || self.values.iter().copied().zip(self.times.iter().copied());
@@ -60,8 +60,8 @@ impl TimeSeries {
         pairs.map(|(times, values)| (times[1] - times[0], values[0], values[1]))
     }
 
-    /// Time derivative at every row, from the parabola through the row and its neighbours (second order for uneven spacing), one-sided at the ends.
-    /// At a jump, each of the two rows of equal time uses the difference quotient of its own side.
+    /// Time derivative at every row: slope of the parabola through the row and its neighbours (second order also for uneven spacing), one-sided at
+    /// the ends. A jump consists of two rows of equal time, and each of them uses the difference quotient on its own side.
     pub fn derivative(&self) -> Vec<f64> {
         let count = self.values.len();
         let slope = |a: usize, b: usize| {
@@ -93,10 +93,10 @@ impl TimeSeries {
         (0..count).map(at).collect()
     }
 
-    /// Times at which the column crosses a level in either direction. Touching the level is not a crossing.
+    /// Times at which the column crosses a level in either direction. A value that touches the level is not a crossing.
     pub fn crossings(&self, level: f64) -> Vec<f64> {
         let mut found = Vec::new();
-        // Side of the last value, and the time since which the values equal the level.
+        // Sign of the last value that differs from the level, and the time since which all values equal the level.
         let (mut side, mut on_level) = (0.0, None);
         let mut before: Option<(f64, f64)> = None;
         for (&time, &value) in self.times.iter().zip(&self.values) {

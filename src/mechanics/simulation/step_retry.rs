@@ -1,13 +1,13 @@
-//! Step of the time grid that is halved on failure.
+//! Step of the time grid that is halved after a failure.
 
 use crate::integrators::Interval;
 
 const MOST_HALVINGS: u32 = 12;
 
-/// Number of smallest parts of a step.
+/// Number of parts of a step if all of them have the smallest size.
 const PARTS: u64 = 1 << MOST_HALVINGS;
 
-/// Partially completed step. Its parts are halved on failure and become longer again after success.
+/// Step of which a part may be completed. Its parts are halved on failure, and become longer again after success.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct StepRetry {
     pub(super) whole: Interval,
@@ -54,7 +54,7 @@ impl StepRetry {
         PARTS >> self.halvings
     }
 
-    /// Present number of parts of the whole step.
+    /// Number of parts into which the step is divided at present.
     pub(super) fn divisions(&self) -> u64 {
         1 << self.halvings
     }
@@ -63,7 +63,7 @@ impl StepRetry {
         self.covered == PARTS
     }
 
-    /// Returns the step unless it is completed.
+    /// Returns the step, or `None` if it is completed.
     pub(super) fn remaining(self) -> Option<Self> {
         (!self.is_done()).then_some(self)
     }
@@ -81,7 +81,7 @@ impl StepRetry {
         }
     }
 
-    /// Halves the next part. Returns false if it has the smallest size.
+    /// Halves the size of the next part. Returns false if it has the smallest size already.
     pub(super) fn fail(&mut self) -> bool {
         self.retries += 1;
         let can_be_halved = self.halvings < MOST_HALVINGS;

@@ -4,28 +4,29 @@ use std::fmt;
 
 use serde::{Deserialize, Serialize};
 
-/// Step size of a run.
+/// Step size of a run: fixed or variable.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub enum StepSize {
     /// Fixed step size [time].
     Fixed(f64),
-    /// Variable steps controlled by a tolerance of the local error.
+    /// Variable steps. Their size is controlled by a tolerance of the local error.
     Adaptive(StepControl),
 }
 
 /// Tolerance and bounds of variable steps.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct StepControl {
-    /// Allowed accumulated error in the time in which the scene moves by about its length, relative to this length, and in rad [-].
+    /// Allowed error that accumulates while the scene moves by about its own length. For positions it is a fraction of this length, for angles in
+    /// rad [-].
     ///
-    /// In a step of a method of order `p`, the error may be the tolerance to the power `(p + 1)/p`. The step size is then proportional to the
-    /// tolerance to the power `1/p`, and the accumulated error to the tolerance.
+    /// In one step of a method of order `p`, the allowed error is the tolerance to the power `(p + 1)/p`. Hence the step size is proportional to
+    /// the tolerance to the power `1/p`, and the accumulated error to the tolerance.
     pub tolerance: f64,
-    /// Size of the first step, and of the first step after a jump of a load [time]; by default derived from the scene.
+    /// Size of the first step, and of the first step after a jump of a load [time]. The default is derived from the scene.
     pub first: Option<f64>,
-    /// Smallest step size [time]; by default a millionth of the first step.
+    /// Smallest step size [time]. The default is a millionth of the first step.
     pub smallest: Option<f64>,
-    /// Largest step size [time]; by default a million times the first step.
+    /// Largest step size [time]. The default is a million times the first step.
     pub largest: Option<f64>,
 }
 
@@ -60,7 +61,7 @@ pub enum StepSizeError {
     )]
     Order {
         name: &'static str,
-        /// Value of this bound [time].
+        /// Value of the smaller bound [time].
         value: f64,
         next: &'static str,
         /// Value of the larger bound [time].
@@ -116,13 +117,13 @@ impl fmt::Display for StepControl {
 }
 
 impl StepControl {
-    /// Smallest tolerance of variable steps [-], limited by the rounding of positions.
+    /// Smallest tolerance of variable steps [-]. Rounding errors of positions prevent smaller ones.
     pub const LEAST_TOLERANCE: f64 = 1e-9;
 
-    /// Largest tolerance of variable steps [-]. Above it, the error estimate for small errors does not apply.
+    /// Largest tolerance of variable steps [-]. For larger errors the error estimate is not valid.
     pub const MOST_TOLERANCE: f64 = 0.1;
 
-    /// Returns the control for a tolerance [-] with default bounds.
+    /// Returns variable steps with a tolerance [-] and default bounds.
     pub fn to(tolerance: f64) -> Self {
         Self { tolerance, first: None, smallest: None, largest: None }
     }

@@ -1,4 +1,4 @@
-//! Stepping of a run, with optional derivatives.
+//! Steps of a run, with optional derivatives.
 
 use super::sensitivities::Sensitivities;
 use crate::integrators::{Integrator, Interval, StepError};
@@ -16,7 +16,7 @@ impl Stepper {
         Self { integrator, sensitivities: None }
     }
 
-    /// Takes one step over an interval, including derivatives.
+    /// Takes one step over an interval, and computes its derivatives if they are enabled.
     ///
     /// # Errors
     /// Errors of the step of the run.

@@ -1,23 +1,23 @@
-//! End times of steps.
+//! Times at which steps end.
 
 use crate::loads::{SampleClock, multiple};
 
-/// Difference of two times, relative to the step, below which they are equal.
+/// Difference of two times below which they are equal, as a fraction of the step.
 const SAME: f64 = 1e-9;
 
-/// Difference of two times, in units of their rounding, below which they are equal.
+/// Difference of two times below which they are equal, as a multiple of their rounding error.
 const ROUNDINGS: f64 = 4.0;
 
 /// Largest index of a grid point.
 const MOST_POINTS: u64 = 1 << 60;
 
-/// End times of steps: `t_n = t_0 + n dt`, and cuts at jumps and kinks of schedules and at samples and actions of digital controllers. Times are not
-/// accumulated. With variable steps there are only cuts.
+/// Times at which steps end: `t_n = t_0 + n dt`, and additional times called cuts. Cuts are the jumps and kinks of schedules, and the samples and
+/// actions of digital controllers. The grid times are not accumulated. With variable steps there are only cuts.
 #[derive(Debug, Clone, Default)]
 pub struct TimeGrid {
     start: f64,
     dt: f64,
-    /// Distance of two times below which they are equal, unless rounding is larger.
+    /// Difference of two times below which they are equal, unless their rounding error is larger.
     slack: f64,
     /// Cuts in increasing order.
     cuts: Vec<f64>,
@@ -26,13 +26,13 @@ pub struct TimeGrid {
 }
 
 impl TimeGrid {
-    /// Creates a grid from `start` with steps of `dt` [time]; `cuts` may be unsorted.
+    /// Creates a grid that starts at `start` with steps of `dt` [time]. `cuts` may be unsorted.
     pub fn new(start: f64, dt: f64, cuts: Vec<f64>) -> Self {
         let slack = SAME * dt;
         Self { start, dt, slack, cuts: Vec::new(), clocks: Vec::new(), passed: 0 }.with_cuts(cuts)
     }
 
-    /// Creates a grid of cuts only, for variable steps that start with the size `first` [time].
+    /// Creates a grid of cuts only, for variable steps. `first` is the size of the first step [time].
     pub(crate) fn of_cuts(start: f64, first: f64, cuts: Vec<f64>) -> Self {
         Self { dt: f64::INFINITY, ..Self::new(start, first, cuts) }
     }
@@ -59,17 +59,17 @@ impl TimeGrid {
         self.dt
     }
 
-    /// Tolerance of equal times around a time [time].
+    /// Difference below which times close to a given time count as equal [time].
     pub fn slack(&self, time: f64) -> f64 {
         self.slack.max(ROUNDINGS * f64::EPSILON * time.abs())
     }
 
-    /// Returns true if a time is at or before `now`, within the tolerance.
+    /// Returns true if a time is before or equal to `now`, within the tolerance.
     pub fn has_reached(&self, now: f64, time: f64) -> bool {
         now >= time - self.slack(now)
     }
 
-    /// Grid point `t_0 + n dt`.
+    /// Grid time `t_0 + n dt`.
     fn point(&self, n: u64) -> f64 {
         if self.dt == f64::INFINITY || n > MOST_POINTS {
             return f64::INFINITY;
@@ -85,29 +85,29 @@ impl TimeGrid {
         }
     }
 
-    /// End of the step that starts at `now`: the next grid point or additional end of a step, at most `limit` [time].
+    /// End of the step that starts at `now`: the next grid time or cut, at most `limit` [time].
     pub fn next(&self, now: f64, limit: f64) -> f64 {
         let grid = self.point(self.points_up_to(now) + 1);
         let cut = self.cuts[self.cuts.partition_point(|cut| self.has_reached(now, *cut))..].first();
         let slack = self.slack(now);
         let beat = self.clocks.iter().map(|beat| beat.next(now, slack)).min_by(f64::total_cmp);
-        // Cuts come last, because a schedule must be evaluated at its own time of the jump.
+        // Of equal times the last one is used. Cuts are last, because a schedule must be evaluated exactly at the time of its jump.
         [Some(limit), beat, cut.copied()].into_iter().flatten().fold(grid, |end, candidate| {
             if candidate > now && self.has_reached(end, candidate) { candidate } else { end }
         })
     }
 
-    /// Number of passed grid points.
+    /// Number of grid times that have been passed.
     pub fn passed(&self) -> u64 {
         self.passed
     }
 
-    /// Restores the number of passed grid points. Cuts remain.
+    /// Restores the number of passed grid times. Cuts are kept.
     pub fn restore(&mut self, passed: u64) {
         self.passed = passed;
     }
 
-    /// Replaces the cuts; those up to `now` count as passed.
+    /// Replaces the cuts. Those up to `now` count as passed.
     pub fn lay(&mut self, cuts: &[f64], now: f64) {
         *self = std::mem::take(self).with_cuts(cuts.to_vec());
         self.passed = 0;
@@ -120,7 +120,7 @@ impl TimeGrid {
     }
 
     fn points_up_to(&self, now: f64) -> u64 {
-        // The search starts close to the result and never beyond it.
+        // The search starts close to the result, at a smaller index.
         let near = (((now - self.start) / self.dt) as u64).saturating_sub(2).min(MOST_POINTS);
         let mut passed = self.passed.max(near);
         while passed < MOST_POINTS && self.has_reached(now, self.point(passed + 1)) {

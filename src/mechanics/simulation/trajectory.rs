@@ -1,6 +1,6 @@
-//! Control points over time.
+//! Recorded control points at many times.
 
-/// Largest number of stored values. When it is exceeded, every second configuration is discarded.
+/// Largest number of stored values. If more are stored, every second configuration is discarded.
 const MOST_NUMBERS: usize = 32 << 20;
 
 /// Trajectory of a run: control points of all bodies [length] at some of its times.
@@ -14,7 +14,7 @@ pub struct Trajectory {
 }
 
 impl Trajectory {
-    /// Creates an empty trajectory for configurations of `stride` values.
+    /// Creates an empty trajectory for configurations with `stride` values each.
     pub fn new(stride: usize) -> Self {
         Self { stride, times: Vec::new(), numbers: Vec::new(), every: 1, offered: 0 }
     }
@@ -26,7 +26,7 @@ impl Trajectory {
         self.numbers.reserve(room * self.stride);
     }
 
-    /// Receives a configuration, and stores it unless it is thinned out.
+    /// Receives a configuration, and stores it if it is not among the discarded ones.
     pub fn push(&mut self, time: f64, numbers: impl Iterator<Item = f64>) {
         if self.offered.is_multiple_of(self.every) {
             self.times.push(time);
@@ -50,8 +50,8 @@ impl Trajectory {
         self.every *= 2;
     }
 
-    /// Restores the trajectory as it was after `offered` configurations had been passed to it. Configurations discarded since then remain discarded.
-    /// After the run is repeated, the content is the same as without going back.
+    /// Restores the trajectory as it was after `offered` configurations had been passed to it. Configurations that have been discarded since then
+    /// are not restored. When the run is repeated from there, the content becomes the same as without the return.
     pub fn truncate(&mut self, offered: usize) {
         self.offered = offered;
         let kept = offered.div_ceil(self.every);
@@ -71,7 +71,7 @@ impl Trajectory {
         &self.numbers
     }
 
-    /// Returns a trajectory with the given configurations; `None` if they are inconsistent.
+    /// Returns a trajectory with the given configurations; `None` if the data are inconsistent.
     pub(super) fn with_configurations(
         &self,
         offered: usize,

@@ -1,4 +1,4 @@
-//! Warnings about steps that converged but do not resolve the motion.
+//! Warnings about steps that have converged but do not resolve the motion.
 
 use std::f64::consts::TAU;
 use std::fmt;
@@ -12,16 +12,16 @@ pub(super) const LARGEST_ROTATION: f64 = 0.1 * TAU;
 /// Largest number of spans of its master that a slider may pass in a step without a warning [-].
 pub(super) const MOST_SPANS: f64 = 1.0;
 
-/// Growth of the severity of a warning after which the warning is repeated.
+/// Growth of the severity of a warning for which the warning is repeated.
 const REPEAT_FACTOR: f64 = 2.0;
 
-/// Factor by which steps must be shorter if a bounce took at most three steps.
+/// Factor by which steps must be shorter if a bounce lasted at most three steps.
 const BOUNCE: f64 = 5.0;
 
 /// Number of steps per period that needs no warning.
 const RESOLVED_STEPS_PER_PERIOD: f64 = 20.0;
 
-/// Cause, other than vibration, of rate changes within a step.
+/// Cause of rate changes within a step, other than vibration.
 #[derive(Debug, Clone, PartialEq)]
 pub enum RateChangeCause {
     /// Name of a damper, a damped material, or a drag element.
@@ -43,7 +43,7 @@ impl fmt::Display for RateChangeCause {
 
 /// Motion that the steps do not resolve.
 ///
-/// To add a kind, add a variant, its message, and its condition in `Simulation::warnings`.
+/// To add a type of warning, add a variant, its message, and its condition in `Simulation::warnings`.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Warning {
     /// Unresolved vibration with a large fraction of the kinetic energy.
@@ -54,32 +54,32 @@ pub enum Warning {
         unresolved_fraction: f64,
         /// Mean period of the motion, weighted by accelerations [time].
         period: f64,
-        /// Lowest period of the initial configuration, if known [time].
+        /// Lowest period of the initial configuration [time]; `None` if unknown.
         lowest: Option<f64>,
         /// Possible causes other than vibration.
         causes: Vec<RateChangeCause>,
         /// Name of a method that would damp the vibration; `None` if the method is in use or would have no effect.
         damping: Option<&'static str>,
     },
-    /// Unresolved vibration of a damped beam with little kinetic energy compared to other bodies.
+    /// Unresolved vibration of a damped beam with little kinetic energy in comparison with other bodies.
     Beam {
         /// Name of the beam.
         beam: String,
         /// Step size [time].
         dt: f64,
-        /// Unresolved fraction of its kinetic energy [-].
+        /// Unresolved fraction of the kinetic energy of the beam [-].
         unresolved_fraction: f64,
         /// Mean period of the motion of the beam, weighted by accelerations [time].
         period: f64,
     },
-    /// Alternating long and short steps with rigid links or strong damping.
+    /// Alternating long and short steps in a scene with rigid links or strong damping.
     Uneven {
         /// Length of the shortest recent step [time].
         shortest: f64,
         /// Length of the longest recent step [time].
         longest: f64,
     },
-    /// Large number of adaptive steps, because they are much shorter than the motion of the whole scene needs, or because the method is of first order.
+    /// Large number of adaptive steps. They are much shorter than the motion of the whole scene needs, or the method is of first order.
     ManySteps {
         /// Number of steps so far.
         steps: usize,
@@ -87,7 +87,7 @@ pub enum Warning {
         dt: f64,
         /// Tolerance [-].
         tolerance: f64,
-        /// Name of the method if it is of first order.
+        /// Name of the method if it is of first order; `None` otherwise.
         method: Option<&'static str>,
         /// Time in which the scene moves by its own length [time].
         travel_time: f64,
@@ -110,7 +110,7 @@ pub enum Warning {
         /// Largest number of spans passed in a step [-].
         spans: f64,
     },
-    /// Slider on a kinked axis that moves almost as fast as the shear waves of its master.
+    /// Slider on a master with a kink that moves almost as fast as the shear waves of the master.
     WaveSpeed {
         /// Name of the slider.
         slider: String,
@@ -119,14 +119,14 @@ pub enum Warning {
         /// Speed up to which the kink follows the contact force [length/time].
         limit: f64,
     },
-    /// Energy drift although the method claims to conserve the energy.
+    /// Energy drift with a method that claims to conserve energy.
     Drift {
-        /// Largest change of the energy, with loads accounted for, relative to the largest energy [-].
+        /// Largest change of the energy minus the work of loads, as a fraction of the largest energy [-].
         drift: f64,
         /// Name and stiffness of the stiffest spring, if any.
         stiffest: Option<(String, f64)>,
     },
-    /// Dampers that returned more energy in the backward part of a step than they dissipated in the whole step.
+    /// Step in which dampers returned more energy in the backward part than they dissipated in the whole step.
     EnergyGain {
         /// Time at the end of the step [time].
         time: f64,
@@ -134,37 +134,37 @@ pub enum Warning {
         dt: f64,
         /// Energy returned in the backward part of the step [energy].
         returned: f64,
-        /// Energy dissipated in the whole step; negative if the motion grew [energy].
+        /// Energy dissipated in the whole step [energy]; negative if the energy of the motion grew.
         dissipated: f64,
     },
     /// Prescribed motion with a kink within a step.
     Bend {
         /// Name of the drive.
         drive: String,
-        /// Step of the kink, and the rates before and after it.
+        /// Time of the step with the kink, and the rates before and after it.
         curvature: MotionCurvature,
     },
-    /// Script function of time that changes within a step.
+    /// Script function of time that changes within a step faster than the step resolves.
     Schedule {
         /// Description of the load or drive.
         owner: String,
         /// Step size [time].
         dt: f64,
-        /// Step with the largest difference between two rules for the mean.
+        /// Step with the largest difference between two quadrature rules for the mean.
         change: UnsampledChange,
     },
     /// Spring or damper outside the range of its law.
     Range {
-        /// Description of the law with its owner.
+        /// Description of the law, including the object that has it.
         law: String,
-        /// Range of the law, and the farthest value.
+        /// Range of the law, and the value farthest outside.
         outside: OutsideLaw,
     },
     /// Spring with a contact that lasted too few steps.
     Contact {
         /// Name of the spring.
         spring: String,
-        /// Tolerance, for variable steps [-].
+        /// Tolerance of variable steps [-]; `None` for fixed steps.
         tolerance: Option<f64>,
         /// Number of steps, duration and force of the bounce.
         bounce: ShortBounce,
@@ -181,7 +181,7 @@ pub enum Warning {
 }
 
 impl Warning {
-    /// Severity of the warning. It is comparable between warnings of the same kind only.
+    /// Severity of the warning. It can be compared only between warnings of the same type.
     fn measure(&self) -> f64 {
         match self {
             Self::Motion { unresolved_fraction, .. } | Self::Beam { unresolved_fraction, .. } => {
@@ -196,13 +196,13 @@ impl Warning {
             Self::Drift { drift, .. } => *drift,
             Self::EnergyGain { returned, dissipated: taken, .. } => returned - taken,
             Self::Bend { curvature: bend, .. } => bend.size(),
-            // These warnings are given only once.
+            // A warning of these types is given only once.
             Self::Schedule { .. } | Self::Range { .. } => 1.0,
             Self::Contact { bounce, .. } => bounce.force,
         }
     }
 
-    /// Name of the object, for kinds of warnings that may occur for several objects.
+    /// Name of the object; `None` for types of warnings that concern the whole scene.
     fn object_name(&self) -> Option<&str> {
         match self {
             Self::Motion { .. }
@@ -222,7 +222,7 @@ impl Warning {
         }
     }
 
-    /// Returns true if the warning is new, or more severe than the warnings in `told`.
+    /// Returns true if no warning of this type for this object is in `reported`, or if this one is sufficiently more severe.
     pub fn is_new_or_worse(&self, reported: &[Self]) -> bool {
         !reported.iter().any(|other| {
             std::mem::discriminant(other) == std::mem::discriminant(self)

@@ -1,4 +1,4 @@
-//! Equations of equilibrium: for a given load factor, or at a given distance along the equilibrium path.
+//! Equations of equilibrium, for a given load factor or for a given distance along the path of equilibria.
 
 use crate::geometry::larger;
 use crate::integrators::{Forces, Inertia, Mechanism};
@@ -6,11 +6,13 @@ use crate::linalg::BorderedMatrix;
 use crate::newton::{Equations, ResidualNorms};
 use crate::system::{StaticForces, System, UnknownKind};
 
-/// Static forces of a model, with the scale of the residual.
+/// Static forces of a model, and the scale of their residual.
 pub(super) struct Balance<'a> {
     pub(super) model: &'a mut System,
-    /// Length scale that converts moments to forces, for loads that are pure moments.
+    /// Length that converts moments to forces, for loads that consist of moments only.
     pub(super) length: f64,
+    /// Returns false to stop the solution.
+    pub(super) goes_on: &'a mut dyn FnMut() -> bool,
 }
 
 impl Balance<'_> {
@@ -24,15 +26,15 @@ impl Balance<'_> {
             UnknownKind::Rotation => larger(most, r.abs() / self.length),
             UnknownKind::Force => most,
         });
-        // If all forces are zero, there is no scale.
+        // There is no scale if all forces are zero.
         let force = if largest == 0.0 { 0.0 } else { largest / scale };
         let constraint = self.model.violation_at_rest(forces, scale);
         ResidualNorms { force, strain: strain_mismatch, constraint }
     }
 }
 
-/// Equations `F(u) - λ P(u) + σ M u = 0` for a given load factor `λ`: equilibrium for `σ = 0`, otherwise a pseudo-transient step with viscous damping
-/// proportional to the mass.
+/// Equations `F(u) - λ P(u) + σ M u = 0` for a given load factor `λ`. For `σ = 0` they are the equations of equilibrium. Otherwise they describe a
+/// pseudo-transient step with a viscous damping proportional to the mass.
 pub(super) struct UnderLoad<'a> {
     pub(super) balance: Balance<'a>,
     pub(super) factor: f64,
@@ -73,20 +75,24 @@ impl Equations for UnderLoad<'_> {
         self.add_internal_forces(u, residual);
         self.balance.imbalance(u, self.factor, residual)
     }
+
+    fn goes_on(&mut self) -> bool {
+        (self.balance.goes_on)()
+    }
 }
 
 /// Equations `F(u) - λ P(u) = 0` and `t·u = Δs`. The load factor `λ` is the last unknown; the distance to a plane determines it.
-pub(super) struct AlongPath<'a> {
-    pub(super) balance: Balance<'a>,
+pub(super) struct AlongPath<'a, 'b> {
+    pub(super) balance: &'a mut Balance<'b>,
     /// Normal `t` of the plane in the metric of the path. Contact unknowns, which follow the degrees of freedom, do not enter.
     pub(super) normal: &'a [f64],
-    /// Distance `Δs` of the plane from the last equilibrium in the metric of the path.
+    /// Distance `Δs` of the plane from the last equilibrium, in the metric of the path.
     pub(super) distance: f64,
-    /// Forces on the unknowns and the supports, in the order of the model [force, force·length].
+    /// Forces on the unknowns and the supports, in the order of the degrees of freedom [force, force·length].
     pub(super) forces: &'a mut [f64],
 }
 
-impl AlongPath<'_> {
+impl AlongPath<'_, '_> {
     fn distance_from_plane(&self, movements: &[f64]) -> f64 {
         let projection: f64 = self.normal.iter().zip(movements).map(|(t, u)| t * u).sum();
         projection - self.distance
@@ -98,7 +104,7 @@ impl AlongPath<'_> {
     }
 }
 
-impl Equations for AlongPath<'_> {
+impl Equations for AlongPath<'_, '_> {
     fn linearise(&mut self, unknowns: &[f64], residual: &mut [f64], tangent: &mut BorderedMatrix) {
         let (moved, factor) = unknowns.split_at(self.normal.len());
         let model = &mut *self.balance.model;
@@ -139,5 +145,9 @@ impl Equations for AlongPath<'_> {
             constraint: larger(imbalance.constraint, beyond.abs() / self.distance),
             ..imbalance
         }
+    }
+
+    fn goes_on(&mut self) -> bool {
+        (self.balance.goes_on)()
     }
 }

@@ -1,4 +1,4 @@
-//! Continuation of equilibria.
+//! Sequences of equilibria, each of which is found from the previous one.
 
 use super::balance::{Balance, UnderLoad};
 use super::error::StepFailure;
@@ -13,32 +13,34 @@ use crate::linalg::{BorderShape, BorderedMatrix};
 use crate::newton::Newton;
 use crate::system::{MasterEnd, Scene, System, UnknownKind};
 
-/// Largest number of halvings of a step that does not reach an equilibrium.
+/// Largest number of times that a step is halved because it does not reach an equilibrium.
 const MOST_HALVINGS: u32 = 8;
 
-/// Distance of an equilibrium from the last one, relative to the planned step along the path, above which it belongs to another part of the path.
+/// Largest distance between two consecutive equilibria on the same part of the path, as a multiple of the longest step along the path.
 const FAR: f64 = 2.0;
 
-/// Displacement per load increment, relative to that of the last step, above which the structure has snapped through.
+/// Displacement per load increment above which the structure has snapped through, as a multiple of the displacement per load increment in the last
+/// step.
 const SNAP_THROUGH_RATIO: f64 = 4.0;
 
-/// Displacement, relative to the size of the scene, below which it is never rejected as too large.
+/// Smallest displacement with which a displacement is compared to detect snap-through, as a fraction of the size of the scene.
 const NEARBY: f64 = 1e-3;
 
-/// Number of iterations per step at which the step control aims.
+/// Number of iterations per step at which the step size control aims.
 const WANTED_ITERATIONS: f64 = 4.0;
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum InitialSupport {
     Itself,
-    /// Only the loads restrain the given number of degrees of freedom.
+    /// Only the loads restrain some degrees of freedom. The value is their number.
     Loads(usize),
 }
 
 pub(super) struct Continuation<'s> {
     pub(super) scene: &'s Scene,
     length: f64,
-    /// Weights of squared displacements (relative to a length) and rotations, averaged over the control points.
+    /// Weights of squared displacements and rotations in the distance between two equilibria. Displacements are divided by a length, and the sum is
+    /// an average over the control points.
     metric: Vec<f64>,
     loading: Loading,
     pub(super) model: System,
@@ -47,6 +49,8 @@ pub(super) struct Continuation<'s> {
     pub(super) unknowns: Vec<f64>,
     residual: Vec<f64>,
     heading: PathDirection,
+    /// Called with the last load factor before every step and every iteration. Returns false to stop the search.
+    goes_on: &'s mut dyn FnMut(f64) -> bool,
 }
 
 struct PathDirection {
@@ -55,8 +59,8 @@ struct PathDirection {
 }
 
 impl PathDirection {
-    /// Returns true if the next step continues in this direction. Otherwise the step may have changed to another branch, as near the buckling load of
-    /// a straight column, and smaller steps are needed.
+    /// Returns true if the next step continues in this direction. Otherwise the step may have led to another branch of the path, for example near
+    /// the buckling load of a straight column. Smaller steps are then needed.
     fn is_aligned_with(&self, next: &Self, metric: &[f64]) -> bool {
         let ways = metric.iter().zip(&self.movements).zip(&next.movements);
         let along: f64 = ways.map(|((weight, before), now)| weight * before * now).sum();
@@ -65,11 +69,16 @@ impl PathDirection {
 }
 
 impl<'s> Continuation<'s> {
-    pub(super) fn new(scene: &'s Scene, mut model: System, loading: Loading) -> Self {
+    pub(super) fn new(
+        scene: &'s Scene,
+        mut model: System,
+        loading: Loading,
+        goes_on: &'s mut dyn FnMut(f64) -> bool,
+    ) -> Self {
         let all = model.unknowns() + model.constraint_shape().width;
         let mut path = EquilibriumPath::default();
         path.push(point(&mut model, 0.0, 0.0, 0));
-        // Isolated particles have no moments, so that any length is right.
+        // Isolated particles have no moments, so any length may be used.
         let length = scene.size().unwrap_or(1.0);
         Self {
             scene,
@@ -80,35 +89,27 @@ impl<'s> Continuation<'s> {
             unknowns: vec![0.0; all],
             residual: vec![0.0; model.degrees_of_freedom()],
             heading: PathDirection { movements: vec![0.0; all], unstable_directions: 0 },
+            goes_on,
             model,
             path,
         }
     }
 
-    pub(super) fn load_up(
-        &mut self,
-        hold: InitialSupport,
-        goes_on: &mut dyn FnMut(f64) -> bool,
-    ) -> Result<(), StaticsError> {
+    pub(super) fn load_up(&mut self, hold: InitialSupport) -> Result<(), StaticsError> {
         let Loading { factor, steps, .. } = self.loading;
-        self.begin(factor * (1.0 / steps as f64), hold, goes_on)?;
+        self.begin(factor * (1.0 / steps as f64), hold)?;
         for step in 2..=steps {
             // In the last step this is exactly the requested load factor.
-            self.solve_for_factor(factor * (step as f64 / steps as f64), MOST_HALVINGS, goes_on)?;
+            self.solve_for_factor(factor * (step as f64 / steps as f64), MOST_HALVINGS)?;
         }
         Ok(())
     }
 
-    fn begin(
-        &mut self,
-        factor: f64,
-        hold: InitialSupport,
-        goes_on: &mut dyn FnMut(f64) -> bool,
-    ) -> Result<(), StaticsError> {
+    fn begin(&mut self, factor: f64, hold: InitialSupport) -> Result<(), StaticsError> {
         match hold {
-            InitialSupport::Itself => self.solve_for_factor(factor, MOST_HALVINGS, goes_on),
+            InitialSupport::Itself => self.solve_for_factor(factor, MOST_HALVINGS),
             InitialSupport::Loads(movements) => {
-                self.find_equilibrium(factor, movements, goes_on)?;
+                self.find_equilibrium(factor, movements)?;
                 self.heading.unstable_directions = self.unstable_directions();
                 Ok(())
             }
@@ -119,44 +120,40 @@ impl<'s> Continuation<'s> {
         &mut self,
         arc: ArcLength,
         hold: InitialSupport,
-        goes_on: &mut dyn FnMut(f64) -> bool,
     ) -> Result<(), StaticsError> {
         let Loading { factor: goal, steps, .. } = self.loading;
-        self.begin(goal / steps as f64, hold, goes_on)?;
+        self.begin(goal / steps as f64, hold)?;
         if hold != InitialSupport::Itself && steps > 1 {
             // If only loads restrain the scene, the path starts from this equilibrium.
-            self.solve_for_factor(goal * (2.0 / steps as f64), MOST_HALVINGS, goes_on)?;
+            self.solve_for_factor(goal * (2.0 / steps as f64), MOST_HALVINGS)?;
         }
         let mut trial = PathStep::new(&self.model, &self.loading);
         let mut distance = norm(&self.metric, &self.unknowns).min(arc.longest);
         if distance == 0.0 {
             // If loads act on supports only, the displacement is zero and there is no path.
-            return self.solve_for_factor(goal, MOST_HALVINGS, goes_on);
+            return self.solve_for_factor(goal, MOST_HALVINGS);
         }
         while self.path.load_factor() != goal && self.path.points().len() < arc.points {
             trial.set_direction(&self.metric, &self.unknowns);
-            distance = self.advance(&mut trial, distance, goes_on)?.min(arc.longest);
+            distance = self.advance(&mut trial, distance)?.min(arc.longest);
         }
         Ok(())
     }
 
     /// Takes a step of a distance along the path, or a fraction of it. Returns the distance of the next step.
-    fn advance(
-        &mut self,
-        trial: &mut PathStep,
-        mut distance: f64,
-        goes_on: &mut dyn FnMut(f64) -> bool,
-    ) -> Result<f64, StaticsError> {
+    fn advance(&mut self, trial: &mut PathStep, mut distance: f64) -> Result<f64, StaticsError> {
         let (from, goal) = (self.path.load_factor(), self.loading.factor);
         let mut miss = StepFailure::FarSolution;
         for _ in 0..=MOST_HALVINGS {
-            self.query_monitor(goes_on)?;
-            match trial.find(&mut self.model, self.length, from, distance, self.scene) {
+            self.query_monitor()?;
+            let goes_on = &mut || (self.goes_on)(from);
+            let balance = Balance { model: &mut self.model, length: self.length, goes_on };
+            match trial.find(balance, from, distance, self.scene) {
                 Ok(_) if norm(&self.metric, trial.movements()) > FAR * distance => {
                     miss = StepFailure::FarSolution
                 }
                 Ok(_) if (from < goal) != (trial.factor() < goal) => {
-                    return self.solve_for_factor(goal, MOST_HALVINGS, goes_on).map(|()| distance);
+                    return self.solve_for_factor(goal, MOST_HALVINGS).map(|()| distance);
                 }
                 Ok(iterations) => {
                     if let Some(farthest) =
@@ -177,11 +174,12 @@ impl<'s> Continuation<'s> {
             self.restore_last();
             distance *= 0.5;
         }
+        self.query_monitor()?;
         Err(self.path_lost_error(miss))
     }
 
-    /// Distance from the last point to the turning point of the load factor, if the path crosses the goal before the turning point and again after
-    /// it. The first crossing is the solution.
+    /// Distance from the last point to the turning point of the load factor. It is returned if the path crosses the requested load factor before
+    /// the turning point and again after it, because the first crossing is the solution.
     fn distance_to_turning_point(&self, goal: f64, factor: f64, distance: f64) -> Option<f64> {
         let [.., before, last] = self.path.points() else { return None };
         let factors = [before.load_factor, last.load_factor, factor];
@@ -191,13 +189,8 @@ impl<'s> Continuation<'s> {
     }
 
     /// Solves for a load factor. The step is halved if no equilibrium is found or the equilibrium does not continue the path.
-    fn solve_for_factor(
-        &mut self,
-        factor: f64,
-        halvings: u32,
-        goes_on: &mut dyn FnMut(f64) -> bool,
-    ) -> Result<(), StaticsError> {
-        self.query_monitor(goes_on)?;
+    fn solve_for_factor(&mut self, factor: f64, halvings: u32) -> Result<(), StaticsError> {
+        self.query_monitor()?;
         let from = self.path.load_factor();
         match self.find(factor) {
             Ok(iterations) => {
@@ -207,14 +200,18 @@ impl<'s> Continuation<'s> {
                 }
                 self.undo_step();
             }
-            Err(error) if halvings == 0 => return Err(self.path_lost_error(error)),
+            Err(error) if halvings == 0 => {
+                self.query_monitor()?;
+                return Err(self.path_lost_error(error));
+            }
             Err(_) => (),
         }
-        self.solve_for_factor(0.5 * (from + factor), halvings - 1, goes_on)?;
-        self.solve_for_factor(factor, halvings - 1, goes_on)
+        self.solve_for_factor(0.5 * (from + factor), halvings - 1)?;
+        self.solve_for_factor(factor, halvings - 1)
     }
 
-    /// Returns true if the last point continues the path, or if no halving is left. Under arc-length control the path may turn and become unstable.
+    /// Returns true if the last point continues the path, or if the step cannot be halved further. With arc-length control the path may turn and
+    /// become unstable.
     fn is_continuation(&mut self, halvings: u32) -> bool {
         if self.loading.control != Control::Load {
             return true;
@@ -229,7 +226,7 @@ impl<'s> Continuation<'s> {
         goes_on
     }
 
-    /// Number of negative eigenvalues of the stiffness, without the effect of follower loads.
+    /// Number of negative eigenvalues of the stiffness. The effect of follower loads is not included.
     pub(super) fn unstable_directions(&self) -> usize {
         self.unstable_directions_with_inertia(0.0)
     }
@@ -243,7 +240,7 @@ impl<'s> Continuation<'s> {
         }
     }
 
-    /// Solves for an equilibrium near the last one. Returns the number of iterations.
+    /// Solves for an equilibrium near the last one, for a load factor. Returns the number of iterations.
     fn find(&mut self, factor: f64) -> Result<usize, StepFailure> {
         let found = match self.balance_from(factor, 0.0) {
             Ok(_) if self.distance_moved() > self.farthest(factor) => Err(StepFailure::FarSolution),
@@ -259,16 +256,17 @@ impl<'s> Continuation<'s> {
         norm(&self.metric, &self.unknowns)
     }
 
-    /// Solves from the present configuration for a fraction of the loads, with viscous damping if `rate` is positive [1/time²]. Returns the number of
-    /// iterations.
+    /// Solves for a fraction of the loads, starting from the present configuration. If `rate` is positive, there is viscous damping with this rate
+    /// [1/time²]. Returns the number of iterations.
     ///
-    /// The solution restarts whenever a slider becomes held at a stop or leaves it.
+    /// The solution is repeated whenever a stop starts to hold a slider or releases it.
     pub(super) fn balance_from(&mut self, factor: f64, rate: f64) -> Result<usize, StepFailure> {
-        let mut iterations = 0;
+        let (reached, mut iterations) = (self.path.load_factor(), 0);
         for _ in 0..=self.scene.most_settlings() {
             self.model.predict_unchanged(&mut self.unknowns);
             self.model.begin_movement();
-            let balance = Balance { model: &mut self.model, length: self.length };
+            let goes_on = &mut || (self.goes_on)(reached);
+            let balance = Balance { model: &mut self.model, length: self.length, goes_on };
             let mut equations = UnderLoad { balance, factor, rate };
             let report =
                 self.newton.solve(&mut equations, &mut self.unknowns, &mut self.residual)?;
@@ -280,8 +278,8 @@ impl<'s> Continuation<'s> {
         Err(StepFailure::FarSolution)
     }
 
-    /// Largest acceleration of a mass by the forces on the last configuration, relative to the size of the scene [1/time²]. Without forces it is 1,
-    /// because any rate is then right.
+    /// Largest acceleration of a mass due to the unbalanced forces in the last configuration, divided by the size of the scene [1/time²]. Without
+    /// forces the result is 1, because any rate may then be used.
     pub(super) fn acceleration_by_size(&mut self, factor: f64) -> f64 {
         self.model.predict_unchanged(&mut self.unknowns);
         self.model.begin_movement();
@@ -306,7 +304,8 @@ impl<'s> Continuation<'s> {
         }
     }
 
-    /// Largest allowed distance of the next equilibrium, from the last displacement per load increment or the longest step along the path.
+    /// Largest allowed distance of the next equilibrium. With load control it is computed from the last displacement per load increment, with
+    /// arc-length control from the longest step.
     fn farthest(&self, factor: f64) -> f64 {
         let [.., before, last] = self.path.points() else { return f64::INFINITY };
         match self.loading.control {
@@ -333,12 +332,9 @@ impl<'s> Continuation<'s> {
         self.restore_last();
     }
 
-    pub(super) fn query_monitor(
-        &self,
-        goes_on: &mut dyn FnMut(f64) -> bool,
-    ) -> Result<(), StaticsError> {
+    pub(super) fn query_monitor(&mut self) -> Result<(), StaticsError> {
         let reached = self.path.load_factor();
-        if goes_on(reached) { Ok(()) } else { Err(StaticsError::Interrupted { reached }) }
+        if (self.goes_on)(reached) { Ok(()) } else { Err(StaticsError::Interrupted { reached }) }
     }
 
     pub(super) fn path_lost_error(&self, reason: StepFailure) -> StaticsError {
@@ -355,7 +351,7 @@ impl<'s> Continuation<'s> {
     }
 }
 
-/// Holds sliders that pass stops, and frees sliders with tensile stop forces. Returns true if the state of a slider changed.
+/// Holds sliders that move beyond stops, and frees sliders with tensile stop forces. Returns true if the state of a slider has changed.
 pub(super) fn update_stop_contacts(
     model: &mut System,
     scene: &Scene,
@@ -369,7 +365,7 @@ pub(super) fn update_stop_contacts(
     model.update_stop_contacts(unknowns, factor).map_err(leaves)
 }
 
-/// Tangent matrix of a model with `full` additional dense rows. In models with sliders, the contacts may be the only restraint.
+/// Tangent matrix of a model with `full` additional dense rows. In models with sliders, the band without contacts may be singular.
 pub(super) fn tangent(model: &System, full: usize) -> BorderedMatrix {
     let (unknowns, contacts) = (model.unknowns(), model.constraint_shape());
     let border = BorderShape {

@@ -1,22 +1,22 @@
-//! Dynamic relaxation to equilibria of scenes that only loads restrain.
+//! Dynamic relaxation, which finds equilibria of scenes that only loads restrain.
 
 use super::StaticsError;
 use super::continuation::Continuation;
 use super::error::StepFailure;
 
-/// Largest root mean square displacement in a pass, relative to the size of the scene.
+/// Largest root mean square displacement in a pass, as a fraction of the size of the scene.
 const FAR: f64 = 0.15;
 
-/// Displacement in a pass, relative to the size of the scene, below which Newton's method is tried without viscous damping.
+/// Displacement in a pass below which Newton's method is tried without viscous damping, as a fraction of the size of the scene.
 const NEAR: f64 = 1e-2;
 
-/// Displacement in a pass, relative to the size of the scene, below which the configuration counts as stationary, even if it is unstable.
+/// Displacement in a pass below which the configuration counts as stationary even if it is unstable, as a fraction of the size of the scene.
 const STATIONARY: f64 = 1e-13;
 
-/// Factor of the rate after passes with small displacements.
+/// Factor by which the damping rate is multiplied after a pass with a small displacement.
 const EASIER: f64 = 0.2;
 
-/// Factor by which the rate changes after a failed pass or one with too large displacements.
+/// Factor by which the damping rate is multiplied after a pass that failed or had too large displacements.
 const HARDER: f64 = 4.0;
 
 /// Largest number of attempts at the first pass.
@@ -24,29 +24,28 @@ const MOST_FIRST_PASSES: usize = 60;
 
 const MOST_PASSES: usize = 400;
 
-/// Sum of the displacements of all passes, relative to the size of the scene, above which the motion counts as endless.
+/// Sum of the displacements of all passes above which the motion counts as endless, as a multiple of the size of the scene.
 const ENDLESS_MOVEMENT: f64 = 30.0;
 
-/// Number of departures from its master after which a slider counts as leaving it.
+/// Largest number of passes in which a slider leaves its master. With more of them the slider counts as leaving it.
 const MOST_LEAVES: usize = 12;
 
 impl Continuation<'_> {
-    /// Finds the equilibrium that the unloaded scene approaches under a fraction of its loads with viscous damping. It repeats steps
-    /// `σ M u + F(u) - λ P = 0` with decreasing `σ` (pseudo-transient continuation; Kelley & Keyes, SIAM J. Numer. Anal. 35 (1998) 508–523).
-    /// `movements` is the number of unrestrained degrees of freedom as drawn.
+    /// Finds an equilibrium under a fraction of the loads: the one that the unloaded scene approaches with viscous damping. The method repeats
+    /// steps `σ M u + F(u) - λ P = 0` with a decreasing rate `σ` (pseudo-transient continuation; Kelley & Keyes, SIAM J. Numer. Anal. 35 (1998)
+    /// 508–523). `movements` is the number of degrees of freedom without restraint in the initial configuration.
     ///
-    /// `K + σ M` is positive definite at the start of every pass, so every pass reduces the energy.
+    /// `K + σ M` is positive definite at the start of every pass, so every pass reduces the potential energy.
     pub(super) fn find_equilibrium(
         &mut self,
         factor: f64,
         movements: usize,
-        goes_on: &mut dyn FnMut(f64) -> bool,
     ) -> Result<(), StaticsError> {
-        let mut rate = self.first_rate(factor, goes_on)?;
+        let mut rate = self.first_rate(factor)?;
         let (mut travelled, mut iterations, mut leaves, mut miss) =
             (0.0, 0, 0, StepFailure::FarSolution);
         for _ in 0..MOST_PASSES {
-            self.query_monitor(goes_on)?;
+            self.query_monitor()?;
             let before = self.model.state();
             match self.balance_from(factor, rate) {
                 Ok(work) if self.distance_moved() <= FAR => {
@@ -87,20 +86,17 @@ impl Continuation<'_> {
             }
         }
         self.restore_last();
+        self.query_monitor()?;
         let (scene, reason) = (self.scene.name.clone(), Box::new(miss));
         Err(StaticsError::Unrestrained { scene, movements, reason })
     }
 
     /// Rate [1/time²] for which the first pass reduces the energy and displaces the scene by a small distance.
-    fn first_rate(
-        &mut self,
-        factor: f64,
-        goes_on: &mut dyn FnMut(f64) -> bool,
-    ) -> Result<f64, StaticsError> {
+    fn first_rate(&mut self, factor: f64) -> Result<f64, StaticsError> {
         let bending = self.model.slowest_bending();
         let mut rate = bending.unwrap_or_else(|| self.acceleration_by_size(factor) / NEAR);
         for _ in 0..MOST_FIRST_PASSES {
-            self.query_monitor(goes_on)?;
+            self.query_monitor()?;
             let found = self.balance_from(factor, rate);
             let is_near = found.is_ok() && self.distance_moved() <= FAR;
             self.restore_last();
@@ -133,7 +129,7 @@ mod tests {
         }
     }
 
-    /// Particles on springs in a row between two points of the ground, in units of length and time.
+    /// Chain of particles and springs between two points of the ground. `units` are the units of length and time.
     fn chain(count: usize, units: (f64, f64)) -> Scene {
         let mut scene = Scene::new("chain");
         let at = |index: usize| Vec2::new(index as f64 * units.0, 0.0);

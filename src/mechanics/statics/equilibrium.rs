@@ -11,7 +11,7 @@ use crate::loads::PrescribedMotion;
 use crate::system::{Drive, Element, Scene, SectionSample, System, SystemError};
 use crate::vibration::{Modes, VibrationError, loose_movements};
 
-/// Sum of forces, relative to the sum of their magnitudes, below which it counts as zero.
+/// Sum of forces that counts as zero, as a fraction of the sum of their magnitudes.
 const ROUNDING: f64 = 1e-12;
 
 /// Stability of an equilibrium.
@@ -21,15 +21,15 @@ pub enum Stability {
     Stable,
     /// Some small disturbance grows.
     Unstable,
-    /// Undecided because of rounding: stiffnesses differ too much.
+    /// Not determined, because stiffnesses differ so much that rounding hides the smallest ones.
     BelowRounding,
-    /// Undecided because of a follower load, which has no potential.
+    /// Not determined, because a follower load has no potential.
     Follower,
 }
 
 /// Equilibrium of a scene under its loads, with the path from the unloaded scene.
 ///
-/// Start velocities are ignored. All loads are applied in proportion.
+/// Start velocities are ignored. All loads are multiplied by the same load factor.
 pub struct Equilibrium {
     scene: Scene,
     loading: Loading,
@@ -38,7 +38,7 @@ pub struct Equilibrium {
 }
 
 impl Equilibrium {
-    /// Finds the equilibrium of a scene; `goes_on` is called with the load factor after every step.
+    /// Finds the equilibrium of a scene. `goes_on` is called with the load factor of the last equilibrium before every step and every iteration.
     ///
     /// # Errors
     /// Fails if the scene cannot be built, a load has no value, no load acts, no equilibrium is found, or the search is stopped.
@@ -47,26 +47,28 @@ impl Equilibrium {
         loading: Loading,
         goes_on: &mut dyn FnMut(f64) -> bool,
     ) -> Result<Self, StaticsError> {
-        let model = prepare(&scene, &loading)?;
-        let movements = loose_movements(&at_rest(&of_equal_stiffness(&scene))?);
+        let model = prepare(&scene, &loading, goes_on)?;
+        let movements = loose_movements(&at_rest(&of_equal_stiffness(&scene), goes_on)?);
         let hold =
             if movements > 0 { InitialSupport::Loads(movements) } else { InitialSupport::Itself };
-        let mut tracer = Continuation::new(&scene, model, loading);
+        let mut tracer = Continuation::new(&scene, model, loading, goes_on);
         match loading.control {
-            Control::Load => tracer.load_up(hold, goes_on)?,
-            Control::ArcLength(arc) => tracer.trace_path(arc, hold, goes_on)?,
+            Control::Load => tracer.load_up(hold)?,
+            Control::ArcLength(arc) => tracer.trace_path(arc, hold)?,
         }
         let Continuation { model, path, .. } = tracer;
         Ok(Self { scene, loading, model, path })
     }
 
-    /// Dry run for the check of scripts: the scene as drawn serves as its equilibrium.
+    /// Dry run for the check of scripts. The initial configuration takes the place of the equilibrium.
     ///
     /// # Errors
-    /// Errors of [`find`](Self::find), except errors of the solution.
+    /// Errors of [`find`](Self::find) that occur before the solution.
     pub fn dry_run(scene: Scene, loading: Loading) -> Result<Self, StaticsError> {
-        let model = prepare(&scene, &loading)?;
-        let Continuation { model, mut path, .. } = Continuation::new(&scene, model, loading);
+        let goes_on = &mut |_| true;
+        let model = prepare(&scene, &loading, goes_on)?;
+        let Continuation { model, mut path, .. } =
+            Continuation::new(&scene, model, loading, goes_on);
         path.append_dry_point(loading.factor);
         Ok(Self { scene, loading, model, path })
     }
@@ -76,7 +78,7 @@ impl Equilibrium {
         &self.scene
     }
 
-    /// Application of the loads.
+    /// Load factor, load steps and control of the path.
     pub fn loading(&self) -> &Loading {
         &self.loading
     }
@@ -91,12 +93,12 @@ impl Equilibrium {
         &self.path
     }
 
-    /// Evaluates a function of the model at every point of the path, in order.
+    /// Calls a function with the model at every point of the path, in order.
     ///
     /// # Errors
-    /// Fails only for the reasons for which [`find`](Self::find) fails.
+    /// Fails in the same cases as [`find`](Self::find).
     pub fn along_path<T>(&self, look: impl Fn(&System) -> T) -> Result<Vec<T>, StaticsError> {
-        let mut model = at_rest(&self.scene)?;
+        let mut model = at_rest(&self.scene, &mut |_| true)?;
         let at = |point: &PathPoint| {
             model.restore(&point.state);
             look(&model)
@@ -104,7 +106,7 @@ impl Equilibrium {
         Ok(self.path.points().iter().map(at).collect())
     }
 
-    /// Reaction of the supports at a place: force [force] and moment [force·length]; `None` without a support there.
+    /// Reaction of the supports at a place: force [force] and moment [force·length]. `None` without a support there.
     pub fn reaction(&mut self, place: &BodyPoint) -> Option<(Vec2, f64)> {
         let mut forces = vec![0.0; self.model.degrees_of_freedom()];
         let contacts = self.model.constraint_shape().width;
@@ -132,7 +134,7 @@ impl Equilibrium {
         self.model.section_forces_along(&self.scene, beam)
     }
 
-    /// Stability from the signs of the pivots of the stiffness. If these are uncertain, the lowest mode decides.
+    /// Stability, determined from the signs of the pivots of the stiffness. If these are uncertain, the lowest mode decides.
     pub fn stability(&self, goes_on: &mut dyn FnMut() -> bool) -> Stability {
         if self.model.follower().is_some() {
             return Stability::Follower;
@@ -160,8 +162,8 @@ impl Equilibrium {
     }
 }
 
-/// The scene with equal axial, shear and bending stiffnesses of the beams and similar masses. Its unrestrained degrees of freedom have zero
-/// stiffness, which rounding of other stiffnesses cannot hide.
+/// The scene with equal axial, shear and bending stiffnesses of the beams and similar masses. Degrees of freedom without restraint have zero
+/// stiffness in it, and rounding errors of other stiffnesses are small enough to detect this.
 fn of_equal_stiffness(scene: &Scene) -> Scene {
     let mut equal = scene.clone();
     for beam in &mut equal.beams {
@@ -187,10 +189,13 @@ fn of_equal_stiffness(scene: &Scene) -> Scene {
 }
 
 /// Model of a scene with zero start velocities, because start velocities may be incompatible with sliders.
-fn at_rest(scene: &Scene) -> Result<System, SystemError> {
+fn at_rest(scene: &Scene, goes_on: &mut dyn FnMut(f64) -> bool) -> Result<System, StaticsError> {
     let mut still = scene.clone();
     still.sliders.iter_mut().for_each(|slider| slider.velocities = StartVelocities::Project);
-    System::assemble(&still)
+    System::assemble_while(&still, &mut || goes_on(0.0)).map_err(|error| match error {
+        SystemError::Interrupted { .. } => StaticsError::Interrupted { reached: 0.0 },
+        error => error.into(),
+    })
 }
 
 fn check_needs_no_time(scene: &Scene) -> Result<(), StaticsError> {
@@ -207,10 +212,14 @@ fn check_needs_no_time(scene: &Scene) -> Result<(), StaticsError> {
 }
 
 /// Model at its start, with the loads at the time of the loading.
-fn prepare(scene: &Scene, loading: &Loading) -> Result<System, StaticsError> {
+fn prepare(
+    scene: &Scene,
+    loading: &Loading,
+    goes_on: &mut dyn FnMut(f64) -> bool,
+) -> Result<System, StaticsError> {
     loading.check()?;
     check_needs_no_time(scene)?;
-    let mut model = at_rest(scene)?;
+    let mut model = at_rest(scene, goes_on)?;
     model
         .evaluate_loads_at(loading.time)
         .map_err(|(load, source)| StaticsError::Load { load, source })?;

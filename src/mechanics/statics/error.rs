@@ -1,4 +1,4 @@
-//! Errors of equilibria.
+//! Errors in the search for equilibria.
 
 use std::fmt;
 
@@ -6,12 +6,12 @@ use crate::loads::LoadError;
 use crate::newton::NewtonError;
 use crate::system::{SystemError, rounded};
 
-/// Time-dependent specification of a drive or a load.
+/// Part of a drive or load that depends on time and cannot be used in statics.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum InTime {
     /// Prescribed rate of a drive.
     Speed,
-    /// Controller, which reacts to its sensors over time.
+    /// Controller, which reacts to its sensors in the course of time.
     Controller,
 }
 
@@ -38,7 +38,7 @@ pub enum StaticsError {
         /// Time of the loading [time].
         time: f64,
     },
-    /// Path of given length for a scene that has only initial strains, which the load factor does not scale.
+    /// Path of given length for a scene that has only initial strains, which do not depend on the load factor.
     #[error("no load acts at t = {time}: only prestress acts, and arc-length control needs a load")]
     NoScaledLoad {
         /// Time of the loading [time].
@@ -61,7 +61,7 @@ pub enum StaticsError {
     #[error("no equilibrium of scene '{scene}' was found beyond load factor {}: {reason}", rounded(*reached))]
     NoEquilibrium {
         scene: String,
-        /// Last load factor with an equilibrium [-].
+        /// Last load factor at which an equilibrium was found [-].
         reached: f64,
         reason: Box<StepFailure>,
     },
@@ -77,12 +77,12 @@ pub enum StaticsError {
     },
     #[error("interrupted at load factor {}", rounded(*reached))]
     Interrupted {
-        /// Last load factor with an equilibrium [-].
+        /// Last load factor at which an equilibrium was found [-].
         reached: f64,
     },
 }
 
-/// Reason why a step found no equilibrium.
+/// Reason why a load step found no equilibrium.
 #[expect(missing_docs, reason = "the messages describe the variants and their fields")]
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum StepFailure {
@@ -96,7 +96,7 @@ pub enum StepFailure {
     #[error("slider '{slider}' would leave its beam at its {end}")]
     LeavesMaster {
         slider: String,
-        /// End of its master, such as `start`.
+        /// End of the master, such as `start`.
         end: &'static str,
     },
 }

@@ -1,27 +1,27 @@
-//! Application of loads, and control of the path of equilibria.
+//! Load factor, load steps, and control of the path of equilibria.
 
 use super::StaticsError;
 use crate::newton::Tolerance;
 
-/// Smallest number of points of a path: the unloaded configuration, and two equilibria for the direction.
+/// Smallest number of points of a path: the unloaded configuration, and two equilibria that define a direction.
 pub(super) const LEAST_PATH: usize = 3;
 
-/// Application of loads from zero to a load factor.
+/// Loads, which are increased from zero to a load factor, and the steps in which this is done.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Loading {
-    /// Time at which schedules of loads are evaluated (right limit) [time].
+    /// Time at which the schedules of loads are evaluated [time]. If a schedule jumps, its value after the jump is used.
     pub time: f64,
-    /// Final load factor; 1 for the loads themselves [-].
+    /// Final load factor; 1 for the loads of the scene [-].
     pub factor: f64,
-    /// Number of equal load steps. With arc-length control, the first step leads to the load factor divided by this number.
+    /// Number of equal load steps. With arc-length control, only the first load step has this size.
     pub steps: usize,
-    /// Quantity that is prescribed in a step.
+    /// Quantity that is prescribed in each step.
     pub control: Control,
     /// Tolerance of the Newton solver.
     pub tolerance: Tolerance,
 }
 
-/// Quantity that is prescribed in a step.
+/// Quantity that is prescribed in each step.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub enum Control {
     /// Load factor. The path ends at a limit point.
@@ -33,11 +33,12 @@ pub enum Control {
 
 /// Arc-length control along the path of equilibria.
 ///
-/// E. Riks, An incremental approach to the solution of snapping and buckling problems, Int. J. Solids Struct. 15 (1979)
-/// 529–551, with the normal plane of Keller (1977); the size of steps as in Crisfield, Comput. Struct. 13 (1981) 55–62.
+/// References: E. Riks, An incremental approach to the solution of snapping and buckling problems, Int. J. Solids Struct. 15 (1979) 529–551, with
+/// the normal plane of Keller (1977). The step size is controlled as in Crisfield, Comput. Struct. 13 (1981) 55–62.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ArcLength {
-    /// Longest step: root mean square of displacements, relative to the longest beam, and rotations of all control points [-, rad].
+    /// Longest step [-, rad]. It is the root mean square of the displacements of all control points, divided by the longest beam, and of their
+    /// rotations.
     pub longest: f64,
     /// Largest number of points of the path.
     pub points: usize,

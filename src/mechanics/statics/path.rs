@@ -1,4 +1,4 @@
-//! Paths of equilibria from the unloaded scene.
+//! Paths of equilibria that start with the unloaded scene.
 
 use crate::system::SystemState;
 
@@ -9,12 +9,12 @@ pub struct PathPoint {
     pub load_factor: f64,
     /// Strain energy [energy].
     pub strain_energy: f64,
-    /// Distance from the previous point: root mean square of displacements, relative to the longest beam, and rotations of all control points [-,
-    /// rad].
+    /// Distance from the previous point [-, rad]. It is the root mean square of the displacements of all control points, divided by the longest
+    /// beam, and of their rotations.
     pub distance: f64,
-    /// Newton iterations from the previous point.
+    /// Number of Newton iterations from the previous point to this one.
     pub iterations: usize,
-    /// State of the model.
+    /// State of the model at this point.
     pub state: SystemState,
 }
 
@@ -33,7 +33,7 @@ impl EquilibriumPath {
         self.points.pop();
     }
 
-    /// Appends a point with unchanged configuration, for a dry run.
+    /// Appends a point with the same configuration, for a dry run.
     pub(super) fn append_dry_point(&mut self, load_factor: f64) {
         let last = self.points.last().cloned();
         self.points.extend(last.map(|point| PathPoint { load_factor, ..point }));
@@ -49,9 +49,10 @@ impl EquilibriumPath {
         self.points.last().map_or(0.0, |point| point.load_factor)
     }
 
-    /// Limit points: load factors at which the path turns, from parabolas through three points [-].
+    /// Limit points: load factors at which the load factor along the path has an extremum [-]. They are computed from parabolas through three
+    /// points.
     ///
-    /// A structure that is loaded beyond a limit point snaps through.
+    /// A structure whose load increases beyond a limit point snaps through.
     pub fn limit_points(&self) -> Vec<f64> {
         let turn = |three: &[PathPoint]| {
             let factors = [0, 1, 2].map(|at: usize| three[at].load_factor);
@@ -61,9 +62,9 @@ impl EquilibriumPath {
     }
 }
 
-/// Turning point of the load factor between three equilibria.
+/// Extremum of the load factor between three equilibria.
 pub(super) struct LoadTurningPoint {
-    /// Distance from the first of the three points, in the metric of the path.
+    /// Distance from the first of the three equilibria, in the metric of the path.
     pub(super) distance: f64,
     pub(super) load_factor: f64,
 }

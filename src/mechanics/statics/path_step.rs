@@ -1,4 +1,4 @@
-//! Steps of given length along the equilibrium path.
+//! Steps of a given length along the path of equilibria.
 
 use super::Loading;
 use super::balance::{AlongPath, Balance};
@@ -28,7 +28,7 @@ impl PathStep {
         }
     }
 
-    /// Sets the direction of the path to the direction of the last displacement.
+    /// Sets the direction of the path to that of the last displacement.
     pub(super) fn set_direction(&mut self, metric: &[f64], last: &[f64]) {
         let inverse = 1.0 / norm(metric, last);
         for ((normal, weight), u) in self.normal.iter_mut().zip(metric).zip(last) {
@@ -36,11 +36,11 @@ impl PathStep {
         }
     }
 
-    /// Starts from zero displacement, so that the first iteration follows the tangent of the path.
+    /// Solves for an equilibrium at a given distance. The iteration starts from zero displacement, so that the first iteration follows the tangent
+    /// of the path.
     pub(super) fn find(
         &mut self,
-        model: &mut System,
-        length: f64,
+        mut balance: Balance<'_>,
         from: f64,
         distance: f64,
         scene: &Scene,
@@ -48,16 +48,15 @@ impl PathStep {
         let mut iterations = 0;
         for _ in 0..=scene.most_settlings() {
             let last = self.normal.len();
-            model.predict_unchanged(&mut self.unknowns[..last]);
+            balance.model.predict_unchanged(&mut self.unknowns[..last]);
             self.unknowns[last] = from;
-            model.begin_movement();
-            let balance = Balance { model, length };
-            let mut equations =
-                AlongPath { balance, normal: &self.normal, distance, forces: &mut self.forces };
+            balance.model.begin_movement();
+            let (normal, forces) = (&self.normal, &mut self.forces);
+            let mut equations = AlongPath { balance: &mut balance, normal, distance, forces };
             let report =
                 self.newton.solve(&mut equations, &mut self.unknowns, &mut self.residual)?;
             iterations += report.iterations;
-            if !update_stop_contacts(model, scene, self.movements(), self.factor())? {
+            if !update_stop_contacts(balance.model, scene, self.movements(), self.factor())? {
                 return Ok(iterations);
             }
         }

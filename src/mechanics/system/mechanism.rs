@@ -1,8 +1,9 @@
-//! Model of a scene: bodies, elements, rigid links and sliders with their present motion.
+//! Mechanism of a scene: bodies, elements, rigid links and sliders with their present motion.
 
 mod acceleration;
 mod energies;
 mod failure_source;
+mod friction;
 mod impact;
 mod impulses;
 mod inertia;
@@ -36,7 +37,7 @@ use impulses::ExchangeLedger;
 use super::bodies::Bodies;
 use super::elements::{Elements, InternalForce, Supports, WorkAndImpulse};
 use super::links::Links;
-use super::sliders::{MasterLimit, SliderContact, Sliders};
+use super::sliders::{MasterLimit, SliderContact, SliderEvent, Sliders};
 use super::state::{MotionState, Resolution, StepMeasures, Unknowns};
 use crate::loads::LoadError;
 
@@ -79,12 +80,12 @@ impl System {
         }
     }
 
-    /// Starts the motion. Impulses applied while velocities were adjusted are discarded, and the first step is predicted from the present rates.
+    /// Starts the motion. Impulses that adjusted the velocities are discarded. The first step is predicted from the present rates.
     pub(super) fn begin(&mut self) {
         self.exchanged.total = WorkAndImpulse::default();
         let inertia = self.diagonal_of_inertia();
         self.motion.begin(inertia);
-        // With a single body, the resolution of the model is that of the body.
+        // If there is only one body, the resolution of the whole mechanism is its resolution, so it is not measured separately.
         let bodies = &self.bodies;
         let damped = self.elements.resistances().filter_map(InternalForce::damped_beam);
         let apart = damped.filter(|_| bodies.len() > 1);
@@ -134,17 +135,18 @@ impl System {
         self.motion.time
     }
 
-    /// Energy that dampers returned in the last step backwards in time, of methods that take some; otherwise zero [energy].
+    /// Energy that dampers returned in the last step, for methods in which a step contains backward substeps; otherwise zero [energy].
     pub fn returned(&self) -> f64 {
         self.step.returned
     }
 
-    /// Resolution of the motion by the steps so far.
+    /// Measures of how well the steps so far resolve the motion.
     pub fn resolution(&self) -> &Resolution {
         self.motion.resolution()
     }
 
-    /// Resolution of the motion of each beam with material damping, by index; empty if the scene has only one body.
+    /// Measures of how well the steps resolve the motion of each beam with material damping, with the index of the beam; empty if the scene has
+    /// only one body.
     pub(crate) fn resolution_by_beam(&self) -> impl Iterator<Item = (usize, &Resolution)> {
         self.motion.watched().iter().map(|one| (one.body, one.resolution()))
     }
@@ -159,7 +161,7 @@ impl System {
         self.bodies.mass() + self.elements.mass()
     }
 
-    /// Sets the number of threads for a large body or many bodies, with unchanged results. Returns the largest number in use.
+    /// Sets the number of threads for a large body or many bodies. Results do not change. Returns the largest number of threads in use.
     pub fn divide(&mut self, threads: usize) -> usize {
         self.bodies.divide(threads)
     }
@@ -169,18 +171,18 @@ impl System {
         self.motion.time = time;
     }
 
-    /// Evaluates loads just after a time, and static prescribed positions.
+    /// Evaluates the loads and prescribed positions of a static solution just after a time.
     ///
     /// # Errors
-    /// Name of the element without a finite value, and the reason.
+    /// Returns the name of the element without a finite value, and the reason.
     pub(crate) fn evaluate_loads_at(&mut self, time: f64) -> Result<(), (String, LoadError)> {
         self.supports.prescribed_mut().evaluate_after(time)?;
         self.elements.evaluate_after(time)
     }
 
-    /// Makes the next step end where a slider reaches a limit; `None` for a regular step.
-    pub(crate) fn set_target_limit(&mut self, limit: Option<MasterLimit>) {
-        self.sliders.set_target_limit(limit);
+    /// Makes the next step end at an event of a slider; `None` for a regular step.
+    pub(crate) fn set_target(&mut self, event: Option<SliderEvent>) {
+        self.sliders.set_target(event);
     }
 
     /// Releases a slider from its master.
@@ -197,9 +199,11 @@ impl System {
         self.motion.accelerations.mark_unknown();
     }
 
-    /// Returns true if the present velocity of a slider at a limit is directed beyond the limit.
+    /// Returns true if the present velocity of a slider at a limit is directed beyond the limit. The velocity of a slider that has just left a stop
+    /// is zero, and its sign due to rounding decides nothing.
     pub(crate) fn leads_beyond(&self, limit: MasterLimit) -> bool {
-        let rate = self.sliders[limit.slider].rate(&self.bodies, &self.motion.rates);
-        rate * limit.end.outward() > 0.0
+        let slider = &self.sliders[limit.slider];
+        let rate = slider.rate(&self.bodies, &self.motion.rates);
+        rate * limit.end.outward() > 0.0 && slider.stop_left_at != self.motion.time
     }
 }

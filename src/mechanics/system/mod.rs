@@ -34,5 +34,5 @@ pub use scene::{
     BeamDefinition, ParticleDefinition, Quantity, RigidBodyDefinition, Scene, Sensor, SensorSource,
     StartMotion, StationVelocity, Value,
 };
-pub use sliders::{AxialImpact, MasterEnd, MasterLimit, SliderState};
+pub use sliders::{AxialImpact, MasterEnd, MasterLimit, SliderEvent, SliderState};
 pub use state::{Resolution, UnknownKind};

@@ -6,13 +6,15 @@ use std::sync::{Mutex, PoisonError};
 
 use super::pool::{keep_polling, notify_workers, pool};
 
-/// Number of polls before a thread sleeps: about 50 µs, the cost of sleeping and waking.
+/// Number of times that a thread polls for the end of a task before it sleeps. They take about 50 µs, as long as sleeping and waking.
 const MOST_POLLS: usize = 2000;
 
-/// Runs all tasks concurrently: the first task on this thread, each other task on a thread of the pool. Tasks that no thread has started run on this
+/// Runs all tasks concurrently: the first task on this thread, each other task on a thread of the pool. Tasks that no thread of the pool has
+/// started also run on this thread.
 /// thread.
 ///
-/// Returns when every task is done. Each call allocates a few hundred bytes, so it is suitable for tasks that take much longer than the allocation.
+/// Returns when every task is completed. Each call allocates a few hundred bytes, so the function is suitable for tasks that take much longer than
+/// this.
 pub fn run_concurrently<T: Send>(tasks: impl IntoIterator<Item = T>, work: impl Fn(T) + Sync) {
     let mut tasks = tasks.into_iter();
     let first = tasks.next();
@@ -37,7 +39,7 @@ pub fn run_concurrently<T: Send>(tasks: impl IntoIterator<Item = T>, work: impl 
             });
         }
         first.into_iter().for_each(&work);
-        // Runs the tasks that no thread has taken.
+        // Runs the tasks that no thread of the pool has started.
         others.iter().for_each(take);
         for _ in 0..MOST_POLLS {
             if left.load(Ordering::Acquire) == 0 {
@@ -48,7 +50,7 @@ pub fn run_concurrently<T: Send>(tasks: impl IntoIterator<Item = T>, work: impl 
     });
 }
 
-/// Runs two different operations, concurrently if there are two threads.
+/// Runs two different operations. They run concurrently if there are two threads.
 pub fn both(threads: usize, one: impl FnOnce() + Send, other: impl FnOnce() + Send) {
     if threads < 2 {
         one();

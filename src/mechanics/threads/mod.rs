@@ -1,5 +1,4 @@
-//! Multithreading with results identical to those of one thread. The callers must partition their work such that no sum depends on the number of
-//! threads.
+//! Multithreading with results identical to those of one thread. Callers must divide their work such that no sum depends on the number of threads.
 
 mod at_once;
 mod pool;

@@ -1,7 +1,7 @@
-//! Damped vibrations `(λ² M + λ D + K) x = 0` of a small model, in all of its modes.
+//! Damped vibrations `(λ² M + λ D + K) x = 0` of a small model, computed in the basis of all its undamped modes.
 //!
-//! With the mode shapes `Φ` of the undamped model, normalised to `φᵀ M φ = 1`, the problem is `λ² + λ B Bᵀ + Ω² = 0`. `B = Φᵀ √d g` has a column for
-//! each rate `g·ẋ` with damping `d`. No mode is truncated, and the squares `Ω²` are as accurate as the modes.
+//! With the undamped mode shapes `Φ`, normalised to `φᵀ M φ = 1`, the problem becomes `λ² + λ B Bᵀ + Ω² = 0`. The matrix `B = Φᵀ √d g` has a column
+//! for each damped rate `g·ẋ` with the damping coefficient `d`. No mode is omitted, and the squared frequencies `Ω²` are as accurate as the modes.
 
 use nalgebra::{Complex, DMatrix};
 
@@ -14,21 +14,21 @@ use crate::geometry::larger;
 use crate::integrators::Mechanism;
 use crate::system::{System, UnknownKind};
 
-/// `|Re λ|` or `|Im λ|`, relative to the largest undamped frequency, below which it counts as zero. Slow overdamped relaxation is far above this
+/// Size of `Re λ` or `Im λ` that counts as zero, as a fraction of the largest undamped frequency. Even slow overdamped relaxation is far above this
 /// limit.
 const NOTHING: f64 = 1e-40;
 
-/// Damped natural vibration `exp(-δ t)`, with a frequency unless it is overdamped.
+/// Damped natural vibration, which decays as `exp(-δ t)`. It has a frequency unless it is overdamped.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct DampedMode {
-    /// Decay rate `δ = -Re λ`; negative for growth [1/time].
+    /// Decay rate `δ = -Re λ` [1/time]; negative if the vibration grows.
     pub decay_rate: f64,
-    /// Angular frequency `|Im λ|`; zero if overdamped [rad/time].
+    /// Angular frequency `|Im λ|` [rad/time]; zero for an overdamped vibration.
     pub angular_frequency: f64,
 }
 
 impl DampedMode {
-    /// Damping ratio `δ/|λ|`: one if overdamped, zero for `λ = 0` [-].
+    /// Damping ratio `δ/|λ|` [-]: one for an overdamped vibration, zero for `λ = 0`.
     pub fn damping_ratio(&self) -> f64 {
         match hypot(self.decay_rate, self.angular_frequency) {
             0.0 => 0.0,
@@ -36,12 +36,12 @@ impl DampedMode {
         }
     }
 
-    /// Damped vibrations about the present configuration, treated as an equilibrium, in the order of `|λ|`: one for each conjugate pair and one for
-    /// each real `λ`.
+    /// Damped vibrations about the present configuration, which is treated as an equilibrium. They are in the order of `|λ|`, one for each
+    /// conjugate pair and one for each real `λ`.
     ///
     /// # Errors
-    /// Fails if the model is too large, a part of it has no inertia, or there are too few vibrations, and with the errors of
-    /// [`Modes::of`](super::Modes::of) for undamped modes.
+    /// Fails if the model is too large, a part of it has no inertia, or there are too few vibrations. Also fails with the errors of
+    /// [`Modes::of`](super::Modes::of), because undamped modes are computed first.
     pub fn of(
         model: &System,
         count: usize,
@@ -73,7 +73,7 @@ impl DampedMode {
         Ok(eigenvalues.into_iter().map(|at| Self::of_number(at, least)).collect())
     }
 
-    /// Vibration `exp(λ t)`; real and imaginary parts of `λ` up to `least` count as zero [1/time].
+    /// Vibration `exp(λ t)`. Real and imaginary parts of `λ` up to `least` count as zero [1/time].
     fn of_number(at: Complex<f64>, least: f64) -> Self {
         let without_rounding = |number: f64| if number.abs() > least { number } else { 0.0 };
         Self {
@@ -83,7 +83,7 @@ impl DampedMode {
     }
 }
 
-/// Matrix `B`: a row for each shape, a column for each damped rate.
+/// Matrix `B`, with a row for each mode shape and a column for each damped rate.
 fn dampers(model: &System, shapes: &[Vec<f64>]) -> DMatrix<f64> {
     let mut entries = Vec::new();
     for shape in shapes {

@@ -1,7 +1,7 @@
-//! All modes of a small scene at once.
+//! Computation of all modes of a small scene at once.
 //!
-//! With `K + σ M = L D Lᵀ` and `M = H Hᵀ`, the squared singular values of `G = D^-½ L⁻¹ H` are `μ = 1/(ω² + σ)`. The rows of `G` have sizes that
-//! decrease like the pivots, and rotations of columns preserve the relative accuracy of each row. One-sided Jacobi rotations therefore compute all
+//! Let `K + σ M = L D Lᵀ` and `M = H Hᵀ`. The squared singular values of `G = D^-½ L⁻¹ H` are `μ = 1/(ω² + σ)`. The rows of `G` become smaller in
+//! the order of the pivots, and rotations of columns preserve the relative accuracy of each row. One-sided Jacobi rotations therefore compute all
 //! singular values, large and small, to almost full accuracy (J. Demmel & K. Veselić, SIAM J. Matrix Anal. Appl. 13 (1992) 1204–1245).
 
 use nalgebra::DMatrix;
@@ -13,16 +13,16 @@ use super::pencil::Pencil;
 use crate::elementary::hypot;
 use crate::linalg::{STRIP_WIDTH, SymmetricFactors};
 
-/// Scalar product of two columns, relative to their lengths, below which they count as orthogonal.
+/// Scalar product of two columns that count as orthogonal, as a fraction of the product of their lengths.
 const ORTHOGONAL: f64 = 1e-15;
 
-/// Largest number of sweeps over all pairs of columns; a dozen is usual.
+/// Largest number of passes over all pairs of columns; about twelve are usual.
 const MOST_SWEEPS: usize = 60;
 
-/// Remainder of a diagonal entry of the inertia, relative to the entry, below which it is due to rounding.
+/// Remainder of a diagonal entry of the inertia that is due to rounding, as a fraction of the entry.
 const WITHOUT_INERTIA: f64 = 1e-13;
 
-/// All pairs `(μ, φ)` of a small scene with inertia, in decreasing order of `μ`. Degrees of freedom without inertia have `μ = 0`.
+/// All pairs `(μ, φ)` of a small scene with inertia, in decreasing order of `μ`. For degrees of freedom without inertia, `μ = 0`.
 ///
 /// # Errors
 /// Fails if the search is stopped.
@@ -46,7 +46,7 @@ pub(super) fn all_pairs(
     let values = rotate(&mut columns, goes_on)?;
     let mut order: Vec<usize> = (0..values.len()).filter(|at| values[*at] > 0.0).collect();
     order.sort_by(|a, b| values[*b].total_cmp(&values[*a]));
-    // For a unit vector `u`, `φ = L⁻ᵀ D^-½ u` satisfies `φᵀ M φ = μ`.
+    // For a singular vector `u` of length one, `φ = L⁻ᵀ D^-½ u` satisfies `φᵀ M φ = μ`.
     for (&at, value) in order.iter().zip(order.iter().map(|at| values[*at])) {
         let mut column = columns.column_mut(at);
         for row in (0..size).rev() {
@@ -71,7 +71,7 @@ pub(super) fn all_pairs(
     Ok(Pairs { values: order.iter().map(|at| values[*at]).collect(), strips })
 }
 
-/// Orthogonalises shapes of higher modes with respect to those of lower modes, and normalises to `φᵀ M φ = 1`. Rounding errors of a shape may have
+/// Makes the shapes of higher modes orthogonal to those of lower modes, and normalises all to `φᵀ M φ = 1`. Rounding errors of a shape may have
 /// little strain energy but much inertia.
 fn orthogonalise(pencil: &Pencil, shapes: &mut DMatrix<f64>) {
     let size = pencil.size();
@@ -95,7 +95,7 @@ fn orthogonalise(pencil: &Pencil, shapes: &mut DMatrix<f64>) {
     }
 }
 
-/// Root `H` of the inertia, with a zero column for each degree of freedom without inertia.
+/// Factor `H` of the inertia `M = H Hᵀ`. The columns of degrees of freedom without inertia are zero.
 fn inertia_root(pencil: &Pencil) -> DMatrix<f64> {
     let size = pencil.size();
     let mut root = DMatrix::zeros(size, size);
@@ -133,7 +133,7 @@ pub(super) fn rotate(
     let square = |column: &[f64]| column.iter().map(|entry| entry * entry).sum::<f64>();
     let mut sizes = Vec::new();
     for _ in 0..MOST_SWEEPS {
-        // Recomputed in each sweep, because updates accumulate rounding errors.
+        // The lengths are computed again in each pass, because their updates accumulate rounding errors.
         sizes = columns.as_slice().chunks_exact(rows).map(square).collect();
         let mut is_turned = false;
         for first in 0..count {

@@ -1,7 +1,8 @@
-//! Stiffness of a configuration in factored form: derivatives of strains with respect to displacements, and stiffnesses of strains.
+//! Stiffness of a configuration in factored form. It consists of the derivatives of strains with respect to displacements, and of stiffnesses of
+//! the strains.
 //!
 //! Section forces `n = k s` are unknowns in addition to the displacements `x`. The stiffness `k` multiplies only the mismatch `m = B x - n/k` of a
-//! strain `s = B x`. The rounding errors of residuals are then relative to section forces, not to stiffnesses.
+//! strain `s = B x`. Hence the rounding errors of residuals are relative to section forces and not to stiffnesses.
 
 use pulp::{Arch, Simd, WithSimd};
 
@@ -9,16 +10,16 @@ use crate::beams::SpanStiffness;
 use crate::elementary::square;
 use crate::linalg::{STRIP_WIDTH, VectorStrip};
 
-/// One number for each of four vectors of a strip.
+/// Number for each of the four vectors of a strip.
 pub(super) type FourVectors = [f64; STRIP_WIDTH];
 
-/// Stiffness of all spans of a scene: strain rows and their stiffnesses.
+/// Stiffness of all spans and springs of a scene: rows of strains and their stiffnesses.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Elastic {
     spans: Vec<StrainRows>,
-    /// Unknown of each component of each span. The value for supported components is the number of unknowns.
+    /// Unknown that belongs to each component of each span. For a supported component it is the number of unknowns.
     unknowns: Vec<u32>,
-    /// Rows of each span: strains, then pairs `p` and `q`.
+    /// Rows of each span: first its strains, then its pairs `p` and `q` of the geometric stiffness.
     rows: Vec<f64>,
     stiffness: Vec<f64>,
     rounding_fractions: Vec<f64>,
@@ -34,11 +35,11 @@ struct StrainRows {
 #[derive(Debug, Clone)]
 pub(super) struct Shapes {
     pub(super) movements: Vec<FourVectors>,
-    /// Section forces `n`, one row per strain.
+    /// Section forces `n`, one entry per strain.
     forces: Vec<FourVectors>,
-    /// Mismatches `m`.
+    /// Mismatches `m`, one entry per strain.
     mismatches: Vec<FourVectors>,
-    /// Internal forces of each shape, `Bᵀ (n + k m) + K_g x` [force, force·length].
+    /// Internal forces `Bᵀ (n + k m) + K_g x` of each shape, with the geometric stiffness `K_g` [force, force·length].
     pub(super) internal_forces: Vec<FourVectors>,
 }
 
@@ -55,12 +56,12 @@ impl Shapes {
 pub(super) struct Energies {
     /// Twice the energy of each shape, `Σ n²/k + xᵀ K_g x`.
     pub(super) double_energy: FourVectors,
-    /// Twice the energy of the last correction of each shape.
+    /// Twice the energy of the last correction, for each shape.
     pub(super) correction: FourVectors,
 }
 
 impl Elastic {
-    /// Adds the rows of a span, restricted to the `size` unknowns of the scene.
+    /// Adds the rows of a span. Only components that belong to the `size` unknowns of the scene are used.
     pub(super) fn add(&mut self, size: usize, degrees: &[usize], span: &SpanStiffness) {
         let (strains, twists) = (span.stiffness.len(), span.rounding_fractions.len());
         self.spans.push(StrainRows { width: degrees.len(), strains, twists });
@@ -75,12 +76,12 @@ impl Elastic {
         self.stiffness.len()
     }
 
-    /// Memory of `strains` rows with `width` entries [bytes].
+    /// Memory for `strains` rows with `width` entries each [bytes].
     pub(super) fn memory(strains: usize, width: usize) -> usize {
         strains * (width + 1) * size_of::<f64>()
     }
 
-    /// Work space for four shapes of a length.
+    /// Memory for four shapes of a given number of unknowns.
     pub(super) fn room(&self, length: usize) -> Shapes {
         let rows = vec![[0.0; STRIP_WIDTH]; self.strains()];
         let vector = vec![[0.0; STRIP_WIDTH]; length];
@@ -92,21 +93,22 @@ impl Elastic {
         }
     }
 
-    /// Sets four mode shapes from their displacements, with the section forces of their strains. Returns their energies.
+    /// Sets four mode shapes to the given displacements, with the section forces of their strains. Returns their energies.
     pub(super) fn begin(&self, movements: &VectorStrip, shapes: &mut Shapes) -> Energies {
-        // Zero shapes are corrected by the full displacements.
+        // A shape of zeros is corrected by the full displacements.
         shapes.movements.fill([0.0; STRIP_WIDTH]);
         shapes.forces.fill([0.0; STRIP_WIDTH]);
         shapes.mismatches.fill([0.0; STRIP_WIDTH]);
         self.correct(shapes, movements)
     }
 
-    /// Corrects four shapes, `x ← x + δ`, `n ← n + k (m + B δ)`. Returns their energies.
+    /// Corrects four shapes: `x ← x + δ`, `n ← n + k (m + B δ)`. Returns their energies.
     pub(super) fn correct(&self, shapes: &mut Shapes, by: &VectorStrip) -> Energies {
         Arch::new().dispatch(ShapeCorrection { elastic: self, shapes, by })
     }
 
-    /// Rounding error of twice the energy for given displacements, `Σ k (ε Σ |B| |x|)²`, and of section forces in `xᵀ K_g x`.
+    /// Rounding error of twice the energy for given displacements. It contains `Σ k (ε Σ |B| |x|)²` and the rounding error of section forces in `xᵀ
+    /// K_g x`.
     pub(super) fn rounding_of(&self, movements: &VectorStrip) -> FourVectors {
         Arch::new().dispatch(Rounding { elastic: self, movements })
     }
@@ -140,7 +142,7 @@ struct ElasticSpan<'a> {
     twist: usize,
 }
 
-/// Largest number of components of a span, for degree 10.
+/// Largest number of components of a span, which occurs for degree 10.
 const WIDEST: usize = 33;
 
 #[inline(always)]
@@ -189,7 +191,7 @@ impl WithSimd for ShapeCorrection<'_> {
         }
         shapes.internal_forces.fill([0.0; STRIP_WIDTH]);
         let mut energies = Energies::default();
-        // The widths of spans of degree 1 to 3 are compile-time constants.
+        // Compile-time constants for the widths of spans of degree 1 to 3.
         elastic.each_span(|span| match span.unknowns.len() {
             6 => correct_span::<6>(elastic, &span, shapes, by, &mut energies),
             9 => correct_span::<9>(elastic, &span, shapes, by, &mut energies),

@@ -1,7 +1,8 @@
-//! Lowest modes by the shift-and-invert block Lanczos method.
+//! Lowest modes, computed by the block Lanczos method with shift and inversion.
 //!
-//! Ericsson & Ruhe, Math. Comp. 35 (1980) 1251–1268; R. G. Grimes, J. G. Lewis & H. D. Simon, SIAM J. Matrix Anal. Appl. 15 (1994) 228–272; K. Wu &
-//! H. D. Simon, SIAM J. Matrix Anal. Appl. 22 (2000) 602–616 (thick restarts). All vectors are orthogonalised with respect to the inertia.
+//! References: Ericsson & Ruhe, Math. Comp. 35 (1980) 1251–1268; R. G. Grimes, J. G. Lewis & H. D. Simon, SIAM J. Matrix Anal. Appl. 15 (1994)
+//! 228–272; K. Wu & H. D. Simon, SIAM J. Matrix Anal. Appl. 22 (2000) 602–616 (thick restarts). All vectors are orthogonal with respect to the
+//! inertia.
 
 use nalgebra::{DMatrix, DVector, SymmetricEigen};
 
@@ -13,19 +14,20 @@ use crate::linalg::{
     STRIP_WIDTH, Square4, SymmetricFactors, combine, products, subtract_combination,
 };
 
-/// Residual of a pair, relative to the inverted stiffness, below which it has converged. The error of its eigenvalue is of the order of the square.
+/// Residual of a converged pair, as a fraction of the inverted stiffness. The error of its eigenvalue is of the order of the squared residual.
 const SETTLED: f64 = 1e-8;
 
-/// Length of a vector after orthogonalisation, relative to its length before, below which the vector consists of rounding errors.
+/// Ratio of the lengths of a vector after and before orthogonalisation, below which the vector consists of rounding errors.
 const ROUNDING_REDUCTION: f64 = 1e-11;
 
-/// Length of a vector after orthogonalisation, relative to its length before, below which it is orthogonalised a second time.
+/// Ratio of the lengths of a vector after and before orthogonalisation, below which it is orthogonalised a second time.
 const SHRUNK: f64 = 1e-4;
 
-/// Remaining component in the basis, relative to the length, above which a vector is orthogonalised again.
+/// Component of a vector in the basis that remains after orthogonalisation, as a fraction of its length. Above this value it is orthogonalised
+/// again.
 const TRACE: f64 = 1e-8;
 
-/// Tolerance of scalar products of basis vectors.
+/// Tolerance of the scalar products of basis vectors.
 const ORTHONORMAL: f64 = 1e-14;
 
 const MOST_RESTARTS: usize = 60;
@@ -43,7 +45,7 @@ pub(super) struct Lanczos<'a> {
     basis: Vec<Vec<FourVectors>>,
     /// Projection `Vᵀ M A⁻¹ M V`.
     projected: DMatrix<f64>,
-    /// Next block, its product with the inertia, and its coupling to the previous block.
+    /// Next block of vectors, its product with the inertia, and its coupling to the previous block.
     next: Vec<FourVectors>,
     next_momenta: Vec<FourVectors>,
     coupling: Square4,
@@ -52,7 +54,7 @@ pub(super) struct Lanczos<'a> {
 }
 
 impl<'a> Lanczos<'a> {
-    /// Starts a search with reproducible random vectors.
+    /// Starts a search with random vectors, which are the same in every run.
     pub(super) fn new(pencil: &'a Pencil, factors: &'a SymmetricFactors) -> Self {
         let mut search = Self {
             pencil,
@@ -69,7 +71,7 @@ impl<'a> Lanczos<'a> {
         search
     }
 
-    /// Number of stored vectors in a search for `count` modes.
+    /// Number of vectors that a search for `count` modes stores.
     pub(super) fn width(count: usize) -> usize {
         (2 * count + 32).next_multiple_of(STRIP_WIDTH)
     }
@@ -85,7 +87,7 @@ impl<'a> Lanczos<'a> {
     ) -> Result<Pairs, VibrationError> {
         let most = Self::width(count);
         for _ in 0..MOST_RESTARTS {
-            // The cost of computing the eigenvalues is cubic in their number.
+            // Eigenvalues are computed only at some steps, because their cost increases with the third power of their number.
             let mut look = count + 1;
             loop {
                 if !goes_on() {
@@ -110,7 +112,8 @@ impl<'a> Lanczos<'a> {
         Err(VibrationError::NotConverged { restarts: MOST_RESTARTS })
     }
 
-    /// Continues with the found pairs and new random vectors, because the multiplicity of an eigenvalue may exceed the block size.
+    /// Continues the search with the pairs found so far and new random vectors. This is needed because the multiplicity of an eigenvalue may exceed
+    /// the number of vectors in a block.
     pub(super) fn continue_with_random(&mut self, found: Pairs) {
         self.projected = DMatrix::from_diagonal(&DVector::from_vec(found.values));
         self.basis = found.strips;
@@ -119,7 +122,7 @@ impl<'a> Lanczos<'a> {
         self.restart_randomly();
     }
 
-    /// Multiplies the next block by the inverted stiffness, and projects the result onto the basis.
+    /// Multiplies the next block by the inverted stiffness, and computes the components of the result in the basis.
     fn step(&mut self) {
         let old = self.projected.nrows();
         self.basis.push(std::mem::take(&mut self.next));
@@ -132,7 +135,7 @@ impl<'a> Lanczos<'a> {
         self.coupling = orthonormalise(&mut image, &mut momenta);
         let left = (0..STRIP_WIDTH).map(|at| self.coupling[at][at]).fold(f64::INFINITY, f64::min);
         if left < SHRUNK * size {
-            // The remainder is small relative to the removed part and contains a part of it due to rounding.
+            // The remainder is small in comparison with the removed part, and still contains a part of it because of rounding.
             let again = self.project(&mut image, None);
             self.pencil.inertia.times(&image, &mut momenta);
             let turn = orthonormalise(&mut image, &mut momenta);
@@ -152,7 +155,8 @@ impl<'a> Lanczos<'a> {
         (self.next, self.next_momenta) = (image, momenta);
     }
 
-    /// Removes the components in the basis from a block, and adds them to columns of the projection. Returns the largest component.
+    /// Removes the components in the basis from a block. If `columns` is given, they are added to these columns of the projection. Returns the
+    /// largest component.
     fn project(&mut self, image: &mut [FourVectors], columns: Option<usize>) -> f64 {
         self.pencil.inertia.times(image, &mut self.momenta);
         let mut largest = 0.0_f64;
@@ -205,12 +209,12 @@ impl<'a> Lanczos<'a> {
         self.coupling = Square4::default();
     }
 
-    /// Random vectors in the range of the inertia.
+    /// Random vectors, multiplied by the inverted stiffness and the inertia so that they have no components without inertia.
     fn scattered(&mut self) -> Vec<FourVectors> {
         let size = self.pencil.size();
         let mut block = self.pencil.zeros();
         for entry in block[..size].as_flattened_mut() {
-            // Weyl's sequence, scrambled (Steele, Lea & Flood, SplitMix64, OOPSLA 2014).
+            // Pseudorandom numbers: Weyl's sequence, scrambled (Steele, Lea & Flood, SplitMix64, OOPSLA 2014).
             self.seed = self.seed.wrapping_add(0x9e37_79b9_7f4a_7c15);
             let mut bits = self.seed;
             bits = (bits ^ (bits >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
@@ -222,7 +226,7 @@ impl<'a> Lanczos<'a> {
         block
     }
 
-    /// Eigenvalues and eigenvectors of the projection, in decreasing order.
+    /// Eigenvalues and eigenvectors of the projection, in decreasing order of the eigenvalues.
     fn ritz(&self) -> (Vec<f64>, DMatrix<f64>) {
         let symmetric = (&self.projected + self.projected.transpose()) * 0.5;
         let SymmetricEigen { eigenvalues, eigenvectors } = symmetric.symmetric_eigen();
@@ -271,13 +275,14 @@ impl<'a> Lanczos<'a> {
     }
 }
 
-/// Orthonormalises vectors with respect to the inertia; `momenta` are their products with it. Returns the upper triangle that expresses the old
-/// vectors in the new ones. Vectors that consist of rounding errors become zero, with a zero diagonal entry.
+/// Makes vectors orthonormal with respect to the inertia. `momenta` are their products with the inertia. Returns the upper triangular matrix that
+/// expresses the old vectors by the new ones. Vectors that consist of rounding errors become zero, with a zero diagonal entry.
 fn orthonormalise(block: &mut [FourVectors], momenta: &mut [FourVectors]) -> Square4 {
     let mut triangle = Square4::default();
     (0..STRIP_WIDTH).for_each(|at| triangle[at][at] = 1.0);
     let mut sizes = None;
-    // The second pass removes the errors that the condition of the first pass causes. A third is needed for almost parallel vectors.
+    // The second pass removes the errors of the first pass, which increase with its condition number. For almost parallel vectors a third pass is
+    // needed.
     for pass in 0..3 {
         let gram = products(block, momenta);
         let sizes = sizes.get_or_insert_with(|| std::array::from_fn(|at| gram[at][at]));
@@ -304,7 +309,8 @@ fn product(a: &Square4, b: &Square4) -> Square4 {
     })
 }
 
-/// Cholesky factor `R` with `Rᵀ R = G`, and its inverse. Rows and columns that are due to rounding, compared with the initial sizes, are zero.
+/// Cholesky factor `R` with `Rᵀ R = G`, and its inverse. Rows and columns that are due to rounding are set to zero. They are recognised by
+/// comparison with the initial sizes.
 fn cholesky(gram: &Square4, sizes: &FourVectors) -> (Square4, Square4) {
     let (mut upper, mut inverse) = (Square4::default(), Square4::default());
     for j in 0..STRIP_WIDTH {

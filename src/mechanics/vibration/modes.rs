@@ -10,27 +10,27 @@ use crate::geometry::Vec2;
 use crate::integrators::Mechanism;
 use crate::system::System;
 
-/// Squared frequency, relative to that of the lowest bending mode, below which a mode counts as unrestrained.
+/// Squared frequency below which a mode counts as unrestrained, as a fraction of the squared frequency of the lowest bending mode.
 const UNRESTRAINED: f64 = 1e-10;
 
 /// Natural mode of small vibration.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Mode {
-    /// Square `ω²` of the angular frequency [1/time²]. It is zero for an unrestrained motion or if it is below rounding, and negative if the
-    /// configuration is unstable.
+    /// Square `ω²` of the angular frequency [1/time²]. It is zero for an unrestrained motion, or if it is smaller than its rounding error. It is
+    /// negative if the configuration is unstable.
     pub square: f64,
     /// Rounding error of the square `ω²` [1/time²].
     pub rounding: f64,
-    /// Residual: energy of the next correction of shape and section forces, relative to the energy of `ω² + σ`, where `σ` is about the square of the
-    /// lowest bending frequency [-]. The relative error of `ω² + σ` is at most this residual, and at most its square over the relative distance of
-    /// the next mode.
+    /// Residual [-]: energy of the next correction of shape and section forces, as a fraction of the energy that belongs to `ω² + σ`. Here `σ` is
+    /// about the square of the lowest bending frequency. The relative error of `ω² + σ` is at most this residual. It is also at most the squared
+    /// residual divided by the relative distance to the next mode.
     pub residual: f64,
-    /// Mode shape: values of the unknowns with `φᵀ M φ = 1` [length, rad over the square root of a mass].
+    /// Mode shape: values of the unknowns, normalised to `φᵀ M φ = 1` [length, rad over the square root of a mass].
     pub shape: Vec<f64>,
 }
 
 impl Mode {
-    /// Angular frequency `ω`; zero if the mode does not vibrate [rad/time].
+    /// Angular frequency `ω` [rad/time]; zero if the mode does not vibrate.
     pub fn angular_frequency(&self) -> f64 {
         self.square.max(0.0).sqrt()
     }
@@ -40,17 +40,17 @@ impl Mode {
         self.angular_frequency() / TAU
     }
 
-    /// Period `2π/ω`; infinite if the mode does not vibrate [time].
+    /// Period `2π/ω` [time]; infinite if the mode does not vibrate.
     pub fn period(&self) -> f64 {
         1.0 / self.frequency()
     }
 
-    /// Returns true for an unrestrained motion within rounding.
+    /// Returns true for a motion that is unrestrained within rounding.
     pub fn is_free(&self) -> bool {
         self.square == 0.0
     }
 
-    /// Growth rate of a disturbance of an unstable configuration; zero if stable [1/time].
+    /// Growth rate of a disturbance, if the configuration is unstable in this mode [1/time]; zero otherwise.
     pub fn growth_rate(&self) -> f64 {
         (-self.square).max(0.0).sqrt()
     }
@@ -61,16 +61,16 @@ impl Mode {
 pub struct Modes {
     modes: Vec<Mode>,
     meshes: Vec<Mesh>,
-    /// Control points of all bodies, and the mode shapes as their displacements.
+    /// Control points of all bodies. The following field contains the mode shapes as displacements of these points.
     points: Vec<Vec<Vec2>>,
     displacements: Vec<Vec<Vec<Vec2>>>,
-    /// `½ φᵀ D φ` of each mode [1/time].
+    /// Decay rate `½ φᵀ D φ` of each mode [1/time].
     decay_rates: Vec<f64>,
 }
 
 impl Modes {
-    /// Computes the modes of a model in its present configuration, treated as an equilibrium. `goes_on` is called repeatedly; if it returns false,
-    /// the search stops.
+    /// Computes the modes of a model in its present configuration, which is treated as an equilibrium. `goes_on` is called repeatedly; if it
+    /// returns false, the search stops.
     ///
     /// # Errors
     /// Fails if there are too few modes, a load is a follower load, or the search is stopped.
@@ -105,7 +105,7 @@ impl Modes {
     /// Approximate peak memory of the search for `count` modes [bytes].
     pub fn memory(model: &System, count: usize) -> u64 {
         let unknowns = model.unknown_kinds().len();
-        // Larger numbers of modes are rejected by the search.
+        // Larger numbers are rejected by the search, so their memory need not be estimated.
         let numbers = numbers(unknowns, count.min(unknowns));
         (numbers * size_of::<f64>() + Pencil::memory(model)) as u64
     }
@@ -115,13 +115,13 @@ impl Modes {
         &self.modes
     }
 
-    /// Decay rates `½ φᵀ D φ` [1/time]. They are exact if damping does not couple modes, as for a material with one relaxation time for all strains.
-    /// Otherwise they are accurate to first order in the damping.
+    /// Decay rates `½ φᵀ D φ` [1/time]. They are exact if damping does not couple modes, for example if the material has one relaxation time for
+    /// all strains. Otherwise they are accurate to first order in the damping.
     pub fn decay_rates(&self) -> &[f64] {
         &self.decay_rates
     }
 
-    /// Damping ratio of each mode: decay rate over angular frequency; zero if the mode does not vibrate [-].
+    /// Damping ratio of each mode: decay rate divided by angular frequency [-]; zero if the mode does not vibrate.
     pub fn damping_ratios(&self) -> impl Iterator<Item = f64> {
         self.modes.iter().zip(&self.decay_rates).map(|(mode, decay)| match mode.square > 0.0 {
             true => decay / mode.angular_frequency(),
@@ -139,7 +139,7 @@ impl Modes {
         &self.meshes
     }
 
-    /// Control points of all bodies in the configuration [length].
+    /// Control points of all bodies, without displacements by modes [length].
     pub fn points(&self) -> &[Vec<Vec2>] {
         &self.points
     }
@@ -154,7 +154,7 @@ impl Modes {
         side(|at| at.x).max(side(|at| at.y))
     }
 
-    /// Configuration displaced by a mode, with `amplitude` as the largest displacement of a control point [length].
+    /// Configuration that is displaced by a mode. `amplitude` is the largest displacement of a control point [length].
     pub fn displaced(&self, mode: usize, amplitude: f64) -> Vec<Vec<Vec2>> {
         let largest = self.largest(mode);
         if largest == 0.0 {
@@ -167,7 +167,7 @@ impl Modes {
         self.points.iter().zip(&self.displacements[mode]).map(moved).collect()
     }
 
-    /// Displacement of a place in a mode, relative to the largest displacement of a control point [-].
+    /// Displacement of a place in a mode, as a multiple of the largest displacement of a control point [-].
     pub fn displacement(&self, mode: usize, place: &BodyPoint) -> Vec2 {
         match self.largest(mode) {
             0.0 => Vec2::zeros(),
@@ -181,8 +181,8 @@ impl Modes {
     }
 }
 
-/// Number of unrestrained degrees of freedom of the present configuration without loads. It is 0 for scenes without sliders that are too large for
-/// this computation.
+/// Number of degrees of freedom that are unrestrained in the present configuration without loads. For scenes without sliders that are too large for
+/// this computation the result is 0.
 pub fn loose_movements(model: &System) -> usize {
     if !is_small(model.unknowns()) && model.slider_names().next().is_none() {
         return 0;

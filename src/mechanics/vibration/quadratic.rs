@@ -1,10 +1,10 @@
-//! Quadratic eigenvalue problem `λ² + λ B Bᵀ + Ω² = 0` of damped vibration. Eigenvalues are computed in increasing order of magnitude over a large
-//! range.
+//! Quadratic eigenvalue problem `λ² + λ B Bᵀ + Ω² = 0` of damped vibrations. Its eigenvalues are computed in increasing order of magnitude, over a
+//! large range of magnitudes.
 //!
-//! Damping may be of any strength. A dashpot that acts almost as a support relaxes 10¹² times as slowly as the beam vibrates. With material damping,
-//! the fastest vibrations of a fine mesh decay 10¹⁴ times as fast as the slowest. A single matrix would give accurate values only for the largest
-//! eigenvalues. The problem is therefore shifted repeatedly, by increasing positive real numbers ([`Resolvent`]). Each shift gives the eigenvalues
-//! within a factor of about 10⁶.
+//! The damping may have any strength. A dashpot that acts almost as a support relaxes 10¹² times as slowly as the beam vibrates. With material
+//! damping, the fastest vibrations of a fine mesh decay 10¹⁴ times as fast as the slowest. A single matrix would give accurate values only for the
+//! largest eigenvalues. Therefore several problems are solved with increasing positive real shifts ([`Resolvent`]). Each of them gives the
+//! eigenvalues up to about 10⁶ times the shift.
 
 use nalgebra::{Complex, DMatrix};
 
@@ -13,13 +13,13 @@ use super::resolvent::Resolvent;
 use crate::elementary::hypot;
 use crate::geometry::larger;
 
-/// Largest `|λ|`, relative to the shift, at which an eigenvalue is accurate.
+/// Largest `|λ|` of an accurate eigenvalue, as a multiple of the shift.
 const LARGEST_RATIO: f64 = 1e6;
 
-/// Largest `|λ|`, relative to the shift, at which the next larger eigenvalue is accepted.
+/// Largest `|λ|` of the next eigenvalue that is still accepted, as a multiple of the shift.
 const FARTHEST: f64 = 1e12;
 
-/// Displacement of an unrestrained mode at a damper, relative to the largest of all modes at that damper, below which it is due to rounding.
+/// Displacement of an unrestrained mode at a damper that is due to rounding, as a fraction of the largest displacement of all modes at this damper.
 const ROUNDING: f64 = 1e-13;
 
 pub(super) type ComplexNumber = Complex<f64>;
@@ -28,11 +28,11 @@ pub(super) fn size(at: ComplexNumber) -> f64 {
     hypot(at.re, at.im)
 }
 
-/// Damped vibration in the modes of the undamped model.
+/// Problem of damped vibrations in the basis of the undamped modes.
 pub(super) struct Quadratic {
     /// Squared frequencies of the undamped modes, the diagonal of `Ω²` [1/time²].
     pub(super) squares: Vec<f64>,
-    /// Matrix `B`: a row for each mode, a column for each damped rate, or fewer columns with the same `B Bᵀ` [1/time^½].
+    /// Matrix `B`: a row for each mode, and a column for each damped rate. It may have fewer columns if `B Bᵀ` is the same [1/time^½].
     pub(super) dampers: DMatrix<f64>,
 }
 
@@ -44,8 +44,8 @@ impl Quadratic {
             free.filter(|(rate, _)| rate.abs() <= least).for_each(|(rate, _)| *rate = 0.0);
         }
         if dampers.ncols() > dampers.nrows() {
-            // The factorisation `Bᵀ = Q R` keeps the rounding error of each row small relative to that row, also if the row is small. Nearly undamped
-            // modes depend on the squares of such rows.
+            // The factorisation `Bᵀ = Q R` has a rounding error that is small in comparison with each single row, however small the row is. This is
+            // needed because nearly undamped modes depend on the squares of small rows.
             dampers = dampers.transpose().qr().r().transpose();
         }
         Self { squares, dampers }
@@ -60,7 +60,7 @@ impl Quadratic {
         self.squares[mode] == 0.0 && self.damping(mode) == 0.0
     }
 
-    /// The `count` eigenvalues of smallest magnitude, one of each conjugate pair, with positive imaginary part [1/time].
+    /// The `count` eigenvalues of smallest magnitude [1/time]. Of each conjugate pair, the one with positive imaginary part is returned.
     ///
     /// # Errors
     /// Fails if there are fewer eigenvalues, or if the search does not converge.
@@ -107,8 +107,8 @@ impl Quadratic {
             .collect())
     }
 
-    /// Shift that is not far above any eigenvalue [1/time]. With `x` scaled by `Ω`, restrained modes satisfy `ẏ = A y` with
-    /// `|A⁻¹| ≤ |Ω⁻¹ B|² + |Ω⁻¹|`.
+    /// Shift that is not far above any eigenvalue [1/time]. If `x` is scaled by `Ω`, restrained modes satisfy `ẏ = A y` with `|A⁻¹| ≤ |Ω⁻¹ B|² +
+    /// |Ω⁻¹|`.
     fn slowest_shift(&self) -> f64 {
         let modes = || self.squares.iter().enumerate();
         let held = modes().filter(|(_, square)| **square != 0.0);
@@ -118,12 +118,12 @@ impl Quadratic {
         let free =
             modes().filter(|(_, square)| **square == 0.0).map(|(mode, _)| self.damping(mode));
         let free = free.filter(|damping| *damping > 0.0).fold(f64::INFINITY, f64::min);
-        // The square of the shift must exceed the largest `-ω²` of unstable modes.
+        // The square of the shift must be larger than `-ω²` of every unstable mode.
         let unstable = self.squares.iter().fold(0.0, |most, square| larger(most, -square));
         larger((1.0 / (compliance + 1.0 / slowest)).min(free), 2.0 * unstable.sqrt())
     }
 
-    /// Upper bound of the eigenvalues [1/time].
+    /// Upper bound of the magnitudes of eigenvalues [1/time].
     fn fastest(&self) -> f64 {
         let vibration = self.squares.iter().fold(0.0, |most, square| larger(most, square.abs()));
         2.0 * vibration.sqrt() + self.dampers.norm_squared()

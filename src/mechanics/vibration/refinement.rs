@@ -1,4 +1,5 @@
-//! Verification of eigenpairs. Each pair is corrected with its section forces as unknowns; the size of the last correction is its residual.
+//! Verification of pairs of eigenvalue and shape. Each pair is corrected with its section forces as additional unknowns. The size of the last
+//! correction is its residual.
 
 use super::VibrationError;
 use super::elastic::{FourVectors, Shapes};
@@ -6,31 +7,31 @@ use super::lanczos::Pairs;
 use super::pencil::Pencil;
 use crate::linalg::{STRIP_WIDTH, SymmetricFactors, products, subtract_combination};
 
-/// Residual below which `ω²` is accurate to all digits, because its error is of the order of the squared residual.
+/// Residual for which `ω²` is accurate to all digits, because the error is of the order of the squared residual.
 const SMALL: f64 = 1e-8;
 
 const MOST_CORRECTIONS: usize = 8;
 
-/// Ratio of two successive residuals above which the correction has stagnated.
+/// Ratio of two successive residuals above which further corrections have no effect.
 const FALLING: f64 = 0.3;
 
-/// Ratio of the largest to the smallest `μ` above which pairs are refined separately.
+/// Ratio of the largest to the smallest `μ` above which each pair is refined separately.
 const WIDE: f64 = 1e7;
 
 pub(super) struct RefinedPair {
     pub(super) square: f64,
-    /// Bound of the relative error of `ω² + σ`, apart from the rounding of the pair itself [-].
+    /// Upper bound of the relative error of `ω² + σ` [-]. The rounding error of the pair itself is not included.
     pub(super) residual: f64,
-    /// Rounding error of `ω²` due to the rounding of displacements [1/time²].
+    /// Rounding error of `ω²` that is caused by the rounding of displacements [1/time²].
     pub(super) rounding: f64,
     pub(super) shape: Vec<f64>,
 }
 
 /// Corrects the first `count` pairs of a search.
 ///
-/// Let a pair `(x, n)` consist of displacements and section forces, with `ω²` from its energies. With the residual force
-/// `r = ω² M x - Bᵀ (n + k m) - K_g x`, the correction is `δ = A⁻¹ r`, which maps `x` to `(ω² + σ) A⁻¹ M x`. Components of other pairs are removed
-/// from `δ` and counted in the residual, because the inverted stiffness would amplify small components of low pairs in high ones.
+/// A pair `(x, n)` consists of displacements and section forces; `ω²` is computed from its energies. For the residual force `r = ω² M x - Bᵀ (n + k
+/// m) - K_g x` the correction is `δ = A⁻¹ r`, so that `x` becomes `(ω² + σ) A⁻¹ M x`. Components of other pairs are removed from `δ` and included
+/// in the residual. Otherwise the inverted stiffness would amplify small components of low pairs in high pairs.
 ///
 /// # Errors
 /// Fails if the refinement is stopped.
@@ -48,7 +49,7 @@ pub(super) fn refine(
     })
 }
 
-/// Residuals of the first `count` pairs of a complete set, which needs no corrections.
+/// Computes the residuals of the first `count` pairs of a complete set. A complete set needs no corrections.
 ///
 /// # Errors
 /// Fails if the assessment is stopped.
@@ -98,7 +99,7 @@ struct OtherPairs<'a> {
 }
 
 impl OtherPairs<'_> {
-    /// Squares `ω²` of a strip for the eigenvalues `μ`; zero for unused lanes.
+    /// Squared frequencies `ω²` of a strip, computed from the eigenvalues `μ`; zero for unused lanes.
     fn squares(&self, at: usize) -> FourVectors {
         std::array::from_fn(|lane| {
             let value = self.values.get(STRIP_WIDTH * at + lane).copied();
@@ -186,7 +187,7 @@ impl OtherPairs<'_> {
             for row in &mut momenta {
                 row.iter_mut().zip(&scale).for_each(|(entry, factor)| *entry *= factor);
             }
-            // The first correction removes the rounding errors of the displacements, so it does not measure the residual of the pair.
+            // The first correction removes the rounding errors of the displacements. Its size is therefore not the residual of the pair.
             let is_done = (0..STRIP_WIDTH).all(|lane| {
                 residuals[lane].is_nan()
                     || residuals[lane] <= SMALL
@@ -199,9 +200,10 @@ impl OtherPairs<'_> {
         self.is_certain(shapes, &squares, &residuals)
     }
 
-    /// Removes the components of all pairs from residual forces. Returns the contribution of these components to the residuals, relative to `ω² + σ`.
+    /// Removes the components of all pairs from residual forces. Returns the contribution of these components to the residuals, as a fraction of
+    /// `ω² + σ`.
     ///
-    /// Components in lower pairs count by their magnitude only, because the inverted stiffness would overestimate them.
+    /// Components of lower pairs contribute by their magnitude only, because the inverted stiffness would overestimate them.
     fn remove_other_pairs(
         &self,
         imbalance: &mut [FourVectors],
@@ -220,7 +222,7 @@ impl OtherPairs<'_> {
         left
     }
 
-    /// Returns true if `ω² + σ` of the highest pair is so much larger than that of the lowest that a common solution would mix their rounding errors.
+    /// Returns true if `ω² + σ` differs so much between the highest and the lowest pair that a common solution would mix their rounding errors.
     fn is_wide(&self) -> bool {
         let count = self.values.len().min(STRIP_WIDTH * self.strips.len());
         self.values[0] > WIDE * self.values[count - 1]
@@ -235,7 +237,7 @@ impl OtherPairs<'_> {
     }
 }
 
-/// Turns inertia forces `r` into residuals: `r ← ω² r - Bᵀ (n + k m) - K_g x`.
+/// Converts inertia forces `r` to residual forces: `r ← ω² r - Bᵀ (n + k m) - K_g x`.
 fn subtract_restoring(r: &mut [FourVectors], squares: &FourVectors, shapes: &Shapes) {
     for (r, resisting) in r.iter_mut().zip(&shapes.internal_forces) {
         for ((r, resisting), square) in r.iter_mut().zip(resisting).zip(squares) {
@@ -250,7 +252,7 @@ fn squares_of(energies: &FourVectors, kinetic: &FourVectors) -> FourVectors {
     )
 }
 
-/// Factors that normalise `xᵀ M x` to 1.
+/// Factors by which shapes are multiplied to normalise `xᵀ M x` to 1.
 fn scale_of(kinetic: &FourVectors) -> FourVectors {
     kinetic.map(|kinetic| if kinetic > 0.0 { 1.0 / kinetic.sqrt() } else { 0.0 })
 }

@@ -1,18 +1,18 @@
-//! Damped vibration with a shift: eigenvalues of `λ² + λ B Bᵀ + Ω²` near the shift.
+//! Damped vibrations with a shift: eigenvalues of `λ² + λ B Bᵀ + Ω²` that are near the shift.
 //!
-//! With `y = (Ω x, ẋ)` the vibration is `ẏ = A y`, `A = [0 Ω; -Ω -B Bᵀ]`, which is dissipative. For `σ > 0` therefore `|(A - σ)⁻¹| ≤ 1/σ` for damping
-//! of any strength (Lumer & Phillips, Pacific J. Math. 11 (1961) 679–698). With the diagonals `e = (σ² + Ω²)^-½`, `w = Ω e` and `t = σ e`,
-//! `w² + t² = 1`,
+//! With `y = (Ω x, ẋ)` the equation of motion is `ẏ = A y`, where `A = [0 Ω; -Ω -B Bᵀ]` is dissipative. Hence `|(A - σ)⁻¹| ≤ 1/σ` for any `σ > 0`
+//! and damping of any strength (Lumer & Phillips, Pacific J. Math. 11 (1961) 679–698). Let `e = (σ² + Ω²)^-½`, `w = Ω e` and `t = σ e` be diagonal
+//! matrices, so that `w² + t² = 1`. Then the matrix
 //!
 //! ```text
 //! σ (A - σ)⁻¹ = [ -(t² + w P w)   -w (1 - P) t ]        P = G (1 + Gᵀ G)⁻¹ Gᵀ,   G = √σ e B
 //!               [  t (1 - P) w    -t (1 - P) t ]
 //! ```
 //!
-//! has no large entry: a dashpot of any strength is a projection `P`. With the singular vectors `U` and singular values `s` of `G`, which one-sided
-//! rotations compute accurately over all magnitudes, `P = U s²/(1 + s²) Uᵀ`. The eigenvalues `θ` of the matrix give `λ = σ (1 + 1/θ)`. Each reported
-//! `λ` is corrected by inverse iteration with the Rayleigh quotient of the quadratic problem. The unknowns of this iteration include the forces of
-//! strong dashpots, divided by their damping (F. Tisseur & K. Meerbergen, SIAM Review 43 (2001) 235–286, sections 2 and 3.4).
+//! has no large entry, because a dashpot of any strength acts as a projection `P`. With the singular vectors `U` and singular values `s` of `G`, `P
+//! = U s²/(1 + s²) Uᵀ`. One-sided rotations compute them accurately over all magnitudes. The eigenvalues `θ` of the matrix give `λ = σ (1 + 1/θ)`.
+//! Each reported `λ` is corrected by inverse iteration with the Rayleigh quotient of the quadratic problem. The unknowns of this iteration include
+//! the forces of strong dashpots, divided by their damping (F. Tisseur & K. Meerbergen, SIAM Review 43 (2001) 235–286, sections 2 and 3.4).
 
 use nalgebra::{DMatrix, DVector, Schur};
 
@@ -21,35 +21,37 @@ use super::dense::rotate;
 use super::quadratic::{ComplexNumber, Quadratic, size};
 use crate::elementary::square;
 
-/// Largest number of sweeps per `θ`; a few are usual.
+/// Largest number of QR iterations of the Schur decomposition per eigenvalue `θ`; a few are usual.
 const MOST_SWEEPS: usize = 40;
 
-/// Couplings of `θ`, relative to the diagonal, that count as zero. If the search does not converge, the next larger value is used.
+/// Relative size of the subdiagonal entries that the Schur decomposition treats as zero. If it does not converge, the next larger value is used.
 const DECOUPLED: [f64; 3] = [f64::EPSILON, 1e-14, 1e-12];
 
 /// Number of corrections of each reported `λ`.
 const CORRECTIONS: usize = 4;
 
-/// Relative change of `λ` above which a correction is rejected, because it has moved to another eigenvalue.
+/// Relative change of `λ` above which a correction is rejected, because it has changed to another eigenvalue.
 const FAR: f64 = 1e-4;
 
-/// Relative change of `λ` next to the shift above which a correction is rejected if it exceeds a multiple of rounding. This indicates a cluster with
-/// mixed shapes.
+/// Relative change of `λ` close to the shift above which a correction is rejected if it is much larger than rounding. Such a change indicates
+/// several eigenvalues close to each other, whose shapes are mixed.
 const NEAR: f64 = 1e-10;
 const ROUNDING_CHANGE: f64 = 1e-12;
 
-/// Offset of the inverse iteration from `λ`, relative to `λ`, at which the matrix is not singular.
+/// Distance of the shift of the inverse iteration from `λ`, as a fraction of `λ`. At this distance the matrix is not singular.
 const BESIDE: f64 = 1e-8;
 
-/// Damping `s²` above which the force is an independent unknown. As a matrix entry it would reduce the accuracy of weakly damped modes.
+/// Damping `s²` above which the force of a dashpot is an unknown. As a matrix entry, such a damping would reduce the accuracy of weakly damped
+/// modes.
 const STRONG: f64 = 1e4;
 
 pub(super) struct Resolvent {
     /// Shift `σ` [1/time].
     pub(super) shift: f64,
-    /// `w = |ω|/√(σ² + ω²)`, `t = σ/√(σ² + ω²)` and the sign of `ω²`, for each mode [-].
+    /// For each mode: `w = |ω|/√(σ² + ω²)`, `t = σ/√(σ² + ω²)` and the sign of `ω²` [-].
     scales: Vec<(f64, f64, f64)>,
-    /// Modes whose displacements are variables (restrained modes), and modes whose velocities are variables (those that are not loose).
+    /// Modes whose displacements are variables, which are the restrained modes. The next field contains the modes whose velocities are variables:
+    /// all except those that are neither restrained nor damped.
     places: Vec<usize>,
     velocities: Vec<usize>,
     /// Singular vectors `U`, one column for each `s²`.
@@ -89,7 +91,7 @@ impl Resolvent {
         Ok(Self { shift, scales, places, velocities, directions, damping })
     }
 
-    /// All eigenvalues `λ/σ` in increasing order of magnitude. Those near the shift are accurate.
+    /// All eigenvalues in the form `λ/σ`, in increasing order of magnitude. Those near the shift are accurate.
     ///
     /// # Errors
     /// Fails if the search does not converge.
@@ -99,8 +101,8 @@ impl Resolvent {
         if count == 0 {
             return Ok(Vec::new());
         }
-        // Deflation compares couplings with the diagonal, which may never succeed beside eigenvalues near zero, which are not needed. In this case
-        // all eigenvalues are shifted away from zero by the largest magnitude.
+        // The Schur decomposition compares subdiagonal entries with the diagonal. Next to eigenvalues near zero it may not converge, although these
+        // eigenvalues are not needed. In this case all eigenvalues are shifted away from zero by the largest magnitude.
         let search = |part: f64, moved: f64| {
             let mut matrix = matrix.clone();
             (0..count).for_each(|at| matrix[(at, at)] -= moved);
@@ -123,7 +125,7 @@ impl Resolvent {
         Ok(found)
     }
 
-    /// `σ (A - σ)⁻¹`.
+    /// Matrix `σ (A - σ)⁻¹`.
     fn matrix(&self) -> DMatrix<f64> {
         let Self { scales, places, velocities, .. } = self;
         let held = self.weighted(|square| square / (1.0 + square));
@@ -143,7 +145,7 @@ impl Resolvent {
         })
     }
 
-    /// `U f(s²) Uᵀ`.
+    /// Matrix `U f(s²) Uᵀ`.
     fn weighted(&self, of: impl Fn(f64) -> f64) -> DMatrix<f64> {
         let mut weighted = self.directions.clone();
         for (mut column, square) in weighted.column_iter_mut().zip(&self.damping) {
@@ -152,7 +154,7 @@ impl Resolvent {
         weighted * self.directions.transpose()
     }
 
-    /// Corrected eigenvalue `λ/σ`.
+    /// Corrected eigenvalue in the form `λ/σ`.
     pub(super) fn corrected(&self, start: ComplexNumber) -> ComplexNumber {
         let complex = |value: f64| ComplexNumber::new(value, 0.0);
         let modes = self.scales.len();
@@ -160,7 +162,7 @@ impl Resolvent {
         let strong: Vec<usize> =
             (0..self.damping.len()).filter(|at| self.damping[*at] > STRONG).collect();
         let mut at = start;
-        // `λ - σ` is the inverse of the computed eigenvalue.
+        // The computed eigenvalue is proportional to `1/(λ - σ)`. The rounding error of `λ` follows from this.
         let rounding = ROUNDING_CHANGE * square(size(start - complex(1.0))) / size(start);
         let trusted = (NEAR + rounding).min(FAR) * size(start);
         let unknowns = modes + strong.len();
@@ -198,12 +200,12 @@ impl Resolvent {
             let mut damped =
                 moving.iter().zip(resisted.iter()).map(|(a, b)| a * b).sum::<ComplexNumber>();
             for (force, damper) in (modes..).zip(&strong) {
-                // The rate is computed from the force, without cancellation.
+                // The rate is computed from the force, which avoids cancellation.
                 let rate = next[force] / (beside * self.damping[*damper]);
                 damped += rate * rate * self.damping[*damper];
             }
             let root = root(damped * damped - inertia * stiffness * 4.0);
-            // The sum has no cancellation; the difference follows from it.
+            // The larger of both values has no cancellation, and the smaller one follows from it.
             let [sum, difference] = [damped + root, damped - root];
             let sum = if size(sum) > size(difference) { sum } else { difference };
             let nearest = [-sum / (inertia * 2.0), -stiffness * 2.0 / sum];
@@ -211,7 +213,7 @@ impl Resolvent {
                 true => nearest[0],
                 false => nearest[1],
             };
-            // At a double eigenvalue the Rayleigh quotient is undefined.
+            // At a double eigenvalue the Rayleigh quotient is not defined.
             let moved = size(nearest - start);
             if moved.is_nan() || moved > trusted {
                 return start;

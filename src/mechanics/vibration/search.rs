@@ -1,4 +1,4 @@
-//! Search for the lowest modes: choice of a shift, computation of pairs, and a count of eigenvalues that verifies completeness.
+//! Search for the lowest modes: choice of a shift, computation of pairs, and a count of eigenvalues which verifies that no mode is missing.
 
 use super::VibrationError;
 use super::dense::all_pairs;
@@ -14,22 +14,23 @@ const SMALL: usize = 240;
 /// Number of unknowns up to which all modes are computed at once if more than a quarter of them is requested.
 const MEDIUM: usize = 2000;
 
-/// Number of matrices of the size of the stiffness that exist at the same time if all modes are computed.
+/// Number of matrices of the size of the stiffness that are in memory at the same time if all modes are computed.
 const DENSE_COPIES: usize = 5;
 
-/// Largest number of increases of the shift by a factor of a hundred, for unstable configurations.
+/// Largest number of times that the shift is increased by a factor of a hundred, for unstable configurations.
 const MOST_SHIFTS: usize = 14;
 
-/// Residual above which a pair is rejected.
+/// Residual above which a pair is not accepted.
 const LARGEST_RESIDUAL: f64 = 1e-6;
 
-/// Difference of `ω² + σ` of two modes, relative to it, below which they are equal in counts.
+/// Relative difference of the values `ω² + σ` of two modes below which the modes count as equal in the check for missing modes.
 const EQUAL: f64 = 1e-6;
 
-/// Multiple of its rounding error below which `ω²` counts as zero.
+/// Multiple of the rounding error of `ω²` below which `ω²` counts as zero.
 const ROUNDING: f64 = 64.0;
 
-/// `ω²`, relative to the shift, below which it counts as zero, because shapes of rigid motions contain components of other shapes due to rounding.
+/// Size of `ω²` that counts as zero, as a fraction of the shift. Shapes of rigid motions have such values because rounding adds components of other
+/// shapes.
 const HIDDEN: f64 = 1e-14;
 
 /// Largest ratio of the shift to the lowest nonzero `ω²`.
@@ -58,7 +59,7 @@ pub(super) fn is_small(unknowns: usize) -> bool {
 pub(super) fn numbers(unknowns: usize, count: usize) -> usize {
     match ModeSearch::of(unknowns, count) {
         ModeSearch::All => DENSE_COPIES * unknowns * unknowns,
-        // The basis, its copy during a restart, and the eigenpairs with momenta, shapes and section forces.
+        // The terms are: the basis, its copy during a restart, and the eigenpairs with momenta, shapes and section forces.
         ModeSearch::Lowest => unknowns * (2 * Lanczos::width(count) + 3 * count + 16 * STRIP_WIDTH),
     }
 }
@@ -75,7 +76,7 @@ pub(super) fn lowest(
         None => found,
         Some((shift, factors)) => match with_shift(pencil, shift, &factors, count, goes_on) {
             Err(VibrationError::Interrupted) => return Err(VibrationError::Interrupted),
-            // The result with the first shift is as accurate as its residuals show.
+            // If the search with a better shift fails, the result with the first shift is used. Its residuals show how accurate it is.
             Err(_) => found,
             Ok(finer) => finer,
         },
@@ -130,7 +131,7 @@ fn counted_pairs(
     let mut wanted = count;
     loop {
         let pairs = search.find_pairs(wanted, goes_on)?;
-        // Pairs equal to the last requested pair may be missing; all pairs below it must be found.
+        // Pairs with the same eigenvalue as the last requested pair may be missing. All pairs below it must have been found.
         let below = 1.0 / pairs.values[count - 1] * (1.0 - EQUAL) - shift;
         let found = pairs.values.iter().filter(|value| 1.0 / *value - shift < below).count();
         match pencil.modes_below(below) {

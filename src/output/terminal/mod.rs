@@ -1,8 +1,8 @@
 //! Charts and pictures as text for a terminal: braille dots or plain ASCII, with or without colours.
 //!
 //! ```text
-//! chart, picture → dots → sheet → style
-//! heat_map → sheet
+//! chart, picture → dots → character_grid → style
+//! heat_map → character_grid
 //! ```
 
 mod character_grid;

@@ -1,7 +1,7 @@
 //! Motion viewer for browsers: one self-contained HTML file without network access.
 //!
 //! ```text
-//! film → thinning, packing → document → HTML with page/template.html, page/style.css and the programs of page/
+//! data → thinning, packing → document → HTML with page/template.html, page/style.css and the programs of page/
 //! ```
 //!
 //! Bodies are stored as their control points or nodes, with 16 bits per coordinate, and evaluated in the browser. Curves are exact at every drawn

@@ -205,7 +205,8 @@ fn columns(shell: &mut Shell, names: &[String]) -> PlotData {
     Ok((curves, None))
 }
 
-/// Evaluates an expression at the present time. If its value is a point of a curve, it is then evaluated at all earlier states.
+/// Evaluates an expression at the present time. If the value is a single point of a curve, the expression is then evaluated at all earlier
+/// states.
 fn expression(shell: &mut Shell, text: &str) -> PlotData {
     let subject = match subject(shell, text) {
         Ok(subject) => subject,

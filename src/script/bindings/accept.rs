@@ -1,4 +1,4 @@
-//! Conversion of script values to the kind of a parameter.
+//! Conversion of script values to the type that a parameter requires.
 
 use rhai::{Array, Dynamic, Engine, FnPtr, Map};
 
@@ -12,9 +12,9 @@ use crate::script::messages::nouns::type_word;
 use crate::script::messages::numbers::{as_integer, as_number, describe};
 use crate::system::refusal_of_name;
 
-/// Converts `value` to the form that native bodies read: numbers to `f64`, points to [`Vec2`], option maps to [`Options`].
+/// Converts `value` to the form that native functions read: numbers become `f64`, points [`Vec2`], and option maps [`Options`].
 ///
-/// `owner` is the function or option map that messages name.
+/// `owner` is the function or option map, which messages name.
 pub fn accept(
     engine: &Engine,
     owner: &str,
@@ -30,7 +30,7 @@ pub fn accept(
     }
 }
 
-/// Converts `value` for a parameter that a script describes; `wanted` describes the allowed values.
+/// Converts `value` for a parameter that a script has described. `wanted` describes the allowed values for messages.
 pub fn accept_described(
     engine: &Engine,
     owner: &str,
@@ -42,7 +42,8 @@ pub fn accept_described(
         .map_err(|refused| refusal(engine, owner, name, kind, wanted, &refused))
 }
 
-/// Result of a conversion. The outer error is final; an inner error returns the value, for the general error message.
+/// Result of a conversion. An outer error is reported unchanged. An inner error returns the value, for which the general error message is then
+/// created.
 type Conversion = Result<Result<Dynamic, Dynamic>, ScriptError>;
 
 fn convert(engine: &Engine, owner: &str, kind: &Kind, value: Dynamic) -> Conversion {
@@ -90,7 +91,7 @@ fn convert(engine: &Engine, owner: &str, kind: &Kind, value: Dynamic) -> Convers
     Ok(accepted.ok_or(value))
 }
 
-/// Checks a name that appears in tables and is typed by users.
+/// Checks a name that tables show and users type.
 pub fn readable(owner: &str, name: &str) -> Result<String, ScriptError> {
     match refusal_of_name(name) {
         None => Ok(name.to_owned()),
@@ -99,7 +100,7 @@ pub fn readable(owner: &str, name: &str) -> Result<String, ScriptError> {
     }
 }
 
-/// Point from a vector or an array of two finite numbers.
+/// Point from a vector or from an array of two finite numbers; `None` for other values.
 pub fn as_point(value: &Dynamic) -> Option<Vec2> {
     let point = match value.read_lock::<Vec2>() {
         Some(vector) => *vector,
@@ -156,7 +157,7 @@ fn is_infinite_or_nan(value: &Dynamic) -> bool {
     as_number(value).is_some_and(|x| !x.is_finite())
 }
 
-/// Sets the position of an error to argument `number`, unless it has the position of a key.
+/// Sets the position of an error to the argument `number`, unless it is already the position of a key.
 pub fn at_argument(error: ScriptError, number: usize) -> ScriptError {
     match error {
         ScriptError::Failure(failure) if failure.place == CallPart::Call => {

@@ -1,4 +1,4 @@
-//! Typed access to checked values by name, for arguments of a call and keys of an option map.
+//! Typed access by name to checked values: arguments of a call, or keys of an option map.
 
 use rhai::{Array, Dynamic, FnPtr, INT, ImmutableString};
 
@@ -26,7 +26,7 @@ impl Arguments {
         Self { parameters, values }
     }
 
-    /// Returns true if the argument has a value, given or by default.
+    /// Returns true if the argument is given or has a default.
     pub fn has(&self, name: &str) -> bool {
         self.find(name).is_ok()
     }
@@ -52,7 +52,7 @@ impl Arguments {
         self.find(name)?.as_int().map_err(|held| wrong_type_read(name, held))
     }
 
-    /// The argument as a count; the parameter must exclude negative numbers.
+    /// Value of the argument as a count. The parameter must exclude negative numbers.
     pub fn count(&self, name: &str) -> Result<usize, ScriptError> {
         usize::try_from(self.integer(name)?).map_err(|_| wrong_type_read(name, "a negative number"))
     }
@@ -61,10 +61,10 @@ impl Arguments {
         self.find(name)?.clone().into_immutable_string().map_err(|held| wrong_type_read(name, held))
     }
 
-    /// The argument as a text, if present.
+    /// Value of the argument as a text; `None` if it is omitted.
     ///
     /// # Errors
-    /// Fails if it is not a text. The kind of the parameter must exclude this.
+    /// Fails if it is not a text. The type of the parameter should exclude this.
     pub fn optional_text(&self, name: &str) -> Result<Option<String>, ScriptError> {
         self.has(name).then(|| self.text(name).map(String::from)).transpose()
     }
@@ -89,7 +89,7 @@ impl Arguments {
         self.get(name)
     }
 
-    /// The argument as a script function, to be called back with [`Call::invoke`](super::call::Call::invoke).
+    /// Value of the argument as a script function, which [`Call::invoke`](super::call::Call::invoke) can call.
     pub fn callback(&self, name: &str) -> Result<FnPtr, ScriptError> {
         self.get(name)
     }
@@ -98,7 +98,7 @@ impl Arguments {
         self.get(name)
     }
 
-    /// The argument as a map of options. If it is omitted, all keys have their defaults.
+    /// Value of the argument as a map of options. If it is omitted, all keys have their defaults.
     pub fn options_or_defaults(&self, name: &str) -> Result<Options, ScriptError> {
         match self.parameters.iter().find(|parameter| parameter.name == name) {
             Some(Parameter { kind: Kind::Options(keys), .. }) if !self.has(name) => {
@@ -108,12 +108,12 @@ impl Arguments {
         }
     }
 
-    /// The argument as a value of a native type. Handles are cheap to clone.
+    /// Value of the argument as a native type. Handles are cheap to clone.
     pub fn get<T: Clone + 'static>(&self, name: &str) -> Result<T, ScriptError> {
         self.find(name)?.clone().try_cast().ok_or_else(|| wrong_type_read(name, "another type"))
     }
 
-    /// The argument as a value of a native type, if it is present and of that type.
+    /// Value of the argument as a native type; `None` if it is omitted or of another type.
     pub fn get_if<T: Clone + 'static>(&self, name: &str) -> Option<T> {
         self.find(name).ok()?.clone().try_cast()
     }

@@ -1,4 +1,4 @@
-//! Detection of branches that depend on parameters. There, the position of a jump depends on a parameter, and derivatives are wrong.
+//! Detection of script functions that branch on parameters. The position of the resulting jump depends on a parameter, so derivatives are wrong.
 
 use rhai::{Array, Dynamic, FnPtr, Map, NativeCallContext};
 
@@ -9,7 +9,8 @@ use crate::script::state::context::Context;
 mod jumps;
 mod search;
 
-/// Warns once per position of a function that branches on an expression of its argument and of a variable that depends on a parameter.
+/// Warns about a function that branches on an expression of its argument and of a variable that depends on a parameter. Each position is reported
+/// once.
 pub fn warn_once(native: &NativeCallContext, context: &Context, given: &[Dynamic]) {
     given.iter().for_each(|value| warn_about(native, context, value));
 }

@@ -1,16 +1,16 @@
-//! Functions of Rhai that are part of the language. They are documented like bindings, but the engine registers them.
+//! Functions of Rhai that are part of the language. They are documented in the same form as bindings, but the engine registers them.
 
 use super::returns::Returns;
 
-/// Functions of Rhai for one kind of value.
+/// Functions of Rhai for one type of value.
 pub struct BuiltInTable {
     pub name: &'static str,
-    /// One or two sentences on the functions.
+    /// One or two sentences about the functions.
     pub doc: &'static str,
     pub rows: &'static [BuiltIn],
 }
 
-/// A function of Rhai with all its notations.
+/// Function of Rhai with all its notations.
 pub struct BuiltIn {
     /// Notations of the function: `array.push(value)`, `parse_int(text, [radix])`, `text.len`. All have the same name.
     pub forms: &'static [&'static str],
@@ -22,10 +22,10 @@ pub struct BuiltIn {
     pub related: &'static [&'static str],
 }
 
-/// A parsed notation of a function of Rhai.
+/// Notation of a function of Rhai, split into its parts.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FunctionForm {
-    /// Kind of value before the dot; `None` for a function.
+    /// Type of the value before the dot; `None` for a function.
     pub receiver: Option<&'static str>,
     pub name: &'static str,
     /// Arguments in parentheses; empty for a property.
@@ -47,7 +47,7 @@ pub enum NameSuffix {
     Repeated,
 }
 
-/// Creates the entry of a function of Rhai; its return value is added by [`BuiltIn::returns`].
+/// Creates the entry of a function of Rhai. [`BuiltIn::returns`] adds its return value.
 pub const fn built_in(
     forms: &'static [&'static str],
     summary: &'static str,
@@ -76,7 +76,7 @@ impl BuiltIn {
         self.forms.first().map_or("", |form| written(form).name)
     }
 
-    /// Parsed notations of the function.
+    /// All notations of the function, split into their parts.
     pub fn written(&self) -> impl Iterator<Item = FunctionForm> {
         self.forms.iter().map(|form| written(form))
     }
@@ -86,7 +86,7 @@ impl BuiltIn {
         self.form_of(type_name).is_some()
     }
 
-    /// First notation of the function after the dot of a value of this type.
+    /// First notation of the function for a value of this type before the dot.
     pub fn form_of(&self, type_name: &str) -> Option<FunctionForm> {
         self.written().find(|form| form.is_of(type_name))
     }
@@ -108,13 +108,13 @@ impl FunctionForm {
         self.receiver.is_some_and(|kind| kind_includes(kind, type_name))
     }
 
-    /// Arguments one by one, optional ones in brackets.
+    /// List of the arguments, with optional ones in brackets.
     pub fn listed(&self) -> Vec<String> {
         let inside = self.arguments.trim_matches(['(', ')']).split(", ");
         inside.filter(|name| !name.is_empty()).map(str::to_owned).collect()
     }
 
-    /// Returns true if a call with `count` values, including the receiver, matches this notation.
+    /// Returns true if a call with `count` values, including the value before the dot, matches this notation.
     pub fn takes(&self, count: usize) -> bool {
         let receiver = usize::from(self.receiver.is_some());
         let least = self.required.len() + receiver;

@@ -1,4 +1,4 @@
-//! A native call in progress: arguments by name, receiver, context, and callbacks.
+//! Native call in progress: its arguments by name, its receiver, its context, and calls of script functions.
 
 use std::ops::Deref;
 
@@ -25,7 +25,7 @@ pub struct Call<'c, 'r> {
     arguments: Arguments,
 }
 
-/// Arguments are read directly from the call: `call.number("dt")`.
+/// The arguments can be read directly from the call, for example `call.number("dt")`.
 impl Deref for Call<'_, '_> {
     type Target = Arguments;
 
@@ -50,7 +50,7 @@ impl<'c, 'r> Call<'c, 'r> {
         self.context
     }
 
-    /// Receiver of the method or property. Handles are cheap to clone.
+    /// Value before the dot of a method or property call. Handles are cheap to clone.
     pub fn receiver<T: Clone + 'static>(&self) -> Result<T, ScriptError> {
         let receiver = self
             .receiver
@@ -61,7 +61,7 @@ impl<'c, 'r> Call<'c, 'r> {
         })
     }
 
-    /// Modifies the receiver of the method or property.
+    /// Modifies the value before the dot of a method or property call.
     pub fn change_receiver<T: Clone + 'static>(
         &mut self,
         change: impl FnOnce(&mut T),
@@ -75,14 +75,14 @@ impl<'c, 'r> Call<'c, 'r> {
         Ok(())
     }
 
-    /// Script line of the call, from 1. For a call from the standard library, it is the line that called the library.
+    /// Script line of the call, from 1. If the standard library made the call, it is the script line that called the library.
     pub fn line(&self) -> usize {
         let entered = Sources::of(self.native.engine())
             .entered_at(self.native.global_runtime_state().source());
         entered.or(self.native.call_position().line()).unwrap_or(0)
     }
 
-    /// Calls a script function. Its errors keep their positions and trace.
+    /// Calls a script function. Errors of the function keep their positions and call trace.
     pub fn invoke(
         &self,
         function: &FnPtr,
@@ -92,22 +92,22 @@ impl<'c, 'r> Call<'c, 'r> {
         function.call_raw(self.native, None, arguments).map_err(ScriptError::Engine)
     }
 
-    /// Number of arguments of a script function; `None` if unknown.
+    /// Number of arguments that a script function takes; `None` if unknown.
     pub fn arguments_of(&self, function: &FnPtr) -> Option<usize> {
         arguments_of(self.native, function)
     }
 
-    /// Definition of a script function; `None` unless it belongs to the running file.
+    /// Definition of a script function; `None` if it is not a function of the running file.
     pub fn definition(&self, function: &FnPtr) -> Option<Shared<ScriptFuncDef>> {
         definition_of(self.native, function)
     }
 
-    /// Syntax tree that contains only this script function; empty if it does not belong to the running file.
+    /// Syntax tree with only this script function; empty if it is not a function of the running file.
     pub fn body(&self, function: &FnPtr) -> AST {
         body_of(self.native, function)
     }
 
-    /// Script function with this name and number of parameters (including captured variables), without captured values.
+    /// Script function with this name and this number of parameters, including captured variables. It has no captured values.
     pub fn function_named(&self, name: &str, parameters: usize) -> Option<FnPtr> {
         let libraries = &self.native.global_runtime_state().lib;
         let found = libraries.iter().find_map(|of| of.get_script_fn(name, parameters).cloned());
@@ -119,7 +119,7 @@ impl<'c, 'r> Call<'c, 'r> {
         self.native.engine()
     }
 
-    /// Rejects a script function with another number of arguments; `shape` shows the right one.
+    /// Rejects a script function that takes another number of arguments. `shape` shows the required form.
     pub fn expect_arguments(
         &self,
         function: &FnPtr,
@@ -139,17 +139,17 @@ impl<'c, 'r> Call<'c, 'r> {
         }
     }
 
-    /// Stores a script function for later calls; `role` names it in messages.
+    /// Stores a script function for later calls. `role` names it in messages.
     pub fn store(&self, function: FnPtr, role: &str) -> StoredFunction {
         StoredFunction::new(function, self.native, self.context, role.to_owned())
     }
 
-    /// Returns an error if the run was interrupted. Long native loops must call this once per step.
+    /// Returns an error if the run was interrupted. Long native loops must call this function once per step.
     pub fn proceed(&self) -> Result<(), ScriptError> {
         self.context.proceed()
     }
 
-    /// Converts `value` for a parameter of a script function with a kind and a description.
+    /// Converts `value` for a parameter of a script function. `wanted` is the type and the description of allowed values.
     pub fn accept(
         &self,
         owner: &str,
@@ -201,7 +201,7 @@ fn definition_of(native: &NativeCallContext, function: &FnPtr) -> Option<Shared<
     libraries.iter().find_map(defined)
 }
 
-/// Script function by name and number of parameters (including captured variables); any number if `None`.
+/// Script function with this name and this number of parameters, including captured variables. With `None` the number is arbitrary.
 pub(super) fn defined(
     native: &NativeCallContext,
     name: &str,
@@ -222,18 +222,18 @@ fn body_of(native: &NativeCallContext, function: &FnPtr) -> AST {
     body_named(native, function.fn_name(), parameters)
 }
 
-/// Syntax tree of the script function with this name and number of parameters (including captured variables); empty if there is none.
+/// Syntax tree with only the script function of this name and number of parameters, including captured variables. It is empty if there is none.
 pub(super) fn body_named(native: &NativeCallContext, name: &str, parameters: usize) -> AST {
     let libraries = &native.global_runtime_state().lib;
     let has = |library: &&Shared<Module>| library.get_script_fn(name, parameters).is_some();
     let library = libraries.iter().find(has).map(|found| AST::new_from_module(found.clone()));
     let mut body = library.unwrap_or_default();
-    // Rhai's filtered clone of a syntax tree keeps all functions.
+    // When Rhai clones a syntax tree with a filter, it keeps all functions. Therefore they are removed here.
     body.retain_functions(|_, _, own, count| own == name && count == parameters);
     body
 }
 
-/// Closure that this call expression creates, without captured values, and the captured variables.
+/// Closure that this call expression creates, without captured values, and the variables that it captures.
 pub fn written_within(call: &FnCallExpr) -> Option<(FnPtr, &[Expr])> {
     match call.args.as_slice() {
         [Expr::DynamicConstant(function, _), captured @ ..] if call.name == CAPTURE => {

@@ -1,4 +1,4 @@
-//! Catalog of the language: all tables, with lookup by name for messages, help and completion.
+//! Catalog of the language. It contains all tables, in which messages, help and completion search names.
 
 use super::built_in::{BuiltIn, BuiltInTable, FunctionForm};
 use super::builtins;
@@ -6,7 +6,7 @@ use super::kind::Type;
 use super::returns::ValueKind;
 use super::table::{BindingTable, CallSyntax, FunctionBinding};
 
-/// Tables of a language.
+/// Catalog of the tables of a language.
 #[derive(Clone)]
 pub struct Catalog {
     tables: Vec<&'static BindingTable>,
@@ -14,7 +14,7 @@ pub struct Catalog {
 }
 
 impl Catalog {
-    /// Catalog of the given tables and the functions of Rhai.
+    /// Creates a catalog of the given tables and of the functions of Rhai.
     pub fn of(tables: &[&'static BindingTable]) -> Self {
         Self { tables: tables.to_vec(), built_ins: builtins::TABLES }
     }
@@ -36,7 +36,7 @@ impl Catalog {
         self.tables().flat_map(|table| table.rows)
     }
 
-    /// Bindings with this name. There are several if types have methods of the same name.
+    /// Bindings with this name. Several types may have methods of the same name.
     pub fn named<'a>(
         &self,
         name: &'a str,
@@ -61,12 +61,12 @@ impl Catalog {
             .collect()
     }
 
-    /// Value kind of the type with this display name.
+    /// Kind of return value for the type with this display name.
     pub fn kind_named(&self, name: &str) -> Option<ValueKind> {
         ValueKind::plain(name).or_else(|| self.type_named(name).map(ValueKind::Object))
     }
 
-    /// Methods and properties of a type that Rhai provides, with their first notation.
+    /// Methods and properties that Rhai provides for a type, with their first notation.
     pub fn built_in_members<'a>(
         &self,
         of: &'a str,

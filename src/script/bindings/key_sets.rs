@@ -1,15 +1,16 @@
-//! Option maps of which exactly one set of keys applies. For example, a section is given by stiffness and inertia, or by a material and a shape.
+//! Option maps with alternative sets of keys, of which exactly one is given. For example, a section is given by stiffness and inertia, or by a
+//! material and a shape.
 
 use super::options::Options;
 use crate::script::messages::error::{CallPart, ScriptError};
 use crate::script::messages::nouns::with_article;
 
-/// Alternative sets of keys of an option map, each with a meaning for the code that reads the map.
+/// Alternative sets of keys of an option map. Each set has a meaning for the code that reads the map.
 pub struct KeySets<T: 'static> {
     pub description: &'static str,
     /// Keys that are allowed with every set.
     pub always_allowed: &'static [&'static str],
-    /// Sets of keys. If the given keys do not determine the set, the first set applies.
+    /// Sets of keys. If several sets have as many given keys, the first one applies.
     pub sets: &'static [KeySet<T>],
 }
 
@@ -21,7 +22,7 @@ pub struct KeySet<T> {
     pub description: &'static str,
     /// Keys of the set, in the order in which missing keys are reported.
     pub keys: &'static [&'static str],
-    /// Key and text value that select this set.
+    /// Key and text value by which this set is selected; `None` if it is selected by its keys only.
     pub chosen_by: Option<(&'static str, &'static str)>,
 }
 
@@ -47,7 +48,7 @@ impl<T: Copy> KeySets<T> {
         }
     }
 
-    /// Set that a text selects, otherwise the first of the sets with the largest number of given keys.
+    /// Set that is selected by a text; otherwise the set with the largest number of given keys, or the first of several.
     fn meant(&self, options: &Options) -> Option<&'static KeySet<T>> {
         let is_chosen = |set: &&KeySet<T>| {
             let chosen = set.chosen_by.map(|(key, text)| (options.text(key), text));

@@ -1,4 +1,4 @@
-//! Kinds of parameter values: descriptions and ranges.
+//! Types of parameter values, with their descriptions and ranges.
 
 use std::any::TypeId;
 use std::fmt;
@@ -10,7 +10,7 @@ use super::parameter::Parameter;
 use super::parameter_variants::{self, ParameterSet};
 use crate::script::messages::nouns::with_article;
 
-/// A native type of the language.
+/// Native type of the language.
 pub trait Scripted: Clone + 'static {
     /// Name of the type in messages and help: one or two words.
     const NAME: &'static str;
@@ -19,31 +19,31 @@ pub trait Scripted: Clone + 'static {
     /// Printed form of the value.
     fn show(&self) -> String;
 
-    /// Summary of the value: at most a dozen labels with values.
+    /// Summary of the value: at most about twelve labels with values.
     fn details(&self) -> Details {
         Details::new()
     }
 
-    /// Implicit conversion from another type, if there is one.
+    /// Value after an implicit conversion from another type; `None` if there is no such conversion.
     fn meant_by(_value: &Dynamic) -> Option<Self> {
         None
     }
 
-    /// Set of the parameters on which the value or its scene depends.
+    /// Set of the parameters on which the value or its scene depends; `None` if it depends on none.
     fn parameter_set(&self) -> Option<Rc<ParameterSet>> {
         None
     }
 
-    /// Reason why the value is in use; `None` unless a native call that is running a script function works on it.
+    /// Reason why the value is in use; `None` if it is not. A value is in use while a native call that runs a script function works on it.
     fn is_busy(&self) -> Option<String> {
         None
     }
 }
 
-/// Summary of a script value: labels and values, shown as aligned lines.
+/// Summary of a script value: labels and values, which are shown as aligned lines.
 pub type Details = Vec<(String, String)>;
 
-/// A [`Scripted`] type as a value, for tables.
+/// [`Scripted`] type as a value, so that tables can contain it.
 #[derive(Clone, Copy)]
 pub struct Type {
     name: &'static str,
@@ -57,7 +57,7 @@ pub struct Type {
 }
 
 impl Type {
-    /// Type descriptor of the native type `T`.
+    /// Descriptor of the native type `T`.
     pub const fn of<T: Scripted>() -> Self {
         Self {
             name: T::NAME,
@@ -81,12 +81,12 @@ impl Type {
         self.doc
     }
 
-    /// Identity of the native type.
+    /// Identifier of the native type.
     pub fn id(&self) -> TypeId {
         (self.id)()
     }
 
-    /// Returns the value if it is of this type, or its implicit conversion; `None` if there is none.
+    /// Returns the value if it is of this type, or its implicit conversion to this type; `None` otherwise.
     pub fn accept(&self, value: &Dynamic) -> Option<Dynamic> {
         if value.type_id() == self.id() { Some(value.clone()) } else { (self.convert)(value) }
     }
@@ -101,12 +101,12 @@ impl Type {
         (self.details)(value)
     }
 
-    /// Function that returns the reason why a value of this type is in use, if it is.
+    /// Function that returns the reason why a value of this type is in use, or `None`.
     pub fn busy(&self) -> fn(&Dynamic) -> Option<String> {
         self.busy
     }
 
-    /// Registers name and printed form in the engine.
+    /// Registers the name and the printed form of the type in the engine.
     pub fn register(&self, engine: &mut Engine) {
         (self.register)(engine);
     }
@@ -122,7 +122,7 @@ fn register<T: Scripted>(engine: &mut Engine) {
     }
 }
 
-/// Kind of value of a parameter.
+/// Type of the value of a parameter.
 #[derive(Clone, Copy)]
 pub enum Kind {
     /// A number; integers are accepted.
@@ -133,7 +133,7 @@ pub enum Kind {
     Integer(NumberRange),
     /// A text.
     Text,
-    /// A text that can be read in tables and typed.
+    /// A text that is a name: tables can show it and users can type it.
     Name,
     /// One of these texts.
     Choice(&'static [&'static str]),
@@ -153,7 +153,7 @@ pub enum Kind {
     Options(&'static [Parameter]),
     /// A value of this native type.
     Object(Type),
-    /// A value of one of these kinds, tried in order.
+    /// A value of one of these types. They are tried in order.
     Either(&'static [Kind]),
     /// Any value.
     Any,
@@ -198,7 +198,7 @@ impl NumberRange {
 }
 
 impl Kind {
-    /// Returns true if numbers must be integers.
+    /// Returns true if the type requires integers.
     pub fn is_of_whole_numbers(&self) -> bool {
         match self {
             Self::Integer(_) => true,
@@ -210,7 +210,7 @@ impl Kind {
         }
     }
 
-    /// Returns true if values of this type may be accepted.
+    /// Returns true if values of the native type with this name may be accepted.
     pub fn takes(&self, type_name: &str) -> bool {
         match self {
             Self::Number(_) | Self::Integer(_) | Self::Numeric => {

@@ -1,4 +1,5 @@
-//! Methods and properties of values that depend on parameters. They are evaluated for the section, curve, vector or number in each variant.
+//! Methods and properties of values that depend on parameters. They are evaluated in each variant, for the section, curve, vector or number of this
+//! variant.
 
 use std::collections::BTreeMap;
 
@@ -37,9 +38,9 @@ impl Use {
     }
 }
 
-/// Registers the methods and properties of all types for variant values.
+/// Registers the methods and properties of all types for values that have variants.
 pub fn install(engine: &mut Engine, catalog: &Catalog, context: &Context) {
-    // For each name and use: the methods of types, and the function of this name, which accepts any type.
+    // For each name and form of call, this map contains the methods of the types, and the function of this name, which accepts any type.
     let mut members: BTreeMap<(&'static str, Use), Vec<RegisteredFunction>> = BTreeMap::new();
     for table in catalog.tables() {
         for row in table.rows {
@@ -63,7 +64,7 @@ pub fn install(engine: &mut Engine, catalog: &Catalog, context: &Context) {
             }
         }
     }
-    // Methods of a type take precedence over functions of the same name.
+    // Methods of a type take precedence over functions with the same name.
     for table in catalog.tables() {
         for row in table.rows.iter().filter(|row| matches!(row.form, CallSyntax::Function)) {
             for count in row.required().max(1)..=row.parameters.len() {

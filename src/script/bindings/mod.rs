@@ -1,4 +1,4 @@
-//! Declaration and call of bindings: tables, kinds and parameters, and checked native calls.
+//! Declaration and call of bindings: tables, types and parameters, and native calls with checked arguments.
 
 pub(crate) mod accept;
 pub(crate) mod arguments;

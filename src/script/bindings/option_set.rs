@@ -1,4 +1,4 @@
-//! Typed option maps. One declaration gives keys, kinds, units, defaults and the fields for the values.
+//! Typed option maps. One declaration gives the keys, types, units and defaults, and the fields for the values.
 
 use rhai::{Array, Dynamic, FnPtr};
 
@@ -7,16 +7,16 @@ use super::parameter::Parameter;
 use crate::integrators::Method;
 use crate::script::messages::error::ScriptError;
 
-/// Types into which the value of a key can be read.
+/// Types that can be read from the value of a key.
 pub trait FromOption: Sized {
-    /// Reads the value of a key. If the key is omitted, it has its default.
+    /// Reads the value of a key. An omitted key has its default value.
     ///
     /// # Errors
-    /// Fails if the kind does not match, which is an internal error.
+    /// Fails if the type does not match, which is an internal error.
     fn read(options: &Arguments, key: &str) -> Result<Self, ScriptError>;
 }
 
-/// An optional key.
+/// Optional key without a default.
 impl<T: FromOption> FromOption for Option<T> {
     fn read(options: &Arguments, key: &str) -> Result<Self, ScriptError> {
         options.has(key).then(|| T::read(options, key)).transpose()
@@ -47,7 +47,7 @@ impl FromOption for Dynamic {
     }
 }
 
-/// Types that the engine stores unchanged.
+/// Types that the engine stores without conversion.
 macro_rules! held_as_they_are {
     ($($held:ty),*) => {
         $(impl FromOption for $held {
@@ -60,9 +60,9 @@ macro_rules! held_as_they_are {
 
 held_as_they_are!(FnPtr, Array, Vec<f64>, Method);
 
-/// Declares a struct whose fields are keys of an option map: `field: Type = parameter`, where the parameter contains the help text.
+/// Declares a struct whose fields are the keys of an option map, in the form `field: Type = parameter`. The parameter contains the help text.
 ///
-/// The struct has the keys `KEYS`, in the order of its fields, and is read from checked options by `of`.
+/// The keys are in `KEYS`, in the order of the fields. The function `of` reads the struct from checked options.
 macro_rules! option_set {
     (
         $(#[$about:meta])*
@@ -76,13 +76,13 @@ macro_rules! option_set {
         }
 
         impl $name {
-            /// Keys of the option map, in the order of the help.
+            /// Keys of the option map, in the order of the help text.
             pub const KEYS: &'static [$crate::script::bindings::parameter::Parameter] = &[$($key),*];
 
-            /// Reads checked options.
+            /// Reads the fields from checked options.
             ///
             /// # Errors
-            /// Fails if a key is not of the kind of its field, which is an internal error.
+            /// Fails if the type of a key is not that of its field, which is an internal error.
             pub fn of(
                 options: &$crate::script::bindings::options::Options,
             ) -> Result<Self, $crate::script::messages::error::ScriptError> {
@@ -99,7 +99,7 @@ macro_rules! option_set {
 
 pub(in crate::script) use option_set;
 
-/// Combines two sets of keys, `N` in total.
+/// Combines two sets of keys to one set of `N` keys.
 pub const fn both<const N: usize>(
     first: &'static [Parameter],
     second: &'static [Parameter],

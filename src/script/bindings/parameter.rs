@@ -1,32 +1,32 @@
-//! Parameters of bindings and keys of option maps: name, kind, unit, range, default and description.
+//! Parameters of bindings and keys of option maps: name, type, unit, range, default and description.
 
 use rhai::Dynamic;
 
 use super::kind::{Kind, NumberRange, Type};
 
-/// A parameter of a binding, or a key of an option map.
+/// Parameter of a binding, or key of an option map.
 #[derive(Clone, Copy)]
 pub struct Parameter {
     /// Name: the key in an option map, and the name in messages.
     pub name: &'static str,
-    /// Kind of value.
+    /// Type of value.
     pub kind: Kind,
     /// Dimension, such as `force` or `force·length²`; empty for a pure number or an object.
     pub unit: &'static str,
     /// Description for the help.
     pub doc: &'static str,
-    /// Requirement and default.
+    /// Whether the parameter is required, and its default.
     pub presence: Presence,
     /// Key of the same map that must be given too; may be empty.
     pub required_key: &'static str,
 }
 
-/// Requirement and default of a parameter.
+/// Whether a parameter is required, and its default.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Presence {
     /// Required.
     Required,
-    /// Optional without default. The native body must handle an omitted value.
+    /// Optional without default. The native function must handle an omitted value.
     Optional,
     /// Optional with a default number.
     Number(f64),
@@ -38,82 +38,82 @@ pub enum Presence {
     Boolean(bool),
 }
 
-/// Parameter of a number; finite unless [`Parameter::allow_non_finite`] is called.
+/// Parameter that is a number. It must be finite unless [`Parameter::allow_non_finite`] is called.
 pub const fn number(name: &'static str) -> Parameter {
     Parameter::new(name, Kind::Number(NumberRange::Finite))
 }
 
-/// Parameter of any number; integers stay integers.
+/// Parameter that is any number. Integers are not converted.
 pub const fn numeric(name: &'static str) -> Parameter {
     Parameter::new(name, Kind::Numeric)
 }
 
-/// Parameter of an integer.
+/// Parameter that is an integer.
 pub const fn integer(name: &'static str) -> Parameter {
     Parameter::new(name, Kind::Integer(NumberRange::Finite))
 }
 
-/// Parameter of a text.
+/// Parameter that is a text.
 pub const fn text(name: &'static str) -> Parameter {
     Parameter::new(name, Kind::Text)
 }
 
-/// Parameter of a name that appears in tables.
+/// Parameter that is a name, which tables show.
 pub const fn name(name: &'static str) -> Parameter {
     Parameter::new(name, Kind::Name)
 }
 
-/// Parameter of one of several texts.
+/// Parameter that is one of several texts.
 pub const fn choice(name: &'static str, allowed: &'static [&'static str]) -> Parameter {
     Parameter::new(name, Kind::Choice(allowed))
 }
 
-/// Parameter of `true` or `false`.
+/// Parameter that is `true` or `false`.
 pub const fn boolean(name: &'static str) -> Parameter {
     Parameter::new(name, Kind::Boolean)
 }
 
-/// Parameter of a point or vector: a vector or an array `[x, y]`.
+/// Parameter that is a point or vector, given as a vector or an array `[x, y]`.
 pub const fn point(name: &'static str) -> Parameter {
     Parameter::new(name, Kind::Point)
 }
 
-/// Parameter of an array of anything.
+/// Parameter that is an array of anything.
 pub const fn array(name: &'static str) -> Parameter {
     Parameter::new(name, Kind::Array)
 }
 
-/// Parameter of an array of numbers.
+/// Parameter that is an array of numbers.
 pub const fn numbers(name: &'static str) -> Parameter {
     Parameter::new(name, Kind::Numbers)
 }
 
-/// Parameter of an array of points.
+/// Parameter that is an array of points.
 pub const fn points(name: &'static str) -> Parameter {
     Parameter::new(name, Kind::Points)
 }
 
-/// Parameter of a function or closure.
+/// Parameter that is a function or closure.
 pub const fn callback(name: &'static str) -> Parameter {
     Parameter::new(name, Kind::Function)
 }
 
-/// Parameter of a map of options with these keys.
+/// Parameter that is a map of options with these keys.
 pub const fn options(name: &'static str, keys: &'static [Parameter]) -> Parameter {
     Parameter::new(name, Kind::Options(keys))
 }
 
-/// Parameter of a value of a native type.
+/// Parameter that is a value of a native type.
 pub const fn object(name: &'static str, of: Type) -> Parameter {
     Parameter::new(name, Kind::Object(of))
 }
 
-/// Parameter of a value of one of several kinds, tried in order.
+/// Parameter that is a value of one of several types. They are tried in order.
 pub const fn either(name: &'static str, kinds: &'static [Kind]) -> Parameter {
     Parameter::new(name, Kind::Either(kinds))
 }
 
-/// Parameter of any value.
+/// Parameter that is any value.
 pub const fn of_any_type(name: &'static str) -> Parameter {
     Parameter::new(name, Kind::Any)
 }
@@ -133,12 +133,12 @@ impl Parameter {
         self.within(NumberRange::NonNegative)
     }
 
-    /// Restricts the number to `least` to `most`, inclusive.
+    /// Restricts the number to the range from `least` to `most`, ends included.
     pub const fn between(self, least: f64, most: f64) -> Self {
         self.within(NumberRange::Between(least, most))
     }
 
-    /// Allows infinity and NaN, for functions about such numbers.
+    /// Allows infinity and NaN. This is used for functions that handle such numbers.
     pub const fn allow_non_finite(self) -> Self {
         self.within(NumberRange::Unlimited)
     }
@@ -176,7 +176,7 @@ impl Parameter {
         self
     }
 
-    /// Requires another key of the same map.
+    /// Requires that another key of the same map is given too.
     pub const fn requires_key(mut self, other: &'static str) -> Self {
         self.required_key = other;
         self
@@ -187,7 +187,7 @@ impl Parameter {
         matches!(self.presence, Presence::Required)
     }
 
-    /// Default value, if there is one.
+    /// Default value; `None` if there is no default.
     pub fn default_value(&self) -> Option<Dynamic> {
         match self.presence {
             Presence::Required | Presence::Optional => None,
@@ -198,7 +198,7 @@ impl Parameter {
         }
     }
 
-    /// Description of the allowed values, with the unit: `a positive number [force]`.
+    /// Description of the allowed values with their unit, for example `a positive number [force]`.
     pub fn expectation(&self) -> String {
         match self.unit {
             "" => self.kind.to_string(),

@@ -1,4 +1,4 @@
-//! Registration of bindings. Every call passes through `perform`, which counts, converts and checks the arguments.
+//! Registration of bindings in the engine. Every call is made through `perform`, which counts, converts and checks the arguments.
 
 use std::any::TypeId;
 
@@ -72,7 +72,7 @@ pub(super) fn with_receiver(of: Type, count: usize) -> Vec<TypeId> {
     std::iter::once(of.id()).chain(std::iter::repeat_n(TypeId::of::<Dynamic>(), count)).collect()
 }
 
-/// Exact argument types of a function of numbers only. The function takes precedence over Rhai's function of the same name.
+/// Exact argument types of a function that takes only numbers. It then takes precedence over a function of Rhai with the same name.
 fn numbers_only(parameters: &[Parameter]) -> Vec<Vec<TypeId>> {
     let numeric = |parameter: &Parameter| matches!(parameter.kind, Kind::Number(_) | Kind::Numeric);
     match parameters.iter().all(numeric) {
@@ -81,7 +81,7 @@ fn numbers_only(parameters: &[Parameter]) -> Vec<Vec<TypeId>> {
     }
 }
 
-/// All combinations of exact operand types of an operator. Combinations of built-in types only are left to the engine.
+/// All combinations of exact operand types of an operator. Combinations of built-in types are left to the engine.
 fn operand_types(operands: &[Parameter]) -> Vec<Vec<TypeId>> {
     let built_in = [
         TypeId::of::<f64>(),
@@ -118,7 +118,7 @@ fn exact_types(kind: &Kind) -> Vec<TypeId> {
     }
 }
 
-/// A binding as one registered function. A property with a setter consists of two.
+/// Binding as a registered function. A property with a setter is registered as two functions.
 #[derive(Clone)]
 pub(super) struct RegisteredFunction {
     row: &'static FunctionBinding,
@@ -150,10 +150,10 @@ fn add(engine: &mut Engine, name: String, types: Vec<TypeId>, binding: Registere
     });
 }
 
-/// Calls a binding with its receiver, if it has one, and its arguments.
+/// Calls a binding with its arguments and, for a method or property, its receiver.
 ///
 /// # Errors
-/// Errors of the binding, and of invalid arguments.
+/// Errors of the binding, or errors of invalid arguments.
 pub(super) fn perform(
     binding: &RegisteredFunction,
     native: &NativeCallContext,
@@ -179,14 +179,14 @@ fn called(
         (Some(_), [receiver, given @ ..]) => (Some(&mut **receiver), given),
         (_, given) => (None, given),
     };
-    // The values are cloned, because the first one may be the script's own variable.
+    // The values are cloned, because the first one may be a variable of the script.
     let given = given.iter().map(|value| (**value).clone().flatten());
     if !ParameterSet::is_any() {
         return make(binding, native, receiver, given);
     }
     let again = &mut |receiver: Option<&mut Dynamic>, given: &[Dynamic]| {
         let made = || make(binding, native, receiver, given.iter().cloned());
-        // Only variant 0 prints messages.
+        // Messages are printed only in variant 0.
         match present() {
             Some(beside) if beside.variant > 0 => context.silently(made),
             _ => made(),
@@ -219,12 +219,12 @@ fn make(
     body(&mut Call::new(row, context, native, receiver, Arguments::new(parameters, accepted)))
 }
 
-/// Hint for a load that reads a simulation during a step.
+/// Hint for a load whose function reads a simulation during a step.
 pub const CONTROLLER_HINT: &str = "a load is a function of time; for a load that depends on the motion use a controller, or a \
     variable that is set between steps: let u = 0.0; scene.force(station, [1, 0], |t| u); then \
     u = … before each sim.step()";
 
-/// Rejects values in use by the native call that is running this script function. Arrays are searched.
+/// Rejects values that are in use by the native call that runs this script function. Arrays are searched.
 fn refuse_busy(
     row: &FunctionBinding,
     context: &Context,

@@ -1,4 +1,4 @@
-//! Return values of bindings: kind, dimension, and remarks.
+//! Return values of bindings: type, dimension, and remarks.
 
 use std::fmt;
 
@@ -22,7 +22,7 @@ pub enum ValueKind {
     Map,
     Array(&'static ValueKind),
     Object(Type),
-    /// A value of one of these kinds, the most likely one first.
+    /// A value of one of these types, the most likely one first.
     OneOf(&'static [ValueKind]),
 }
 
@@ -42,7 +42,7 @@ const PLAIN: &[ValueKind] = &[
 impl ValueKind {
     pub const ARRAY: Self = Self::Array(&Self::Any);
 
-    /// Kind of a built-in type by its name.
+    /// Return type for the name of a built-in type; `None` for other names.
     pub fn plain(name: &str) -> Option<Self> {
         PLAIN.iter().find(|kind| kind.type_name() == Some(name)).copied()
     }
@@ -65,7 +65,7 @@ impl ValueKind {
         })
     }
 
-    /// Most likely kind, if several are possible.
+    /// Most likely type, if several are possible.
     pub fn likely(self) -> Self {
         match self {
             Self::OneOf([first, ..]) => first.likely(),
@@ -100,15 +100,15 @@ impl fmt::Display for ValueKind {
     }
 }
 
-/// Type of a return value with its dimension and description, for the documentation.
+/// Return value of a binding with its type, dimension and description, for the documentation.
 #[derive(Clone, Copy)]
 pub struct Returns {
     pub kind: ValueKind,
-    /// Dimension, such as `force`. It is `-` for a dimensionless number, and empty if the kind has no dimension.
+    /// Dimension, such as `force`. It is `-` for a dimensionless number, and empty for a type without dimension.
     unit: &'static str,
-    /// Description that replaces the description of the kind; may be empty.
+    /// Description that replaces the description of the type; may be empty.
     description: &'static str,
-    /// Text after the description, including a leading blank or comma.
+    /// Text after the description. It includes a leading blank or comma.
     remark: &'static str,
 }
 
@@ -140,7 +140,7 @@ impl Returns {
         Self::of(ValueKind::Array(element))
     }
 
-    /// A value of one of several kinds, the most likely one first.
+    /// A value of one of several types, the most likely one first.
     pub const fn one_of(kinds: &'static [ValueKind]) -> Self {
         Self::of(ValueKind::OneOf(kinds))
     }
@@ -150,13 +150,13 @@ impl Returns {
         self
     }
 
-    /// Replaces the description of the kind: `an angle from -PI to PI`.
+    /// Replaces the description of the type, for example by `an angle from -PI to PI`.
     pub const fn with_description(mut self, words: &'static str) -> Self {
         self.description = words;
         self
     }
 
-    /// Adds text after kind and dimension, including a leading blank or comma.
+    /// Adds text after type and dimension. It must include a leading blank or comma.
     pub const fn with_remark(mut self, note: &'static str) -> Self {
         self.remark = note;
         self
@@ -167,7 +167,7 @@ impl Returns {
     }
 }
 
-/// Description such as `a vector [force]` or `a number, whole if x is`; empty for nothing.
+/// Description, for example `a vector [force]` or `a number, whole if x is`. It is empty if nothing is returned.
 impl fmt::Display for Returns {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match (self.is_nothing(), self.description) {

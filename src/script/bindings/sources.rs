@@ -1,5 +1,5 @@
-//! Source files of script functions, and lines of calls of the library. The engine does not know the file when native code calls closures of modules,
-//! and it provides the lines of calls only in errors.
+//! Source files of script functions, and script lines from which the library is called. The engine does not know the file when native code calls
+//! closures of modules, and it provides the lines of calls only in errors.
 
 use std::cell::{Cell, RefCell};
 use std::collections::{BTreeMap, HashMap, HashSet};
@@ -11,12 +11,12 @@ use super::catalog::Catalog;
 use crate::script::messages::stop::Stop;
 use crate::script::source::syntax::TokenReader;
 
-/// Prefix of library modules. Files of a script's folder never have such a name.
+/// Prefix of the names of library modules. Files in the folder of a script never have such a name.
 pub const FOLDER: &str = "std/";
 
-/// Files of all script functions and closures that an engine has compiled, and the line that called the standard library.
+/// Source files of all script functions and closures that an engine has compiled, and the script line that called the standard library.
 ///
-/// Stored as the default tag of the engine.
+/// The engine stores this object as its default tag.
 #[derive(Clone, Default)]
 pub struct Sources {
     functions: Rc<RefCell<HashMap<String, HashSet<String>>>>,
@@ -26,7 +26,7 @@ pub struct Sources {
     reader: TokenReader,
 }
 
-/// Guard for the duration of a call into the library.
+/// Guard that marks a call into the library as long as it exists.
 pub struct LibraryCallGuard {
     line: Rc<Cell<Option<usize>>>,
     before: Option<usize>,
@@ -56,17 +56,17 @@ impl Sources {
         engine.default_tag().clone().try_cast().unwrap_or_default()
     }
 
-    /// Resets the parser state before another text.
+    /// Resets the state of the parser before it reads another text.
     pub fn begin_reading(&self) {
         self.reader.begin();
     }
 
-    /// Calls `work`, whose parsing cannot be stopped, for texts that were parsed before.
+    /// Calls `work`, in which parsing cannot be stopped. It is used for texts that have been parsed before.
     pub fn undisturbed<T>(&self, work: impl FnOnce() -> T) -> T {
         self.reader.undisturbed(work)
     }
 
-    /// Reason for which the last parsing was stopped, if it was.
+    /// Reason why the last parsing was stopped; `None` if it was not stopped.
     pub fn reading_stopped(&self) -> Option<Stop> {
         self.reader.stopped()
     }
@@ -83,7 +83,7 @@ impl Sources {
         })
     }
 
-    /// Records the functions and closures of a file.
+    /// Records that the functions and closures of a syntax tree belong to a file.
     pub fn record_file(&self, ast: &AST, source: &str) {
         let mut known = self.functions.borrow_mut();
         for function in ast.iter_functions() {
@@ -91,7 +91,7 @@ impl Sources {
         }
     }
 
-    /// File of the function `name`: `claimed` if it contains the function, `None` for native functions.
+    /// File that contains the function `name`. It is `claimed` if this file contains the function, and `None` for native functions.
     pub fn find(&self, name: &str, claimed: &str) -> Option<String> {
         let known = self.functions.borrow();
         if known.is_empty() {
@@ -104,8 +104,8 @@ impl Sources {
         }
     }
 
-    /// Marks a call into the library from a line of the file `caller` until the guard is dropped. For nested library calls, the outermost line is
-    /// kept.
+    /// Marks a call into the library from a line of the file `caller`, until the guard is dropped. Within nested library calls, the outermost line
+    /// is kept.
     pub fn enter_library(&self, caller: Option<&str>, line: Option<usize>) -> LibraryCallGuard {
         let before = self.line.get();
         if !is_library(caller) {
@@ -114,7 +114,7 @@ impl Sources {
         LibraryCallGuard { line: self.line.clone(), before }
     }
 
-    /// Line of the call into the library, if the running code belongs to the library.
+    /// Script line from which the library was called; `None` if the running code does not belong to the library.
     pub fn entered_at(&self, running: Option<&str>) -> Option<usize> {
         self.line.get().filter(|_| is_library(running))
     }

@@ -1,4 +1,4 @@
-//! Script functions stored for later calls.
+//! Script functions that are stored for later calls.
 
 use rhai::{Dynamic, EvalAltResult, FnPtr, GlobalRuntimeState, NativeCallContext, Position};
 
@@ -6,10 +6,10 @@ use crate::script::messages::error::BUG;
 use crate::script::messages::numbers::{as_number, describe};
 use crate::script::state::context::Context;
 
-/// A script function with its environment: functions, imports and constants of its file.
+/// Script function with its environment, which are the functions, imports and constants of its file.
 ///
-/// A function pointer of Rhai 1.27 contains only a name and captured values. The reference to the engine is weak, because the engine owns this
-/// function through the scenes of the script.
+/// A function pointer of Rhai 1.27 contains only a name and captured values. The reference to the engine is weak, because the engine indirectly
+/// owns this function through the scenes of the script.
 pub struct StoredFunction {
     function: FnPtr,
     surroundings: GlobalRuntimeState,
@@ -28,10 +28,10 @@ impl StoredFunction {
         Self { function, surroundings, context: context.clone(), role }
     }
 
-    /// Calls the function. Call depth and error position are those of the running native call.
+    /// Calls the function. Call depth and position of errors are those of the native call that is running.
     ///
     /// # Errors
-    /// Errors of the script, or if the run was stopped.
+    /// Errors of the script, or an error if the run was stopped.
     pub fn call(&self, arguments: impl AsMut<[Dynamic]>) -> Result<Dynamic, Box<EvalAltResult>> {
         self.context.proceed().map_err(|error| error.into_engine(Position::NONE))?;
         let Some(engine) = self.context.engine() else {
@@ -53,10 +53,10 @@ impl StoredFunction {
         called
     }
 
-    /// Calls the function with a number and returns a number.
+    /// Calls the function with a number. The result must be a number.
     ///
     /// # Errors
-    /// Fails if the function fails or returns another type.
+    /// Fails if the function fails or returns a value of another type.
     pub fn number_of(&self, argument: f64) -> Result<f64, NoNumber> {
         let value = self.call([Dynamic::from(argument)]).map_err(NoNumber::Failed)?;
         as_number(&value).ok_or_else(|| {
@@ -66,7 +66,7 @@ impl StoredFunction {
         })
     }
 
-    /// Variables that the function has captured from its script.
+    /// Values of the variables that the function has captured from its script.
     pub fn captured(&self) -> impl Iterator<Item = &Dynamic> {
         self.function.curry().iter().filter(|value| value.is_shared())
     }
@@ -82,9 +82,9 @@ impl StoredFunction {
     }
 }
 
-/// Reason why a script function returned no number.
+/// Reason why a script function did not return a number.
 pub enum NoNumber {
     Failed(Box<EvalAltResult>),
-    /// The function returned another kind of value, which the text describes.
+    /// The function returned a value of another type, which the text describes.
     Other(String),
 }

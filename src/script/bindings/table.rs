@@ -1,8 +1,8 @@
-//! Declarative table of a domain: one binding per name that scripts can use.
+//! Table that declares a domain of the language. It contains one binding for each name that scripts can use.
 //!
-//! Registration, argument checks, error messages with suggestions, help, definition files and the language reference all come from these
+//! Registration, argument checks, error messages with suggestions, help, definition files and the language reference are all derived from these
 //! bindings. To add a domain, write `pub const TABLE: BindingTable` in a new file of [`packages`](crate::script::packages) and add it to the list
-//! there.
+//! in this module.
 
 use rhai::Dynamic;
 
@@ -13,18 +13,18 @@ use super::parameter_variants::NonsmoothCheck;
 use super::returns::Returns;
 use crate::script::messages::error::ScriptError;
 
-/// Native body of a binding. Its arguments are counted, converted and range-checked before the call.
+/// Native function of a binding. Its arguments are counted, converted and range-checked before it is called.
 pub type NativeFunction = fn(&mut Call<'_, '_>) -> Result<Dynamic, ScriptError>;
 
 /// Table of all types, constants and functions of a domain.
 pub struct BindingTable {
-    /// Name of the domain, used as a heading in the reference.
+    /// Name of the domain, which is its heading in the reference.
     pub name: &'static str,
-    /// One or two sentences on the domain.
+    /// One or two sentences about the domain.
     pub doc: &'static str,
     /// Types of the domain.
     pub types: &'static [Type],
-    /// First lines of all examples of the domain; may be empty.
+    /// First lines of every example of the domain; may be empty.
     pub setup: &'static str,
     /// Constants of the domain.
     pub constants: &'static [Constant],
@@ -32,7 +32,7 @@ pub struct BindingTable {
     pub rows: &'static [FunctionBinding],
 }
 
-/// A numeric constant, visible everywhere, also inside functions.
+/// Numeric constant. It is visible everywhere in scripts, also inside functions.
 pub struct Constant {
     /// Name in scripts.
     pub name: &'static str,
@@ -42,36 +42,36 @@ pub struct Constant {
     pub summary: &'static str,
 }
 
-/// Notation of a binding.
+/// Notation in which a binding is called.
 #[derive(Clone, Copy)]
 pub enum CallSyntax {
-    /// `name(a, b)`, or equivalently `a.name(b)`.
+    /// `name(a, b)`, or with the same meaning `a.name(b)`.
     Function,
-    /// `receiver.name(a, b)` for one type.
+    /// `receiver.name(a, b)`, where the receiver has this type.
     Method(Type),
-    /// `receiver.name`, and with a setter `receiver.name = value`.
+    /// `receiver.name`, and if there is a setter `receiver.name = value`.
     Property(Type),
     /// `a + b`.
     Operator,
 }
 
-/// Prefix of Rhai property getters.
+/// Prefix that Rhai uses for property getters.
 pub const GETTER: &str = "get$";
 
-/// Prefix of Rhai property setters.
+/// Prefix that Rhai uses for property setters.
 pub const SETTER: &str = "set$";
 
-/// Engine name of a property getter.
+/// Name of a property getter in the engine.
 pub fn getter_of(property: &str) -> String {
     format!("{GETTER}{property}")
 }
 
-/// Engine name of a property setter.
+/// Name of a property setter in the engine.
 pub fn setter_of(property: &str) -> String {
     format!("{SETTER}{property}")
 }
 
-/// A function, method, property or operator of the language.
+/// Function, method, property or operator of the language.
 pub struct FunctionBinding {
     /// Name in scripts.
     pub name: &'static str,
@@ -106,7 +106,7 @@ pub struct Setter {
     pub body: NativeFunction,
 }
 
-/// A function: `name(a, b)`.
+/// Binding of a function: `name(a, b)`.
 pub const fn function(
     name: &'static str,
     parameters: &'static [Parameter],
@@ -115,7 +115,7 @@ pub const fn function(
     FunctionBinding::new(name, CallSyntax::Function, parameters, body)
 }
 
-/// A method of one type: `receiver.name(a, b)`.
+/// Binding of a method of one type: `receiver.name(a, b)`.
 pub const fn method(
     of: Type,
     name: &'static str,
@@ -125,12 +125,12 @@ pub const fn method(
     FunctionBinding::new(name, CallSyntax::Method(of), parameters, body)
 }
 
-/// A property of one type: `receiver.name`.
+/// Binding of a property of one type: `receiver.name`.
 pub const fn property(of: Type, name: &'static str, body: NativeFunction) -> FunctionBinding {
     FunctionBinding::new(name, CallSyntax::Property(of), &[], body)
 }
 
-/// An operator on two values, at least one of which has a native type.
+/// Binding of an operator on two values. At least one of them must have a native type.
 pub const fn operator(
     symbol: &'static str,
     operands: &'static [Parameter],
@@ -208,7 +208,7 @@ impl FunctionBinding {
         self.parameters.iter().filter(|parameter| parameter.is_required()).count()
     }
 
-    /// Type of the method or property.
+    /// Type before the dot of a method or property; `None` for functions and operators.
     pub fn receiver(&self) -> Option<Type> {
         match self.form {
             CallSyntax::Method(of) | CallSyntax::Property(of) => Some(of),
@@ -216,7 +216,7 @@ impl FunctionBinding {
         }
     }
 
-    /// Signature with optional parameters in brackets: `line(from, to)`, `sim.step([count])`.
+    /// Signature with optional parameters in brackets, for example `line(from, to)` or `sim.step([count])`.
     pub fn signature(&self) -> String {
         let names = self.parameters.iter().map(|parameter| match parameter.is_required() {
             true => parameter.name.to_owned(),

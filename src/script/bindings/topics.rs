@@ -1,7 +1,7 @@
 //! Help topics on the language itself, each with a runnable example.
 
 pub struct Topic {
-    /// Name of the topic, used as a heading in the reference.
+    /// Name of the topic, which is its heading in the reference.
     pub name: &'static str,
     /// Keywords of the topic, and its other names.
     pub words: &'static [&'static str],
@@ -11,7 +11,7 @@ pub struct Topic {
     pub see: &'static [&'static str],
 }
 
-/// All topics, in reading order.
+/// All topics, in the order in which they should be read.
 pub const TOPICS: &[Topic] = &[
     Topic {
         name: "numbers",

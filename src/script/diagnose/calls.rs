@@ -1,4 +1,4 @@
-//! Errors of unknown functions and properties: available alternatives and suggestions.
+//! Errors of unknown functions and properties, with the available alternatives and suggestions.
 
 use rhai::Position;
 
@@ -24,7 +24,7 @@ pub struct UnknownName<'a> {
 type ErrorText = (String, Option<String>);
 
 impl UnknownName<'_> {
-    /// Message for the engine's "Function not found: name (types)".
+    /// Message for the error "Function not found: name (types)" of the engine.
     pub fn function(&self, signature: &str, at: Position) -> ErrorText {
         let (name, types) = signature.split_once(" (").unwrap_or((signature, ")"));
         let types: Vec<&str> = types
@@ -232,7 +232,7 @@ impl UnknownName<'_> {
         }
     }
 
-    /// Message for the engine's "Unknown property 'p' - … for type 't'" and "No writable property 'p' - …".
+    /// Message for the errors "Unknown property 'p' - … for type 't'" and "No writable property 'p' - …" of the engine.
     pub fn property(&self, text: &str) -> ErrorText {
         let mut quoted = text.split('\'').skip(1).step_by(2);
         let (Some(name), Some(of)) = (quoted.next(), quoted.next().map(type_word)) else {
@@ -276,7 +276,7 @@ impl UnknownName<'_> {
         self.catalog.built_ins().filter(move |known| known.is_of(of)).map(BuiltIn::name)
     }
 
-    /// Text of the receiver before the dot at this position; empty unless it is a name, a number or in parentheses.
+    /// Text before the dot at this position; empty unless it is a name, a number or an expression in parentheses.
     fn before_dot(&self, at: Position) -> &str {
         let (Some(line), Some(column)) = (at.line(), at.position()) else { return "…" };
         let before = self.program.text[..self.program.offset(line, column)].trim_end();
@@ -302,7 +302,7 @@ fn forms(built_ins: &[&BuiltIn]) -> String {
     forms.join(" or ")
 }
 
-/// Library module of a function of this name, as text.
+/// Hint that a library module has a function of this name; `None` if no module has one.
 pub fn of_library(name: &str) -> Option<String> {
     let mut found = pages().iter().filter_map(|page| Some((page, page.named(name)?)));
     let (page, function) = found.next()?;
@@ -317,7 +317,7 @@ pub fn of_library(name: &str) -> Option<String> {
     Some(format!("it is in the library: write import \"{module}\" as {short}; then {call}{others}"))
 }
 
-/// `others` are functions of the same name for other types.
+/// Error for a call with a wrong number of arguments. `others` are functions with the same name for other types.
 fn wrong_count(row: &FunctionBinding, others: &[&FunctionBinding], got: usize) -> ErrorText {
     let (least, most) = (row.required(), row.parameters.len());
     let takes =

@@ -1,4 +1,4 @@
-//! Error as shown to the user: message, hint, location, and call trace.
+//! Error in the form that is shown to the user: message, hint, location, and call trace.
 
 use std::fmt;
 use std::sync::Arc;
@@ -7,16 +7,16 @@ use super::render::Colours;
 use crate::script::messages::brief::brief;
 use crate::script::source::program::{Program, Unreadable};
 
-/// An error as shown to the user.
+/// Error in the form that is shown to the user.
 #[derive(Clone, Debug)]
 pub struct Diagnostic {
     /// Error message.
     pub message: String,
     /// Suggestion.
     pub hint: Option<String>,
-    /// Location in a script, if there is one.
+    /// Location in a script; `None` if there is none.
     pub location: Option<Location>,
-    /// Calls of script functions that led to the error, innermost first.
+    /// Calls of script functions that led to the error, the innermost call first.
     pub trace: Vec<CallFrame>,
     /// Origin of the error.
     pub blame: Blame,
@@ -31,7 +31,7 @@ pub enum Blame {
     Program,
 }
 
-/// A part of one line of a script.
+/// Part of one line of a script.
 #[derive(Clone, Debug)]
 pub struct Location {
     /// Script.
@@ -44,18 +44,18 @@ pub struct Location {
     pub length: usize,
 }
 
-/// A call in the trace of an error.
+/// Call in the trace of an error.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct CallFrame {
     /// Called function.
     pub callee: Callee,
-    /// Line of the call, if known.
+    /// Line of the call; `None` if unknown.
     pub line: Option<usize>,
-    /// File of the call, if it is not the main script.
+    /// File of the call; `None` for the main script.
     pub file: Option<String>,
 }
 
-/// Called function of a trace entry.
+/// Function that was called in a frame of the trace.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Callee {
     /// A named function.
@@ -64,12 +64,12 @@ pub enum Callee {
     Closure,
     /// An imported file.
     File(String),
-    /// No call, but the line of the standard library at which the error occurred.
+    /// No call: the frame shows the line of the standard library at which the error occurred.
     Library,
 }
 
 impl Diagnostic {
-    /// An error without a location.
+    /// Creates an error without a location.
     pub fn general(message: impl Into<String>) -> Self {
         Self {
             message: brief(message.into()),
@@ -80,7 +80,7 @@ impl Diagnostic {
         }
     }
 
-    /// An internal error.
+    /// Creates an internal error.
     pub fn internal_error(message: impl fmt::Display) -> Self {
         let mut diagnostic = Self::general(format!("internal error of withy: {message}"));
         diagnostic.hint = Some(
@@ -106,7 +106,7 @@ impl Diagnostic {
         }
     }
 
-    /// Adds another hint on its own line.
+    /// Adds another hint on a separate line.
     #[must_use]
     pub fn with_another_hint(mut self, hint: &str) -> Self {
         self.hint = Some(self.hint.map_or_else(|| hint.into(), |first| format!("{first}\n{hint}")));

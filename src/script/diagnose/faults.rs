@@ -1,4 +1,4 @@
-//! Errors of values: wrong type, out of bounds, too large.
+//! Errors of values: wrong type, index out of range, too large.
 
 use crate::script::messages::nouns::{type_word, with_article};
 

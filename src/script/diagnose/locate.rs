@@ -1,4 +1,4 @@
-//! Locations to underline, from positions of the engine.
+//! Locations to be underlined, computed from positions that the engine reports.
 
 use std::sync::Arc;
 
@@ -24,7 +24,7 @@ pub fn text_before(program: &Program, position: Position) -> &str {
     &program.text[..end]
 }
 
-/// End of `text`, a prefix of the script, for errors about missing tokens.
+/// Location of the end of `text`, which is a prefix of the script. It is used for errors about missing tokens.
 pub fn end_of(program: &Program, text: &str) -> Location {
     let text = text.trim_end();
     let line = text.lines().count().max(1);
@@ -32,7 +32,7 @@ pub fn end_of(program: &Program, text: &str) -> Location {
     location(program, line, column, 1)
 }
 
-/// Part of the call at `position` to which an error refers; the function name if this part cannot be found.
+/// Location of the part of a call to which an error refers. If this part cannot be found, it is the name of the function.
 pub fn part_of_call(
     program: &Program,
     catalog: &Catalog,
@@ -92,7 +92,7 @@ fn argument_of(
     let called = word_at(program, position)?;
     let is_function =
         catalog.named(called.text()).any(|row| matches!(row.form, CallSyntax::Function));
-    // In `a.norm()`, the first argument of the function is before the dot.
+    // In `a.norm()`, the first argument of the function is the value before the dot.
     let number = if dotted && is_function { number.checked_sub(1)? } else { number };
     argument(program, call, number)
 }
@@ -116,7 +116,7 @@ fn argument(program: &Program, call: &[Lexeme], number: usize) -> Option<Locatio
     None
 }
 
-/// Location from `start` up to the separator at `end`, without trailing blanks; a single token if the argument spans several lines.
+/// Location from `start` to the separator at `end`, without trailing blanks. If the argument spans several lines, it is a single token.
 fn span(program: &Program, start: Position, end: Position) -> Option<Location> {
     let (line, column) = (start.line()?, start.position()?);
     if end.line()? != line {

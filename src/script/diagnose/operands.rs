@@ -1,4 +1,4 @@
-//! Errors of operators with unsupported operands.
+//! Errors of operators whose operands have unsupported types.
 
 use crate::script::messages::nouns::with_article;
 

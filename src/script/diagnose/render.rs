@@ -1,4 +1,4 @@
-//! Rendering of a diagnostic: source line, caret, message and hint.
+//! Conversion of an error to text with source line, caret, message and hint.
 
 use std::ops::Range;
 
@@ -12,12 +12,12 @@ pub use crate::output::Colours;
 use crate::output::{columns, printable};
 
 impl Diagnostic {
-    /// Text of the diagnostic, ending with a newline.
+    /// Text of the error. It ends with a newline.
     pub fn render(&self, colours: Colours) -> String {
         self.render_within(colours, usize::MAX)
     }
 
-    /// Text of the diagnostic with the hint wrapped at `width` columns, because a terminal would break words.
+    /// Text of the error with the hint wrapped at `width` columns. Otherwise a terminal would break the hint within words.
     pub fn render_within(&self, colours: Colours, width: usize) -> String {
         let drawing = match self.blame {
             Blame::User => Drawing::error(),
@@ -44,7 +44,7 @@ impl Diagnostic {
         };
         match term::emit_to_write_style(&mut buffer, &Config::default(), &file, &drawing) {
             Ok(()) => format!("{}\n", String::from_utf8_lossy(buffer.as_slice()).trim_end()),
-            // A location outside the text is an internal error, but the message is still shown.
+            // A location outside the text is an internal error, but the message must still be shown.
             Err(_) => format!("error: {}\n", printable(&self.message)),
         }
     }
@@ -60,11 +60,11 @@ impl Diagnostic {
     }
 }
 
-/// Length of a line above which it is not drawn. The location is then described instead [characters].
+/// Largest length of a line that is shown [characters]. For longer lines the location is described instead.
 const LONGEST_DRAWN: usize = 1000;
 const LONGEST_EXCERPT: usize = 60;
 
-/// Number of columns before the hint: `  = help: `.
+/// Number of columns before the hint, which are `  = help: `.
 const BESIDE_HINT: usize = 10;
 
 const NARROWEST: usize = 30;
@@ -138,7 +138,7 @@ impl Location {
         format!("at {}:{}:{}, in a long line: {there} …", self.program.name, self.line, self.column)
     }
 
-    /// Byte range of the location in a text with the same number of characters as the script, but different lengths in bytes.
+    /// Byte range of the location in a text that has as many characters as the script but may have more bytes.
     fn bytes_in(&self, text: &str) -> Range<usize> {
         let bytes = self.bytes();
         let characters = |end: usize| self.program.text[..end].chars().count();

@@ -1,4 +1,4 @@
-//! Operators on numbers and vectors that depend on parameters of a scene, evaluated for each variant.
+//! Operators on numbers and vectors that depend on parameters of a scene. They are evaluated in each variant.
 
 use std::any::TypeId;
 use std::rc::Rc;
@@ -18,7 +18,7 @@ use crate::script::source::syntax::{LONGEST_CHAIN, OWN, power_name};
 #[derive(Clone, Copy)]
 struct OnNumbers {
     of: fn(f64, f64) -> f64,
-    /// Check that detects arguments at which the function has no derivative.
+    /// Check for arguments at which the function has no derivative.
     corner: Option<NonsmoothCheck>,
 }
 
@@ -32,7 +32,7 @@ impl OnNumbers {
     }
 }
 
-/// Registers the operators under their names in the language.
+/// Registers the operators under the names that they have in the language.
 pub fn install(engine: &mut Engine) {
     let arithmetic: [(String, OnNumbers); 5] = [
         ("+".into(), OnNumbers::smooth(|x, y| x + y)),
@@ -61,7 +61,7 @@ pub fn install(engine: &mut Engine) {
     engine.register_raw_fn("+", varied, |_, operands| -> EngineResult<Dynamic> {
         Ok(operands[0].clone())
     });
-    // The values of the variants are floats already.
+    // The values of all variants are floats already.
     engine.register_fn("to_float", |number: VariantValue| number);
     for name in ["to_int", "sign", "is_zero", "is_even", "is_odd"] {
         engine.register_raw_fn(name, varied, move |context: NativeCallContext, operands| {

@@ -1,5 +1,5 @@
-//! Methods of arrays and maps with a function argument. In contrast to the methods of Rhai, non-boolean results are errors instead of false, and
-//! `for_each` gives the element instead of the index to its function.
+//! Methods of arrays and maps that call a function. They differ from the methods of Rhai in two points: a result that is not a boolean is an error
+//! instead of false, and `for_each` passes the element and not the index to its function.
 
 use std::any::TypeId;
 use std::cell::Cell;
@@ -9,7 +9,7 @@ use rhai::{Array, Dynamic, Engine, EvalAltResult, FnPtr, INT, Map, NativeCallCon
 use crate::script::messages::error::{EngineResult, ScriptError};
 use crate::script::messages::numbers::describe;
 
-/// Registers the methods of arrays and maps that call a function for each element, under their Rhai names.
+/// Registers the methods of arrays and maps that call a function for each element. They have the same names as in Rhai.
 pub fn install(engine: &mut Engine) {
     install_searches(engine);
     install_sieves(engine);
@@ -77,7 +77,7 @@ fn search(engine: &mut Engine, name: &str, give: fn(&Array, Option<usize>) -> Dy
     }
 }
 
-/// Splits an array or map into elements that pass the test and the rest.
+/// Function that splits an array or map into the elements that pass a test and the other elements.
 type Partition = fn(&NativeCallContext, &[&mut Dynamic]) -> EngineResult<(Dynamic, Dynamic)>;
 
 fn install_sieves(engine: &mut Engine) {
@@ -101,7 +101,7 @@ fn install_sieves(engine: &mut Engine) {
     }
 }
 
-/// Assigns `kept` to the receiver, and returns `given`.
+/// Assigns `kept` to the value before the dot, and returns `given`.
 fn replace(values: &mut [&mut Dynamic], kept: Dynamic, given: Dynamic) -> Dynamic {
     if let Some(own) = values.first_mut() {
         **own = kept;
@@ -156,7 +156,7 @@ fn array_and_test(values: &[&mut Dynamic]) -> EngineResult<(Array, FnPtr)> {
 }
 
 fn function_of(values: &[&mut Dynamic]) -> EngineResult<FnPtr> {
-    // The engine calls this only with these types.
+    // The engine calls the registered functions only with an array or map that is followed by a function.
     let function = values.get(1).and_then(|function| (**function).clone().try_cast::<FnPtr>());
     function.ok_or_else(|| {
         ScriptError::internal_error("a test is no function").into_engine(Position::NONE)
@@ -167,7 +167,7 @@ fn function_of(values: &[&mut Dynamic]) -> EngineResult<FnPtr> {
 enum CallbackArguments {
     Element,
     ElementAndIndex,
-    /// Function without arguments. The element is `this`.
+    /// The function takes no argument. The element is `this` in it.
     ElementAsThis,
 }
 
@@ -182,7 +182,7 @@ impl<'a> ElementCallback<'a> {
         Self { native, function, given: Cell::new(None) }
     }
 
-    /// Calls the function for an element. The first call determines the number of its arguments.
+    /// Calls the function for an element. The first call determines how many arguments the function takes.
     fn call_function(&self, index: usize, element: &mut Dynamic) -> EngineResult<Dynamic> {
         if let Some(given) = self.given.get() {
             return self.call(given, index, element);
@@ -212,7 +212,7 @@ impl<'a> ElementCallback<'a> {
     ) -> EngineResult<Dynamic> {
         let copy = element.clone();
         let index = Dynamic::from(INT::try_from(index).unwrap_or(INT::MAX));
-        // A native function would take `this` as its first argument.
+        // A native function would use `this` as its first argument.
         let this = self.function.is_anonymous().then_some(&mut *element);
         match given {
             CallbackArguments::Element => self.function.call_raw(self.native, this, [copy]),
@@ -238,7 +238,7 @@ impl<'a> ElementCallback<'a> {
     }
 }
 
-/// Converts the result of a script test to a boolean.
+/// Converts the result of a test function of a script to a boolean.
 pub(super) fn truth(native: &NativeCallContext, answer: &Dynamic) -> EngineResult<bool> {
     answer.as_bool().map_err(|_| {
         let got = describe(native.engine(), answer);

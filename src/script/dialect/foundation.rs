@@ -1,7 +1,8 @@
-//! Selection of Rhai's packages, and removed functions.
+//! Packages of Rhai that are part of the language, and functions of Rhai that are not.
 //!
-//! The language excludes Rhai's byte arrays and bit fields, its reflection, tags, `take` and JSON parser, and `sleep`, which cannot be interrupted.
-//! Functions that users may expect, but that Rhai does not have or defines surprisingly, cause an error with a suggestion.
+//! The language does not contain byte arrays, bit fields, reflection, tags, `take` and the JSON parser of Rhai, nor `sleep`, which cannot be
+//! interrupted. Users may expect functions that Rhai does not have or defines in a surprising way. A call of such a function is an error with a
+//! suggestion.
 
 use std::any::TypeId;
 
@@ -19,28 +20,28 @@ rhai::def_package! {
         BasicMathPackage, BasicStringPackage, BasicTimePackage, LogicPackage, MoreStringPackage {}
 }
 
-/// Seed of Rhai's hashes. Names of closures (`anon$…`), which scripts can print, contain such hashes. Without a fixed seed they would differ between
-/// processes.
+/// Fixed seed of the hashes in Rhai. The names of closures (`anon$…`), which scripts can print, contain such hashes. Without a fixed seed they
+/// would differ from process to process.
 const SEED: [u64; 4] =
     [0x7769_7468_7920_0001, 0x7769_7468_7920_0002, 0x7769_7468_7920_0003, 0x7769_7468_7920_0004];
 
 const TEXTS_SHARED: usize = 256;
 
-/// A function of Rhai that is not available.
+/// Function of Rhai that is not available in the language.
 pub struct Refused {
     pub name: &'static str,
-    /// Numbers of arguments of the function.
+    /// Numbers of arguments with which the function can be called.
     pub counts: &'static [usize],
     pub reason: &'static str,
     pub instead: &'static str,
 }
 
-/// All functions of Rhai that are not available.
+/// All functions of Rhai that are not available in the language.
 pub const REFUSED: &[Refused] = &[
     Refused {
         name: "exit",
         counts: &[0, 1],
-        // Rhai's `exit` would end a script successfully, without its later checks.
+        // With `exit` of Rhai, a script would end successfully without its remaining checks.
         reason: "a script cannot leave with exit()",
         instead: "throw \"reason\" ends it with an error; check(…) determines the exit code",
     },
@@ -94,14 +95,14 @@ pub const REFUSED: &[Refused] = &[
     },
 ];
 
-/// An engine with the selected packages of Rhai and nothing else.
+/// Creates an engine with the selected packages of Rhai and nothing else.
 pub fn engine() -> Engine {
-    // The seed can be set once per process; later engines find it set.
+    // The seed can be set only once per process. For later engines it is set already.
     let _ = rhai::config::hashing::set_hashing_seed(Some(SEED));
     let mut engine = Engine::new_raw();
     engine.set_max_strings_interned(TEXTS_SHARED);
     engine.register_global_module(FromRhai::new().as_shared_module());
-    // Code from strings has no line numbers, and no script needs it.
+    // Code that is evaluated from strings has no line numbers, and no script needs it.
     engine.disable_symbol("eval");
     for refused in REFUSED {
         for count in refused.counts {
@@ -112,7 +113,7 @@ pub fn engine() -> Engine {
 }
 
 fn refuse(engine: &mut Engine, refused: &'static Refused, count: usize) {
-    // Rhai defines some of these functions for exact types, which take precedence over functions of any type.
+    // Rhai defines some of these functions for exact types. They would take precedence over functions for any type.
     let mut types =
         vec![TypeId::of::<Dynamic>(), TypeId::of::<f64>(), TypeId::of::<ImmutableString>()];
     if count == 0 {

@@ -1,5 +1,5 @@
-//! `map.to_json()`: as in Rhai, but vectors become arrays, values that depend on parameters become plain values, and values without a JSON form are
-//! an error.
+//! The method `map.to_json()`. It differs from the method of Rhai in three points: vectors become arrays, values that depend on parameters become
+//! plain values, and values without a JSON form are an error.
 
 use rhai::{
     Array, Dynamic, Engine, EvalAltResult, FnPtr, Map, NativeCallContext, Position,
@@ -11,7 +11,7 @@ use crate::script::bindings::parameter_variants::{VariantValue, present_variant}
 use crate::script::messages::error::ScriptError;
 use crate::script::messages::numbers::describe;
 
-/// Replaces the function of Rhai.
+/// Registers the method in place of that of Rhai.
 pub fn install(engine: &mut Engine) {
     engine.register_fn(
         "to_json",

@@ -1,4 +1,4 @@
-//! Adaptation of Rhai to the language of withy: parsing, operators, arrays, constants, removed names.
+//! Adaptation of Rhai to the language of withy: parsing, operators, arrays, constants, and functions that are not available.
 
 pub mod constants;
 pub mod derivatives;

@@ -1,5 +1,5 @@
-//! Names with a misleading meaning, which are rejected before a script runs. A function with the name of a function of the language would replace it
-//! everywhere. If a file has a variable with the name of a constant of the language, functions of the file see the constant instead of the variable.
+//! Check for misleading names, which are rejected before a script runs. A function with the name of a function of the language would replace it
+//! everywhere. If a file has a variable with the name of a constant of the language, functions in the file see the constant and not the variable.
 
 use rhai::{Engine, EvalAltResult, Position, Token};
 
@@ -10,10 +10,11 @@ use crate::script::messages::error::ScriptError;
 use crate::script::source::definitions::{Definition, definitions};
 use crate::script::source::text::{Source, moved_down, name_of};
 
-/// Checks the functions of `source`, which starts after `lines_before` lines of a file with the top-level `variables` and their lines.
+/// Checks the names of the functions in `source`, and the variables that they use. `source` starts after `lines_before` lines of a file.
+/// `variables` returns the top-level variables of the file and the lines of their declarations.
 ///
 /// # Errors
-/// With the position of the first invalid name.
+/// Fails at the position of the first misleading name.
 pub fn judge(
     engine: &Engine,
     source: &Source,
@@ -82,7 +83,8 @@ impl NamedFunction<'_> {
             .into_engine(self.place(*at)))
     }
 
-    /// Rejects a constant of the language in a function if a reader would expect the variable of the same name, which the function cannot see.
+    /// Rejects a constant of the language in a function if the file has a variable with the same name. A reader would expect the variable, which
+    /// the function cannot see.
     fn refuse_hidden(&self, name: &str, line: usize) -> Result<(), Box<EvalAltResult>> {
         let used = self.names().find(|(used, _)| *used == name);
         let Some((_, at)) = used.filter(|_| !self.declares(name)) else { return Ok(()) };

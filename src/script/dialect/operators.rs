@@ -1,11 +1,11 @@
-//! Scientific number semantics: implementation of the operators of [`syntax`](crate::script::source::syntax).
+//! Arithmetic and comparison of numbers as in scientific languages: implementation of the operators of [`syntax`](crate::script::source::syntax).
 //!
-//! Comparisons follow IEEE 754 for every mix of integers and floats. Division is never truncated. A power of integers with a non-negative exponent is
-//! an integer, and integer overflow is an error. Other types keep the operators of the engine, except that ordering values of different types is an
-//! error instead of silently `false`.
+//! Comparisons follow IEEE 754, also between integers and floats. Division never truncates. A power of integers with a non-negative exponent is an
+//! integer, and integer overflow is an error. Other types keep the operators of the engine, with one exception: an order comparison of values of
+//! different types is an error and not `false`.
 //!
-//! Two limits of the engine remain. `switch` also compares the kind of number (`3.0` is not `case 3`). A minus binds tighter than a power, so `-x^2`
-//! is an error.
+//! Two restrictions of the engine remain. `switch` also compares the number type, so `3.0` does not match `case 3`. A minus sign has precedence
+//! over a power, so `-x^2` is an error.
 
 use std::any::TypeId;
 use std::cmp::Ordering;
@@ -16,7 +16,7 @@ use crate::elementary::power;
 use crate::script::messages::error::{EngineResult, ScriptError};
 use crate::script::source::syntax::{DivisionOperand, LONGEST_CHAIN, OWN, REPLACED, power_name};
 
-/// Registers the operators on numbers, under the language's names and, if possible, under the engine's names.
+/// Registers the operators on numbers under the names of the language and, if possible, under the names of the engine.
 pub fn install(engine: &mut Engine) {
     use Ordering::{Equal, Greater, Less};
     register_comparison(engine, "<", |order| order == Some(Less));
@@ -48,7 +48,7 @@ pub fn install(engine: &mut Engine) {
     register_assignment(engine, ">>=", format!("{OWN}>>"));
 }
 
-/// Operator as written in the script: `num<` is `<`, `num^3` is `^`.
+/// Operator as it is written in scripts. For example, `num<` is `<`, and `num^3` is `^`.
 pub fn written(operator: &str) -> &str {
     match operator.strip_prefix(OWN) {
         Some(power) if power.starts_with('^') => "^",
@@ -62,9 +62,9 @@ pub fn written(operator: &str) -> &str {
     }
 }
 
-/// Registers a comparison of numbers. NaN has no order.
+/// Registers a comparison of numbers. The argument of `holds` is `None` if a number is NaN, which has no order.
 fn register_comparison(engine: &mut Engine, symbol: &str, holds: fn(Option<Ordering>) -> bool) {
-    // The engine's name is registered too, because arrays use it to compare and search elements.
+    // The operator is also registered under the engine's name, which arrays use to compare and search elements.
     for name in [symbol.to_owned(), format!("{OWN}{symbol}")] {
         engine.register_fn(&name, move |x: f64, y: f64| holds(x.partial_cmp(&y)));
         engine.register_fn(&name, move |m: INT, n: INT| holds(Some(m.cmp(&n))));
@@ -100,7 +100,7 @@ fn register_arithmetic(
     engine.register_fn(name, move |n: INT, x: f64| numbers(n as f64, x));
 }
 
-/// Integer power for a non-negative exponent, otherwise a float: `2^3` is 8, `2^-1` is 0.5.
+/// Power of integers. It is an integer for a non-negative exponent, otherwise a float: `2^3` is 8, `2^-1` is 0.5.
 fn whole_power(base: INT, exponent: INT) -> EngineResult<Dynamic> {
     if exponent < 0 {
         return Ok(power(base as f64, exponent as f64).into());
@@ -119,7 +119,7 @@ fn whole_power(base: INT, exponent: INT) -> EngineResult<Dynamic> {
     })
 }
 
-/// `number << places`. It is an error if bits are lost.
+/// Result of `number << places`. It is an error if bits are lost.
 fn shifted_up(number: INT, places: INT) -> EngineResult<INT> {
     let shifted = number << shift(places)?;
     match shifted >> places == number {
@@ -147,7 +147,7 @@ fn shift(places: INT) -> EngineResult<INT> {
     }
 }
 
-/// Forwards all operands, except two numbers, to the engine's operator `symbol`.
+/// Passes all operands except two numbers to the operator `symbol` of the engine.
 fn forward_to_engine(engine: &mut Engine, name: String, symbol: &'static str) {
     let any_two = [TypeId::of::<Dynamic>(); 2];
     engine.register_raw_fn(
@@ -172,7 +172,7 @@ fn forward_to_engine(engine: &mut Engine, name: String, symbol: &'static str) {
     );
 }
 
-/// Evaluates `x /= y` as `x = x / y`, for any types.
+/// Registers `x /= y` and similar assignments as `x = x / y`, for any types.
 fn register_assignment(engine: &mut Engine, name: &'static str, operator: String) {
     let types = [TypeId::of::<Dynamic>(), TypeId::of::<DivisionOperand>()];
     engine.register_raw_fn(

@@ -1,6 +1,6 @@
-//! Parsing of scripts. All parsing uses this module.
+//! Parsing of scripts. All texts are parsed by this module.
 //!
-//! Rhai stores lines and columns in 16 bits. Powers, loops and errors are identified by position, so larger texts are rejected.
+//! Rhai stores lines and columns in 16 bits. Powers, loops and errors are identified by their position, so larger texts are rejected.
 
 use rhai::{AST, Engine, EvalAltResult, Position, Scope};
 
@@ -9,13 +9,13 @@ use crate::script::messages::error::ScriptError;
 use crate::script::source::syntax::mark;
 use crate::script::source::text::Source;
 
-/// Maximum number of lines of a source, and of characters per line; slightly below Rhai's limit.
+/// Maximum number of lines of a source, and of characters in a line. It is slightly below the limit of Rhai.
 pub const MOST: usize = 65_000;
 
-/// Parses `source` as if `lines_before` empty lines preceded it. The constants of `scope` are known.
+/// Parses `source` as if it followed `lines_before` empty lines. The constants of `scope` are known.
 ///
 /// # Errors
-/// Fails if the text is too large or has a syntax error, or the run was stopped.
+/// Fails if the text is too large or has a syntax error, or if the run was stopped.
 pub fn read(
     engine: &Engine,
     scope: &Scope,

@@ -1,4 +1,4 @@
-//! `array.dedup()`: as in Rhai, but it can be interrupted, and it returns the errors of its function.
+//! The method `array.dedup()`. It works as in Rhai, but it can be interrupted, and it returns errors of its function.
 
 use std::any::TypeId;
 
@@ -11,7 +11,7 @@ use crate::script::state::context::Context;
 
 pub(super) const PULSE: usize = 4096;
 
-/// Registers the method with and without a comparison function.
+/// Registers the method for calls with and without a comparison function.
 pub fn install(engine: &mut Engine, context: &Context) {
     let types = [TypeId::of::<Array>(), TypeId::of::<FnPtr>()];
     for count in 1..=2 {
@@ -21,7 +21,7 @@ pub fn install(engine: &mut Engine, context: &Context) {
                 Some(same) => without_repetitions(&native, &context, values, |earlier, later| {
                     truth(&native, &same.call_raw(&native, None, [earlier, later])?)
                 })?,
-                // Elements without an operator "==" are different.
+                // Elements for which there is no operator "==" count as different.
                 None => {
                     without_repetitions(&native, &context, values, |mut earlier, mut later| {
                         let both = &mut [&mut earlier, &mut later];

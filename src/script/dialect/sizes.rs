@@ -1,8 +1,8 @@
 //! Limits on the size of texts, arrays and maps of a script.
 //!
-//! The limits of Rhai count all nested elements in every call of a method, so that appending would have quadratic cost. Here the length of a variable
-//! is checked when the variable is used, and functions that create large values check the size first. The memory limit bounds the growth of nested
-//! values.
+//! The limits of Rhai count all nested elements in every method call, so that appending elements would take quadratic time. Here, the length of a
+//! variable is checked when the variable is used, and functions that create large values check the size before. The growth of nested values is
+//! bounded by the memory limit.
 
 use rhai::{Array, Dynamic, Engine, EvalAltResult, INT, ImmutableString, Map, Position};
 
@@ -17,7 +17,7 @@ const TEXT: &str = "Length of string";
 const ARRAY: &str = "Size of array/BLOB";
 const MAP: &str = "Size of object map";
 
-/// Replaces Rhai's functions that lengthen a text or an array in one call.
+/// Replaces the functions of Rhai that can lengthen a text or an array arbitrarily in one call.
 pub fn install(engine: &mut Engine) {
     engine.register_fn("pad", pad_array);
     engine.register_fn("pad", pad_text::<char>);
@@ -27,7 +27,7 @@ pub fn install(engine: &mut Engine) {
 /// Checks the size of the value of a variable.
 ///
 /// # Errors
-/// Fails if the text or the number of elements exceeds its limit.
+/// Fails if the length of a text or the number of elements exceeds its limit.
 pub fn check(value: &Dynamic) -> EngineResult<()> {
     if let Some(text) = value.read_lock::<ImmutableString>() {
         expect(text.len() <= LONGEST_TEXT, TEXT)
@@ -40,7 +40,7 @@ pub fn check(value: &Dynamic) -> EngineResult<()> {
     }
 }
 
-/// Checks the length of a text. `None` is too long.
+/// Checks the length of a text. `None` means that the length exceeds the range of numbers.
 pub fn expect_text(bytes: Option<usize>) -> EngineResult<()> {
     expect(bytes.is_some_and(|bytes| bytes <= LONGEST_TEXT), TEXT)
 }
@@ -75,7 +75,7 @@ fn pad_array(array: &mut Array, length: INT, element: Dynamic) -> EngineResult<(
     Ok(())
 }
 
-/// Lengthens a text to `length` characters by repeating the padding. The last repetition may be cut.
+/// Lengthens a text to `length` characters by repetition of the padding. The last repetition may be incomplete.
 fn pad_text<P: ToString>(text: &mut ImmutableString, length: INT, padding: P) -> EngineResult<()> {
     let padding = padding.to_string();
     let length = usize::try_from(length).unwrap_or(0);

@@ -1,5 +1,5 @@
-//! Sorting by a script function or in natural order. Rhai's `sort` ignores errors of the function and non-integer differences, and rejects arrays
-//! that contain both integers and floats.
+//! Sorting, either by a script function or in natural order. The method `sort` of Rhai ignores errors of the function and differences that are not
+//! integers. It also rejects arrays with both integers and floats.
 
 use std::any::TypeId;
 use std::cmp::Ordering;
@@ -15,7 +15,7 @@ use crate::script::state::context::Context;
 
 type SortFunction = fn(Ordering) -> Ordering;
 
-/// Registers `sort` and `order`, with and without a comparison function.
+/// Registers `sort` and `order`, each with and without a comparison function.
 pub fn install(engine: &mut Engine, context: &Context) {
     let types = [TypeId::of::<Array>(), TypeId::of::<FnPtr>()];
     for name in ["sort", "sort_by"] {
@@ -67,7 +67,7 @@ fn sorted_naturally(
         let hint = "give the order: sort(|a, b| a.x - b.x)";
         return Err(ScriptError::new(message).hint(hint).into_engine(native.call_position()));
     }
-    // Beyond 2^53 integers are more exact than floats, so both comparisons must not be mixed.
+    // Above 2^53 integers are more exact than floats. Hence one array must not be sorted by both comparisons.
     let order: fn(&Dynamic, &Dynamic) -> Ordering = match array.iter().all(Dynamic::is_int) {
         true => |x, y| x.as_int().ok().cmp(&y.as_int().ok()),
         false => |x, y| natural_order(x, y).unwrap_or(Ordering::Equal),
@@ -82,7 +82,7 @@ fn sorted_naturally(
     })
 }
 
-/// Order of two numbers, strings, characters or booleans; NaN comes last.
+/// Natural order of two numbers, strings, characters or booleans. NaN comes last. `None` for other values.
 fn natural_order(x: &Dynamic, y: &Dynamic) -> Option<Ordering> {
     if let (Some(x), Some(y)) = (VariantValue::number(x), VariantValue::number(y)) {
         return Some(x.partial_cmp(&y).unwrap_or_else(|| x.is_nan().cmp(&y.is_nan())));
@@ -104,7 +104,7 @@ fn sorted(native: &NativeCallContext, values: &[&mut Dynamic]) -> EngineResult<A
     })
 }
 
-/// Returns true if the result of the function puts the first of two elements after the second.
+/// Returns true if the result of the comparison function means that the first element comes after the second.
 fn is_after(native: &NativeCallContext, order: &Dynamic) -> EngineResult<bool> {
     // `true` means that the first element comes before the second.
     if let Ok(is_before) = order.as_bool() {
@@ -124,7 +124,7 @@ fn is_after(native: &NativeCallContext, order: &Dynamic) -> EngineResult<bool> {
     )
 }
 
-/// Merge sort, which is stable and safe with an inconsistent comparison function.
+/// Merge sort. It is stable, and safe even if the comparison function is inconsistent.
 fn merged(
     mut left: Array,
     is_after: &mut impl FnMut(&Dynamic, &Dynamic) -> Result<bool, Box<EvalAltResult>>,

@@ -1,5 +1,5 @@
-//! Check of `switch` values. Allowed are numbers, texts, booleans, and arrays and maps of these. For all other values Rhai silently takes the default
-//! case.
+//! Check of the values of `switch`. Numbers, texts, booleans, and arrays and maps of these are allowed. For all other values, Rhai would execute
+//! the default case without an error.
 
 use rhai::{Array, Dynamic, Engine, FnPtr, Map};
 
@@ -10,7 +10,7 @@ use crate::script::source::switch_rewrite;
 
 pub fn install(engine: &mut Engine) {
     switch_rewrite::install(engine, |engine, value, at| {
-        // While a variant is evaluated, a value that depends on parameters is replaced by its value in this variant.
+        // While a call is evaluated in a variant, a value that depends on parameters is replaced by its value in this variant.
         let value = match present() {
             Some(present) => VariantValue::project(&value, present.variant),
             None => value,

@@ -18,18 +18,18 @@ use crate::script::source::syntax;
 use crate::script::state::context::Context;
 use crate::script::state::limits::DEEPEST;
 
-/// Maximum nesting of an expression at the top level, and in a function, where it adds to the call depth.
+/// Maximum nesting depth of an expression. The same limit applies at the top level and in functions, where it adds to the call depth.
 const EXPRESSION_DEPTH: usize = 256;
 const EXPRESSION_DEPTH_IN_FUNCTION: usize = 64;
 /// Number of operations between checks for interruption.
 const PULSE: u64 = 256;
 
-/// Engine for the language of `catalog` that reports to `context`.
+/// Creates an engine for the language of `catalog`. It reports to `context`.
 ///
-/// An error means that a token hook of Rhai does not behave as required.
+/// Fails if a token hook of Rhai does not behave as required.
 pub fn build(catalog: &Catalog, context: &Context) -> Result<Engine, String> {
     let mut engine = foundation::engine();
-    // Rhai's optimiser replaces shadowed names by constants and drops statements with side effects.
+    // The optimiser of Rhai would replace shadowed names by constants, and drop statements with side effects.
     engine.set_optimization_level(OptimizationLevel::None);
     limit(&mut engine, context);
     name_types(&mut engine);

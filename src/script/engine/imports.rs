@@ -1,5 +1,5 @@
-//! Imports: modules of the standard library, named `std/…`, and files of the script's folder. Each file is read once, unless it changes. Circular
-//! imports are an error.
+//! Imports of modules of the standard library, named `std/…`, and of files in the folder of the script. Each file is read once unless it changes.
+//! Circular imports are an error.
 
 use std::cell::RefCell;
 use std::collections::HashMap;
@@ -18,7 +18,7 @@ use crate::script::state::files::{InputFolder, InputFolders};
 
 const LONGEST_CHAIN: usize = 50;
 
-/// Module resolver for the library and a folder, with a cache and detection of cycles.
+/// Module resolver for the library and a folder. It caches modules and detects circular imports.
 pub struct FolderResolver {
     folder: PathBuf,
     inputs: InputFolders,
@@ -26,7 +26,7 @@ pub struct FolderResolver {
     read: RefCell<HashMap<PathBuf, ReadModule>>,
 }
 
-/// A module with the content of its file when it was read. During a session, files may change.
+/// Module, with the content of its file when it was read. Files may change during a session.
 struct ReadModule {
     /// Content of the file; empty for modules of the library.
     content: Vec<u8>,

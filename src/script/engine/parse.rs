@@ -1,4 +1,4 @@
-//! Parsing, including all checks before execution.
+//! Parsing, with all checks that are made before execution.
 
 use rhai::{AST, Engine, Scope};
 
@@ -10,7 +10,7 @@ use crate::script::source::outline::ScriptOutline;
 use crate::script::source::program::Program;
 use crate::script::source::text::{Source, moved_down};
 
-/// A text to be parsed that follows earlier texts.
+/// Text to be parsed as a continuation of earlier texts.
 pub struct SourcePiece<'a> {
     /// Name of the source in messages.
     pub name: &'a str,
@@ -18,11 +18,11 @@ pub struct SourcePiece<'a> {
     pub text: &'a Source,
     /// Number of lines before the text.
     pub before: usize,
-    /// Visible variables.
+    /// Variables that are visible in the text.
     pub scope: &'a Scope<'static>,
 }
 
-/// Parses a whole program.
+/// Parses and checks a whole program.
 ///
 /// # Errors
 /// Fails if the program has an error.
@@ -34,8 +34,8 @@ pub fn parse(engine: &Engine, program: &Program) -> EngineResult<AST> {
     Ok(ast)
 }
 
-/// Parses a piece of a program, with positions relative to the whole program. `variables` are the top-level variables of the whole program, with
-/// their lines.
+/// Parses and checks a piece of a program. Positions refer to the whole program. `variables` returns the top-level variables of the whole program
+/// and the lines of their declarations.
 ///
 /// # Errors
 /// Fails if the piece has an error.

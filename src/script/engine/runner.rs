@@ -1,4 +1,4 @@
-//! Execution of a script on a stack that is large enough for its limits.
+//! Execution of a script, on a stack that is large enough for the limits of the script.
 
 use std::path::PathBuf;
 use std::time::{Duration, Instant};
@@ -25,7 +25,7 @@ pub enum Ending {
     Finished,
     /// The script has an error.
     Failed(Diagnostic),
-    /// A dry run reached a loop that waits for a simulation result. Until then there was no error.
+    /// A dry run reached a loop that waits for the result of a simulation. There was no error until then.
     Undecided,
     /// Interrupted from outside.
     Interrupted,
@@ -53,13 +53,13 @@ pub struct RunOutcome {
     pub checks: Checks,
     /// Report entries of the simulations.
     pub simulations: Vec<serde_json::Value>,
-    /// Estimated errors of the simulations, one line each; a remark if nothing was estimated.
+    /// Estimated errors of the simulations, one line each. If nothing was estimated, a remark.
     pub errors: Vec<String>,
     /// Files written.
     pub files: Vec<PathBuf>,
     /// Interrupt or limit that stopped the run, if it was stopped.
     pub stopped_by: Option<Stop>,
-    /// Number of finished study cases that a repeated run will reuse.
+    /// Number of completed study cases that can be reused if the script is run again.
     pub kept_cases: usize,
 }
 
@@ -84,10 +84,10 @@ pub fn run(program: &Program, catalog: &Catalog, settings: RunSettings) -> RunOu
     on_large_stack(&limits, run).unwrap_or_else(RunOutcome::refused)
 }
 
-/// Default memory for the snapshots of a simulation, in a script that rewinds [bytes].
+/// Default memory for the snapshots of a simulation [bytes], for scripts that may rewind.
 pub const SNAPSHOTS: usize = 256_000_000;
 
-/// Returns true if a script may rewind. Only then snapshots are stored. The library never rewinds; other imported files might.
+/// Returns true if a script may rewind a simulation. Snapshots are stored only in this case. The library never rewinds; other imported files might.
 fn may_go_back(program: &Program) -> bool {
     let is_library = |path: Option<&str>| path.is_some_and(|path| path.starts_with(FOLDER));
     let source = &program.text;
@@ -129,13 +129,13 @@ fn run_here(program: &Program, catalog: &Catalog, settings: RunSettings) -> RunO
     }
 }
 
-/// Run time up to which errors are estimated without a request.
+/// Run time up to which errors are estimated even if this was not requested.
 const BRIEF: Duration = Duration::from_secs(1);
 
 /// Maximum number of simulations whose errors are estimated at the end of a run.
 const MOST_ESTIMATES: usize = 5;
 
-/// Estimated errors of the simulations that have taken steps, one line each.
+/// Estimated errors of all simulations that have taken steps, one line each.
 fn estimated_errors(
     engine: &Engine,
     context: &Context,
@@ -168,7 +168,7 @@ fn estimated_errors(
     lines
 }
 
-/// Value of an expression in which `object` is the given value, or the message of the error.
+/// Evaluates an expression in which the variable `object` has the given value. Returns the result or the error message.
 fn ask<T: Clone + Send + Sync + 'static>(
     engine: &Engine,
     object: &rhai::Dynamic,

@@ -1,4 +1,4 @@
-//! Environment of scripts: catalog, engine and shared state. A run, a prompt and the grading of an exercise each have one.
+//! Environment in which scripts are executed: catalog, engine and shared state. A run, a prompt and the grading of an exercise each have one.
 
 use std::rc::Rc;
 
@@ -19,11 +19,11 @@ use crate::script::state::watchdog::Watchdog;
 const DRY_RUN_NOTE: &str =
     "withy check runs no simulation: use withy run to test what depends on results";
 
-/// Catalog, engine and shared state.
+/// Environment in which scripts are executed.
 pub struct ScriptEngine {
     catalog: Catalog,
     context: Context,
-    /// Shared with the functions that scenes and simulations store.
+    /// Engine. It is shared with the functions that scenes and simulations store.
     engine: Rc<Engine>,
 }
 
@@ -32,7 +32,7 @@ pub struct ScriptEngine {
 pub enum Halt {
     /// An error in the script, an exceeded limit, or an internal error.
     Failed(Diagnostic),
-    /// A dry run reached a point at which the script waits for a simulation result, which the diagnostic describes.
+    /// A dry run reached a point at which the script waits for the result of a simulation. The diagnostic describes this point.
     Undecided(Diagnostic),
     /// Interrupted from outside.
     Interrupted,
@@ -41,10 +41,11 @@ pub enum Halt {
 }
 
 impl ScriptEngine {
-    /// Creates an engine for the language of `catalog` within the limits of the settings. Imports are searched in their folder.
+    /// Creates the environment for the language of `catalog`, within the limits of the settings. Files to be imported are searched in the folder of
+    /// the settings.
     ///
     /// # Errors
-    /// Only on internal errors.
+    /// Fails only because of internal errors.
     pub fn open(catalog: Catalog, settings: RunSettings) -> Result<Self, Diagnostic> {
         let resolver = FolderResolver::new(&settings.folder);
         let context = Context::new(settings);
@@ -56,7 +57,7 @@ impl ScriptEngine {
         Ok(Self { catalog, context, engine })
     }
 
-    /// Resets the counters and enforces the limits until the guard is dropped.
+    /// Resets the counters, and enforces the limits until the guard is dropped.
     ///
     /// # Errors
     /// Fails if no thread can be started.
@@ -67,10 +68,10 @@ impl ScriptEngine {
         })
     }
 
-    /// Runs `work` with the engine, then ends the progress display and flushes the output. `program` returns the text for error messages.
+    /// Calls `work` with the engine, then ends the progress display and flushes the output. `program` returns the source text for error messages.
     ///
     /// # Errors
-    /// Fails if the work does not complete. A panic in native code is an internal error; earlier results remain valid.
+    /// Fails if the work does not complete. A panic in native code is reported as an internal error; earlier results remain valid.
     pub fn run<T>(
         &self,
         _limits_kept: &Watchdog,
@@ -104,7 +105,7 @@ impl ScriptEngine {
         }
     }
 
-    /// Diagnostic of an engine error in `program`.
+    /// Translates an error of the engine in `program` to the form that is shown to the user.
     pub fn explain(&self, error: &EvalAltResult, program: &Program) -> Diagnostic {
         Explainer { program, catalog: &self.catalog, engine: &self.engine }.explain(error)
     }
@@ -125,7 +126,7 @@ impl ScriptEngine {
     }
 }
 
-/// Breaks the reference cycle of simulations, stored functions, and the context with the last simulation.
+/// Breaks a reference cycle: simulations own stored functions, these own the context, and the context owns the last simulation.
 impl Drop for ScriptEngine {
     fn drop(&mut self) {
         self.context.clear_simulations();

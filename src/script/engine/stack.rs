@@ -1,4 +1,4 @@
-//! Stack sizes of scripts and workers. They are large enough for the limits of the script, but smaller if the address space is limited.
+//! Stack sizes of threads for scripts and workers. They are large enough for the limits of the script, but smaller if the address space is limited.
 
 use std::sync::Mutex;
 use std::thread;
@@ -7,10 +7,11 @@ use crate::panics::caught;
 use crate::script::diagnose::Diagnostic;
 use crate::script::state::limits::Limits;
 
-/// Runs `work` on a thread with a stack that is large enough for the limits of the script, or smaller if the address space of the process is limited.
+/// Calls `work` on a thread whose stack is large enough for the limits of the script. The stack is smaller if the address space of the process is
+/// limited.
 ///
 /// # Errors
-/// Fails if no thread can be started, or the work panics.
+/// Fails if no thread can be started, or if `work` panics.
 pub fn on_large_stack<T: Send>(
     limits: &Limits,
     work: impl FnOnce() -> T + Send,
@@ -18,10 +19,10 @@ pub fn on_large_stack<T: Send>(
     on_stack(script_stack(limits, room()), limits, work)
 }
 
-/// Runs `work` on a thread with a stack of `bytes`. If this fails, smaller stacks are tried, down to the minimum for nested calls.
+/// Calls `work` on a thread with a stack of `bytes`. If this fails, smaller stacks are tried, down to the minimum for nested calls.
 ///
 /// # Errors
-/// Fails if no thread can be started, or `work` panics.
+/// Fails if no thread can be started, or if `work` panics.
 pub fn on_stack<T: Send>(
     mut bytes: usize,
     limits: &Limits,
@@ -67,7 +68,7 @@ fn room() -> Option<usize> {
     None
 }
 
-/// Stack size of a script, at most a quarter of the remaining address space.
+/// Stack size of a script [bytes]. It is at most a quarter of the remaining address space.
 fn script_stack(limits: &Limits, room: Option<usize>) -> usize {
     let whole = limits.stack();
     match room.filter(|room| *room < whole.saturating_add(limits.address_space())) {
@@ -76,7 +77,7 @@ fn script_stack(limits: &Limits, room: Option<usize>) -> usize {
     }
 }
 
-/// Number of workers and stack size of each. Together they use at most half of the remaining address space.
+/// Number of workers, and the stack size of each [bytes]. Together they use at most half of the remaining address space.
 fn worker_stacks(limits: &Limits, most: usize, room: Option<usize>) -> Option<(usize, usize)> {
     let (whole, least) = (limits.stack(), limits.least_stack());
     let needed = whole.saturating_mul(most).saturating_add(limits.address_space());

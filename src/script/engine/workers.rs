@@ -1,4 +1,4 @@
-//! Worker threads, each with its own engine that has compiled the script of the run and calls its functions.
+//! Worker threads. Each has its own engine, which has compiled the script of the run and calls its functions.
 
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, mpsc};
@@ -24,10 +24,10 @@ use crate::simulation::cores;
 /// Interval between checks for interruption while no job ends.
 const PULSE: Duration = Duration::from_millis(50);
 
-/// Waiting time before a batch of results is collected.
+/// Time to wait before a batch of results is collected.
 const REST: Duration = Duration::from_millis(1);
 
-/// Configuration of an engine on another thread.
+/// Data from which an engine on another thread is created.
 #[derive(Clone)]
 pub struct EngineConfig {
     catalog: Catalog,
@@ -40,11 +40,11 @@ pub struct EngineConfig {
 }
 
 impl EngineConfig {
-    /// Configuration of worker engines. `None` if there is no complete script, as at the prompt, or if the address space is too small for one worker.
-    /// `refusal` is the error of functions that write files.
+    /// Collects the data for worker engines. `None` if there is no complete script, as at the prompt, or if the address space is too small for one
+    /// worker. `refusal` is the error message of functions that write files.
     pub fn of(engine: &Engine, context: &Context, refusal: &'static str) -> Option<Self> {
         let catalog = Sources::of(engine).catalog()?;
-        // The run itself supervises time and memory of the whole process.
+        // Time and memory of the whole process are supervised by the run itself.
         let limits = Limits { time: None, memory: None, ..*context.meter().limits() };
         let program = context.program()?.clone();
         let snapshots = context.snapshots();
@@ -54,7 +54,7 @@ impl EngineConfig {
     }
 }
 
-/// Engine of another thread, with the functions and imports of the script. The statements of the script are not executed.
+/// Engine on another thread, with the functions and imports of the script. The statements of the script are not executed in it.
 pub struct Worker {
     host: ScriptEngine,
     script: AST,
@@ -141,7 +141,7 @@ pub struct WorkerPool<'c, J, R> {
 
 pub enum WorkerEvent<R> {
     Done(usize, R),
-    /// Timeout, for checks of interruption.
+    /// The waiting time has passed. The caller can check for interruption.
     Timeout,
     NoWorkers,
 }
@@ -151,13 +151,14 @@ impl<J, R> WorkerPool<'_, J, R> {
         self.posts.len()
     }
 
-    /// Queues a job. Its result has the same number.
+    /// Queues a job. The result of the job has the same number.
     pub fn submit(&self, number: usize, job: J) {
-        // If there are no workers, this is detected on receiving.
+        // If there are no workers any more, this is detected when results are received.
         let _ = self.jobs.send((number, job));
     }
 
-    /// Waits for results as [`receive`](Self::receive), for many queued jobs. Results are collected in batches, because each wake-up costs time.
+    /// Waits for results like [`receive`](Self::receive), but for many queued jobs. Results are collected in batches, because each wake-up of the
+    /// thread takes time.
     pub fn receive_batch(&self) -> WorkerEvent<R> {
         match self.results.try_recv() {
             Ok((number, result)) => WorkerEvent::Done(number, result),
@@ -168,7 +169,7 @@ impl<J, R> WorkerPool<'_, J, R> {
         }
     }
 
-    /// Waits for the next result, in any order. A job that takes too long is stopped.
+    /// Waits for the next result. Results arrive in any order. A job that takes too long is stopped.
     pub fn receive(&self) -> WorkerEvent<R> {
         match self.results.recv_timeout(PULSE) {
             Ok((number, result)) => WorkerEvent::Done(number, result),
@@ -181,8 +182,8 @@ impl<J, R> WorkerPool<'_, J, R> {
     }
 }
 
-/// Calls `drive` with a pool of worker threads, each with its own engine. A job that takes longer than `wall` is stopped. `panicked` converts a panic
-/// to a result. When `drive` returns, unfinished jobs are stopped.
+/// Calls `drive` with a pool of worker threads, each with its own engine. A job that takes longer than `wall` is stopped. `panicked` converts the
+/// message of a panic to a result. When `drive` returns, jobs that have not ended are stopped.
 ///
 /// # Errors
 /// Fails if no worker can be created.
@@ -202,7 +203,7 @@ pub fn with_crew<J: Send, R: Send, T>(
     let next = || given.lock().ok()?.recv().ok();
     let labour = |post: &WorkerState, done: mpsc::Sender<_>| -> Result<(), Diagnostic> {
         let worker = match Worker::open(blueprint, Arc::clone(&post.interrupt)) {
-            // All jobs were done before this worker started.
+            // All jobs were completed before this worker started.
             Err(_) if is_over.load(Ordering::Relaxed) => return Ok(()),
             opened => opened?,
         };
@@ -213,7 +214,7 @@ pub fn with_crew<J: Send, R: Send, T>(
             post.begin(Some(Instant::now()));
             let result = caught(|| work(&worker, job)).unwrap_or_else(&panicked);
             post.begin(None);
-            // Resets the stop flag of the previous job.
+            // Resets the flag by which the previous job may have been stopped.
             post.interrupt.store(false, Ordering::Relaxed);
             if done.send((number, result)).is_err() {
                 break;
@@ -227,7 +228,7 @@ pub fn with_crew<J: Send, R: Send, T>(
             let is_over = &is_over;
             scope.spawn(move || {
                 let ended = on_stack(stack, &limits, || labour(post, done)).flatten();
-                // When the pool has ended, errors of workers are ignored.
+                // Errors of workers after the end of the pool are ignored.
                 if is_over.load(Ordering::Relaxed) { Ok(()) } else { ended }
             })
         };

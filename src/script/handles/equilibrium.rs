@@ -11,7 +11,7 @@ use crate::script::bindings::kind::{Details, Scripted};
 use crate::script::messages::error::ScriptError;
 use crate::statics::Equilibrium;
 
-/// Handle of an equilibrium; clones share it.
+/// Handle of an equilibrium. Clones refer to the same equilibrium.
 #[derive(Clone)]
 pub struct EquilibriumHandle(Rc<EquilibriumData>);
 
@@ -38,7 +38,7 @@ impl EquilibriumHandle {
         self.0.rest.borrow_mut()
     }
 
-    /// Location of a station of the equilibrium's scene.
+    /// Place of a station in the model of this equilibrium.
     pub fn place(&self, station: &StationHandle) -> Result<BodyPoint, ScriptError> {
         let rest = self.equilibrium();
         station.within(&self.0.scene, rest.scene(), rest.model().meshes())

@@ -1,6 +1,6 @@
-//! Script functions scheduled for a simulation time.
+//! Script functions that are scheduled for times of a simulation.
 
-/// Scheduled functions with their times, and the number of functions that were called.
+/// Scheduled functions with their times, and the number of functions that have been called.
 #[derive(Clone)]
 pub struct Events<F> {
     functions: Vec<(f64, F)>,
@@ -31,18 +31,18 @@ impl<F: Clone> Events<F> {
         Some(due.clone())
     }
 
-    /// All functions with their times, called or not.
+    /// All functions with their times, whether called or not.
     pub fn all(&self) -> &[(f64, F)] {
         &self.functions
     }
 
-    /// Schedules the functions after `now` again, after a rewind.
+    /// Schedules the functions with times after `now` again, after a rewind.
     pub fn reschedule_after(&mut self, now: f64) {
         let passed = self.functions.partition_point(|(time, _)| *time <= now);
         self.called = self.called.min(passed);
     }
 
-    /// Number of functions still to be called.
+    /// Number of functions that have not been called yet.
     pub fn waiting(&self) -> usize {
         self.functions.len() - self.called
     }

@@ -1,4 +1,4 @@
-//! A section of the history of a simulation.
+//! Time interval of the history of a simulation.
 
 use rhai::Dynamic;
 
@@ -11,18 +11,18 @@ use crate::script::presentation::details;
 use crate::script::presentation::plots::{column_hint, column_names};
 use crate::simulation::{History, Sample};
 
-/// Handle of a section of a history. The history grows with the simulation.
+/// Handle of a time interval of a history. The history grows with the simulation.
 #[derive(Clone)]
 pub struct HistoryHandle {
     pub of: SimulationHandle,
-    /// First time of the section [time].
+    /// Start of the interval [time].
     pub from: f64,
-    /// Last time of the section [time].
+    /// End of the interval [time].
     pub to: f64,
 }
 
 impl HistoryHandle {
-    /// Reads the rows of the section.
+    /// Calls a function with the rows of the interval.
     pub fn read<T>(&self, read: impl FnOnce(&History) -> T) -> T {
         self.of.read_history((self.from, self.to), read)
     }
@@ -42,7 +42,7 @@ impl HistoryHandle {
         column_names(self.of.simulation().history())
     }
 
-    /// Checks that a value is the name of a column; `argument` is its position in the call.
+    /// Checks that a value is the name of a column. `argument` is its position in the call.
     pub fn expect_column(
         &self,
         call: &Call,
@@ -70,7 +70,7 @@ impl HistoryHandle {
             .at(CallPart::Argument(argument)))
     }
 
-    /// The intersection with a time interval.
+    /// Intersection of this interval with another time interval.
     pub fn between(&self, from: f64, to: f64) -> Self {
         Self { of: self.of.clone(), from: self.from.max(from), to: self.to.min(to) }
     }

@@ -1,4 +1,4 @@
-//! Handles of scenes, beams, stations, simulations and histories in scripts; clones share the object.
+//! Handles of scenes, beams, stations, simulations and histories for scripts. Clones of a handle refer to the same object.
 
 pub mod beam;
 pub mod equilibrium;

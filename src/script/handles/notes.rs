@@ -1,11 +1,11 @@
-//! Warnings of a simulation that were reported.
+//! Record of the warnings of a simulation that have been reported.
 
 use std::cell::RefCell;
 
 use crate::script::state::context::Context;
 use crate::simulation::{Simulation, Warning};
 
-/// Output of warnings.
+/// Whether and when warnings are printed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Printing {
     /// Warnings are printed at the end of a run.
@@ -26,7 +26,7 @@ impl Notes {
         Self { printing, reported: RefCell::default() }
     }
 
-    /// Reports the new warnings of a simulation. A warning is repeated only if it gets worse.
+    /// Reports the new warnings of a simulation. A warning is reported again only if it has become more severe.
     pub fn report_warnings(&self, name: &str, simulation: &Simulation, context: &Context) {
         if self.printing == Printing::Never || context.is_stopped() {
             return;

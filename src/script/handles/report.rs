@@ -85,7 +85,7 @@ impl Reporter for SimulationHandle {
             .then(|| history_table(self.name(), simulation.history()).thinned(numbers))?;
         let plain = |letter: char| if letter.is_alphanumeric() { letter } else { '-' };
         let name: String = self.name().chars().map(plain).collect();
-        // Columns of a history have equal lengths, so the conversion succeeds.
+        // All columns of a history have the same length, so the conversion succeeds.
         Some((format!("{name}-stopped.csv"), table.to_text().ok()?))
     }
 }

@@ -26,31 +26,31 @@ pub struct SceneHandle {
     variants: Rc<Variants>,
     /// Functions of user-defined columns, in the order of the columns.
     functions: Rc<RefCell<Vec<Rc<StoredFunction>>>>,
-    /// Controllers of loads and drives, called at the start of every step.
+    /// Controllers of loads and drives. They are called at the start of every step.
     controllers: Rc<RefCell<Vec<Rc<Controller>>>>,
-    /// Release conditions, with the index of the release.
+    /// Release conditions, each with the index of its release.
     conditions: Rc<RefCell<Vec<Condition>>>,
-    /// True after the note on controllers and spins that modes do not include.
+    /// True if a note has been printed that modes do not include the effects of controllers and spins.
     has_modes_note: Rc<Cell<bool>>,
 }
 
 struct Variants {
     scene: Rc<RefCell<Scene>>,
     declared: RefCell<Option<Rc<ParameterSet>>>,
-    /// Created by the first call with an argument that depends on a parameter.
+    /// Perturbed variants. They are created by the first call with an argument that depends on a parameter.
     beside: OnceCell<PerturbedBuilds>,
-    /// True if the scene has changed since the last start of a simulation.
+    /// True if the scene has been changed since the last start of a simulation.
     is_changed: Cell<bool>,
 }
 
-/// Perturbed variants of a scene, with parameters plus and minus a perturbation.
+/// Perturbed variants of a scene, whose parameters are increased or decreased by a perturbation.
 struct PerturbedBuilds {
     family: Rc<ParameterSet>,
     /// Scenes of the variants 1, 2, …, in this order.
     scenes: Vec<Rc<RefCell<Scene>>>,
 }
 
-/// Condition of a release, evaluated by a script function.
+/// Release condition, which a script function evaluates.
 #[derive(Clone)]
 pub struct Condition {
     /// Script function, called with the simulation.
@@ -58,7 +58,7 @@ pub struct Condition {
     pub release: usize,
 }
 
-/// Script function of time and simulation, whose value is constant during a step or a sampling interval.
+/// Script function of time and simulation. Its value is constant during a step or a sampling interval.
 pub struct Controller {
     /// Script function, called with the time and the simulation.
     pub function: StoredFunction,
@@ -85,7 +85,7 @@ impl SceneHandle {
         }
     }
 
-    /// Returns true on the first call, because the note on modes is printed once per scene.
+    /// Returns true when it is called for the first time. The note on modes is printed once per scene.
     pub fn take_modes_note(&self) -> bool {
         !self.has_modes_note.replace(true)
     }
@@ -94,19 +94,19 @@ impl SceneHandle {
         self.of_present()
     }
 
-    /// Write access to the scene. Simulations that have been started keep the earlier scene.
+    /// Gives write access to the scene. Simulations that have been started keep the earlier scene.
     pub fn change(&self) -> RefMut<'_, Scene> {
         self.variants.is_changed.set(true);
         self.of_present().borrow_mut()
     }
 
-    /// Gives write access as [`change`](Self::change), with shared ownership.
+    /// Gives write access like [`change`](Self::change), as a shared pointer.
     pub fn shared_for_change(&self) -> Rc<RefCell<Scene>> {
         self.variants.is_changed.set(true);
         Rc::clone(self.of_present())
     }
 
-    /// Returns true on the first call after a change of the scene.
+    /// Returns true when it is called for the first time after a change of the scene.
     pub fn take_change(&self) -> bool {
         self.variants.is_changed.replace(false)
     }
@@ -116,7 +116,7 @@ impl SceneHandle {
         let Some(CurrentVariant { family, variant }) = present().filter(|of| of.variant > 0) else {
             return scene;
         };
-        // The current call has not changed the scene yet, because variant 0 is evaluated last.
+        // The present call has not changed the scene yet, because variant 0 is evaluated last.
         let beside = beside.get_or_init(|| {
             let copy = |_| Rc::new(RefCell::new(scene.borrow().clone()));
             PerturbedBuilds { scenes: (1..family.variants()).map(copy).collect(), family }
@@ -128,10 +128,10 @@ impl SceneHandle {
         self.variants.beside.get().map(|beside| Rc::clone(&beside.family))
     }
 
-    /// Declares a parameter, and returns its value with the perturbed values.
+    /// Declares a parameter, and returns its value together with the perturbed values.
     ///
     /// # Errors
-    /// Fails if the name is in use, or other parameters are in use already.
+    /// Fails if the name is used already, or if variants of parameters have been used.
     pub fn declare(
         &self,
         name: &str,
@@ -146,10 +146,10 @@ impl SceneHandle {
             .declare(name, value, distance)
     }
 
-    /// Scenes at the perturbed parameters.
+    /// Scenes at the perturbed parameter values.
     ///
     /// # Errors
-    /// Fails if the scene has script functions, which cannot be evaluated per variant.
+    /// Fails if the scene has script functions, which cannot be evaluated in variants.
     pub fn variations(&self) -> Result<Vec<Variation>, ScriptError> {
         let Some(PerturbedBuilds { family, scenes }) = self.variants.beside.get() else {
             return Ok(Vec::new());
@@ -179,7 +179,7 @@ impl SceneHandle {
         Ok(family.parameters().into_iter().map_while(variation).collect())
     }
 
-    /// Rejects a beam, by its index, whose length depends on a parameter.
+    /// Rejects a beam whose length depends on a parameter. `beam` is its index.
     ///
     /// # Errors
     /// Fails if the length differs between the variants.
@@ -188,12 +188,12 @@ impl SceneHandle {
             return Ok(());
         };
         let own = self.variants.scene.borrow();
-        // Variant 0 is created after the perturbed variants.
+        // In variant 0 the beam does not exist yet, because the perturbed variants are evaluated first.
         let Some(own) = own.beams.get(beam) else { return Ok(()) };
         let length = own.axis.length();
         let is_other = |scene: &Rc<RefCell<Scene>>| {
             let scene = scene.borrow();
-            // The length of a rotated beam may differ by rounding.
+            // The length of a rotated beam may differ by a rounding error.
             let apart = scene.beams.get(beam).map_or(0.0, |of| (length - of.axis.length()).abs());
             apart > ROUNDING_OF_PLACES * length
         };
@@ -204,7 +204,7 @@ impl SceneHandle {
         Ok(())
     }
 
-    /// Returns true in variant 0. Functions are stored only in this variant, so that they are stored once.
+    /// Returns true in variant 0. Functions are stored only in this variant, so that each is stored once.
     fn keeps(&self) -> bool {
         present().is_none_or(|present| present.variant == 0)
     }
@@ -220,14 +220,14 @@ impl SceneHandle {
         Err(ScriptError::new(message).hint(hint))
     }
 
-    /// Stores the function of the last defined column.
+    /// Stores the function of the user-defined column that was defined last.
     pub fn store_function(&self, function: StoredFunction) {
         if self.keeps() {
             self.functions.borrow_mut().push(Rc::new(function));
         }
     }
 
-    /// Stores a controller that is called at the start of every step or at samples. Returns the cell of its value.
+    /// Stores a controller that is called at the start of every step or at samples. Returns the cell that contains its value.
     pub fn store_controller(
         &self,
         function: StoredFunction,
@@ -241,7 +241,7 @@ impl SceneHandle {
         value
     }
 
-    /// Stores the condition of the last defined release.
+    /// Stores the condition of the release that was defined last.
     pub fn store_condition(&self, function: StoredFunction) {
         let release = self.scene().borrow().releases.len() - 1;
         let condition = Condition { function: Rc::new(function), release };
@@ -254,10 +254,10 @@ impl SceneHandle {
         self.conditions.borrow().clone()
     }
 
-    /// Rejects a scene with functions that are called between steps, because a study runs the scene without its script.
+    /// Rejects a scene with functions that are called between steps. A study could not call them, because it runs the scene without its script.
     ///
     /// # Errors
-    /// Fails if a load or drive has a controller, or a release a condition.
+    /// Fails if a load or drive has a controller, or if a release has a condition.
     pub fn expect_no_callbacks(&self) -> Result<(), ScriptError> {
         if self.controllers.borrow().is_empty() && self.conditions.borrow().is_empty() {
             return Ok(());
@@ -278,13 +278,13 @@ impl SceneHandle {
         self.functions.borrow().iter().take(columns).cloned().collect()
     }
 
-    /// Station of another handle, if it belongs to this scene.
+    /// Station of a handle, if it belongs to this scene.
     pub fn own_station(&self, handle: &StationHandle) -> Result<Station, ScriptError> {
         self.expect_same(&handle.scene, "station")?;
         Ok(handle.station)
     }
 
-    /// Rejects an object of another scene; `what` is its kind.
+    /// Rejects an object that belongs to another scene. `what` is the type of the object.
     pub fn expect_same(&self, other: &Self, what: &str) -> Result<(), ScriptError> {
         if Rc::ptr_eq(&self.variants, &other.variants) {
             return Ok(());

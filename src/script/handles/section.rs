@@ -7,13 +7,13 @@ use crate::script::presentation::details;
 
 const DIGITS: usize = 7;
 
-/// A constant or tapered cross section, and its material damping.
+/// Cross section, constant or tapered, and its material damping.
 #[derive(Clone)]
 pub struct SectionHandle {
     pub variation: SectionVariation,
-    /// Material and shape from which the section was computed; needed for tapers.
+    /// Material and shape from which the section was computed. Tapers need them.
     pub solid: Option<Solid>,
-    /// Relaxation times of the material; `None` if elastic.
+    /// Relaxation times of the material; `None` for an elastic material.
     pub relaxation: Option<Relaxation>,
 }
 

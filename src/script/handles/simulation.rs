@@ -1,4 +1,4 @@
-//! Handle of a simulation in a script: steps, events, progress and interruption.
+//! Handle of a simulation for scripts: steps, scheduled functions, progress and interruption.
 
 mod commands;
 mod companions;
@@ -33,7 +33,7 @@ pub use companions::{Companion, RunStart};
 pub use revisit::Revisit;
 pub use visit::Visited;
 
-/// Handle of a simulation; clones share it.
+/// Handle of a simulation. Clones refer to the same simulation.
 #[derive(Clone)]
 pub struct SimulationHandle(Rc<Live>);
 
@@ -42,9 +42,9 @@ struct Live {
     scene: SceneHandle,
     simulation: RefCell<Simulation>,
     events: RefCell<Events<Rc<StoredFunction>>>,
-    /// True while a scheduled function runs. Then no other function may be scheduled for the same time.
+    /// True while a scheduled function runs. During this time no other function may be scheduled for the same simulation time.
     is_firing: Cell<bool>,
-    /// True once an early end of the run was reported.
+    /// True if an early end of the run has been reported.
     is_ending_told: Cell<bool>,
     notes: Notes,
     start: RunStart,
@@ -56,14 +56,14 @@ pub enum RunTarget {
     Time(f64),
 }
 
-/// Observer of steps that updates the progress, counts steps, and stops the run on interruption or at a limit.
+/// Observer of steps. It updates the progress display, counts steps, and stops the run if it is interrupted or exceeds a limit.
 struct ProgressMonitor<'a> {
     context: &'a Context,
-    /// Time after which steps are not needed.
+    /// Time at which the run may stop.
     end: f64,
     /// True if script functions must be called after every step.
     pauses: bool,
-    /// True if the run was stopped only to call these functions.
+    /// True if the run was stopped only to call script functions.
     is_paused: bool,
 }
 
@@ -84,7 +84,7 @@ impl Monitor for ProgressMonitor<'_> {
     }
 }
 
-/// Observer of a simulation in a dry run. It stops like a real run but counts no steps.
+/// Observer of a simulation in a dry run. It stops for the same reasons as a real run, but counts no steps.
 struct DryRunObserver<'a>(&'a Context);
 
 impl Monitor for DryRunObserver<'_> {
@@ -94,7 +94,7 @@ impl Monitor for DryRunObserver<'_> {
 }
 
 impl SimulationHandle {
-    /// Creates the handle of a new simulation and adds it to the report of the run.
+    /// Creates the handle of a new simulation, and adds the simulation to the report of the run.
     pub fn new(
         simulation: Simulation,
         scene: SceneHandle,
@@ -108,7 +108,7 @@ impl SimulationHandle {
         handle
     }
 
-    /// Adds the simulation to the report of the run, as the latest one.
+    /// Adds the simulation to the report of the run, and marks it as the simulation used last.
     pub fn report_as_latest(&self, context: &Context) {
         context.add_reporter(Box::new(self.clone()));
         self.is_latest(context);
@@ -139,7 +139,7 @@ impl SimulationHandle {
         Self(Rc::new(live))
     }
 
-    /// Independent copy of the simulation in its current state, with its scheduled functions.
+    /// Independent copy of the simulation in its present state, with its scheduled functions.
     pub fn fork(&self, name: String, context: &Context) -> Result<Self, ScriptError> {
         if self.simulation().parameters().next().is_some() {
             let message = "a copy of the simulation would have no derivatives by the parameters of its \
@@ -160,7 +160,7 @@ impl SimulationHandle {
         context.set_latest_simulation(Dynamic::from(self.clone()));
     }
 
-    /// Lowest natural modes about the current configuration.
+    /// Lowest natural modes about the present configuration.
     pub fn modes(
         &self,
         count: usize,
@@ -174,7 +174,7 @@ impl SimulationHandle {
         self.0.simulation.borrow_mut().enable_snapshots(limit);
     }
 
-    /// Number of scheduled functions.
+    /// Number of scheduled functions that have not been called yet.
     pub fn events_waiting(&self) -> usize {
         self.0.events.borrow().waiting()
     }
@@ -191,7 +191,7 @@ impl SimulationHandle {
         &self.0.name
     }
 
-    /// Current time [time].
+    /// Present time [time].
     pub fn time(&self) -> f64 {
         self.simulation().time()
     }
@@ -212,7 +212,7 @@ impl SimulationHandle {
         Ok(())
     }
 
-    /// Rewinds the simulation to an earlier state. In a dry run this is approximate.
+    /// Returns the simulation to an earlier state. In a dry run the result is approximate.
     pub fn rewind_to(&self, call: &Call, goal: &RunTarget) -> Result<(), ScriptError> {
         self.0.sensing.expect_idle()?;
         let mut simulation = self.0.simulation.borrow_mut();
@@ -234,7 +234,7 @@ impl SimulationHandle {
         self.simulation().slack()
     }
 
-    /// Advances the simulation, and calls the functions that are scheduled on the way.
+    /// Advances the simulation, and calls the functions that are scheduled up to the goal.
     pub fn advance(&self, call: &Call, goal: &RunTarget) -> Result<(), ScriptError> {
         self.0.sensing.expect_idle()?;
         let context = call.context();
@@ -268,7 +268,7 @@ impl SimulationHandle {
 
     fn take_steps(&self, context: &Context, steps: usize) -> Result<(), ScriptError> {
         for taken in 0..steps {
-            // The first step after the end is an error. Later ends of the run are only reported.
+            // If the run had ended before the first step, this step fails. If it ends later, this is only reported.
             if taken > 0 && self.has_ended() {
                 self.report_end(context, &format!("before it had taken {steps} steps"));
                 break;
@@ -317,7 +317,7 @@ impl SimulationHandle {
         }
     }
 
-    /// Dry run: time advances, and scheduled functions are called.
+    /// Advances the time in a dry run, and calls scheduled functions.
     pub fn dry_run(&self, context: &Context, end: f64) -> Result<(), ScriptError> {
         context.meter().count_dry_run();
         context.proceed()?;
@@ -333,7 +333,7 @@ impl SimulationHandle {
         loop {
             let due = self.0.events.borrow_mut().take_due(self.time() + slack);
             let Some(function) = due else { return Ok(()) };
-            // The return value of an event is ignored.
+            // The return value of a scheduled function is ignored.
             self.0.is_firing.set(true);
             let called = function.call([Dynamic::from(self.clone())]);
             self.0.is_firing.set(false);

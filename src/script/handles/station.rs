@@ -23,13 +23,13 @@ pub struct StationHandle {
 }
 
 impl StationHandle {
-    /// Location of the station in a simulation of its scene.
+    /// Place of the station in the model of a simulation.
     pub fn place_in(&self, handle: &SimulationHandle) -> Result<beams::BodyPoint, ScriptError> {
         let simulation = handle.simulation();
         self.within(handle.scene(), simulation.scene(), simulation.model().meshes())
     }
 
-    /// Location of the station on the meshes of a scene `built` from the scene `of`; an error if the station belongs to another scene.
+    /// Place of the station on the meshes of a scene `built` from the scene `of`. Fails if the station belongs to another scene.
     pub fn within(
         &self,
         of: &SceneHandle,
@@ -59,7 +59,7 @@ impl Scripted for StationHandle {
         self.scene.scene().borrow().describe(&self.station)
     }
 
-    /// A rigid body is converted to its centre.
+    /// A rigid body is converted to the station at its centre.
     fn meant_by(value: &Dynamic) -> Option<Self> {
         Some(value.read_lock::<RigidBodyHandle>()?.centre())
     }
@@ -73,7 +73,7 @@ impl Scripted for StationHandle {
     }
 }
 
-/// The receiver scene, and one of its stations from an argument.
+/// Scene before the dot of a call, and a station of this scene from an argument.
 pub fn here(call: &Call, name: &str) -> Result<(Station, Rc<RefCell<Scene>>), ScriptError> {
     let scene = call.receiver::<SceneHandle>()?;
     let station = scene.own_station(&call.get::<StationHandle>(name)?)?;

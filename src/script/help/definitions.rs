@@ -1,7 +1,7 @@
-//! Definition files (`.d.rhai`) for the Rhai language server of editors, generated from the bindings.
+//! Definition files (`.d.rhai`), which editors read by the Rhai language server. They are generated from the bindings.
 //!
-//! The format has no optional arguments, so a function is declared once per number of arguments. Allowed values, units, options and examples are in
-//! the comment above the declaration, which editors show.
+//! The format has no optional arguments, so a function is declared once for each number of arguments. Allowed values, units, options and examples
+//! are in the comment above the declaration, which editors show.
 
 mod types;
 
@@ -22,7 +22,7 @@ pub struct DefinitionFile {
     pub text: String,
 }
 
-/// Definition files of a language: one for all types, and one per table.
+/// Definition files of a language: one file for all types, and one file for each table.
 pub fn definitions(catalog: &Catalog) -> Vec<DefinitionFile> {
     let mut files =
         vec![DefinitionFile { name: "types.d.rhai".into(), text: types::file(catalog) }];

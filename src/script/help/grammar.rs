@@ -1,7 +1,7 @@
-//! TextMate grammar for editors, generated from the keywords and bindings.
+//! TextMate grammar for syntax highlighting in editors, generated from the keywords and bindings.
 //!
-//! Its rules are those of the scanner ([`scan`](crate::script::source::scanner::scan)), as regular expressions of Oniguruma. Editors do not know
-//! types, so every called name after a dot is treated as a member.
+//! Its rules correspond to those of the scanner ([`scan`](crate::script::source::scanner::scan)), written as regular expressions of Oniguruma.
+//! Editors do not know types, so every name that is called after a dot is treated as a member.
 
 use std::collections::BTreeSet;
 
@@ -71,7 +71,7 @@ pub fn grammar(catalog: &Catalog) -> String {
     format!("{grammar:#}\n")
 }
 
-/// A string in quotes, which ends on its line unless the line ends in a backslash.
+/// Rule for a string in quotes. The string ends on its line, unless the line ends with a backslash.
 fn text(name: &str, quote: &str) -> Value {
     json!({
         "name": name, "begin": quote, "end": format!("{quote}|(?<!\\\\)$"),

@@ -1,4 +1,4 @@
-//! Markdown language reference, generated from the bindings.
+//! Language reference in Markdown, generated from the bindings.
 
 use std::fmt::Write;
 

@@ -1,4 +1,4 @@
-//! Markdown document of the standard library, from the comments of its modules.
+//! Document about the standard library in Markdown, generated from the comments of its modules.
 
 use std::fmt::Write;
 

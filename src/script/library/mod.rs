@@ -1,4 +1,4 @@
-//! The standard library: Rhai modules embedded in the program, `import "std/sections" as sections;`.
+//! The standard library: Rhai modules that are part of the program, imported by `import "std/sections" as sections;`.
 
 mod document;
 mod entrance;

@@ -1,4 +1,4 @@
-//! List of the library modules and their texts. A module is parsed when a script imports it.
+//! List of the library modules with their texts. A module is parsed when a script imports it.
 
 use crate::script::bindings::sources::FOLDER;
 use crate::script::messages::error::ScriptError;
@@ -43,7 +43,7 @@ impl Module {
     }
 }
 
-/// Module of an import path, with or without `.rhai`; `None` for files of the script's folder.
+/// Module for an import path, with or without `.rhai`; `None` for files in the folder of the script.
 ///
 /// # Errors
 /// Fails if the path belongs to the library but there is no such module.

@@ -1,5 +1,5 @@
-//! Help pages of the library, from the comments `//!` of a file and `///` of its functions. They are parsed when help is requested, not at the
-//! import.
+//! Help pages of the library. They consist of the comments `//!` of a file and `///` of its functions, which are parsed when help is requested and
+//! not at the import.
 
 use std::sync::LazyLock;
 
@@ -47,7 +47,7 @@ pub fn pages() -> &'static [ModulePage] {
     &PAGES
 }
 
-/// Page of the module of an import path, if it is in the library.
+/// Help page of the module with an import path; `None` if the path is not in the library.
 pub fn page_of(path: &str) -> Option<&'static ModulePage> {
     let name = path.strip_suffix(".rhai").unwrap_or(path);
     PAGES.iter().find(|page| page.module.name == name)
@@ -73,7 +73,7 @@ impl ModulePage {
         page
     }
 
-    /// Function with this name, with or without the module.
+    /// Function with this name. The name may include the module.
     pub fn named(&self, name: &str) -> Option<&ModuleFunction> {
         self.functions.iter().find(|known| known.full_name == name || known.name() == name)
     }
@@ -96,7 +96,7 @@ impl ModuleFunction {
         self.full_name.rsplit("::").next().unwrap_or_default()
     }
 
-    /// Signature with the module's usual name.
+    /// Signature with the name under which the module is usually imported.
     pub fn signature(&self) -> String {
         format!("{}({})", self.full_name, self.parameters.join(", "))
     }
@@ -118,7 +118,7 @@ impl ModuleFunction {
         });
         for clause in items.flat_map(|item| item.split(';')) {
             let about = clause.replace('`', "").trim().to_owned();
-            // Every second piece of the clause is in backquotes.
+            // Every second piece of the clause is between backquotes.
             for name in clause.split('`').skip(1).step_by(2) {
                 let is_key = name.chars().all(|letter| letter.is_alphanumeric() || letter == '_');
                 if is_key && keys.iter().all(|(known, _)| known != name) {

@@ -1,4 +1,4 @@
-//! Hints, in terms of the language, for errors of lower layers, which do not know about scripts.
+//! Hints, in terms of the language, for errors of lower layers. These layers do not know about scripts.
 
 use std::error::Error;
 
@@ -9,7 +9,7 @@ use crate::simulation::{ArchiveError, DerivativeError, SimulationError};
 use crate::statics::{InTime, StaticsError, StepFailure};
 use crate::system::{Approach, SliderError, SystemError, TrackError, Turning};
 
-/// Returns the hint for an error, or for the first of its causes that has one.
+/// Returns the hint for an error. If it has none, the causes of the error are searched for one.
 pub fn hint_for(error: &(dyn Error + 'static)) -> Option<String> {
     let own = None
         .or_else(|| error.downcast_ref().and_then(simulation_hint))
@@ -84,6 +84,7 @@ fn simulation_hint(error: &SimulationError) -> Option<String> {
         SimulationError::Method(_)
         | SimulationError::StepSize(_)
         | SimulationError::EventLocation { .. }
+        | SimulationError::FrictionMethod { .. }
         | SimulationError::Interrupted { .. } => return None,
     })
 }
@@ -203,7 +204,7 @@ fn slider_hint(error: &SliderError) -> Option<String> {
             give the slider the option velocities: \"project\", which uses the nearest \
             compatible velocities"
         }
-        SliderError::RuleOfOneBeam { .. } => "use conserving()",
+        SliderError::RuleOfOneBeam { .. } | SliderError::FrictionRule { .. } => "use conserving()",
         _ => return None,
     };
     Some(advice.into())

@@ -1,10 +1,10 @@
-//! Limits of the length of messages. Long quoted values are cut in the middle.
+//! Limit of the length of messages. Long quoted values are shortened in the middle.
 
 const MOST: usize = 1600;
-/// Number of characters that are kept at the end, where messages state what is allowed.
+/// Number of characters that are kept at the end. There, messages state what is allowed.
 const END: usize = 600;
 
-/// Returns the text, with its middle cut out if it is too long.
+/// Returns the text. If it is too long, its middle is left out.
 pub fn brief(text: String) -> String {
     // The number of bytes is an upper bound of the number of characters.
     if text.len() <= MOST {

@@ -1,4 +1,4 @@
-//! Record of the checks made by a script.
+//! Record of the checks that a script has made.
 
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct FailedCheck {

@@ -1,4 +1,4 @@
-//! Errors of native functions: message, hint, and the part of the call to underline.
+//! Errors of native functions: message, hint, and the part of the call that is underlined.
 
 use rhai::{Dynamic, EvalAltResult, Position};
 
@@ -7,7 +7,7 @@ use super::brief::brief;
 use super::raised::Raised;
 use super::stop::Stop;
 
-/// Marks engine errors that are internal errors of the program.
+/// Marks errors of the engine that are internal errors of the program.
 pub(in crate::script) const BUG: &str = "a bug in withy";
 
 /// Error of a native function of the language.
@@ -17,13 +17,13 @@ pub enum ScriptError {
     Failure(Failure),
     /// The run was interrupted or exceeded a limit. Scripts cannot catch this error.
     Stopped(Stop),
-    /// An internal error, which the user is asked to report.
+    /// Internal error, which the user is asked to report.
     Internal(String),
-    /// Error of a called script function, passed on unchanged.
+    /// Error of a script function that was called. It is passed on unchanged.
     Engine(Box<EvalAltResult>),
 }
 
-/// An invalid request: the message names the object and the value, the hint says what to do next.
+/// Invalid request. The message names the object and the value, the hint says what to do next.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Failure {
     /// Error message.
@@ -34,16 +34,16 @@ pub struct Failure {
     pub place: CallPart,
 }
 
-/// Part of a call that an error refers to.
+/// Part of a call to which an error refers.
 #[derive(Clone, Debug, PartialEq)]
 pub enum CallPart {
     /// The name of the function.
     Call,
-    /// The argument with this index, from 0. In method notation, argument 0 is before the dot.
+    /// The argument with this index, from 0. If the function is called like a method, argument 0 is before the dot.
     Argument(usize),
-    /// The argument of a method with this index, from 0. The receiver does not count.
+    /// The argument of a method with this index, from 0. The value before the dot does not count.
     ArgumentOfMethod(usize),
-    /// This key of an option map among the arguments.
+    /// This key of an option map that is an argument.
     Key(String),
 }
 
@@ -67,7 +67,7 @@ impl ScriptError {
         self
     }
 
-    /// Adds the hint for the underlying error `cause`, if one is known.
+    /// Adds the hint for the error `cause`, if one is known.
     pub fn advised(self, cause: &(dyn std::error::Error + 'static)) -> Self {
         match advice::hint_for(cause) {
             Some(advice) => self.hint(advice),
@@ -75,7 +75,7 @@ impl ScriptError {
         }
     }
 
-    /// Sets the position of the error to an argument or key.
+    /// Sets the part of the call to which the error refers.
     pub fn at(mut self, place: CallPart) -> Self {
         if let Self::Failure(failure) = &mut self {
             failure.place = place;
@@ -83,7 +83,7 @@ impl ScriptError {
         self
     }
 
-    /// Converts the index of an argument to the index of a method, whose receiver does not count.
+    /// Converts the index of an argument to that of a method, for which the value before the dot does not count.
     pub fn of_method(mut self) -> Self {
         if let Self::Failure(Failure { place, .. }) = &mut self
             && let CallPart::Argument(number) = *place
@@ -106,7 +106,7 @@ impl ScriptError {
     }
 }
 
-/// Errors of lower layers become failures with their own message and a hint. Errors of a script function are returned unchanged.
+/// Errors of lower layers become failures with their own message and a hint. Errors of a script function are passed on unchanged.
 impl<E: std::error::Error + 'static> From<E> for ScriptError {
     fn from(error: E) -> Self {
         match Raised::script_error_in(&error) {

@@ -1,4 +1,4 @@
-//! Common vocabulary of the language modules: errors, numbers, nouns, suggestions, checks, stop reasons.
+//! Texts and types for messages that all language modules use: errors, numbers, nouns, suggestions, checks, reasons for a stop.
 
 pub mod advice;
 pub(crate) mod brief;

@@ -1,8 +1,8 @@
 //! Nouns in messages: articles and type names.
 
-/// Adds the indefinite article to a noun: `a vector`, `an array`; plurals such as `knots` have none.
+/// Adds the indefinite article to a noun, as in `a vector` or `an array`. A plural such as `knots` gets none.
 pub fn with_article(noun: &str) -> String {
-    // The noun before "of" or "with" determines the article: "a table of costs".
+    // The noun before "of" or "with" determines the article, as in "a table of costs".
     let head =
         [" of ", " with "].iter().fold(noun, |head, of| head.split(of).next().unwrap_or(head));
     match noun.chars().next() {
@@ -12,7 +12,7 @@ pub fn with_article(noun: &str) -> String {
     }
 }
 
-/// Name of a type in the language, also for Rust names that the engine gives.
+/// Name of a type in the language. The argument may be a Rust name, as the engine reports it.
 pub fn type_word(name: &str) -> &str {
     match name.trim() {
         "i64" => "whole number",

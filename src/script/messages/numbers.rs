@@ -1,19 +1,19 @@
-//! Conversion of script values to numbers, and number formatting.
+//! Conversion of script values to numbers, and formats of numbers.
 
 use rhai::{Array, Dynamic, Engine, INT, ImmutableString, Map};
 
 use super::nouns::with_article;
 pub(crate) use crate::output::format_number;
 
-/// Largest integer up to which all integers are exact in `f64`.
+/// Largest integer for which it and all smaller ones are exact in `f64`.
 const LARGEST_EXACT: f64 = 9_007_199_254_740_992.0;
 
-/// Converts a script value to a number; integers are accepted.
+/// Converts a script value to a number. Integers are accepted.
 pub fn as_number(value: &Dynamic) -> Option<f64> {
     value.as_float().ok().or_else(|| value.as_int().ok().map(|n| n as f64))
 }
 
-/// Converts a script value to an integer; numbers without a fractional part are accepted.
+/// Converts a script value to an integer. Numbers without a fractional part are accepted.
 pub fn as_integer(value: &Dynamic) -> Option<INT> {
     value.as_int().ok().or_else(|| {
         let x = value.as_float().ok()?;
@@ -21,17 +21,17 @@ pub fn as_integer(value: &Dynamic) -> Option<INT> {
     })
 }
 
-/// Formats a number with an exponent and `digits` decimals: `1.23e-13`.
+/// Formats a number with an exponent and `digits` decimals, as in `1.23e-13`.
 pub fn format_scientific(x: f64, digits: usize) -> String {
     if x.is_finite() { format!("{x:.digits$e}") } else { format_number(x) }
 }
 
-/// Formats a number with `digits` decimals: `0.050`.
+/// Formats a number with `digits` decimals, as in `0.050`.
 pub fn format_fixed(x: f64, digits: usize) -> String {
     if x.is_finite() { format!("{x:.digits$}") } else { format_number(x) }
 }
 
-/// Describes a script value in a message: `the text "abc"`, `-3`, `an array of 3`.
+/// Describes a script value for a message, as in `the text "abc"`, `-3` or `an array of 3`.
 pub fn describe(engine: &Engine, value: &Dynamic) -> String {
     if let Ok(text) = value.as_immutable_string_ref() {
         return format!("the text {}", shortened(&text));

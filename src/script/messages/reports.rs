@@ -1,11 +1,11 @@
-//! Report entries and rescue files of the simulations of a run.
+//! Report entries of the simulations of a run, and rescue files that save their results if the run is stopped.
 
 use std::cell::RefCell;
 use std::collections::HashSet;
 
 use rhai::Dynamic;
 
-/// An object that contributes to the report of a run, such as a simulation.
+/// Object that contributes to the report of a run, for example a simulation.
 pub trait Reporter {
     /// Returns the entry in the report. It is called when the run ends, for any reason.
     fn report(&self) -> serde_json::Value;
@@ -13,16 +13,16 @@ pub trait Reporter {
     /// Returns the object as a value of the language.
     fn object(&self) -> Dynamic;
 
-    /// Name and content of a rescue file with about `numbers` values, for a script that was stopped.
+    /// Name and content of a rescue file with about `numbers` values, for a script that was stopped; `None` if there is nothing to save.
     fn remains(&self, numbers: usize) -> Option<(String, String)>;
 }
 
-/// Maximum number of rescue files, so that a script with thousands of simulations ends soon after an interrupt.
+/// Maximum number of rescue files. It ensures that a script with thousands of simulations ends soon after an interrupt.
 const MOST_REMAINS: usize = 20;
 
-/// Approximate maximum number of values in all rescue files together. Writing them takes less than a second.
+/// Maximum number of values in all rescue files together (approximate). Writing them takes less than a second.
 const MOST_NUMBERS: usize = 1_000_000;
-/// Length of a number with its separator in a file [bytes].
+/// Largest length of a number and its separator in a file [bytes].
 const LONGEST_NUMBER: u64 = 26;
 
 /// All reporters of a run.
@@ -35,8 +35,8 @@ impl Reports {
         self.0.borrow_mut().push(reporter);
     }
 
-    /// Unique names and contents of the rescue files of the first simulations of a run, with about `bytes` in total. If there are more simulations,
-    /// the second value is a note.
+    /// Unique names and contents of the rescue files for the first simulations of a run. Their total size is about `bytes`. If there are more
+    /// simulations, the second value is a note about them.
     pub fn remains(&self, bytes: u64) -> (Vec<(String, String)>, Option<String>) {
         let reporters = self.0.borrow();
         let numbers = usize::try_from(bytes / LONGEST_NUMBER).unwrap_or(MOST_NUMBERS);
@@ -55,7 +55,7 @@ impl Reports {
         (files, remains.next().map(|_| note))
     }
 
-    /// Objects of all reporters.
+    /// Objects of all reporters as values of the language.
     pub fn objects(&self) -> Vec<Dynamic> {
         self.0.borrow().iter().map(|reporter| reporter.object()).collect()
     }

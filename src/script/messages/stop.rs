@@ -1,4 +1,4 @@
-//! Reasons that stop a run early, and their messages.
+//! Reasons that stop a run before its end, and their messages.
 
 use std::io;
 use std::time::Duration;
@@ -10,36 +10,36 @@ use super::numbers::format_number;
 /// Bytes per megabyte.
 pub const MEGABYTE: u64 = 1_000_000;
 
-/// Reason that stopped a run early. Scripts cannot catch it.
+/// Reason that stops a run before its end. Scripts cannot catch it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Stop {
-    /// Interrupted by Ctrl-C or another setter of the interrupt flag.
+    /// Interrupt by Ctrl-C, or by anything else that sets the interrupt flag.
     Interrupt,
     /// The reader of the output has closed the pipe.
     PipeClosed,
     /// The time limit was exceeded.
     Time(Duration),
-    /// The limit of steps was exceeded.
+    /// The limit of the number of steps was exceeded.
     Steps(u64),
     /// The memory limit was exceeded [bytes].
     Memory(u64),
     /// The limit of printed and written output was exceeded [bytes].
     Written(u64),
-    /// The limit of written files was exceeded.
+    /// The limit of the number of written files was exceeded.
     Files(u64),
     /// The output could not be written.
     OutputLost(io::ErrorKind),
-    /// In a dry run, the script waits for a result that only a real run computes.
+    /// The script waits for a result that only a real run computes. This occurs in dry runs.
     Waiting,
 }
 
 impl Stop {
-    /// Reason stored in the token of a terminated engine.
+    /// Reason that is stored in the token with which the engine was terminated.
     pub fn of_token(token: &Dynamic) -> Self {
         token.read_lock::<Self>().map_or(Self::Interrupt, |stop| *stop)
     }
 
-    /// Message, and a hint.
+    /// Message with a hint.
     pub fn message_and_hint(self) -> (String, Option<String>) {
         match self {
             Self::Interrupt => ("the run was interrupted".into(), None),

@@ -3,9 +3,9 @@
 /// Largest length of a misspelt name for which a suggestion is searched [bytes].
 const LONGEST: usize = 200;
 
-/// Candidate nearest to `wrong`, if one is near enough.
+/// Candidate that is most similar to `wrong`; `None` if none is similar enough.
 pub fn nearest<'a>(wrong: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
-    // The cost of a comparison grows with the length of both names, and no name of the language is this long.
+    // The time of a comparison increases with the length of both names, and no name of the language is this long.
     if wrong.len() > LONGEST {
         return None;
     }
@@ -24,7 +24,7 @@ pub fn nearest<'a>(wrong: &str, candidates: impl IntoIterator<Item = &'a str>) -
         .map(|(_, candidate)| candidate)
 }
 
-/// Candidates that contain `wrong` as a word or start with it: `run_to` for `run`.
+/// Candidates that contain `wrong` as a word or start with it, for example `run_to` for `run`.
 pub fn related<'a>(wrong: &str, candidates: impl IntoIterator<Item = &'a str>) -> Vec<&'a str> {
     const MOST: usize = 5;
     const SHORTEST: usize = 3;

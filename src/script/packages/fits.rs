@@ -1,4 +1,4 @@
-//! Fits to data, design optimisation, and roots.
+//! Fits to data, optimisation of designs, and roots of equations.
 
 use std::rc::Rc;
 use std::time::Duration;

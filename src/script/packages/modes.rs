@@ -182,7 +182,7 @@ enum ModesReference {
 }
 
 impl ModesHandle {
-    /// Handle of modes about an equilibrium or the current configuration.
+    /// Creates the handle of modes about an equilibrium or the present configuration.
     pub fn new(of: SceneHandle, scene: &Scene, modes: Modes) -> Self {
         Self(Rc::new(ModesData { of, scene: scene.clone(), modes, about: ModesReference::Loaded }))
     }
@@ -236,7 +236,7 @@ impl Scripted for ModesHandle {
     }
 }
 
-/// Prints a note on the controllers and spins of a scene that its modes do not include, once per scene.
+/// Prints, once per scene, a note that the modes do not include the effects of its controllers and spins.
 fn warn_about_omissions(call: &Call, handle: &SceneHandle, scene: &Scene) {
     let steered = scene.schedules().filter(|(_, schedule)| schedule.is_sampled());
     let controllers: Vec<String> = steered
@@ -270,7 +270,7 @@ fn warn_about_omissions(call: &Call, handle: &SceneHandle, scene: &Scene) {
     }
 }
 
-/// Assembles a scene, unless the run must end.
+/// Assembles a scene. The assembly is stopped if the run must end.
 fn assemble(call: &Call, scene: &Scene) -> Result<System, ScriptError> {
     let assembled = System::assemble_while(scene, &mut || !call.context().is_stopped());
     call.context().proceed()?;

@@ -1,4 +1,4 @@
-//! Warnings about features that the steps do not resolve.
+//! Warnings about motion that the steps do not resolve.
 
 use rhai::{Array, Dynamic};
 

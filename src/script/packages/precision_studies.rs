@@ -1,4 +1,4 @@
-//! Work-precision studies.
+//! Work–precision studies.
 
 use std::rc::Rc;
 
@@ -182,7 +182,7 @@ fn cheapest(call: &mut Call) -> Result<Dynamic, ScriptError> {
             None => Ok(comparison(&study, &errors).into()),
         };
     };
-    // In a dry run the first row replaces the result, because no row has run.
+    // In a dry run there are no results. The first row is returned in their place.
     let pretended = study.rows.first().filter(|_| call.context().mode() == RunMode::DryRun);
     let row = pretended.or_else(|| study.cheapest(error));
     Ok(row.map_or(Dynamic::UNIT, |row| map_of(&study, row).into()))

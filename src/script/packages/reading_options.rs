@@ -1,4 +1,4 @@
-//! Checks of options and arguments of script functions, as for functions of the language.
+//! Checks of options and arguments of script functions, in the same way as for functions of the language.
 
 use rhai::{Array, Dynamic, Map};
 
@@ -75,7 +75,7 @@ pub const TABLE: BindingTable = BindingTable {
     ],
 };
 
-/// Descriptions of kinds. All other words are type names.
+/// Descriptions of types that scripts can use. All other words are type names.
 const KINDS: &[(&str, Kind)] = &[
     ("a value", Kind::Any),
     ("a number", Kind::Number(NumberRange::Finite)),
@@ -98,7 +98,7 @@ const KINDS: &[(&str, Kind)] = &[
 struct OptionInfo {
     name: String,
     wanted: String,
-    /// Default; `None` if the option is required.
+    /// Default value; `None` if the option is required.
     default: Option<Dynamic>,
 }
 
@@ -135,7 +135,7 @@ fn read_argument(call: &mut Call) -> Result<Dynamic, ScriptError> {
     accept(call, &owner, &name, &kind, call.value("value")?)
 }
 
-/// Parses `"a number"` and `["a number", default]`.
+/// Reads a description in the form `"a number"` or `["a number", default]`.
 fn described(call: &Call, name: String, description: &Dynamic) -> Result<OptionInfo, ScriptError> {
     let parts = description.read_lock::<Array>();
     let (wanted, default) = match parts.as_deref().map(Vec::as_slice) {
@@ -161,7 +161,7 @@ fn unknown_option(owner: &str, unknown: &str, known: &[OptionInfo]) -> ScriptErr
         .at(CallPart::Key(unknown.to_owned()))
 }
 
-/// Converts a value to the form used in scripts, if it is of a `wanted` kind.
+/// Converts a value to the form used in scripts, if it is of the type that `wanted` describes.
 fn accept(
     call: &Call,
     owner: &str,
@@ -181,7 +181,7 @@ fn accept(
         if words == type_name {
             return Ok(value);
         }
-        // If a kind rejects the value, the next kind is tried. If all reject it, the error is reported below.
+        // If one type rejects the value, the next one is tried. If all reject it, the error is reported below.
         let accept = |kind| call.accept(owner, name, (kind, wanted), value.clone()).ok();
         if let Some(accepted) = kind_named(words).and_then(accept) {
             return Ok(written(accepted));

@@ -83,13 +83,14 @@ pub(super) fn expect_rows_between(call: &Call, of: &SimulationHandle) -> Result<
 }
 
 pub(super) struct Missing {
-    /// Description of the missing data.
+    /// Description of the data that are missing.
     pub what: &'static str,
-    /// Alternative without the missing data.
+    /// Alternative that works without the missing data.
     pub instead: &'static str,
 }
 
-/// Reports that the states of a run cannot be reproduced from `time` on. It is an error if the data was requested explicitly, otherwise a note.
+/// Reports that the states of a run cannot be computed again from `time` on. If the data were requested explicitly, it is an error, otherwise a
+/// note.
 pub(super) fn report_diverged_rerun(
     call: &Call,
     of: &SimulationHandle,
@@ -111,7 +112,7 @@ pub(super) fn report_diverged_rerun(
     Ok(())
 }
 
-/// Rejects a picture at a time too far from the nearest recorded configuration.
+/// Rejects a picture for a time that is too far from the nearest recorded configuration.
 pub(super) fn expect_near(
     call: &Call,
     of: &SimulationHandle,

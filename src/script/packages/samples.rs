@@ -1,4 +1,4 @@
-//! Distributions of sweep parameters, and sampling methods.
+//! Distributions of the parameters of sweeps, and sampling methods.
 
 use rhai::Dynamic;
 

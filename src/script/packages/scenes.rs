@@ -179,10 +179,10 @@ pub const JOINT: Type = Type::of::<JointHandle>();
 
 const SPANS: usize = 16;
 
-/// Difference of the lengths of a beam on its mesh and as drawn, relative to the length, above which a warning is given.
+/// Difference between the length of a beam on its mesh and its length as drawn, as a fraction of the length, above which a warning is given.
 const MISSED_LENGTH: f64 = 0.01;
 
-/// Relative error of integrals of a varying section, on the mesh of the beam, above which a warning is given.
+/// Relative error of integrals of a tapered section, computed on the mesh of the beam, above which a warning is given.
 const TAPER_TOLERANCE: f64 = 5e-3;
 
 const AT: Parameter = object("station", STATION);
@@ -190,7 +190,7 @@ const OTHER: Parameter =
     object("other", STATION).doc("second station; default: the ground").optional();
 const SPIN: Parameter = number("spin").unit("1/time").optional();
 const ROTARY: Parameter = number("rotary_inertia").unit("mass·length²").or(Presence::Number(0.0));
-/// Options for the initial rigid body motion of beams and bodies.
+/// Option for the initial rigid-body motion of beams and bodies.
 pub(super) const START_VELOCITY: Parameter =
     point("velocity").unit("length/time").doc("initial velocity of the point `about`").optional();
 pub(super) const START_SPIN: Parameter =
@@ -247,12 +247,12 @@ fn beam(call: &mut Call) -> Result<Dynamic, ScriptError> {
     }
     warn_about_taper(call, &scene, index)?;
     warn_about_length(call, &scene, index)?;
-    // Variant 0 is evaluated last, when the beams of the perturbed variants exist.
+    // Variant 0 is evaluated last. Therefore the beams of the perturbed variants exist already.
     scene.expect_constant_length(index).map_err(|error| error.at(CallPart::Key("axis".into())))?;
     Ok(Dynamic::from(BeamHandle { scene, index }))
 }
 
-/// Warns if the quadrature points of the mesh do not resolve the variation of the section.
+/// Warns if the quadrature points of the mesh do not resolve the variation of a tapered section.
 fn warn_about_taper(call: &Call, scene: &SceneHandle, index: usize) -> Result<(), ScriptError> {
     let scene = scene.scene().borrow();
     let BeamDefinition { name, section, mesh, .. } = &scene.beams[index];
@@ -277,7 +277,7 @@ fn warn_about_taper(call: &Call, scene: &SceneHandle, index: usize) -> Result<()
     Ok(())
 }
 
-/// Warns if a beam on its mesh is longer or shorter than its axis.
+/// Warns if a beam on its mesh is longer or shorter than the axis that was drawn.
 fn warn_about_length(call: &Call, scene: &SceneHandle, index: usize) -> Result<(), ScriptError> {
     let scene = scene.scene().borrow();
     let beam = &scene.beams[index];

@@ -1,4 +1,4 @@
-//! Laws of springs and dampers from options: numbers, tables and functions.
+//! Laws of springs and dampers from options. They are given by numbers, tables or functions.
 
 use rhai::{Dynamic, FnPtr};
 
@@ -22,10 +22,10 @@ pub(super) enum Acts {
     Push,
 }
 
-/// A spring law, and the reference of its elongations.
+/// Spring law, and the zero of its elongations.
 pub(super) type ParsedLaw = (Option<SpringLaw>, Origin);
 
-/// Spring law from the options; `None` for a pure damper.
+/// Reads a spring law from the options; `None` for a pure damper.
 pub(super) fn law(
     call: &Call,
     options: &Options,
@@ -112,7 +112,7 @@ pub(super) fn damping(call: &Call, options: &Options) -> Result<DampingLaw, Scri
     Ok(law)
 }
 
-/// Law of a function. The function is sampled over a range of elongations when the spring is created, and not called again.
+/// Law given by a function. The function is sampled over a range of elongations when the spring is created. It is not called later.
 fn sampled(call: &Call, options: &Options, ease: &str) -> Result<ParsedLaw, ScriptError> {
     let function = options.callback("law")?;
     call.expect_arguments(&function, 1, "law: |e| 100 * e, where e is the elongation")?;
@@ -156,7 +156,7 @@ fn force_of<'a>(
     }
 }
 
-/// Rejects a function that the finest polygon does not approximate well. The hint suggests an alternative.
+/// Rejects a function that even the finest polygon does not approximate well. The hint suggests an alternative.
 fn expect_smooth(
     call: &Call,
     polygon: &SpringLaw,

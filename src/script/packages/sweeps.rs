@@ -1,4 +1,4 @@
-//! Sweeps: calls of a function for all values of its parameters.
+//! Sweeps: calls of a function for many combinations of parameter values.
 
 use std::rc::Rc;
 use std::time::Duration;
@@ -247,7 +247,7 @@ fn study(call: &mut Call) -> Result<Dynamic, ScriptError> {
     Ok(Dynamic::from(SweepHandle(table.into_swept())))
 }
 
-/// Rejects results with the name of a parameter, because both are columns of one table.
+/// Rejects a result with the name of a parameter, because parameters and results are columns of one table.
 fn expect_other_names(call: &Call, sweep: &Sweep) -> Result<(), ScriptError> {
     let own = |name: &&String| sweep.design.parameters.iter().any(|of| of.name == **name);
     let wrong = sweep.results.names.iter().find(|name| own(name) || *name == FAILURE);
@@ -263,13 +263,13 @@ fn expect_other_names(call: &Call, sweep: &Sweep) -> Result<(), ScriptError> {
     })
 }
 
-/// Result of a dry run: the function is called for the first row, and its results are used for all rows.
+/// Result of a dry run. The function is called for the first row, and its results are used for all rows.
 fn dry_run(call: &Call, order: SweepRequest) -> Result<FinishedSweep, ScriptError> {
     RunFunction::read(call, "run", order.function)?;
     let given = order.invoked(call, 0)?;
     let (names, values) = match found(&given) {
         RowOutcome::Computed(names, values) => (names.to_vec(), values),
-        // A function whose simulation was skipped may return values that are not numbers.
+        // If a simulation in the function was skipped, the function may return values that are not numbers.
         RowOutcome::Failed(_) => (
             given
                 .read_lock::<Map>()

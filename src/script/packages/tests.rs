@@ -1,4 +1,4 @@
-//! Tests of all tables: documented bindings, valid names, runnable examples.
+//! Tests of all tables: bindings are documented, names valid, and examples run.
 
 use std::collections::HashSet;
 

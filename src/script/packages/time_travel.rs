@@ -1,4 +1,4 @@
-//! Rewinding and forking of simulations.
+//! Return of simulations to earlier states, and copies of simulations.
 
 use rhai::Dynamic;
 

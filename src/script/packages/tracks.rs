@@ -1,4 +1,4 @@
-//! Tracks: connected beams along which sliders pass from one to the next.
+//! Tracks: connected beams along which sliders pass from one beam to the next.
 
 use rhai::Dynamic;
 
@@ -114,7 +114,7 @@ impl SliderGuide {
         }
     }
 
-    /// First beam of a slider and its arc length on it: the given place, or the nearest one.
+    /// Beam on which a slider starts and its arc length on this beam. They are the given place, or the place nearest to the slave.
     pub(super) fn start(
         self,
         scene: &Scene,

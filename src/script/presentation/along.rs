@@ -1,4 +1,4 @@
-//! Pictures of section results along beams: strips, charts and colours.
+//! Pictures of section results along beams, as strips, charts and colours.
 
 use super::quantities::BeamQuantity;
 use super::symbols::{SceneAt, uncrowded};
@@ -15,7 +15,7 @@ const DIGITS: usize = 6;
 
 /// Section results of some beams at one time.
 pub struct SectionForceProfile {
-    /// First part of the titles, before the quantity.
+    /// First part of titles. The name of the quantity follows it.
     pub title: String,
     /// Time as text; may be empty.
     pub when: String,
@@ -40,7 +40,7 @@ impl SectionForceProfile {
         Self::of_model(&at, simulation.model(), beams).map(|inside| Self { when, ..inside })
     }
 
-    /// Results of an equilibrium under full load.
+    /// Results of an equilibrium under its full load, for the beams with these indices, or for all beams if `beams` is empty.
     ///
     /// # Errors
     /// Fails if an axis has a point without a tangent.
@@ -74,7 +74,7 @@ impl SectionForceProfile {
         })
     }
 
-    /// Removes symbols that are so numerous that they would hide the beams.
+    /// Removes symbols if there are so many that they would hide the beams.
     pub fn with_uncrowded_symbols(mut self) -> Self {
         self.scenery.symbols = uncrowded(self.scenery.symbols);
         self
@@ -110,7 +110,7 @@ impl SectionForceProfile {
         self.beams.iter().map(of_beam).fold(picture, StripPicture::strip)
     }
 
-    /// Chart over the arc length of the beams, without a title.
+    /// Chart of the quantity over the arc length of the beams, without a title.
     pub fn chart(&self, quantity: &BeamQuantity) -> LineChart {
         let chart = LineChart::new("")
             .x_label("s, from the start of the beam [length]")
@@ -122,7 +122,7 @@ impl SectionForceProfile {
         })
     }
 
-    /// Magnitude of the quantity as colour and width of the beams.
+    /// Picture in which colour and width of the beams show the magnitude of the quantity.
     pub fn field(&self, quantity: &BeamQuantity) -> FieldPicture {
         let label = match quantity.sign {
             sign if sign.len() == 1 => format!("|{sign}| [{}]", quantity.dimension),
@@ -140,7 +140,7 @@ impl SectionForceProfile {
         self.chart(quantity).title(self.heading(quantity)).x_label("s").text(style)
     }
 
-    /// Summary in lines of text, for output without a terminal.
+    /// Summary as lines of text, for output that is not a terminal.
     pub fn summary(&self, quantity: &BeamQuantity) -> String {
         let number = |value: f64| significant(value, DIGITS);
         let line = |beam: &BeamProfile| {

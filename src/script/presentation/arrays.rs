@@ -1,4 +1,4 @@
-//! Simulations as arrays: control points over time, and columns of the history.
+//! Data of simulations as arrays: control points over time, and columns of the history.
 
 use crate::output::{DataColumn, DataTable, DataValues, NpzArchive, NpzArray};
 use crate::simulation::{History, Simulation};

@@ -1,4 +1,4 @@
-//! VTK grids of a simulation: beams as lines through their knots and three points between consecutive knots, point masses as dots.
+//! VTK grids of a simulation. Beams are lines through their knots and three points between consecutive knots. Point masses are dots.
 
 use crate::beams::BodyPoint;
 use crate::geometry::Vec2;
@@ -6,9 +6,9 @@ use crate::output::{Point, VtkCell, VtkField, VtkGrid, VtkValues};
 use crate::simulation::Simulation;
 use crate::system::{BeamPlaces, BeamSample, SystemError};
 
-/// Sample locations of all beams, computed once for all frames.
+/// Sample places of all beams, computed once for all frames.
 pub struct Grids {
-    /// Names: beams, then point masses and centres of rigid bodies.
+    /// Names of the beams, then of point masses and centres of rigid bodies.
     names: Vec<String>,
     beams: Vec<BeamPlaces>,
 }
@@ -33,7 +33,7 @@ impl Grids {
         })
     }
 
-    /// Grid of a recorded configuration: positions only.
+    /// Grid of a recorded configuration. It contains only positions.
     pub fn of_configuration(&self, simulation: &Simulation, index: usize) -> VtkGrid {
         let bodies = simulation.control_points_at(index);
         let (of_beams, of_particles) = bodies.split_at(self.beams.len());
@@ -44,7 +44,7 @@ impl Grids {
         VtkGrid { cells: self.cells(lines.chain(dots)), fields: vec![self.arc_lengths()] }
     }
 
-    /// Grid of the current state: positions, velocities, angles and section forces.
+    /// Grid of the present state. It contains positions, velocities, angles and section forces.
     pub fn of_state(&self, simulation: &Simulation) -> VtkGrid {
         let model = simulation.model();
         let samples: Vec<Vec<BeamSample>> =

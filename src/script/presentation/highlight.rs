@@ -1,4 +1,4 @@
-//! Syntax highlighting. It preserves the text, also of incomplete or invalid input.
+//! Syntax highlighting. It does not change the text, even if this is incomplete or invalid.
 
 use std::collections::{HashMap, HashSet};
 
@@ -23,14 +23,14 @@ pub const COMMENT: HighlightStyle = HighlightStyle("2");
 pub const FUNCTION: HighlightStyle = HighlightStyle("34");
 /// Constants.
 pub const CONSTANT: HighlightStyle = HighlightStyle("36");
-/// Unknown members.
+/// Members that the type of a value does not have.
 pub const UNKNOWN_MEMBER: HighlightStyle = HighlightStyle("4");
 /// Bracket at the cursor, and its partner.
 pub const PARTNER: HighlightStyle = HighlightStyle("1;4");
-/// Unmatched tokens.
+/// Brackets and other tokens without a partner.
 pub const UNMATCHED: HighlightStyle = HighlightStyle("31");
 
-/// Names with colours, built once for many texts.
+/// Names and their colours. The object is created once and used for many texts.
 pub struct Vocabulary {
     functions: HashSet<String>,
     constants: HashSet<String>,
@@ -40,7 +40,7 @@ pub struct Vocabulary {
 }
 
 impl Vocabulary {
-    /// Vocabulary of the language, which is sufficient for files.
+    /// Vocabulary with the names of the language. It is sufficient for files.
     pub fn of_language(catalog: &Catalog) -> Self {
         let built_in = catalog.built_ins().filter(|known| known.is_function());
         let built_in = built_in.map(|known| known.name().to_owned());
@@ -73,7 +73,7 @@ impl Vocabulary {
         }
     }
 
-    /// Adds the functions of a module by its alias.
+    /// Adds the functions of a module under its alias.
     pub fn add_module<'n>(&mut self, alias: &str, functions: impl Iterator<Item = &'n str>) {
         self.modules.insert(alias.to_owned(), functions.map(str::to_owned).collect());
     }
@@ -104,7 +104,7 @@ impl Vocabulary {
 
 /// Text with colours. A bracket at the cursor and its partner are emphasised.
 pub fn highlight(text: &str, cursor: Option<usize>, vocabulary: &Vocabulary) -> String {
-    // An escape character in the input would interfere with the inserted colour sequences.
+    // An escape character in the input would interfere with the colour sequences that are inserted.
     if text.contains('\x1b') {
         return text.to_owned();
     }
@@ -112,7 +112,7 @@ pub fn highlight(text: &str, cursor: Option<usize>, vocabulary: &Vocabulary) -> 
     let (partners, _) = pair(&tokens);
     let touched = cursor.and_then(|cursor| bracket_at(&tokens, cursor));
     let marked = touched.and_then(|at| partners[at].map(|partner| [at, partner]));
-    // Parameters and local variables may shadow variables of the session, so members are not checked.
+    // Parameters and local variables may have the names of session variables, so their members are not checked.
     let has_parameters =
         tokens.iter().any(|token| matches!(token.of(text), "fn" | "|" | "let" | "for"));
     let mut drawn = String::with_capacity(text.len() * 2);
@@ -135,7 +135,7 @@ pub fn highlight(text: &str, cursor: Option<usize>, vocabulary: &Vocabulary) -> 
                     "::" if index > 1 => vocabulary.style_in_module(value, written),
                     _ => vocabulary.style_of_word(written),
                 };
-                // The last name may be incomplete.
+                // The last name may not be complete yet.
                 let is_last = index + 1 == tokens.len();
                 style.filter(|style| !is_last || *style != UNKNOWN_MEMBER)
             }

@@ -1,4 +1,4 @@
-//! Presentation of values: prompt, charts, pictures, and colours.
+//! Presentation of values at the prompt and in charts, pictures and colours.
 
 pub(crate) mod along;
 pub(crate) mod arrays;

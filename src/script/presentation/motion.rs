@@ -10,7 +10,7 @@ use crate::output::{
 use crate::script::messages::error::ScriptError;
 use crate::simulation::{Configuration, Simulation};
 
-/// Number of spans above which knots are marked only on request.
+/// Number of spans above which knots are marked only if this is requested.
 const MOST_SPANS_WITH_DOTS: usize = 40;
 const MOST_SNAPSHOTS: f64 = 2000.0;
 const DIGITS: usize = 6;
@@ -28,9 +28,9 @@ pub struct MotionOptions {
     pub times: Times,
     /// Stations whose paths are drawn, with their names.
     pub traces: Vec<(String, BodyPoint)>,
-    /// Magnification of displacements since the start; `None` for 1.
+    /// Magnification of displacements since the start; `None` for the value 1.
     pub magnify: Option<f64>,
-    /// Marks at knots or nodes. If `None`, they are shown for a small number of spans.
+    /// Whether knots or nodes are marked. If `None`, they are marked for a small number of spans.
     pub dots: Option<bool>,
     pub symbols: Visibility,
     pub limits: AxisLimits,
@@ -39,7 +39,7 @@ pub struct MotionOptions {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Visibility {
     Yes,
-    /// All symbols, except kinds so numerous that they would hide the others.
+    /// All symbols, except types of which there are so many that they would hide the others.
     IfFew,
     None,
 }
@@ -68,10 +68,10 @@ impl Magnifier {
 }
 
 impl MotionView {
-    /// Collects the content from a simulation. `expect` checks each snapshot, from the requested and the recorded time.
+    /// Collects the content from a simulation. `expect` checks each snapshot; its arguments are the requested and the recorded time.
     ///
     /// # Errors
-    /// Fails if no or too many snapshots lie in the interval, or `expect` fails.
+    /// Fails if there are no or too many snapshots in the interval, or if `expect` fails.
     pub fn of(
         simulation: &Simulation,
         wanted: MotionOptions,
@@ -139,7 +139,7 @@ impl MotionView {
         self.traces.into_iter().fold(picture, |picture, (name, path)| picture.trace(name, path))
     }
 
-    /// Text for a terminal: the last snapshot, with earlier ones dotted.
+    /// Picture as text for a terminal. It shows the last snapshot, and earlier ones as dotted lines.
     pub fn text(self, title: impl Into<String>, style: &TerminalStyle) -> String {
         let mut picture = ConfigurationPicture::new(title).limits(self.limits);
         let count = self.snapshots.len();
@@ -163,7 +163,7 @@ impl MotionView {
     }
 }
 
-/// Adds symbols to a terminal picture: springs as lines; supports, joints and sliders as marks.
+/// Adds symbols to a picture for a terminal. Springs are lines; supports, joints and sliders are marks.
 pub fn marked(picture: ConfigurationPicture, symbols: &[PlacedSymbol]) -> ConfigurationPicture {
     let links = symbols.iter().filter_map(PlacedSymbol::link);
     let picture = links.fold(picture, |picture, link| picture.reference_beam(link.to_vec()));
@@ -177,7 +177,7 @@ fn mark(placed: &PlacedSymbol) -> Option<PictureMark> {
         Symbol::Clamp | Symbol::Guided | Symbol::Carriage => Some(PictureMark::Clamp),
         Symbol::Slider => Some(PictureMark::Slider),
         Symbol::Joint | Symbol::RigidJoint => Some(PictureMark::Joint),
-        // Springs are lines. Loads are not drawn.
+        // Springs are drawn as lines elsewhere. Loads are not drawn.
         _ => None,
     }
 }
@@ -201,7 +201,7 @@ fn times(simulation: &Simulation, times: &Times) -> Result<Vec<f64>, ScriptError
     Ok(met.chain((!is_met).then_some(last)).collect())
 }
 
-/// Recorded configuration nearest to a time. For the present time it is the current configuration, whether recorded or not.
+/// Recorded configuration nearest to a time. For the present time it is the present configuration, whether recorded or not.
 fn configuration(simulation: &Simulation, time: f64) -> Result<Option<Configuration>, ScriptError> {
     Ok(match time >= simulation.time() {
         true => Some(simulation.configuration()?),
@@ -209,7 +209,7 @@ fn configuration(simulation: &Simulation, time: f64) -> Result<Option<Configurat
     })
 }
 
-/// Returns true if the beams have few enough spans for marks at their knots.
+/// Returns true if the beams have so few spans that their knots can be marked.
 pub fn has_room_for_dots(simulation: &Simulation) -> bool {
     let meshes = simulation.model().meshes();
     let spans: usize = meshes.iter().map(|mesh| mesh.basis().breaks().len() - 1).sum();
@@ -241,7 +241,7 @@ fn magnified(start: &Configuration, now: &Configuration, lens: Magnifier) -> Mot
     }
 }
 
-/// Symbols in the configuration nearest to a time, with magnified displacements.
+/// Symbols in the recorded configuration nearest to a time. Displacements are magnified.
 ///
 /// # Errors
 /// Fails if a station lies outside its beam.

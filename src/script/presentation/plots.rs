@@ -12,10 +12,10 @@ use crate::simulation::{Configuration, History, Invariant, Simulation};
 
 const DIGITS: usize = 6;
 
-/// Chart of history columns over time, as text for a terminal.
+/// Chart of history columns as functions of time, as text for a terminal.
 ///
 /// # Errors
-/// Fails if no column is named or a column is unknown. The error lists the columns.
+/// Fails if no column is given or a column is unknown. The error lists the columns.
 pub fn history_chart(
     history: &History,
     columns: &[String],
@@ -52,7 +52,7 @@ pub fn drift_chart(history: &History, style: &TerminalStyle) -> String {
     drift_lines("", history).text(style)
 }
 
-/// Summary of the drifts in lines of text, for output without a terminal.
+/// Summary of the drifts as lines of text, for output that is not a terminal.
 pub fn drift_summary(history: &History) -> String {
     let line = |(name, of): &(&str, Invariant)| {
         format!("drift of {}: {}", name.replace('_', " "), scientific(history.drift(*of), 2))
@@ -61,7 +61,7 @@ pub fn drift_summary(history: &History) -> String {
     moving.map(line).collect::<Vec<_>>().join("\n")
 }
 
-/// One-line summary of a column, for output without a terminal.
+/// Summary of a column in one line, for output that is not a terminal.
 ///
 /// # Errors
 /// Fails if the column is unknown. The error lists the columns.
@@ -88,7 +88,7 @@ pub fn column_summary(history: &History, column: &str) -> Result<String, ScriptE
     Ok(format!("{name}: {first} at the start, least {least}, most {most}, now {last} ({rows})"))
 }
 
-/// Present configuration, or the recorded one nearest to a time, as text for a terminal. The initial configuration is dotted.
+/// Picture of the present configuration or of the recorded one nearest to a time, as text for a terminal. The initial configuration is dotted.
 ///
 /// # Errors
 /// Fails if an axis has a point without a tangent.
@@ -115,7 +115,7 @@ pub fn configuration_picture(
     Ok(marked(picture, &symbols).text(style))
 }
 
-/// Summary of a configuration in lines of text, for output without a terminal.
+/// Summary of a configuration as lines of text, for output that is not a terminal.
 ///
 /// # Errors
 /// Fails if an axis has a point without a tangent.
@@ -151,7 +151,7 @@ fn shown_at(
     })
 }
 
-/// Chart of history columns over time; `read` extracts the values.
+/// Chart of history columns as functions of time. `read` returns the values of a column.
 pub fn line_chart(
     title: impl Into<String>,
     history: &History,
@@ -165,7 +165,7 @@ pub fn line_chart(
     })
 }
 
-/// Chart of the drift of energy and momenta over time, on a logarithmic axis.
+/// Chart of the drift of energy and momenta as functions of time, on a logarithmic axis.
 pub fn drift_lines(title: impl Into<String>, history: &History) -> LineChart {
     let chart = LineChart::new(title)
         .x_label("t")
@@ -215,7 +215,7 @@ pub fn column_hint(history: &History, name: &str) -> String {
     format!("{suggestion}columns: {}", column_names(history))
 }
 
-/// Columns that exist only in some scenes, with the reason.
+/// Columns that exist only in some scenes, each with the reason.
 const MISSING: [(&str, &str); 2] = [
     (
         "dissipated",

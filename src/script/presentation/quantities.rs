@@ -1,4 +1,4 @@
-//! Quantities that can be drawn along beams.
+//! Quantities whose variation along beams can be drawn.
 
 use crate::output::BeamSide;
 use crate::system::BeamSample;
@@ -10,7 +10,7 @@ pub struct BeamQuantity {
     /// Symbol on axes.
     pub sign: &'static str,
     pub dimension: &'static str,
-    /// Evaluates the quantity at a sample of a beam.
+    /// Function that evaluates the quantity at a sample of a beam.
     pub of: fn(&BeamSample) -> f64,
     pub side: BeamSide,
 }
@@ -52,7 +52,7 @@ impl BeamQuantity {
         ALL.iter().find(|quantity| quantity.name == name)
     }
 
-    /// Axis label: `M [force·length]`.
+    /// Axis label, such as `M [force·length]`.
     pub fn label(&self) -> String {
         format!("{} [{}]", self.sign, self.dimension)
     }

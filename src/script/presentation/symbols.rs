@@ -11,7 +11,7 @@ use crate::statics::Equilibrium;
 use crate::system::{Anchor, Drive, Scene, Spring, SpringKind, System, SystemError};
 
 const ARROWS: usize = 5;
-/// Distance of the points for the tangent direction at a station, as a fraction of the beam length.
+/// Distance between the points from which the tangent at a station is computed, as a fraction of the beam length.
 const AROUND: f64 = 1e-3;
 
 pub struct StationSymbol<'a> {
@@ -24,9 +24,9 @@ pub struct StationSymbol<'a> {
 }
 
 pub enum Pointing {
-    /// Fixed in space.
+    /// Direction that is fixed in space.
     To(Vec2),
-    /// Relative to the beam: components along it and to its left.
+    /// Direction relative to the beam, given by components along it and to its left.
     WithBeam(Vec2),
 }
 
@@ -41,7 +41,7 @@ impl Pointing {
         }
     }
 
-    /// Angle in space for a given beam angle [rad].
+    /// Angle in space, for a beam with the given angle [rad].
     pub fn angle(&self, along: f64) -> f64 {
         match self {
             Self::To(direction) => atan2(direction.y, direction.x),
@@ -57,7 +57,7 @@ pub struct SceneAt<'a> {
 }
 
 impl<'a> SceneAt<'a> {
-    /// Scene of a simulation at a time, without released connections.
+    /// Scene of a simulation at a time. Released connections are left out.
     pub fn of(simulation: &'a Simulation, time: f64) -> Self {
         let scene = simulation.scene();
         let holds = scene.releasables().into_iter().map(|(_, hold)| hold);
@@ -65,12 +65,12 @@ impl<'a> SceneAt<'a> {
         Self { scene, time, released: holds.filter(is_gone).collect() }
     }
 
-    /// Scene of an equilibrium under full load.
+    /// Scene of an equilibrium under its full load.
     pub fn at_rest(rest: &'a Equilibrium) -> Self {
         Self { scene: rest.scene(), time: 0.0, released: Vec::new() }
     }
 
-    /// Symbols in the current configuration of a model.
+    /// Symbols in the present configuration of a model.
     ///
     /// # Errors
     /// Fails if a station lies outside its beam.
@@ -92,7 +92,7 @@ pub fn symbols(
     let is_there = |sign: &StationSymbol| sign.hold.is_none_or(|hold| !at.released.contains(&hold));
     let held = of_supports(scene).chain(of_sliders(scene)).filter(is_there);
     let unplaced: Vec<StationSymbol> = held.chain(of_loads(scene, time)).collect();
-    // Each symbol uses three positions: its own, one before and one after it on the beam. The positions of the springs follow.
+    // Each symbol uses three positions: its own, and those shortly before and after it on the beam. The positions of the springs are last.
     let around = unplaced.iter().flat_map(|symbol| around(scene, &symbol.at));
     let springs = scene.springs().enumerate();
     let springs = springs.filter(|(index, _)| !at.released.contains(&Releasable::Spring(*index)));
@@ -111,7 +111,7 @@ pub fn symbols(
 
 const MOST_CONSTRAINTS: usize = 60;
 
-/// Removes the symbols of supports, joints and sliders if there are too many.
+/// Removes the symbols of supports, joints and sliders if there are too many of them.
 pub fn uncrowded(symbols: Vec<PlacedSymbol>) -> Vec<PlacedSymbol> {
     let holds = |placed: &PlacedSymbol| placed.symbol.is_constraint();
     match symbols.iter().filter(|placed| holds(placed)).count() > MOST_CONSTRAINTS {
@@ -205,13 +205,13 @@ fn of_held(scene: &Scene, at: &Station, held: Components) -> (Symbol, Pointing) 
     }
 }
 
-/// Direction normal to an inclined roller, upwards, with the support below.
+/// Normal direction of an inclined roller. It points upwards, so that the support is below the beam.
 fn across(along: Vec2) -> Pointing {
     let across = perpendicular(along);
     Pointing::To(if across.y < 0.0 { -across } else { across })
 }
 
-/// Direction away from a support. At the end of a beam it is backwards.
+/// Direction that points away from a support. At the end of a beam it points backwards along the beam.
 fn away(scene: &Scene, at: &Station) -> Pointing {
     let is_end = at.beam().is_some() && at.arc_length > 0.5 * scene.length_at(at);
     Pointing::WithBeam(if is_end { -Vec2::x() } else { Vec2::x() })
@@ -285,7 +285,7 @@ fn of_loads(scene: &Scene, time: f64) -> impl Iterator<Item = StationSymbol<'_>>
     })
 }
 
-/// Sign of the factor of a load just before a time, or just after the start. Script functions are not called.
+/// Sign of the factor of a load just before a time, or at the start just after it. Script functions are not called.
 fn factor(load: &Load, time: f64) -> f64 {
     if load.schedule.functions() > 0 {
         return 1.0;

@@ -1,4 +1,4 @@
-//! Conversion of a simulation to viewer data: bodies, supports, loads per frame, and history columns.
+//! Conversion of a simulation to data for the viewer: bodies, supports, loads in each frame, and history columns.
 
 mod fields;
 
@@ -20,7 +20,7 @@ use crate::script::messages::error::ScriptError;
 use crate::simulation::{Axes, AxisStation, Outline, Simulation};
 use crate::system;
 
-/// Number of free ends up to which their paths are drawn.
+/// Largest number of free ends whose paths are drawn.
 const MOST_FREE_ENDS: usize = 8;
 const ARROWS_A_BEAM: usize = 6;
 
@@ -28,17 +28,17 @@ const ARROWS_A_BEAM: usize = 6;
 pub struct ViewerOptions<'a> {
     /// Time interval [time].
     pub span: (f64, f64),
-    /// Configurations shown, by index in the trajectory.
+    /// Configurations that are shown, as indices in the trajectory.
     pub frames: Vec<usize>,
     /// Label of the motion.
     pub label: String,
-    /// Stations whose paths are drawn; if `None`, the free ends.
+    /// Stations whose paths are drawn; `None` for the free ends.
     pub trails: Option<&'a [Station]>,
     /// Columns of the history.
     pub columns: &'a [String],
     /// Quantities along beams, from [`FIELDS`].
     pub fields: &'a [&'a str],
-    /// Fields computed from states.
+    /// Fields that were computed from states of the simulation.
     pub inside: Vec<ColourField>,
 }
 
@@ -78,9 +78,9 @@ fn plain<'a>(points: impl Iterator<Item = &'a Vec2>) -> Vec<(f64, f64)> {
 
 struct FrameSelection {
     indices: Vec<usize>,
-    /// Control points by frame and body.
+    /// Control points. The first index is the frame, the second the body.
     frames: Vec<Vec<Vec<Vec2>>>,
-    /// Index of the first point of each body.
+    /// For each body, the index of its first point.
     first: Vec<usize>,
 }
 
@@ -215,7 +215,7 @@ fn trails(
     stations.iter().map(trail).collect()
 }
 
-/// Unsupported ends of beams (one per joint) and point masses; empty if there are many.
+/// Ends of beams without support (one for each joint), and point masses. Empty if there are many.
 fn free_ends(simulation: &Simulation) -> Vec<Station> {
     let scene = simulation.scene();
     let of_beam = |beam: usize| {
@@ -277,7 +277,7 @@ fn arrows(simulation: &Simulation, shown: &FrameSelection) -> Result<Vec<Arrow>,
     Ok(arrows)
 }
 
-/// Load vector in space. A follower load is drawn as if sections were normal to the axis.
+/// Load vector in space. For a follower load, sections are assumed to be normal to the axis.
 fn turned(force: Vec2, frame: LoadFrame, axis: Option<&AxisStation>, points: &[Vec2]) -> Vec2 {
     match (frame, axis) {
         (LoadFrame::Follower, Some(axis)) => {

@@ -1,4 +1,4 @@
-//! Function definitions in a token stream, and bracket matching.
+//! Function definitions in a sequence of tokens, and search for matching brackets.
 
 use rhai::Token;
 
@@ -7,17 +7,17 @@ use super::text::{Lexeme, name_of};
 #[derive(Clone, Copy, Debug)]
 pub struct Definition<'t> {
     tokens: &'t [Lexeme],
-    /// Index of the first token: `fn`, or `private` before it.
+    /// Index of the first token, which is `fn`, or `private` before it.
     pub first: usize,
     start: usize,
-    /// Index of the bracket before the parameters; of the body if there is no such bracket.
+    /// Index of the bracket before the parameters. Without such a bracket, it is the bracket of the body.
     opening: usize,
     body: usize,
     /// Index after the last token.
     pub end: usize,
 }
 
-/// All function definitions in these tokens, in order. The text may contain errors.
+/// All function definitions in these tokens, in their order. The text may contain errors.
 pub fn definitions(tokens: &[Lexeme]) -> impl DoubleEndedIterator<Item = Definition<'_>> {
     let starts = tokens.iter().enumerate().filter(|(_, (token, _))| matches!(token, Token::Fn));
     starts.map(|(start, _)| Definition::at(tokens, start))
@@ -30,7 +30,7 @@ impl<'t> Definition<'t> {
             found.map_or(tokens.len(), |ahead| from + ahead)
         };
         let opens = |token: &Token| {
-            // Empty parentheses are a single token.
+            // A pair of empty parentheses is a single token.
             matches!(token, Token::LeftParen | Token::Unit | Token::LeftBrace)
         };
         let opening = find(start + 1, opens);
@@ -41,7 +41,7 @@ impl<'t> Definition<'t> {
         Self { tokens, first, start, opening, body, end: closing(tokens, body) }
     }
 
-    /// Name of the function and the token of the name; `None` for a method of a type.
+    /// Name of the function, and the token of the name; `None` for a method of a type.
     pub fn name(&self) -> Option<(&'t str, &'t Lexeme)> {
         match &self.tokens[self.start + 1..self.opening] {
             [lexeme] => Some((name_of(&lexeme.0)?, lexeme)),
@@ -49,7 +49,7 @@ impl<'t> Definition<'t> {
         }
     }
 
-    /// Name of the function; for a method, preceded by its type: `number.twice`.
+    /// Name of the function. For a method it includes the type, as in `number.twice`.
     pub fn full_name(&self) -> String {
         let words =
             self.tokens[self.start + 1..self.opening].iter().filter_map(|(token, _)| match token {
@@ -82,7 +82,7 @@ pub fn nesting(token: &Token) -> isize {
     }
 }
 
-/// Index of the bracket that closes the bracket at `open`; the number of tokens if it is not closed.
+/// Index of the bracket that closes the bracket at `open`. If it is not closed, the number of tokens.
 pub fn closing(tokens: &[Lexeme], open: usize) -> usize {
     let mut depth = 0;
     for (index, (token, _)) in tokens.iter().enumerate().skip(open) {

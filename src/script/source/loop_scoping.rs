@@ -1,26 +1,26 @@
-//! Fresh loop variables for every iteration of a `for` loop, so that a closure captures the values of its iteration.
+//! New loop variables in every iteration of a `for` loop, so that a closure captures the values of its own iteration.
 //!
-//! In Rhai all iterations of a loop share one variable, so that closures of the first iteration would see the last value. If the body contains a
+//! In Rhai all iterations of a loop share one variable, so closures of the first iteration would see the value of the last. If the body contains a
 //! closure that uses the loop variable, an additional first statement declares the variable again in the scope of the iteration. The statement is
-//! inserted into the text before parsing. It replaces blanks around the opening brace, so that columns are unchanged. Without two blanks, the rest of
-//! the line moves by one or two columns.
+//! inserted into the text before parsing. It replaces blanks around the opening brace, so that columns are unchanged. If there are not two blanks,
+//! the rest of the line is shifted by one or two columns.
 
 use rhai::{Dynamic, Engine, EvalContext, Position, Token};
 
 use super::definitions::{closing, nesting};
 use super::text::{Lexeme, name_of};
 
-/// Private-use character of the scoping statement in a loop with one variable.
+/// Private-use character that stands for the inserted statement in a loop with one variable.
 pub const ONE: char = '\u{E003}';
-/// Private-use character of the scoping statement in a loop with a counter.
+/// Private-use character that stands for the inserted statement in a loop with a counter.
 pub const TWO: char = '\u{E004}';
 
-/// Name of the scoping statement for the parser, with one variable.
+/// Name under which the parser knows the inserted statement for one variable.
 pub const ONE_NAME: &str = "\u{E003}";
-/// Name of the scoping statement for the parser, with a counter.
+/// Name under which the parser knows the inserted statement for a variable and a counter.
 pub const TWO_NAME: &str = "\u{E004}";
 
-/// Registers the scoping statement, which declares fresh loop variables.
+/// Registers the inserted statements, which declare new loop variables.
 pub fn install(engine: &mut Engine) {
     for (name, variables) in [(ONE_NAME, 1), (TWO_NAME, 2)] {
         engine.register_custom_syntax_with_state_raw(
@@ -35,7 +35,7 @@ pub fn install(engine: &mut Engine) {
     }
 }
 
-/// Declares the last variables of the scope again, with their values. The loop assigns its own variables in every iteration.
+/// Declares the last variables of the scope again, with their values. The loop assigns to its own variables in every iteration.
 fn declare_again(context: &mut EvalContext, variables: usize) {
     let scope = context.scope_mut();
     // The newest variables come first.
@@ -47,7 +47,7 @@ fn declare_again(context: &mut EvalContext, variables: usize) {
     }
 }
 
-/// Positions of the loop bodies that need the scoping statement, with its character.
+/// Positions of the loop bodies in which the statement must be inserted, with the character to be inserted.
 pub fn bodies(tokens: &[Lexeme]) -> Vec<(Position, char)> {
     let loops = tokens.iter().enumerate().filter(|(_, (token, _))| matches!(token, Token::For));
     loops.filter_map(|(start, _)| body(tokens, start)).collect()
@@ -75,7 +75,7 @@ fn is_interpolation(tokens: &[Lexeme], index: usize) -> bool {
     matches!(tokens.get(index.wrapping_sub(1)), Some((Token::InterpolatedString(_), _)))
 }
 
-/// Brace that opens the body of a loop whose `in` is at `after`; `None` if the iterated expression contains blocks.
+/// Brace that opens the body of a loop. `after` is the index of its `in`. `None` if the expression after `in` contains blocks.
 fn opening(tokens: &[Lexeme], after: usize) -> Option<usize> {
     let mut depth = 0_usize;
     for (index, (token, _)) in tokens.iter().enumerate().skip(after) {
@@ -90,7 +90,7 @@ fn opening(tokens: &[Lexeme], after: usize) -> Option<usize> {
     None
 }
 
-/// Inserts the scoping statement after the brace at `column` of a line, from 0. It replaces blanks if there are any.
+/// Inserts the statement after the brace at `column` of a line, from 0. Blanks are replaced if there are any.
 pub fn insert_scope(line: &mut Vec<char>, column: usize, letter: char) {
     const LENGTH: usize = 2;
     let is_blank = |letter: &&char| matches!(letter, ' ' | '\t');

@@ -1,4 +1,4 @@
-//! Text of a script and its tokens: source text, lexer, declarations, and syntax extensions of Rhai.
+//! Text of a script and its tokens: source text, lexer, declarations, and extensions of the syntax of Rhai.
 
 pub(crate) mod definitions;
 pub(crate) mod keywords;

@@ -1,4 +1,4 @@
-//! Names declared by a script, used for suggestions.
+//! Names that a script declares. They are used for suggestions.
 
 use rhai::{Position, Token};
 

@@ -1,14 +1,14 @@
-//! Text of a script and its origin.
+//! Text of a script, with its name and folder.
 
 use std::path::{Path, PathBuf};
 
 use super::text::Source;
 use crate::sandbox_fs::read_file;
 
-/// Maximum size of a script or imported file [bytes]. Larger files are usually data, and parsing them needs much memory.
+/// Maximum size of a script or imported file [bytes]. Larger files are usually data, whose parsing would need much memory.
 pub const LARGEST_SCRIPT: u64 = 16 << 20;
 
-/// A script: its name in messages, its text, and the folder for `import`.
+/// Script: its name in messages, its text, and the folder of its imports.
 #[derive(Clone, Debug)]
 pub struct Program {
     /// Name of the script in messages.
@@ -30,7 +30,7 @@ pub struct Unreadable {
 }
 
 impl Program {
-    /// A script that is not in a file.
+    /// Creates a script that is not in a file.
     pub fn named(name: &str, text: &str) -> Self {
         Self { name: name.into(), text: text.into(), folder: PathBuf::from(".") }
     }
@@ -55,10 +55,10 @@ impl Program {
         Self::from_bytes(path, bytes)
     }
 
-    /// Script from the bytes of a file.
+    /// Creates a script from the bytes of a file.
     ///
     /// # Errors
-    /// Fails if it is not UTF-8.
+    /// Fails if the bytes are not UTF-8.
     pub fn from_bytes(path: &Path, bytes: Vec<u8>) -> Result<Self, Unreadable> {
         let name = path.display().to_string();
         let text = String::from_utf8(bytes).map_err(|error| {
@@ -70,14 +70,14 @@ impl Program {
         })?;
         let folder =
             path.parent().filter(|parent| !parent.as_os_str().is_empty()).unwrap_or(Path::new("."));
-        // A byte order mark is dropped, and a `#!` line becomes a comment.
+        // A byte order mark is removed, and a line that starts with `#!` becomes a comment.
         let text = text.strip_prefix('\u{feff}').unwrap_or(&text);
         let text =
             text.strip_prefix("#!").map_or_else(|| text.to_owned(), |rest| format!("// {rest}"));
         Ok(Self { name, text: text.into(), folder: folder.into() })
     }
 
-    /// Byte offset of a line and column, both from 1 and columns in characters.
+    /// Byte offset of a line and column. Both are counted from 1, and columns in characters.
     pub fn offset(&self, line: usize, column: usize) -> usize {
         self.text.offset(line, column)
     }

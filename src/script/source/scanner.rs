@@ -1,8 +1,8 @@
-//! Lossless tokenisation of incomplete or incorrect input: every character belongs to exactly one token.
+//! Tokenisation of input that may be incomplete or incorrect. Every character belongs to exactly one token.
 //!
-//! The engine's lexer stops at the first error and drops comments and spaces, but the editor must highlight all of an unfinished input.
+//! The engine's lexer stops at the first error and drops comments and spaces. The editor, however, must highlight all of an unfinished input.
 
-/// A piece of an input, `start..end` in bytes.
+/// Piece of an input, the bytes `start..end`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Token {
     pub kind: TokenKind,
@@ -50,7 +50,7 @@ pub enum Bracket {
 }
 
 impl Bracket {
-    /// Returns true if the bracket `closer` closes this one. `}` closes maps too.
+    /// Returns true if the bracket `closer` closes this one. `}` also closes maps.
     pub fn is_closed_by(self, closer: Self) -> bool {
         match self {
             Self::Map => closer == Self::Curly,
@@ -76,7 +76,7 @@ const SIGNS: &[&str] = &[
     "||", "+=", "-=", "*=", "/=", "%=", "^=", "&=", "|=", "**", "<<", ">>",
 ];
 
-/// Tokens of `text`, in order and without gaps.
+/// Tokens of `text` in their order, without gaps between them.
 pub fn scan(text: &str) -> Vec<Token> {
     let mut scanner = Scanner { text, at: 0, open: Vec::new(), is_within_text: false };
     let mut tokens = Vec::new();
@@ -88,7 +88,7 @@ pub fn scan(text: &str) -> Vec<Token> {
     tokens
 }
 
-/// Partner of each bracket token, and the unclosed brackets, as token indices.
+/// For each bracket token, the token index of its partner; then the token indices of unclosed brackets.
 pub fn pair(tokens: &[Token]) -> (Vec<Option<usize>>, Vec<usize>) {
     let mut partners = vec![None; tokens.len()];
     let mut open: Vec<(usize, Bracket)> = Vec::new();
@@ -112,7 +112,7 @@ struct Scanner<'t> {
     text: &'t str,
     at: usize,
     open: Vec<Bracket>,
-    /// True inside a string in backticks.
+    /// True within a string in backticks.
     is_within_text: bool,
 }
 
@@ -228,7 +228,7 @@ impl Scanner<'_> {
         TokenKind::OpenText
     }
 
-    /// A raw string, `#"…"#`, with any number of `#`.
+    /// Reads a raw string `#"…"#` with any number of `#`.
     fn marked(&mut self) -> TokenKind {
         let rest = self.rest();
         let marks = rest.len() - rest.trim_start_matches('#').len();
@@ -267,7 +267,7 @@ impl Scanner<'_> {
         TokenKind::OpenComment
     }
 
-    /// A number. The dots of `0..3` and `1.abs()` do not belong to it.
+    /// Reads a number. The dots in `0..3` and `1.abs()` do not belong to it.
     fn number(&mut self) -> TokenKind {
         let is_decimal = !self.rest().starts_with("0x");
         self.skip(is_name);
@@ -290,7 +290,7 @@ impl Scanner<'_> {
     }
 }
 
-/// Maximum number of `#` before a raw string. It bounds the run time for a long row of `#`.
+/// Maximum number of `#` before a raw string. It limits the run time for a long row of `#`.
 const MOST_MARKS: usize = 16;
 
 fn begins_marked(rest: &str) -> bool {

@@ -1,22 +1,22 @@
-//! Checking of `switch` values. Rhai silently takes the default case for values that it cannot compare.
+//! Check of the values of `switch`. For values that it cannot compare, Rhai would execute the default case without an error.
 //!
-//! A private-use character after the keyword `switch` wraps the expression that follows. It is inserted into the text before parsing. It replaces a
-//! blank, so that columns are unchanged. Without a blank, the rest of the line moves by one column.
+//! A private-use character after the keyword `switch` passes the expression that follows to the check. It is inserted into the text before parsing.
+//! It replaces a blank, so that columns are unchanged. If there is no blank, the rest of the line is shifted by one column.
 
 use rhai::{Dynamic, Engine, Position, Token};
 
 use super::text::Lexeme;
 use crate::script::messages::error::EngineResult;
 
-/// Private-use character that wraps the `switch` expression.
+/// Private-use character that passes the `switch` expression to the check.
 pub const CHOICE: char = '\u{E007}';
 
-/// Name of the wrapper for the parser.
+/// Name under which the parser knows this character.
 pub const CHOICE_NAME: &str = "\u{E007}";
 
 const WORD: usize = 6;
 
-/// Registers the wrapper. `judge` checks the value of the `switch` expression and returns the value to compare.
+/// Registers the check. `judge` checks the value of the `switch` expression and returns the value to be compared with the cases.
 pub fn install(
     engine: &mut Engine,
     judge: impl Fn(&Engine, Dynamic, Position) -> EngineResult<Dynamic> + 'static,
@@ -40,7 +40,7 @@ pub fn words(tokens: &[Lexeme]) -> impl Iterator<Item = Position> + '_ {
     tokens.iter().filter(|(token, _)| matches!(token, Token::Switch)).map(|(_, at)| *at)
 }
 
-/// Inserts the wrapper after the keyword at `column` of a line, from 0. It replaces a blank if there is one.
+/// Inserts the character after the keyword at `column` of a line, from 0. A blank is replaced if there is one.
 pub fn insert_wrapper(line: &mut Vec<char>, column: usize) {
     let behind = column + WORD;
     match line.get_mut(behind) {

@@ -1,4 +1,4 @@
-//! Scientific number semantics at the token level: replacement of Rhai's operators for the parser.
+//! Replacement of operators of Rhai before parsing, so that numbers behave as in scientific languages.
 //!
 //! Rhai's built-in comparisons and its integer division bypass all registered functions. Therefore the parser sees
 //! other operator names ([`operators`](crate::script::dialect::operators) implements them):
@@ -7,9 +7,9 @@
 //! - `^` and `**` become `num^0`, `num^1`, … along a chain of powers, each binding tighter than the one before, because
 //!   custom operators bind to the left and `2^3^2` would be 64;
 //! - `-x^2` is an error, because Rhai's minus binds tighter than any operator and would give the square of `-x`;
-//! - `/=`, `^=`, `**=`, `<<=` and `>>=` are lexed as two tokens, and loops get an additional statement (`loop_scoping`), see [`mark`].
+//! - `/=`, `^=`, `**=`, `<<=` and `>>=` are converted to two tokens, and loops get an additional statement (`loop_scoping`); see [`mark`].
 //!
-//! Rhai marks the hooks used here as volatile; they are used in this file and in `lexing` only.
+//! Rhai declares the functions used here as subject to change. They are used only in this file and in `lexing`.
 
 use std::borrow::Cow;
 use std::cell::{Cell, RefCell};
@@ -24,7 +24,7 @@ use crate::script::messages::stop::Stop;
 /// Prefix of the names of replaced operators.
 pub const OWN: &str = "num";
 
-/// Comparison, division and shift operators with their precedences in Rhai.
+/// Comparison, division and shift operators that are replaced, with their precedences in Rhai.
 pub const REPLACED: [(&str, u8); 9] = [
     ("<<", 210),
     (">>", 210),
@@ -40,10 +40,10 @@ pub const REPLACED: [(&str, u8); 9] = [
 /// Maximum length of a chain of powers `a^b^c^…`.
 pub const LONGEST_CHAIN: u8 = 16;
 
-/// Rhai's precedence of the power. The next operator above it is at 210.
+/// Precedence of the power in Rhai. The next higher precedence of an operator is 210.
 const POWER_PRECEDENCE: u8 = 190;
 
-/// Private-use characters: the operator halves of `/=`, `^=`, `<<=` and `>>=`, and the half that wraps the right-hand side.
+/// Private-use characters that represent the operators in `/=`, `^=`, `<<=` and `>>=`, and one that wraps the right-hand side.
 const DIVIDE_HALF: char = '\u{E000}';
 const POWER_HALF: char = '\u{E001}';
 const OPERAND_HALF: char = '\u{E002}';
@@ -51,21 +51,21 @@ const UP_HALF: char = '\u{E005}';
 const DOWN_HALF: char = '\u{E006}';
 const OPERAND: &str = "\u{E002}";
 
-/// Right-hand side of `x /= y`. With a separate type, Rhai's built-in integer `/=` does not apply.
+/// Right-hand side of `x /= y`. It has a type of its own, so that the built-in integer `/=` of Rhai does not apply.
 #[derive(Clone)]
 pub struct DivisionOperand(pub Dynamic);
 
-/// Internal operator that replaces the power operator at position `chain` of a chain of powers.
+/// Internal operator for the power operator with the index `chain` in a chain of powers.
 pub fn power_name(chain: u8) -> String {
     format!("{OWN}^{chain}")
 }
 
-/// State of the token hook while a text is parsed.
+/// State of the token hook while it reads a text.
 #[derive(Clone, Default)]
 pub struct TokenReader {
     nesting: Rc<RefCell<Nesting>>,
     stopped: Rc<Cell<Option<Stop>>>,
-    /// True while reading a text must not be interrupted.
+    /// True if reading a text must not be interrupted.
     is_undisturbed: Rc<Cell<bool>>,
 }
 
@@ -76,7 +76,7 @@ impl TokenReader {
         self.stopped.set(None);
     }
 
-    /// Disables the interruption of parsing while `work` runs, for texts that were parsed before.
+    /// Disables the interruption of parsing while `work` runs. It is used for texts that have been parsed before.
     pub fn undisturbed<T>(&self, work: impl FnOnce() -> T) -> T {
         let was_undisturbed = self.is_undisturbed.replace(true);
         let result = work();
@@ -84,16 +84,16 @@ impl TokenReader {
         result
     }
 
-    /// Reason for which parsing was stopped, if it was.
+    /// Reason why parsing was stopped; `None` if it was not.
     pub fn stopped(&self) -> Option<Stop> {
         self.stopped.get()
     }
 }
 
-/// Number of tokens between checks of the stop condition. For each token the parser searches all known names.
+/// Number of tokens between checks whether to stop. For each token the parser searches all known names.
 const PULSE: u32 = 64;
 
-/// Registers the tokens of this language. The returned reader must be reset before each text. `stop` returns a reason to stop parsing.
+/// Registers the tokens of this language. The returned reader must be reset before each text. `stop` returns a reason for stopping the parser.
 pub fn install(
     engine: &mut Engine,
     stop: impl Fn() -> Option<Stop> + 'static,
@@ -119,7 +119,7 @@ pub fn install(
     let reader = TokenReader::default();
     let TokenReader { nesting, stopped, is_undisturbed } = reader.clone();
     let count = Cell::new(0_u32);
-    // Rhai marks the hook as deprecated only to declare it volatile.
+    // Rhai marks the hook as deprecated only to show that it may change.
     #[allow(deprecated)]
     engine.on_parse_token(move |token, _, _| {
         count.set(count.get().wrapping_add(1));
@@ -128,7 +128,7 @@ pub fn install(
         }
         match (stopped.get(), &token) {
             (None, _) => nesting.borrow_mut().map(token),
-            // Inside a string, the parser does not expect errors of the hook and would panic.
+            // Within a string, the parser does not expect errors of the hook and would panic.
             (Some(_), Token::StringConstant(_) | Token::InterpolatedString(_)) => token,
             (Some(_), _) => refuse("the reading was stopped"),
         }
@@ -136,8 +136,8 @@ pub fn install(
     Ok(reader)
 }
 
-/// Rewrites `/=`, `^=`, `**=`, `<<=` and `>>=` so that they lex as an operator and a wrapper of the operand, and marks loop bodies and `switch`
-/// expressions. Columns are unchanged where blanks are available.
+/// Rewrites `/=`, `^=`, `**=`, `<<=` and `>>=` to an operator and a wrapper of the operand, and marks loop bodies and `switch` expressions. Columns
+/// are unchanged if there are blanks that can be replaced.
 pub fn mark(source: &Source) -> Cow<'_, str> {
     let tokens = source.tokens();
     let halves = |token: &Token| -> &[char] {
@@ -164,7 +164,7 @@ pub fn mark(source: &Source) -> Cow<'_, str> {
     if marks.is_empty() {
         return Cow::Borrowed(source);
     }
-    // The marks are inserted from the end, because each may move the text after it.
+    // The marks are inserted from the end of the text backwards, because each of them may shift the text after it.
     marks.sort_by_key(|(at, _)| std::cmp::Reverse((at.line(), at.position())));
     let mut lines: Vec<Vec<char>> = source.split('\n').map(|line| line.chars().collect()).collect();
     for (at, mark) in marks {
@@ -190,7 +190,7 @@ enum InsertedMark<'m> {
     Choice,
 }
 
-/// Operands so far at one bracket depth.
+/// State of an expression at one bracket depth: number of power operators so far, and whether a minus sign precedes.
 #[derive(Clone, Copy, Default)]
 struct Chain {
     powers: u8,
@@ -264,7 +264,7 @@ impl Nesting {
     }
 }
 
-/// Returns true for an integer literal that Rhai has converted to a float because it is too large.
+/// Returns true for an integer literal that is too large, so that Rhai has converted it to a float.
 fn is_too_large(literal: &str) -> bool {
     !literal.contains(['.', 'e', 'E'])
 }

@@ -1,6 +1,6 @@
-//! Text of a script with cached tokens, so that it is tokenised only once.
+//! Text of a script with its tokens. They are cached, so that the text is tokenised only once.
 //!
-//! Rhai's parser tokenises the text again, with the replacements of [`syntax`](super::syntax), because it cannot use tokens.
+//! The parser of Rhai tokenises the text again, with the replacements of [`syntax`](super::syntax), because it does not accept tokens.
 
 use std::fmt;
 use std::ops::Deref;
@@ -12,7 +12,7 @@ use super::lexing::{Lexed, lex};
 
 pub type Lexeme = (Token, Position);
 
-/// A source text. Clones share the text and its tokens, which are computed on first use.
+/// Source text. Clones share the text and its tokens, which are computed when they are first used.
 #[derive(Clone)]
 pub struct Source(Arc<SourceData>);
 
@@ -22,12 +22,12 @@ struct SourceData {
 }
 
 impl Source {
-    /// Tokens of the text, without comments. Text after a lexical error is tokenised as far as possible.
+    /// Tokens of the text, without comments. After a lexical error, the text is tokenised as far as possible.
     pub fn tokens(&self) -> &[Lexeme] {
         &self.lexed().tokens
     }
 
-    /// Position of a block comment that is never closed. Rhai would silently ignore the rest of the script.
+    /// Position of a block comment that is not closed. Rhai would ignore the rest of the script without an error.
     pub fn open_comment(&self) -> Option<Position> {
         if !self.lexed().ends_in_comment {
             return None;
@@ -41,7 +41,7 @@ impl Source {
         self.tokens().iter().filter_map(|(token, _)| name_of(token))
     }
 
-    /// Imported paths; `None` for a path that is not a string literal.
+    /// Paths of the imports; `None` for a path that is not a string literal.
     pub fn imports(&self) -> impl Iterator<Item = Option<&str>> {
         let tokens = self.tokens();
         let starts = (0..tokens.len()).filter(|index| matches!(tokens[*index].0, Token::Import));
@@ -55,7 +55,7 @@ impl Source {
         matches!(self.tokens().last(), Some((Token::SemiColon, _)))
     }
 
-    /// Byte offset of a line and column, both from 1 and columns in characters.
+    /// Byte offset of a line and column. Both are counted from 1, and columns in characters.
     pub fn offset(&self, line: usize, column: usize) -> usize {
         let mut start = 0;
         for (index, text) in self.split_inclusive('\n').enumerate() {
@@ -86,7 +86,7 @@ pub fn name_of(token: &Token) -> Option<&str> {
     }
 }
 
-/// A position of the engine, which saturates lines and columns at 65 535.
+/// Position of the engine. It limits lines and columns to 65 535.
 pub fn position(line: usize, column: usize) -> Position {
     let counted = |number: usize| number.try_into().unwrap_or(u16::MAX);
     Position::new(counted(line), counted(column))

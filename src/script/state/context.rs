@@ -24,10 +24,10 @@ use crate::script::messages::reports::{Reporter, Reports};
 use crate::script::messages::stop::{MEGABYTE, Stop};
 use crate::script::source::program::Program;
 
-/// Function that returns the reason why a value of a native type is in use, if it is.
+/// Function that returns the reason why a value of a native type is in use; `None` if it is not.
 pub type BusyCheck = fn(&Dynamic) -> Option<String>;
 
-/// A cheap handle to the state of a run.
+/// Handle to the state of a run. Clones refer to the same state.
 #[derive(Clone)]
 pub struct Context(Rc<ContextData>);
 
@@ -49,7 +49,7 @@ struct ContextData {
     study_names: RefCell<HashSet<PathBuf>>,
     snapshots: usize,
     latest_simulation: RefCell<Option<Dynamic>>,
-    /// A weak reference, because all functions of the engine hold this context.
+    /// Engine. The reference is weak, because all functions of the engine own this context.
     engine: RefCell<Weak<Engine>>,
     level: Cell<usize>,
     is_calling_back: Cell<bool>,
@@ -58,9 +58,9 @@ struct ContextData {
 }
 
 impl Context {
-    /// State at the start of a run.
+    /// Creates the state at the start of a run.
     pub fn new(settings: RunSettings) -> Self {
-        // A run that computes a part of studies writes no other files.
+        // A run that computes a part of its studies writes no other files.
         let writing = settings.studies.part.map_or(settings.mode, |_| RunMode::DryRun);
         Self(Rc::new(ContextData {
             mode: settings.mode,
@@ -113,22 +113,22 @@ impl Context {
         &self.0.studies
     }
 
-    /// Journals of the studies, kept until the script ends.
+    /// Journals of the studies. They are kept until the script ends.
     pub fn journals(&self) -> &Journals {
         &self.0.journals
     }
 
-    /// Reserves the name of a study; returns false if it is in use, in any spelling.
+    /// Reserves the name of a study. Returns false if the name is in use, whatever the case of its letters.
     pub fn claim_study(&self, name: &str) -> bool {
         self.0.study_names.borrow_mut().insert(PathBuf::from(name))
     }
 
-    /// Returns an error if the run is interrupted, exceeds a limit, or the reader of the output has closed the pipe.
+    /// Returns an error if the run is interrupted, has exceeded a limit, or the reader of the output has closed the pipe.
     pub fn proceed(&self) -> Result<(), ScriptError> {
         self.stopped_by().map_or(Ok(()), |stop| Err(ScriptError::Stopped(stop)))
     }
 
-    /// Checks in advance that the run may use this much memory at once [bytes].
+    /// Checks in advance whether the run may use this much memory at once [bytes].
     ///
     /// # Errors
     /// Fails if this exceeds the memory limit.
@@ -146,7 +146,7 @@ impl Context {
         }
     }
 
-    /// Reason for which a loop was stopped: a limit or an interrupt. An internal error is reported if `what` stopped without a reason.
+    /// Reason why a loop was stopped: a limit or an interrupt. If there is none, an internal error is reported for `what`.
     pub fn why_stopped(&self, what: &str) -> ScriptError {
         match self.proceed() {
             Err(stopped) => stopped,
@@ -159,7 +159,7 @@ impl Context {
         self.stopped_by().is_some()
     }
 
-    /// Reason for which the run must end, if there is one.
+    /// Reason why the run must end; `None` if it may continue.
     pub fn stopped_by(&self) -> Option<Stop> {
         if self.0.pipe_closed.get() {
             return Some(Stop::PipeClosed);
@@ -171,7 +171,7 @@ impl Context {
         self.0.meter.passed()
     }
 
-    /// Resource use and limits of the run. Code that runs a script must call [`watch`](Meter::watch) before, and keep the guard until the script has
+    /// Resource use and limits of the run. Code that runs a script must first call [`watch`](Meter::watch), and keep the guard until the script has
     /// ended.
     pub fn meter(&self) -> &Meter {
         &self.0.meter
@@ -187,12 +187,12 @@ impl Context {
         self.0.pipe_closed.get()
     }
 
-    /// Prints a line for the script, without characters that control a terminal.
+    /// Prints a line for the script. Characters that control a terminal are removed.
     pub fn print(&self, text: &str) {
         self.print_drawn(&printable(text));
     }
 
-    /// Prints a line. The colour sequences of this program are kept.
+    /// Prints a line. Colour sequences that this program has created are kept.
     pub fn print_drawn(&self, text: &str) {
         if self.0.is_silent.get() || !self.meter().allows_to_write(text.len() as u64 + 1) {
             return;
@@ -203,23 +203,23 @@ impl Context {
         });
     }
 
-    /// Prints a message for the user that is not script output.
+    /// Prints a message to the user that is not output of the script.
     pub fn print_message(&self, text: &str) {
         self.print_styled_message(&printable(text));
     }
 
-    /// Prints a message for the user without control sequences, except the colour sequences that this program writes.
+    /// Prints a message to the user. Control sequences are removed, except the colour sequences of this program.
     pub fn print_styled_message(&self, text: &str) {
         if self.0.is_silent.get() {
             return;
         }
         self.0.progress.without_progress_bar(&mut || {
-            // Errors are ignored, because the exit code still reports the result.
+            // Errors are ignored here, because the exit code still reports the result.
             let _ = writeln!(self.0.diagnostics.borrow_mut(), "{}", printable_in_colours(text));
         });
     }
 
-    /// Calls `work` without printing anything.
+    /// Calls `work`, and discards everything that it prints.
     pub fn silently<T>(&self, work: impl FnOnce() -> T) -> T {
         let was_silent = self.0.is_silent.replace(true);
         let result = work();
@@ -227,7 +227,7 @@ impl Context {
         result
     }
 
-    /// Calls `work` without printing anything and without writing files. `refusal` is the error message for attempts to write.
+    /// Calls `work`, discards everything that it prints, and rejects the writing of files. `refusal` is the error message for attempts to write.
     pub fn without_output_or_files<T>(&self, refusal: &'static str, work: impl FnOnce() -> T) -> T {
         let refused_before = self.0.refuses_files.replace(Some(refusal));
         let result = self.silently(work);
@@ -235,7 +235,7 @@ impl Context {
         result
     }
 
-    /// Prints a message that the script requests, such as that of a failed check. Its length counts towards the limit on output.
+    /// Prints a message that the script has requested, such as that of a failed check. It counts towards the limit of output.
     pub fn print_debug(&self, text: &str) {
         if self.meter().allows_to_write(text.len() as u64 + 1) {
             self.print_message(text);
@@ -248,7 +248,7 @@ impl Context {
         self.check_write(written);
     }
 
-    /// A closed pipe ends the run without a message; other write failures are errors.
+    /// Handles the result of printing. A closed pipe ends the run without a message; other failures are errors.
     fn check_write(&self, written: io::Result<()>) {
         match written {
             Err(error) if error.kind() == io::ErrorKind::BrokenPipe => {
@@ -269,12 +269,12 @@ impl Context {
         self.0.snapshots
     }
 
-    /// Sets the simulation that was used last.
+    /// Stores the simulation that was used last.
     pub fn set_latest_simulation(&self, simulation: Dynamic) {
         self.0.latest_simulation.replace(Some(simulation));
     }
 
-    /// Simulation that was started, loaded, forked, stepped or rewound last.
+    /// Simulation that was started, loaded, copied, stepped or rewound last.
     pub fn latest_simulation(&self) -> Option<Dynamic> {
         self.0.latest_simulation.borrow().clone()
     }
@@ -285,7 +285,7 @@ impl Context {
         self.clear_reporters();
     }
 
-    /// Sets the engine for calls of stored functions. The caller must keep the engine alive.
+    /// Sets the engine with which stored functions are called. The caller must keep the engine alive.
     pub fn set_engine(&self, engine: &Rc<Engine>) {
         self.0.engine.replace(Rc::downgrade(engine));
     }
@@ -295,17 +295,17 @@ impl Context {
         self.0.engine.borrow().upgrade()
     }
 
-    /// Sets the call depth of script functions at the current native call.
+    /// Sets the call depth of script functions at the present native call.
     pub fn enter(&self, level: usize) {
         self.0.level.set(level);
     }
 
-    /// Call depth of script functions at the current native call.
+    /// Call depth of script functions at the present native call.
     pub fn level(&self) -> usize {
         self.0.level.get()
     }
 
-    /// Calls a stored function from within a native call.
+    /// Calls a stored function within a native call.
     pub fn call_back<T>(&self, call: impl FnOnce() -> T) -> T {
         let was_calling_back = self.0.is_calling_back.replace(true);
         let result = call();
@@ -313,17 +313,17 @@ impl Context {
         result
     }
 
-    /// Returns true while a stored function runs within a native call.
+    /// Returns true while a stored function is called within a native call.
     pub fn is_calling_back(&self) -> bool {
         self.0.is_calling_back.get()
     }
 
-    /// Registers a function that detects values in use.
+    /// Registers a function that detects whether a value is in use.
     pub fn register_busy_check(&self, busy: BusyCheck) {
         self.0.busy.borrow_mut().push(busy);
     }
 
-    /// Reason why a value is in use, if it is.
+    /// Reason why a value is in use; `None` if it is not.
     pub fn busy(&self, value: &Dynamic) -> Option<String> {
         self.0.busy.borrow().iter().find_map(|busy| busy(value))
     }
@@ -338,7 +338,7 @@ impl Context {
         self.0.reports.objects()
     }
 
-    /// Writes the rescue files of the simulations, after a script that failed.
+    /// Writes the rescue files of the simulations after the script has failed.
     pub fn save_remains(&self) {
         let (files, note) = self.0.reports.remains(self.meter().rescue_budget());
         for (name, content) in files {
@@ -351,13 +351,13 @@ impl Context {
         note.inspect(|note| self.print_message(note));
     }
 
-    /// Drops the reporters and the names of studies, because a session writes no report and its next input may repeat a study.
+    /// Drops the reporters and the reserved names of studies. A session writes no report, and its next input may repeat a study.
     pub fn clear_reporters(&self) {
         self.0.study_names.borrow_mut().clear();
         self.0.reports.clear();
     }
 
-    /// Report entries of all simulations. The reporters are then dropped.
+    /// Returns the report entries of all simulations, and drops the reporters.
     pub fn report(&self) -> Vec<serde_json::Value> {
         self.0.latest_simulation.take();
         self.0.reports.take()

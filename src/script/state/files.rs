@@ -1,5 +1,5 @@
-//! File access of scripts. Scripts read in their own folder and the output folder, and write atomically in the output folder. Links are not
-//! followed, and only regular files are opened.
+//! File access of scripts. They can read files in their own folder and in the output folder. They can write files in the output folder; each file
+//! is replaced atomically. Links are not followed, and only regular files are opened.
 
 use std::cell::{OnceCell, RefCell};
 use std::collections::{HashMap, HashSet};
@@ -14,24 +14,25 @@ use crate::script::messages::error::ScriptError;
 /// Maximum size of a file that a script reads [bytes].
 const LARGEST_INPUT: u64 = 1 << 30;
 
-/// Folder that a script may write into, created with the first file.
+/// Folder into which a script may write. It is created with the first file.
 pub struct OutputFolder {
     folder: PathBuf,
     beside: PathBuf,
     mode: RunMode,
     written: RefCell<Vec<PathBuf>>,
-    /// Record of the files written by earlier runs, read before the first file is written.
+    /// Record of the files that earlier runs have written. It is read before the first file is written.
     record: OnceCell<RefCell<WrittenFiles>>,
-    /// Folders in which abandoned temporary files were removed.
+    /// Folders in which temporary files of crashed runs have been removed.
     tidied: RefCell<HashSet<Option<PathBuf>>>,
-    /// Files that a dry run would have written, for reading them again.
+    /// Contents of files that a dry run would have written. The script may read them.
     pretended: RefCell<HashMap<PathBuf, Vec<u8>>>,
 }
 
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct WrittenFile {
     pub path: PathBuf,
-    /// Path under which an older file of the same name is kept. Such a file was not written by this program, or was changed since.
+    /// Path under which an older file with the same name is kept; `None` if there was none. Such a file was not written by this program, or has
+    /// been changed since.
     pub kept: Option<PathBuf>,
 }
 
@@ -51,15 +52,15 @@ impl OutputFolder {
     /// Writes the file `name` in the output folder. A dry run only checks the name.
     ///
     /// # Errors
-    /// Fails if the name leads out of the folder, or writing fails.
+    /// Fails if the name leads out of the folder, or if writing fails.
     pub fn write(&self, name: &str, content: &[u8]) -> Result<WrittenFile, ScriptError> {
         self.write_by(name, |file| file.write_all(content))
     }
 
-    /// Writes the file `name` in the output folder piece by piece, by calls of `write`. A dry run only checks the name.
+    /// Writes the file `name` in the output folder piece by piece. `write` receives the writer. A dry run only checks the name.
     ///
     /// # Errors
-    /// Fails if the name leads out of the folder, or writing fails.
+    /// Fails if the name leads out of the folder, or if writing fails.
     pub fn write_by(
         &self,
         name: &str,
@@ -82,7 +83,7 @@ impl OutputFolder {
         Ok(WrittenFile { path, kept })
     }
 
-    /// The folder is opened for each file, because it may be moved while a session waits.
+    /// Opens the output folder and writes a file in it. The folder is opened for each file, because it may be moved while a session waits.
     fn open_folder(
         &self,
         name: &str,
@@ -103,7 +104,7 @@ impl OutputFolder {
             written = Some(file.checksum());
             Ok(())
         })?;
-        // If a later call fails, the existing file is already recorded, or kept under another name.
+        // If a later call fails, the existing file has already been recorded or kept under another name.
         let is_ours = record.may_replace(&folder, name);
         written.map_or(Ok(()), |written| record.record(&folder, name, written))?;
         let kept = if is_ours {
@@ -125,10 +126,10 @@ impl OutputFolder {
         Ok(kept.map(|kept| self.folder.join(kept)))
     }
 
-    /// Writes a file that the script may [`read`](Self::read) again, also in a dry run.
+    /// Writes a file that the script may [`read`](Self::read) later, also in a dry run.
     ///
     /// # Errors
-    /// Fails if the name leads out of the folder, or writing fails.
+    /// Fails if the name leads out of the folder, or if writing fails.
     pub fn write_to_read(&self, name: &str, content: Vec<u8>) -> Result<WrittenFile, ScriptError> {
         let written = self.write(name, &content)?;
         if self.mode == RunMode::DryRun {
@@ -137,10 +138,10 @@ impl OutputFolder {
         Ok(written)
     }
 
-    /// Reads the file `name` of the output folder or, if there is none, of the script's folder, at most `most` bytes.
+    /// Reads the file `name` in the output folder, or if there is none, in the folder of the script. It may have at most `most` bytes.
     ///
     /// # Errors
-    /// Fails if the file does not exist, is too long, or is not a regular file.
+    /// Fails if the file does not exist, is too large, or is not a regular file.
     pub fn read(&self, name: &str, most: Option<u64>) -> Result<Vec<u8>, ScriptError> {
         if let Some(content) = self.pretended.borrow().get(&self.folder.join(name)) {
             return Ok(content.clone());
@@ -162,7 +163,7 @@ impl OutputFolder {
         self.written.borrow().clone()
     }
 
-    /// Path of the output folder, which need not exist yet.
+    /// Path of the output folder. The folder need not exist yet.
     pub fn folder(&self) -> &Path {
         &self.folder
     }
@@ -207,7 +208,7 @@ pub struct InputFolder {
 }
 
 impl InputFolder {
-    /// The folder of a script, given by the user.
+    /// Folder that contains a script, whose path the user has given.
     pub fn in_folder_of(path: &Path) -> Self {
         Self { word: "script's own folder", path: path.to_owned(), open: Folder::open }
     }
@@ -221,10 +222,10 @@ impl InputFolders {
         Self(folders.into_iter().collect())
     }
 
-    /// Content of the file `name` in the first folder that contains it, at most `most` bytes.
+    /// Content of the file `name` in the first folder that contains it. It may have at most `most` bytes.
     ///
     /// # Errors
-    /// Fails if no folder contains the file, a link or the name leads out of the folder, or the file is too long or not regular.
+    /// Fails if no folder contains the file, if a link or the name leads out of the folder, or if the file is too large or not regular.
     pub fn read(&self, name: &str, most: u64) -> Result<Vec<u8>, ScriptError> {
         let words = self
             .0

@@ -1,5 +1,4 @@
-//! Journals of the studies of a run. They are kept until the script ends, so that a repeated run after an interrupt or error reuses
-//! finished cases.
+//! Journals of the studies of a run. They are kept until the script ends, so that a run after an interrupt or error can reuse completed cases.
 
 use std::cell::{Cell, RefCell};
 use std::io;
@@ -15,18 +14,18 @@ use crate::script::messages::error::ScriptError;
 #[derive(Default)]
 pub struct Journals {
     open: RefCell<Vec<(Journal, JournalLifetime)>>,
-    /// Paths of the journals of sweeps. The sweeps themselves hold them open.
+    /// Paths of the journals of sweeps. The open files belong to the sweeps.
     of_rows: RefCell<Vec<PathBuf>>,
-    /// True if the run computes parts, whose journals are kept.
+    /// True if the run computes parts of studies. Their journals are kept.
     has_parts: Cell<bool>,
     kept: Cell<usize>,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum JournalLifetime {
-    /// Journal that is removed when the script has ended.
+    /// Journal that is removed when the script ends.
     Run,
-    /// Journal that is kept, because it is a part to be merged.
+    /// Journal that is kept, because it contains a part that will be merged.
     Persistent,
 }
 
@@ -38,7 +37,7 @@ impl Journals {
     /// Opens the journal of a study, if the run uses journals.
     ///
     /// # Errors
-    /// Fails if an existing file cannot be read, or cannot be removed for a fresh start.
+    /// Fails if an existing file cannot be read, or cannot be removed for a new start.
     pub fn open(
         &self,
         path: PathBuf,
@@ -58,10 +57,10 @@ impl Journals {
         Ok(Some(self.store(journal, lasting)))
     }
 
-    /// Opens the files of parts as one read-only journal.
+    /// Opens the files of all parts of a study as one journal that is only read.
     ///
     /// # Errors
-    /// Fails if one cannot be read.
+    /// Fails if one of them cannot be read.
     pub fn open_parts(
         &self,
         paths: impl IntoIterator<Item = PathBuf>,
@@ -75,14 +74,14 @@ impl Journals {
         JournalNumber(open.len() - 1)
     }
 
-    /// Result of a case in a journal, by the fingerprint of the case.
+    /// Result of the case with a fingerprint in a journal; `None` if there is none.
     pub fn find<T: DeserializeOwned>(&self, journal: JournalNumber, fingerprint: u64) -> Option<T> {
         let found = self.open.borrow().get(journal.0)?.0.find(fingerprint);
         self.kept.set(self.kept.get() + usize::from(found.is_some()));
         found
     }
 
-    /// Writes the result of a case. Returns the number of bytes.
+    /// Writes the result of a case to a journal. Returns the number of bytes.
     ///
     /// # Errors
     /// Fails if the file cannot be written.
@@ -99,11 +98,11 @@ impl Journals {
         Ok(bytes)
     }
 
-    /// Opens the journal of a sweep, if the run uses journals. If an existing journal belongs to the same sweep, which `about` identifies, `recall`
-    /// receives its entries.
+    /// Opens the journal of a sweep, if the run uses journals. `about` identifies the sweep. If an existing journal belongs to the same sweep,
+    /// `recall` receives its entries.
     ///
     /// # Errors
-    /// Fails if it cannot be read or written.
+    /// Fails if the journal cannot be read or written.
     pub fn open_rows(
         &self,
         path: PathBuf,
@@ -141,12 +140,12 @@ impl Journals {
         Ok(Some(keeper))
     }
 
-    /// Number of finished cases of this run that the next run can reuse.
+    /// Number of completed cases of this run that the next run can reuse.
     pub fn stored_cases(&self) -> usize {
         self.kept.get()
     }
 
-    /// Removes the journals after the script has ended.
+    /// Removes the journals when the script has ended.
     ///
     /// # Errors
     /// Fails if a file cannot be removed.
@@ -170,10 +169,10 @@ pub struct RowKeeper {
 }
 
 impl RowKeeper {
-    /// Writes an entry. Returns the number of bytes.
+    /// Writes an entry to the journal. Returns the number of bytes.
     ///
     /// # Errors
-    /// Fails if it cannot be written.
+    /// Fails if the entry cannot be written.
     pub fn write(&mut self, journals: &Journals, entry: &RowEntry) -> Result<u64, ScriptError> {
         if matches!(entry, RowEntry::Computed(..) | RowEntry::Failed(..)) {
             journals.kept.set(journals.kept.get() + 1);
@@ -185,18 +184,18 @@ impl RowKeeper {
         self.journal.write(entry).map_err(|error| refused_rows(&self.path, &error))
     }
 
-    /// Writes the file to disk periodically.
+    /// Writes buffered entries to the file, if the last write was long enough ago.
     ///
     /// # Errors
-    /// Fails if it cannot be written.
+    /// Fails if they cannot be written.
     pub fn sync_periodically(&mut self) -> Result<(), ScriptError> {
         self.journal.flush_periodically().map_err(|error| refused_rows(&self.path, &error))
     }
 
-    /// Writes the file to disk.
+    /// Writes buffered entries to the file.
     ///
     /// # Errors
-    /// Fails if it cannot be written.
+    /// Fails if they cannot be written.
     pub fn flush(&mut self) -> Result<(), ScriptError> {
         self.journal.flush().map_err(|error| refused_rows(&self.path, &error))
     }

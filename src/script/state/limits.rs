@@ -1,4 +1,4 @@
-//! Resource limits of a run: time, steps, memory, call depth, output; and their supervision.
+//! Limits of the resources of a run (time, steps, memory, call depth, output), and their supervision.
 
 use std::cell::Cell;
 use std::io;
@@ -17,19 +17,19 @@ pub const DEFAULT_MEGABYTES_WRITTEN: u64 = 10_000;
 pub const DEFAULT_FILES: u64 = 100_000;
 /// Default limit of the call depth.
 pub const DEFAULT_DEPTH: usize = 400;
-/// Maximum call depth that can be set. The stack [`LEAST_STACK`] is large enough for it.
+/// Largest call depth that can be set. The stack size [`LEAST_STACK`] is sufficient for it.
 pub const DEEPEST: usize = 1000;
-/// Address space of the stack for [`DEEPEST`] nested calls [bytes]. Memory is used only as needed.
+/// Address space of the stack for [`DEEPEST`] nested calls [bytes]. Memory is only used when the stack grows.
 pub const LEAST_STACK: usize = 256 << 20;
-/// Maximum address space of the stack for dropping nested values [bytes].
+/// Largest address space of the stack for dropping nested values [bytes].
 const LARGEST_FOR_VALUES: usize = 16 << 30;
 
-/// Resource limits of a run. `None` is unlimited.
+/// Limits of the resources of a run. `None` means unlimited.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Limits {
     /// Maximum wall-clock time.
     pub time: Option<Duration>,
-    /// Maximum number of steps of all simulations together, including failed ones.
+    /// Maximum number of steps of all simulations together, including failed steps.
     pub steps: Option<u64>,
     /// Maximum resident memory of the process [bytes].
     pub memory: Option<u64>,
@@ -37,17 +37,18 @@ pub struct Limits {
     pub depth: usize,
     /// Maximum amount of printed and written output [bytes].
     pub written: Option<u64>,
-    /// Maximum number of written files. A file that is written again counts again.
+    /// Maximum number of written files. A file that is written twice counts twice.
     pub files: Option<u64>,
 }
 
-/// Action that ends the whole program when a limit is exceeded and the run does not react.
+/// Action that ends the whole program if a limit is exceeded and the run does not react.
 pub type HardAbort = Arc<dyn Fn(Stop) + Send + Sync>;
 
 impl Limits {
-    /// Address space of a stack that a script within these limits cannot exhaust [bytes].
+    /// Address space of a stack that is sufficient for every script within these limits [bytes].
     ///
-    /// Nested closures are dropped recursively. Each of them uses less stack than twice its memory, so the memory limit bounds the stack.
+    /// Nested closures are dropped recursively. The stack needed for each of them is smaller than twice its memory, so the memory limit determines
+    /// a sufficient stack.
     pub fn stack(&self) -> usize {
         LEAST_STACK + 2 * self.memory_or_default().min(LARGEST_FOR_VALUES)
     }
@@ -57,7 +58,7 @@ impl Limits {
         LEAST_STACK / DEEPEST * self.depth.clamp(DEFAULT_DEPTH, DEEPEST)
     }
 
-    /// Address space for the values of a script [bytes]. The factor allows for freed memory that is not returned at once.
+    /// Address space for the values of a script [bytes]. A factor takes into account that freed memory is not returned at once.
     pub fn address_space(&self) -> usize {
         self.memory_or_default().saturating_mul(2)
     }
@@ -91,28 +92,28 @@ pub struct Meter {
     written: Cell<u64>,
     files: Cell<u64>,
     stopped: Cell<Option<Stop>>,
-    /// Number of simulation advances skipped by a dry run.
+    /// Number of calls that would advance a simulation and were skipped in a dry run.
     pretended: Cell<u64>,
 }
 
-/// Limit of `pretended`. Loops that wait for a time end long before it.
+/// Largest value of `pretended`. Loops that wait for a time end long before it is reached.
 const MOST_DRY_ADVANCES: u64 = 100_000;
 
-/// True after a run of this process has detected an interrupt. The run is then about to stop and to save results.
+/// True if a run of this process has detected an interrupt. The run then stops soon and saves its results.
 pub static INTERRUPT_HEARD: AtomicBool = AtomicBool::new(false);
 
-/// Watchdog states: no alarm, time limit, memory limit.
+/// States of the watchdog: no alarm. The constants for an exceeded time or memory limit follow.
 pub(super) const NO_ALARM: u8 = 0;
 pub(super) const TOO_LATE: u8 = 1;
 pub(super) const TOO_LARGE: u8 = 2;
 
 impl Meter {
-    /// Meter of a new run.
+    /// Creates the meter of a new run.
     pub fn new(limits: Limits) -> Self {
         Self::guarded(limits, None)
     }
 
-    /// Meter of a new run. `resort` ends the program when a limit is exceeded and the run does not react.
+    /// Creates the meter of a new run. The action `resort` is called if a limit is exceeded and the run does not stop by itself.
     pub fn guarded(limits: Limits, resort: Option<HardAbort>) -> Self {
         Self {
             limits,
@@ -132,7 +133,7 @@ impl Meter {
         &self.limits
     }
 
-    /// Limit that was exceeded, if one was.
+    /// Limit that was exceeded; `None` if there is none.
     pub fn passed(&self) -> Option<Stop> {
         match self.alarm.load(Ordering::Relaxed) {
             TOO_LATE => self.limits.time.map(Stop::Time),
@@ -144,27 +145,27 @@ impl Meter {
         }
     }
 
-    /// Counts a skipped simulation advance of a dry run.
+    /// Counts a call that would advance a simulation and was skipped in a dry run.
     pub fn count_dry_run(&self) {
         self.pretended.set(self.pretended.get() + 1);
     }
 
-    /// Returns true if the script depends on results that a dry run does not compute.
+    /// Returns true if the script depends on results that are not computed in a dry run.
     pub fn depends_on_dry_run(&self) -> bool {
         self.pretended.get() > 0
     }
 
-    /// Counts a step or failed step of a simulation.
+    /// Counts a successful or failed step of a simulation.
     pub fn count_step(&self) {
         self.steps.set(self.steps.get() + 1);
     }
 
-    /// Counts steps of other engines.
+    /// Counts steps that other engines have taken.
     pub fn count_steps(&self, steps: usize) {
         self.steps.set(self.steps.get().saturating_add(steps as u64));
     }
 
-    /// Number of simulation steps, including failed ones.
+    /// Number of simulation steps, including failed steps.
     pub fn steps(&self) -> u64 {
         self.steps.get()
     }
@@ -178,12 +179,12 @@ impl Meter {
         allowed
     }
 
-    /// Stops the run at its next check.
+    /// Makes the run stop at its next check.
     pub fn stop(&self, why: Stop) {
         self.stopped.set(self.stopped.get().or(Some(why)));
     }
 
-    /// Counts output [bytes]; returns false if the limit is exceeded.
+    /// Counts output [bytes]. Returns false if the limit is exceeded.
     pub fn allows_to_write(&self, bytes: u64) -> bool {
         let written = self.written.get().saturating_add(bytes);
         match self.limits.written.filter(|limit| written > *limit) {
@@ -198,13 +199,13 @@ impl Meter {
         }
     }
 
-    /// Number of bytes that rescue files may still use: the remaining budget plus a twentieth of the limit.
+    /// Number of bytes that rescue files may still use: what is left of the limit, plus a twentieth of the limit.
     pub fn rescue_budget(&self) -> u64 {
         let left = |limit: u64| (limit + limit / 20).saturating_sub(self.written.get());
         self.limits.written.map_or(u64::MAX, left)
     }
 
-    /// Counts a file and its bytes; returns false if a limit is exceeded.
+    /// Counts a file and its bytes. Returns false if a limit is exceeded.
     pub fn allows_a_file(&self, bytes: u64) -> bool {
         self.files.set(self.files.get() + 1);
         match self.limits.files.filter(|limit| self.files.get() > *limit) {
@@ -216,7 +217,7 @@ impl Meter {
         }
     }
 
-    /// Resets the counters and supervises time and memory until the guard is dropped.
+    /// Resets the counters, and supervises time and memory until the guard is dropped.
     ///
     /// # Errors
     /// Fails if no thread can be started.
@@ -226,7 +227,7 @@ impl Meter {
         self.wants_too_many_steps.set(false);
         self.written.set(0);
         self.files.set(0);
-        // A loss of output remains an error.
+        // A loss of output is not reset, because it must remain an error.
         self.stopped.set(self.stopped.get().filter(|stop| matches!(stop, Stop::OutputLost(_))));
         Watchdog::start(self.limits, Arc::clone(&self.alarm), self.resort.clone())
     }

@@ -1,4 +1,4 @@
-//! Parts of studies for distributed computation: assignment of cases to parts, and the files of parts until they are merged.
+//! Parts of studies for distributed computation: assignment of cases to parts, and search for the files of parts before they are merged.
 
 use std::io;
 use std::path::{Path, PathBuf};
@@ -7,7 +7,7 @@ use std::str::FromStr;
 use crate::sandbox_fs::Folder;
 use crate::script::messages::error::ScriptError;
 
-/// A part of every study of a script: every `of`-th case.
+/// Part of every study of a script. It consists of every `of`-th case.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct StudyPart {
     pub of: u32,
@@ -52,7 +52,7 @@ impl StudyPart {
 /// Largest number of missing parts that a message lists.
 const MOST_LISTED: usize = 10;
 
-/// Files of all parts of a study in some folders, ordered by part.
+/// Searches the files of all parts of a study in some folders. They are returned in the order of the parts.
 ///
 /// # Errors
 /// Fails if there are no files, if parts are missing or occur twice, if the numbers of parts differ, or if a folder cannot be read.

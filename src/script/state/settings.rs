@@ -15,7 +15,7 @@ use crate::script::source::program::Program;
 pub enum RunMode {
     /// Full execution.
     Run,
-    /// Scenes are built and checked. Nothing is stepped, printed, judged or written (dry run).
+    /// Dry run: scenes are built and checked, but nothing is stepped, printed, judged or written.
     DryRun,
 }
 
@@ -23,17 +23,17 @@ pub enum RunMode {
 pub struct RunSettings {
     /// Mode of the run.
     pub mode: RunMode,
-    /// Folder for output files, created with the first file.
+    /// Folder for output files. It is created with the first file.
     pub out: PathBuf,
-    /// Folder of the script, where it may read files.
+    /// Folder of the script. The script may read files in it.
     pub folder: PathBuf,
     /// Default memory for the snapshots of each simulation [bytes].
     pub snapshots: usize,
-    /// Flag set from outside (Ctrl-C) to stop the run as soon as possible.
+    /// Flag that is set from outside, for example by Ctrl-C. The run then stops as soon as possible.
     pub interrupt: Arc<AtomicBool>,
     /// Resource limits.
     pub limits: Limits,
-    /// Writer for `print`.
+    /// Writer for the output of `print`.
     pub printed: Box<dyn Write + Send>,
     /// Writer for failed checks and `debug`.
     pub diagnostics: Box<dyn Write + Send>,
@@ -43,9 +43,9 @@ pub struct RunSettings {
     pub studies: StudyPreferences,
     /// Estimation of errors at the end of the run.
     pub errors: ErrorEstimation,
-    /// Action that ends the whole program when a limit is exceeded and the run does not react.
+    /// Action that ends the whole program if a limit is exceeded and the run does not react.
     pub last_resort: Option<HardAbort>,
-    /// Script of the run, which the engines of other threads also compile; `None` at the prompt.
+    /// Script of the run; `None` at the prompt. The engines of other threads compile it too.
     pub program: Option<Program>,
     /// Reason why the run must not write files; `None` if it may.
     pub refuses_files: Option<&'static str>,
@@ -54,44 +54,44 @@ pub struct RunSettings {
 /// Options of the studies of a run.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct StudyPreferences {
-    /// Use of journals to resume interrupted studies.
+    /// Whether journals are used to resume interrupted studies.
     pub journal: JournalPreference,
-    /// Number of timing repetitions, overriding the script.
+    /// Number of repetitions when run times are measured; `None` for that of the script.
     pub repeats: Option<usize>,
-    /// Part of each study to be computed. No other files are written.
+    /// Part of each study to be computed; `None` for all. If it is given, no other files are written.
     pub part: Option<StudyPart>,
-    /// Folders with parts that are merged instead of computing the studies.
+    /// Folders with computed parts. If there are any, the parts are merged and nothing is computed.
     pub merge: Vec<PathBuf>,
 }
 
-/// Estimation of the discretisation errors of all simulations at the end of a run.
+/// Whether the discretisation errors of all simulations are estimated at the end of a run.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum ErrorEstimation {
-    /// No estimate.
+    /// They are not estimated.
     #[default]
     Never,
-    /// No estimate, but a remark on how to request one.
+    /// They are not estimated, but a remark tells how to request an estimate.
     Remark,
-    /// Estimate after runs of less than a second, within about the time of the run.
+    /// They are estimated after runs of less than a second. This takes about as long as the run.
     Auto,
-    /// Estimate after every run.
+    /// They are estimated after every run.
     Always,
 }
 
-/// Treatment of finished cases when a study is interrupted.
+/// Treatment of completed cases if a study is interrupted.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum JournalPreference {
-    /// Finished cases are lost.
+    /// Completed cases are lost.
     #[default]
     None,
-    /// Finished cases are kept in the output folder and reused.
+    /// Completed cases are kept in the output folder and reused.
     Resume,
-    /// Finished cases are kept in the output folder. Earlier cases are removed first.
+    /// Completed cases are kept in the output folder. Those of earlier runs are removed first.
     Restart,
 }
 
 impl RunSettings {
-    /// Settings without any output, for dry runs and as a base for others.
+    /// Settings for a run without any output. They are used for dry runs, and as a base for other settings.
     pub fn silent(mode: RunMode) -> Self {
         Self {
             mode,

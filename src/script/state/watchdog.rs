@@ -1,4 +1,4 @@
-//! Watchdog thread for time and memory, which ends the program if the run does not react.
+//! Watchdog: a thread that supervises time and memory, and ends the program if the run does not react.
 
 use std::io;
 use std::sync::Arc;
@@ -12,17 +12,17 @@ use crate::script::messages::stop::Stop;
 
 const INTERVAL: Duration = Duration::from_millis(10);
 
-/// Processor time that a run may use after it has exceeded a limit, as a fraction of the time limit. On an otherwise idle machine the run then ends
-/// within twice the limit.
+/// Processor time that a run may still use after it has exceeded a limit, as a fraction of the time limit. On a machine without other load, the run
+/// then ends within twice the limit.
 const OVERTIME: f64 = 0.7;
 const LEAST_OVERTIME: Duration = Duration::from_millis(700);
 const MOST_OVERTIME: Duration = Duration::from_secs(5);
-/// Ratio of elapsed wall time to allowed processor time at which the run is ended even if it has used less processor time.
+/// Ratio of elapsed wall-clock time to allowed processor time. Above it the run is ended even if it has used less processor time.
 const SHARE_OF_PROCESSOR: u32 = 10;
 
-/// Guard of a thread that supervises time and memory of a run; dropping it ends the thread.
+/// Guard of the thread that supervises time and memory of a run. The thread ends when the guard is dropped.
 pub struct Watchdog {
-    /// Dropping the sender ends the thread.
+    /// The thread ends when this sender is dropped.
     leash: Option<Sender<()>>,
     thread: Option<JoinHandle<()>>,
 }
@@ -63,7 +63,7 @@ impl Watchdog {
     }
 }
 
-/// Wall time and processor time of the process.
+/// Wall-clock time and processor time of the process.
 #[derive(Clone, Copy)]
 struct Clocks {
     wall: Instant,
@@ -75,7 +75,7 @@ impl Clocks {
         Self { wall: Instant::now(), processor: processor_time() }
     }
 
-    /// Returns true if both wall time and processor time exceed `patience`, or wall time exceeds a multiple of it.
+    /// Returns true if both wall-clock time and processor time exceed `patience`, or if wall-clock time exceeds a multiple of it.
     fn are_over(self, patience: Duration) -> bool {
         let wall = self.wall.elapsed();
         let had = || match (self.processor, processor_time()) {
@@ -86,7 +86,7 @@ impl Clocks {
     }
 }
 
-/// Processor time of all threads of the process, if the system reports it.
+/// Processor time of all threads of the process; `None` if the system does not report it.
 fn processor_time() -> Option<Duration> {
     #[cfg(unix)]
     {
@@ -116,7 +116,7 @@ impl Drop for Watchdog {
     fn drop(&mut self) {
         self.leash = None;
         if let Some(thread) = self.thread.take() {
-            // A panic of the watchdog must not propagate.
+            // A panic of the watchdog is ignored.
             let _ = thread.join();
         }
     }

@@ -1,4 +1,4 @@
-//! Vector instructions of any width give identical results.
+//! Check that vector instructions of any width give identical results.
 
 use pulp::Arch;
 
@@ -9,7 +9,7 @@ use proptest::prelude::*;
 const TANGENT: Collocation =
     Collocation { configuration: 0.4, stress: 0.6, rotations: RotationIncrement::TangentScaled };
 
-/// Bits of the tangents and forces of all spans for one instruction set, and the spans afterwards.
+/// Bits of the tangents and forces of all spans, computed with one instruction set, and the spans afterwards.
 fn linearised<const N: usize>(
     arch: Arch,
     beam: &DiscreteBeam<N>,
@@ -26,7 +26,7 @@ fn linearised<const N: usize>(
     (found, groups)
 }
 
-/// Moves a curved beam twice, and compares after each movement.
+/// Moves a curved beam twice, and compares the results after each movement.
 fn assert_same<const N: usize>(mesh: &Mesh, movements: &[f64]) {
     let section = Section {
         axial_stiffness: 1e4,

@@ -8,15 +8,16 @@ use crate::geometry::{GaussRule, PiecewisePolynomial, Span, Vec2, lower_splines}
 const SAMPLES: usize = 16;
 
 impl SplineString {
-    /// Correction factor `μ` such that `½ μ ρA g |a|² v²` is the kinetic energy that the mesh misses for a kink `a` moving with the speed `v`. It is
-    /// averaged over places in evenly spread spans.
+    /// Correction factor `μ` of the inertia of a moving kink. The kinetic energy that the mesh misses is `½ μ ρA g |a|² v²` for a kink `a` that
+    /// moves with the speed `v`. The factor is averaged over places in evenly spread spans.
     ///
     /// ```text
     /// μ = ∫ (X(L) - s(ξ) - ∫ u² dX) ds/∫ g ds        u = l(X)ᵀ M⁻¹ t(ξ)/|x_ξ|
     /// ```
     ///
-    /// If the start is held, points in front of a unit kink move with the velocity `v` and all other points are fixed. In the mesh they move with
-    /// `u v` instead. Away from the kink `u` is exact, so only the spans around the kink contribute to the difference.
+    /// If the start of the string is held, the points in front of a moving unit kink have the velocity `v`, and the points behind it are at rest.
+    /// In the mesh, all points have the velocity `u v` instead. Away from the kink `u` is exact, so only the spans around the kink contribute to
+    /// the difference.
     pub fn inertia(
         &self,
         mesh: &Mesh,
@@ -39,7 +40,7 @@ impl SplineString {
                         let fields = rule.iter_on(around.start, around.end).map(|(x, weight)| {
                             let values = basis.evaluate_in(around, x);
                             let own = values.values().iter().enumerate();
-                            // Missing motion in front of the kink, and additional motion behind it.
+                            // In front of the kink, motion is missing in the mesh. Behind the kink, the mesh has additional motion.
                             let (there, missing) =
                                 own.fold((0.0, 0.0), |(there, missing), (a, n)| {
                                     let [low, high] = motion[around.first + a];
@@ -64,8 +65,8 @@ impl SplineString {
         missed / lengths
     }
 
-    /// Motion of the control points for a kink at a place on a span, from the lower splines there, relative to the motion of the end of the string;
-    /// and its difference from the motion of the end.
+    /// Motion of the control points for a kink at a place in a span, as a fraction of the motion of the end of the string. `lower` contains the
+    /// splines of lower degree at the place. The second value is the difference from the motion of the end.
     fn motion(&self, span: &Span, lower: &[f64]) -> Vec<[f64; 2]> {
         let mut strains = vec![0.0; self.stretched.len()];
         strains[span.first..][..lower.len()].copy_from_slice(lower);

@@ -5,7 +5,7 @@ use crate::beams::Quadrature;
 use crate::elementary;
 use crate::geometry::{Basis, Curve, KnotVector, interpolate};
 
-/// Every supported kind of mesh with the patch rule: degrees 1 to 7 of all continuities, Lagrange elements, uneven knots, breaks.
+/// Meshes of every supported type with the patch rule: degrees 1 to 7 with all continuities, Lagrange elements, uneven knots, breaks.
 fn meshes() -> Vec<Mesh> {
     let mut meshes = Vec::new();
     for degree in 1..=7 {
@@ -33,8 +33,8 @@ fn arc() -> Curve {
     Curve::arc(Vec2::new(0.0, 0.0), 1.0, 0.3, 2.2).unwrap()
 }
 
-/// `g` by dense algebra with the start held: the displacement of the end of the string under a unit load at ξ is the exact response at ξ, minus the
-/// mesh response at ξ itself.
+/// Kink length `g` computed by dense matrices, with the start of the string held. It is the displacement of the end under a unit load at ξ, which
+/// is the exact displacement at ξ, minus the displacement at ξ in the mesh.
 fn dense(mesh: &Mesh, points: &[Vec2], places: &[f64]) -> Vec<f64> {
     let (basis, count) = (mesh.basis(), points.len());
     let mut stiffness = DMatrix::zeros(count, count);
@@ -95,7 +95,7 @@ fn the_kink_length_is_that_of_dense_algebra_on_every_mesh_straight_or_curved() {
 
 #[test]
 fn a_straight_beam_has_what_its_mesh_lacks_with_both_ends_held() {
-    // Formula of docs/theory.md, G - bᵀ K⁻¹ b with G = X (L - X)/L.
+    // Formula of docs/theory.md: G - bᵀ K⁻¹ b with G = X (L - X)/L.
     for mesh in meshes().into_iter().filter(|mesh| mesh.basis().functions() > 2) {
         let (basis, length) = (mesh.basis(), line().length());
         let points = interpolate(&line(), basis).unwrap();
@@ -172,8 +172,9 @@ fn a_mesh_with_too_few_points_has_no_missed_kink() {
     assert!(unresolved_kink(&mesh, &points).unwrap().is_none());
 }
 
-/// Missing energy of a resting and a moving kink on equal spans without an end, averaged over its places, by Fourier sums: the waves of the exact
-/// string minus those of splines of a degree, with one strain point per span, half a span from a knot for odd degrees.
+/// Missing energy of a kink at rest and of a moving kink, averaged over its places, on equal spans without an end. It is computed by Fourier sums:
+/// the waves of the exact string minus the waves of splines of the given degree. There is one strain point per span. For odd degrees it is half a
+/// span from a knot.
 fn fourier(degree: usize, is_exact: bool) -> f64 {
     let (tau, order) = (2.0 * std::f64::consts::PI, degree as i32 + 1);
     let hat = |k: f64| (elementary::sin(0.5 * k) / (0.5 * k)).powi(order);

@@ -1,8 +1,8 @@
-//! Interpolated section between quadrature points.
+//! Section that is interpolated between quadrature points.
 
 use crate::beams::Section;
 
-/// Section at a place between points, from weights whose sum is one.
+/// Section at a place between quadrature points, as a weighted sum. The sum of the weights is one.
 pub(in crate::beams) trait Interpolation: Default {
     fn add(&mut self, section: &Section, weight: f64);
 

@@ -1,27 +1,28 @@
-//! Integrals of products of two functions, for the inertia of a beam.
+//! Integrals of products of two basis functions, for the inertia matrix of a beam.
 
 use std::fmt::Debug;
 
 use crate::beams::Section;
 use crate::beams::dynamics::Movement;
 
-/// Integral of a product of two functions along a beam.
+/// Integral of a product of two basis functions along a beam.
 pub(in crate::beams) trait MassIntegral:
     Copy + Default + Debug + Send + Sync
 {
-    /// Adds a product times its weight [length] at a section.
+    /// Adds the value of the product, multiplied by its quadrature weight [length], at a place with the given section.
     fn add(&mut self, product: f64, section: &Section);
 
     /// Integral of the product of the functions, without the inertia per length [length].
     fn length(self) -> f64;
 
-    /// Integrals that are proportional to the inertia of each component: the length integral, or the integrals of mass and rotary inertia.
+    /// Integrals to which the inertia of each component is proportional: the unweighted integral for every component, or the integrals weighted
+    /// with mass and rotary inertia.
     fn weights(self) -> Movement;
 
-    /// Factors of the [`weights`](Self::weights) that give the inertia: mass and rotary inertia per length, or one.
+    /// Factors that convert the [`weights`](Self::weights) to inertia: mass and rotary inertia per length, or one.
     fn shares(uniform: &Section) -> Movement;
 
-    /// Inertia of each component, times a factor.
+    /// Inertia of each component, multiplied by a factor.
     #[inline]
     fn inertia(self, factor: f64, uniform: &Section) -> Movement {
         let (weights, shares) = (self.weights(), Self::shares(uniform));
@@ -50,7 +51,7 @@ impl MassIntegral for f64 {
     }
 }
 
-/// Length, mass and rotary inertia of a product of two functions.
+/// Integrals of a product of two basis functions: unweighted (length), and weighted with mass and rotary inertia.
 #[derive(Debug, Clone, Copy, Default)]
 pub(in crate::beams) struct SectionIntegral {
     length: f64,

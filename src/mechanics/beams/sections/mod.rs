@@ -1,4 +1,4 @@
-//! Sections of the quadrature points of a beam: uniform, or one per point.
+//! Storage of the sections at the quadrature points of a beam: one section for all points, or one section per point.
 
 mod interpolated;
 mod mass_integrals;

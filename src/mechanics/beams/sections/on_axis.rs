@@ -1,9 +1,9 @@
-//! Section at any parameter of an axis.
+//! Section at any parameter of the axis of a beam.
 
 use crate::beams::{BeamError, Mesh, Section, SectionVariation};
 use crate::geometry::{GaussRule, Span, Vec2};
 
-/// Number of Gauss points for the arc length within a span.
+/// Number of Gauss points for the arc length within one span.
 const POINTS: usize = 8;
 
 /// Sections of a beam along an axis given by control points.
@@ -12,7 +12,7 @@ pub(in crate::beams) struct SectionsOnAxis<'a> {
     mesh: &'a Mesh,
     control_points: &'a [Vec2],
     rule: GaussRule,
-    /// Arc lengths at the starts of the spans, and the total [length].
+    /// Arc lengths at the starts of the spans, followed by the total length [length].
     starts: Vec<f64>,
     length: f64,
 }

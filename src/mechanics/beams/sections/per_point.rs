@@ -1,4 +1,4 @@
-//! Sections of quadrature points.
+//! Sections at quadrature points.
 
 use std::fmt::Debug;
 
@@ -10,9 +10,10 @@ use crate::beams::force_points::Stiffness;
 use crate::beams::pair::Pair;
 use crate::beams::simd::{LANES, LaneChunk, Lanes, Vector};
 
-/// Sections of the quadrature points of neighbouring spans, by storage type. A uniform beam shares one section without lookup.
+/// Sections at the quadrature points of consecutive spans. A uniform beam stores no sections here and uses a single one.
 pub(in crate::beams) trait Sections: Clone + Debug + Send + Sync {
-    /// Integral of a product of two shape functions; if the inertia varies along the beam, also weighted with the inertia.
+    /// Type of the integral of a product of two basis functions. If the inertia varies along the beam, it contains also the integrals weighted with
+    /// the inertia.
     type MassIntegral: MassIntegral;
     /// Type of a section interpolated between the quadrature points.
     type Interpolation: Interpolation;
@@ -21,10 +22,10 @@ pub(in crate::beams) trait Sections: Clone + Debug + Send + Sync {
 
     fn of_force<'a>(&'a self, uniform: &'a Section, point: usize) -> &'a Section;
 
-    /// Cross section at a quadrature point of the curvature `κ`.
+    /// Section at a quadrature point for the curvature `κ`.
     fn of_moment<'a>(&'a self, uniform: &'a Section, point: usize) -> &'a Section;
 
-    /// Stiffness `diag(EA, GA)` for the strain `Γ` at several points at once, one in each vector lane.
+    /// Stiffness `diag(EA, GA)` at several quadrature points for the strain `Γ`, one in each vector lane.
     fn force_stiffness<V: Simd>(
         &self,
         uniform: &Section,
@@ -32,7 +33,7 @@ pub(in crate::beams) trait Sections: Clone + Debug + Send + Sync {
         part: LaneChunk<V>,
     ) -> Stiffness<V>;
 
-    /// Stiffness `EI` of points for `κ` in lanes.
+    /// Stiffness `EI` at several quadrature points for the curvature `κ`, one in each vector lane.
     fn bending_stiffness<V: Simd>(
         &self,
         uniform: &Section,
@@ -40,7 +41,7 @@ pub(in crate::beams) trait Sections: Clone + Debug + Send + Sync {
         part: LaneChunk<V>,
     ) -> Vector<V>;
 
-    /// Masses of control points: from their lengths if the section is uniform, otherwise from the integrals.
+    /// Masses of control points. They are computed from the lengths if the section is uniform, otherwise from the weighted integrals.
     fn masses(uniform: &Section, lengths: Vec<f64>, weighed: Vec<f64>) -> Vec<f64>;
 }
 
@@ -94,12 +95,12 @@ impl Sections for Uniform {
 pub(in crate::beams) struct PerPoint {
     at_force: Vec<Section>,
     at_moment: Vec<Section>,
-    /// `diag(EA, GA)` and `EI` of points in lanes.
+    /// Stiffness `diag(EA, GA)` at points for `Γ`, in vector lanes. `EI` at points for `κ` is in the following field.
     force_stiffness: Vec<Pair<Lanes>>,
     bending_stiffness: Vec<Lanes>,
 }
 
-/// Property of the sections of points, in lanes. Unused lanes repeat the last point.
+/// Property of the sections at several points, one in each vector lane. Unused lanes repeat the last point.
 fn side_by_side(sections: &[Section], of: impl Fn(&Section) -> f64) -> Lanes {
     let mut lanes = Lanes::default();
     for lane in 0..LANES {

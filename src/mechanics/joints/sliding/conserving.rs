@@ -1,19 +1,20 @@
-//! Sliding rule that conserves energy, both momenta and the gap.
+//! Sliding rule that conserves energy, both momenta and the closed gap.
 
 use super::contact::{AXES, PathVector};
 use super::{CONTACT_UNKNOWNS, Contact, ContactUnknowns, Equation, SlidingLaw, Unit};
 use crate::elementary::square;
 use crate::geometry::{cross, perpendicular};
 
-/// Conserving law of sliding on the smooth axis of a mesh: the gap is closed at the end of every step, and energy, linear and angular momentum are
+/// Conserving law of sliding on the smooth axis of a mesh. The gap is closed at the end of every step, and energy, linear and angular momentum are
 /// conserved for any step size. The mesh represents the kink of the axis under the contact force only approximately.
 ///
 /// ```text
 /// x_s1 = Σ B_i(ξ1) x_i1          |τ|² η + (d × λ) Jτ = 0          λ·τ + 4 η·d = 0
 /// ```
 ///
-/// The mean position of the slave, `Σ B̄_i x̄_i + Δξ d`, differs from the point at which `λ` acts on the master, so both forces have a moment. The
-/// law uses the smallest `η` that balances this moment. The sliding equation follows from the energy. Derived in docs/theory.md, section 10.
+/// The mean position of the slave, `Σ B̄_i x̄_i + Δξ d`, is not the point at which `λ` acts on the master, so the two opposite forces have a
+/// moment. The law uses the smallest `η` that balances this moment. The sliding equation follows from conservation of energy. Derivation:
+/// docs/theory.md, section 10.
 #[derive(Debug, Clone, Copy)]
 pub struct Conserving;
 
@@ -26,7 +27,7 @@ impl SlidingLaw for Conserving {
     }
 }
 
-/// `(|τ|² η + (d × λ) Jτ)/ℓ² = 0`: `d × λ + τ × η = 0` with the smallest `η`.
+/// Moment balance `d × λ + τ × η = 0` with the smallest `η`, in the form `(|τ|² η + (d × λ) Jτ)/ℓ² = 0`.
 fn balanced_moment(contact: &Contact<'_>, tangent: PathVector, swing: PathVector) -> [Equation; 2] {
     let ContactUnknowns { force, couple, .. } = contact.unknowns;
     let scale = 1.0 / square(contact.length);
@@ -47,7 +48,7 @@ fn balanced_moment(contact: &Contact<'_>, tangent: PathVector, swing: PathVector
     })
 }
 
-/// `(λ·τ + 4 η·d)/ℓ = 0`: the contact does no work.
+/// Sliding equation `(λ·τ + 4 η·d)/ℓ = 0`: the contact does no work.
 fn work_free(contact: &Contact<'_>, tangent: PathVector, swing: PathVector) -> Equation {
     let ContactUnknowns { force, couple, .. } = contact.unknowns;
     let scale = 1.0 / contact.length;

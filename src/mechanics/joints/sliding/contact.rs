@@ -1,23 +1,23 @@
-//! Contact of a slider in a step: path on the master, and forces on slave and master.
+//! Contact of a slider in a step: path along the master, and forces on slave and master.
 
-use super::{Equation, Unit};
+use super::{Equation, Friction, Unit};
 use crate::geometry::{ContactPath, FunctionOnPath, Vec2};
 
 /// Number of unknowns of a contact: `λ` and `η` with two components each, and `Δξ`.
 pub const CONTACT_UNKNOWNS: usize = 5;
 
-/// Unknowns of a sliding contact in a step, or derivatives with respect to them.
+/// Unknowns of a sliding contact in a step. The same type is used for derivatives with respect to them.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ContactUnknowns {
     /// Contact force `λ` on the master; `-λ` acts on the slave [force].
     pub force: Vec2,
-    /// Couple of the contact: `η`, or `χ` with a kink. The forces `Δξ D_i η` or `D_i χ` on the master balance the angular momentum [force].
+    /// Couple of the contact: `η`, or with a kink `χ`. The forces `Δξ D_i η` or `D_i χ` on the master balance the angular momentum [force].
     pub couple: Vec2,
-    /// Increment `Δξ` of the position of the slave along the parameter of the master in the step [-].
+    /// Increment `Δξ` in the step of the position of the slave, measured by the parameter of the master [-].
     pub increment: f64,
 }
 
-/// Unit vectors of the axes [-], which extract components by dot products.
+/// Unit vectors of the axes [-]. A scalar product with them gives a component.
 pub(super) const AXES: [Vec2; 2] = [Vec2::new(1.0, 0.0), Vec2::new(0.0, 1.0)];
 
 const NONE: ContactUnknowns =
@@ -29,7 +29,7 @@ impl ContactUnknowns {
         NONE
     }
 
-    /// Unknowns from a vector: `λ` and `η` with two components each, and `Δξ`.
+    /// Creates the unknowns from a vector: `λ` and `η` with two components each, then `Δξ`.
     pub fn of([force_x, force_y, couple_x, couple_y, increment]: [f64; CONTACT_UNKNOWNS]) -> Self {
         Self {
             force: Vec2::new(force_x, force_y),
@@ -38,30 +38,31 @@ impl ContactUnknowns {
         }
     }
 
-    /// Unknowns as a vector: `λ` and `η` with two components each, and `Δξ`.
+    /// Returns the unknowns as a vector: `λ` and `η` with two components each, then `Δξ`.
     pub fn to_array(&self) -> [f64; CONTACT_UNKNOWNS] {
         [self.force.x, self.force.y, self.couple.x, self.couple.y, self.increment]
     }
 }
 
-/// Position or direction on the path of a slave along its master, with its derivative with respect to the end `ξ1` of the path [length].
+/// Position or direction on the path of a slave along its master, with its derivative with respect to the parameter `ξ1` at the end of the path
+/// [length].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PathVector {
     /// Place or direction [length].
     pub value: Vec2,
-    /// Derivative with respect to the end `ξ1` of the path [length].
+    /// Derivative with respect to the parameter `ξ1` at the end of the path [length].
     pub by_end: Vec2,
 }
 
-/// Kink of the master axis under the contact force, which the mesh does not represent. The axis has an offset `g a`, where `a = p/GA` is the jump of
-/// its tangent.
+/// Kink of the axis of a master under the contact force, which the mesh does not represent. The axis is displaced by `g a`, where `a = p/GA` is the
+/// jump of its tangent.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Kink {
-    /// Kink length `g` of the master along the path of the slave [length].
+    /// Kink length `g` of the master, as a function along the path of the slave [length].
     pub along: FunctionOnPath,
     /// Compliance `1/GA` of the master [1/force].
     pub compliance: f64,
-    /// Jump of the tangent at the start of the step, as the force `p0 = GA a0` that causes it statically [force].
+    /// Jump of the tangent at the start of the step. It is given by the force `p0 = GA a0` that would cause it statically [force].
     pub before: Vec2,
     /// Motion of the kink along the master.
     pub motion: KinkMotion,
@@ -70,46 +71,49 @@ pub struct Kink {
 /// Kink of a master at the end of a step.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct KinkState {
-    /// Jump of the tangent, as the force `p = GA a` that causes it statically [force].
+    /// Jump of the tangent, given by the force `p = GA a` that would cause it statically [force].
     pub jump: Vec2,
-    /// Speed `v` along the undeformed axis of the master [length/time].
+    /// Speed `v` of the kink along the undeformed axis of the master [length/time].
     pub speed: f64,
 }
 
-/// Motion of a kink along its master in a step. With a speed `v` along the undeformed axis it has the kinetic energy `½ ρA g |a|² v²`.
+/// Motion of a kink along its master in a step. A kink with the speed `v` along the undeformed axis has the kinetic energy `½ ρA g |a|² v²`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct KinkMotion {
-    /// Arc length `s` of the undeformed master along the path of the slave [length].
+    /// Arc length `s` of the undeformed master, as a function along the path of the slave [length].
     pub arc: FunctionOnPath,
     /// Speed `v0` at the start of the step [length/time].
     pub speed: f64,
-    /// `μ ρA/GA`: the inverse square of the shear wave speed, times the correction `μ` of the mesh [time²/length²].
+    /// Factor `μ ρA/GA`: the inverse square of the shear wave speed, times the correction factor `μ` of the mesh [time²/length²].
     pub inverse_square_speed: f64,
     /// Duration `Δt` of the step [time].
     pub duration: f64,
 }
 
-/// Kinematics of a sliding contact in a step. Positions are relative to the position of the slave at the start of the step.
+/// Kinematics of a sliding contact in a step. All positions are relative to the position of the slave at the start of the step.
 ///
-/// All laws have the same forces: `-λ` on the slave, and on control point `i` of the master `B̄_i λ - Δξ D_i η`, or `B̄_i λ - D_i χ` with a kink.
+/// All laws have the same forces: `-λ` on the slave, and on control point `i` of the master `B̄_i λ - Δξ D_i η`, or with a kink `B̄_i λ - D_i χ`.
 #[derive(Debug, Clone, Copy)]
 pub struct Contact<'a> {
     /// Path of the slave along the master.
     pub path: &'a ContactPath,
-    /// Control points of the master in the window of the path, relative to the slave, and their increments in the step [length].
+    /// Control points of the master whose basis functions are nonzero on the path, relative to the slave, and their increments in the step
+    /// [length].
     pub master: (&'a [Vec2], &'a [Vec2]),
     /// Increment `Δx_s` of the slave in the step [length].
     pub slave_movement: Vec2,
-    /// Unknowns of the contact: `λ` [force], `η` [force] and `Δξ` [-].
+    /// Unknowns of the contact: `λ` [force], `η` or `χ` [force], and `Δξ` [-].
     pub unknowns: ContactUnknowns,
-    /// Kink of the axis of the master under the contact force; `None` with sliding laws that have no kink.
+    /// Kink of the axis of the master under the contact force; `None` for sliding laws without a kink.
     pub kink: Option<Kink>,
-    /// Length of the master per unit of parameter, which scales the equations [length].
+    /// Friction along the master; `None` without friction.
+    pub friction: Option<Friction<'a>>,
+    /// Length of the master divided by its parameter range. The equations are scaled by it [length].
     pub length: f64,
 }
 
 impl Contact<'_> {
-    /// `Σ w_i (x_i0 + share Δx_i)`
+    /// Sum `Σ w_i (x_i0 + share Δx_i)` over the control points of the master.
     #[inline]
     fn sum(&self, weights: &[f64], share: f64) -> Vec2 {
         let (before, moved) = self.master;
@@ -117,73 +121,74 @@ impl Contact<'_> {
         weights.iter().zip(points).map(|(w, (x, moved))| (x + moved * share) * *w).sum()
     }
 
-    /// `Σ w_i Δx_i`
+    /// Sum `Σ w_i Δx_i` over the control points of the master.
     #[inline]
     fn movement(&self, weights: &[f64]) -> Vec2 {
         let (_, moved) = self.master;
         weights.iter().zip(moved).map(|(w, moved)| moved * *w).sum()
     }
 
-    /// Gap between master and slave at the start of the step, `Σ B_i(ξ0) x_i0` relative to the slave [length].
+    /// Gap from slave to master at the start of the step: `Σ B_i(ξ0) x_i0`, relative to the slave [length].
     pub fn start_gap(&self) -> Vec2 {
         self.sum(self.path.start(), 0.0)
     }
 
-    /// Mean tangent `Σ D_i x_i0` of the path on the master at the start of the step [length].
+    /// Mean tangent `Σ D_i x_i0` of the path, in the configuration of the master at the start of the step [length].
     pub fn start_tangent(&self) -> PathVector {
         let value = self.sum(self.path.difference(), 0.0);
         PathVector { value, by_end: self.sum(self.path.change(), 0.0) }
     }
 
-    /// Position `Σ B_i(ξ1) x_i1` on the master at the end of the path and the step [length].
+    /// Position `Σ B_i(ξ1) x_i1` on the master at the end of the path and at the end of the step [length].
     #[inline]
     pub fn end_point(&self) -> PathVector {
         let value = self.sum(self.path.end(), 1.0);
         PathVector { value, by_end: self.sum(self.path.slope(), 1.0) }
     }
 
-    /// Outward force of the slave at the end of the step: `λ·x'(ξ1)` times the sign of `dξ` towards an end [force·length].
+    /// Component `λ·x'(ξ1)` of the contact force along the master at the end of the step, positive if the slave pushes outwards at an end
+    /// [force·length]. `outward` is the sign of `dξ` towards this end.
     pub fn outward_push(&self, outward: f64) -> f64 {
         self.unknowns.force.dot(&self.end_point().by_end) * outward
     }
 
-    /// Sum `Σ ∂D_i/∂ξ1 x_i1` at the end of the step; half the second derivative for a path of zero length [length].
+    /// Sum `Σ ∂D_i/∂ξ1 x_i1` at the end of the step [length]. For a path of zero length it is half the second derivative.
     pub(super) fn end_bend(&self) -> Vec2 {
         self.sum(self.path.change(), 1.0)
     }
 
-    /// Position `Σ B̄_i x̄_i` on the master, averaged over the sliding path and over the step [length].
+    /// Position `Σ B̄_i x̄_i` on the master, averaged over the path and over the step [length].
     pub fn mean_point(&self) -> PathVector {
         let value = self.sum(self.path.mean(), 0.5);
         PathVector { value, by_end: self.sum(self.path.slope(), 0.5) * 0.5 }
     }
 
-    /// Mean tangent `τ = Σ D_i x̄_i` of the path in the mean configuration of the master [length].
+    /// Mean tangent `τ = Σ D_i x̄_i` of the path, in the mean configuration of the master [length].
     #[inline]
     pub fn tangent(&self) -> PathVector {
         let value = self.sum(self.path.difference(), 0.5);
         PathVector { value, by_end: self.sum(self.path.change(), 0.5) }
     }
 
-    /// Swing `d = ¼ Σ D_i Δx_i` of the master along the path: a quarter of the change of its tangent [length].
+    /// Quarter of the change in the step of the tangent of the path, `d = ¼ Σ D_i Δx_i` [length].
     #[inline]
     pub fn tangent_change(&self) -> PathVector {
         let value = self.movement(self.path.difference()) * 0.25;
         PathVector { value, by_end: self.movement(self.path.change()) * 0.25 }
     }
 
-    /// First control point of the master in the window of the path.
+    /// First control point of the master whose basis function is nonzero on the path.
     pub fn first(&self) -> usize {
         self.path.first()
     }
 
-    /// Factor of the couple in the forces on the master: the sliding increment `Δξ`. With a kink it is 1, because then the offset of the slave is a
-    /// moment arm even for a path of zero length.
+    /// Factor of the couple in the forces on the master: the sliding increment `Δξ`, or 1 with a kink. With a kink, the displacement of the axis is
+    /// a moment arm even if the path has zero length.
     fn couple_factor(&self) -> f64 {
         self.kink.map_or(self.unknowns.increment, |_| 1.0)
     }
 
-    /// Contact forces on the control points of the master in the window of the path [force].
+    /// Contact forces on the control points of the master whose basis functions are nonzero on the path [force].
     pub fn master_forces(&self) -> impl Iterator<Item = Vec2> + '_ {
         let ContactUnknowns { force, couple, .. } = self.unknowns;
         let share = self.couple_factor();
@@ -191,7 +196,8 @@ impl Contact<'_> {
         weights.map(move |(mean, difference)| force * *mean - couple * (share * difference))
     }
 
-    /// Derivatives of the contact forces on the control points of the master: factors with respect to `λ` and `η`, and a force with respect to `Δξ`.
+    /// Derivatives of the contact forces on the control points of the master: a factor with respect to `λ`, a factor with respect to `η`, and a
+    /// vector with respect to `Δξ`.
     pub fn master_force_slopes(&self) -> impl Iterator<Item = (f64, f64, Vec2)> + '_ {
         let ContactUnknowns { force, couple, .. } = self.unknowns;
         let share = self.couple_factor();
@@ -206,14 +212,14 @@ impl Contact<'_> {
         })
     }
 
-    /// Weights `B_i(ξ1)`, `B̄_i` and `D_i` of the control points of the master in the window of the path [-].
+    /// Weights `B_i(ξ1)`, `B̄_i` and `D_i` of the control points of the master whose basis functions are nonzero on the path [-].
     pub fn weights(&self) -> impl Iterator<Item = (f64, f64, f64)> + '_ {
         let mean_and_difference = self.path.mean().iter().zip(self.path.difference());
         let weights = self.path.end().iter().zip(mean_and_difference);
         weights.map(|(end, (mean, difference))| (*end, *mean, *difference))
     }
 
-    /// Equations of a closed gap at the end of the step: `x_s1 = Σ B_i(ξ1) x_i1` (Sibileau & Muñoz, equation 15).
+    /// Equations of a closed gap at the end of the step, `x_s1 = Σ B_i(ξ1) x_i1` (Sibileau & Muñoz, equation 15).
     pub(super) fn closed(&self) -> [Equation; 2] {
         let point = self.end_point();
         let gap = self.slave_movement - point.value;
@@ -225,8 +231,9 @@ impl Contact<'_> {
         })
     }
 
-    /// Equations of a closed gap on a kinked axis at the end of the step: `x_s1 = Σ B_i(ξ1) x_i1 + g1 p1/GA`, where `factor` is the derivative of the
-    /// force `p1` with respect to the contact force. Without a kink, they are the equations of [`closed`](Self::closed).
+    /// Equations of a closed gap to a kinked axis at the end of the step, `x_s1 = Σ B_i(ξ1) x_i1 + g1 p1/GA`. The force of the kink `p1` is the
+    /// argument `force`, and `factor` its derivative with respect to the contact force. Without a kink, they are the equations of
+    /// [`closed`](Self::closed).
     pub(super) fn closed_on_kink(&self, force: Vec2, factor: f64) -> [Equation; 2] {
         let mut equations = self.closed();
         if let Some(kink) = &self.kink {
@@ -264,7 +271,7 @@ impl Contact<'_> {
         }
     }
 
-    /// Equation `λ·direction/ℓ = 0` of a frictionless contact, for a direction that does not depend on the master.
+    /// Equation `λ·direction/ℓ = 0` of a contact without friction. The given direction must not depend on the control points of the master.
     pub(super) fn frictionless(&self, direction: PathVector) -> Equation {
         let (force, scale) = (self.unknowns.force, 1.0 / self.length);
         let way = force.dot(&direction.by_end) * scale;

@@ -1,4 +1,4 @@
-//! Dual numbers (forward differentiation) with the derivatives needed in the equations of a contact.
+//! Dual numbers, which carry the derivatives that the equations of a contact need (forward differentiation).
 
 use std::ops::{Add, Mul, Neg, Sub};
 
@@ -6,10 +6,12 @@ use super::contact::PathVector;
 use super::{Contact, ContactUnknowns, Equation, Unit};
 use crate::geometry::Vec2;
 
-/// Number of derivatives: offset of the slave, tangent, swing, `λ`, couple and sliding increment.
+/// Number of derivatives. The variables are the displacement of the slave from the smooth axis, mean tangent, quarter tangent change, `λ`, couple
+/// and sliding increment.
 pub(super) const ALL_SLOPES: usize = 11;
 
-/// Number of derivatives of plain values. They are computed by the same operations as dual numbers, so both give the same bits.
+/// Number of derivatives of values without derivatives. They are computed by the same operations as dual numbers, so that both values agree to the
+/// last bit.
 pub(super) const NO_SLOPES: usize = 0;
 
 const OFFSET: usize = 0;
@@ -19,8 +21,8 @@ const FORCE: usize = 6;
 const COUPLE: usize = 8;
 const WAY: usize = 10;
 
-/// Number with its derivatives with respect to the offset of the slave from the smooth axis, the mean tangent `τ`, the swing `d`, the force `λ`, the
-/// couple, and the sliding increment `Δξ`. There are [`ALL_SLOPES`] or [`NO_SLOPES`] of them.
+/// Number with its derivatives with respect to: the displacement of the slave from the smooth axis, the mean tangent `τ`, the quarter tangent
+/// change `d`, the force `λ`, the couple, and the sliding increment `Δξ`. There are [`ALL_SLOPES`] or [`NO_SLOPES`] derivatives.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Dual<const SLOPES: usize> {
     pub value: f64,
@@ -35,11 +37,11 @@ pub(super) struct DualVector<const SLOPES: usize> {
 
 #[derive(Debug, Clone, Copy)]
 pub(super) struct ContactDuals<const SLOPES: usize> {
-    /// Offset of the slave from the smooth axis at the end of the step, `x_s1 - Σ B_i(ξ1) x_i1` [length].
+    /// Displacement of the slave from the smooth axis at the end of the step, `x_s1 - Σ B_i(ξ1) x_i1` [length].
     pub offset: DualVector<SLOPES>,
-    /// Mean tangent `τ` [length].
+    /// Mean tangent `τ` of the path [length].
     pub tangent: DualVector<SLOPES>,
-    /// Swing `d` [length].
+    /// Quarter `d` of the change of the tangent in the step [length].
     pub tangent_change: DualVector<SLOPES>,
     /// Contact force `λ` on the master [force].
     pub force: DualVector<SLOPES>,
@@ -71,7 +73,7 @@ impl<const SLOPES: usize> Dual<SLOPES> {
         Self { value, slopes: [0.0; SLOPES] }
     }
 
-    /// Number that depends on the path only, with its derivative.
+    /// Number that depends only on the end of the path, with its derivative.
     pub fn path_dual(value: f64, by_way: f64) -> Self {
         let mut jet = Self::constant(value);
         jet.add_slope(WAY, by_way);
@@ -178,12 +180,12 @@ impl<const SLOPES: usize> DualVector<SLOPES> {
         self.x * other.y - self.y * other.x
     }
 
-    /// Vector rotated by a right angle, `J a`.
+    /// Vector `J a`, rotated by a right angle.
     pub fn turned(&self) -> Self {
         Self { x: -self.y, y: self.x }
     }
 
-    /// Vector `p` with `a·p = α` and `b·p = β`.
+    /// Vector `p` that satisfies `a·p = α` and `b·p = β`.
     pub fn with_products([a, b]: [Self; 2], [alpha, beta]: [Dual<SLOPES>; 2]) -> Self {
         let determinant = a.cross(&b).inverse();
         (a.turned() * beta - b.turned() * alpha) * determinant

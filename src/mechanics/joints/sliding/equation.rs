@@ -1,4 +1,4 @@
-//! Equation of a contact with its derivatives.
+//! Equation of a sliding contact, with its derivatives.
 
 use super::ContactUnknowns;
 use crate::geometry::Vec2;
@@ -32,7 +32,7 @@ pub struct Equation {
 }
 
 impl Equation {
-    /// Equation `value = 0` without derivatives.
+    /// Creates the equation `value = 0` with zero derivatives.
     pub(super) fn new(value: f64, unit: Unit) -> Self {
         Self {
             value,
@@ -45,7 +45,7 @@ impl Equation {
         }
     }
 
-    /// Derivative with respect to the increment of a control point of the master with these `B_i(ξ1)`, `B̄_i` and `D_i`.
+    /// Derivative with respect to the increment of a control point of the master. The argument contains its weights `B_i(ξ1)`, `B̄_i` and `D_i`.
     pub fn by_master(&self, (end, mean, difference): (f64, f64, f64)) -> Vec2 {
         self.by_end * end + self.by_mean * mean + self.by_difference * difference
     }

@@ -1,14 +1,14 @@
-//! Sliding rule of equation 17 of Sibileau & Muñoz: the gap is closed, angular momentum is not conserved.
+//! Sliding rule of equation 17 of Sibileau & Muñoz. The gap is closed; angular momentum is not conserved.
 
 use super::{CONTACT_UNKNOWNS, Contact, Equation, SlidingLaw};
 
-/// Exact law of sliding: the gap is closed at the end of every step. Energy and linear momentum are conserved, angular momentum is not.
+/// Exact law of sliding. The gap is closed at the end of every step. Energy and linear momentum are conserved, angular momentum is not.
 ///
 /// ```text
 /// x_s1 = Σ B_i(ξ1) x_i1          λ·τ = 0          η = 0
 /// ```
 ///
-/// Sibileau & Muñoz, equations 15 and 17, with the divided difference `D_i` in place of `B_i'(ξ1)`, which makes the energy exact.
+/// The law is that of Sibileau & Muñoz, equations 15 and 17. The divided difference `D_i` replaces `B_i'(ξ1)`, so that energy is conserved exactly.
 #[derive(Debug, Clone, Copy)]
 pub struct Exact;
 

@@ -1,11 +1,11 @@
-//! Law of a slider whose kink is fixed for a step.
+//! Law of a slider on a master whose kink is kept constant in a step.
 
 use super::dual::{ContactDuals, Dual, DualVector, NO_SLOPES};
 use super::kink_on_path::{KinkOnPath, vanish};
 use super::{CONTACT_UNKNOWNS, Conserving, Contact, Equation, Kink, KinkState, SlidingLaw};
 
-/// Law of a slider on a master with a kink that only rotates with the master and does not depend on the contact force. Energy, linear and angular
-/// momentum, and the gap to the kinked axis are conserved for any step size.
+/// Law of a slider on a master with a kink that rotates with the master but does not depend on the contact force. The gap to the kinked axis is
+/// closed, and energy, linear and angular momentum are conserved for any step size.
 ///
 /// ```text
 /// x_s1 = Σ B_i(ξ1) x_i1 + g1 a1          a1 = (1 - q J)⁻¹ (1 + q J) a0          q = 2 Jτ·d/|τ|²
@@ -13,7 +13,7 @@ use super::{CONTACT_UNKNOWNS, Conserving, Contact, Equation, Kink, KinkState, Sl
 /// (λ - (Δπ/Δt) e)·w = κ ½ GA |a|² Δg/Δξ  w = τ - 2 q J d + (Δg/Δξ) (1 + q J) a0
 /// ```
 ///
-/// with `π`, `e` and `v1` of the law [`Kinked`](super::Kinked), and `κ = 1 - ρA v0 v1/GA`. Derived in docs/theory.md, section 10.1.
+/// Here `π`, `e` and `v1` are those of the law [`Kinked`](super::Kinked), and `κ = 1 - ρA v0 v1/GA`. Derivation: docs/theory.md, section 10.1.
 #[derive(Debug, Clone, Copy)]
 pub struct Frozen;
 
@@ -33,18 +33,18 @@ impl SlidingLaw for Frozen {
     }
 }
 
-/// Fixed kink in an iterate of a step.
+/// Quantities of the kink in an iterate of a step.
 struct FrozenInStep<const SLOPES: usize> {
     on_path: KinkOnPath<SLOPES>,
-    /// Direction `w` of the path [length].
+    /// Vector `w` along the path [length].
     direction: DualVector<SLOPES>,
     /// Speed `v1` of the kink along the master at the end of the step [length/time].
     speed: Dual<SLOPES>,
     /// Force `p1 = GA a1` of the jump `a1` of the tangent at the end of the step [force].
     jump: DualVector<SLOPES>,
-    /// Inertia force of the kink, `(Δπ/Δt) e` [force].
+    /// Inertia force of the kink: `(Δπ/Δt) e` [force].
     inertia: DualVector<SLOPES>,
-    /// Change of the kink energy per unit of path [force·length].
+    /// Change of the energy of the kink divided by the sliding increment [force·length].
     energy_slope: Dual<SLOPES>,
 }
 

@@ -1,9 +1,9 @@
-//! Slider held at the stop at an end of its master.
+//! Law of a slider that a stop holds at an end of its master.
 
 use super::{CONTACT_UNKNOWNS, Contact, Equation, KinkState, SlidingLaw};
 use crate::geometry::Vec2;
 
-/// Law of a held slider: the slave is hinged to the master at the end, including its kink: `x_s1 = Σ B_i(ξ1) x_i1`, `Δξ = 0`, `η = 0`.
+/// Law of a held slider. The slave is hinged to the end of the master, including its kink: `x_s1 = Σ B_i(ξ1) x_i1`, `Δξ = 0`, `η = 0`.
 #[derive(Debug, Clone, Copy)]
 pub struct HeldSlider;
 
@@ -19,7 +19,7 @@ impl SlidingLaw for HeldSlider {
     }
 }
 
-/// Force `p1 = 2 λ - p0` of the kink of a master for a slider that does not move along it [force].
+/// Force `p1 = 2 λ - p0` that would cause the kink at the end of the step, for a slider that does not move along its master [force].
 fn jump_at_end(contact: &Contact<'_>) -> Vec2 {
     let before = contact.kink.as_ref().map_or(Vec2::zeros(), |kink| kink.before);
     contact.unknowns.force * 2.0 - before

@@ -1,30 +1,30 @@
-//! Kink on the path of its slider: common part of the laws of kinked axes.
+//! Kink on the path of a slider: common part of the laws for masters with a kink.
 
 use super::dual::{ALL_SLOPES, ContactDuals, Dual, DualVector};
 use super::{CONTACT_UNKNOWNS, Contact, Equation, Kink, Unit};
 use crate::elementary::square;
 
-/// Path-dependent part of a kink in an iterate.
+/// Quantities of a kink that depend on the path, in an iterate.
 pub(super) struct KinkOnPath<const SLOPES: usize> {
     /// Kink length `g1` at the end of the path [length].
     pub length: Dual<SLOPES>,
-    /// `Δg/Δξ` [length].
+    /// Divided difference `Δg/Δξ` of the kink length [length].
     pub difference: Dual<SLOPES>,
-    /// `Δs/Δξ` [length].
+    /// Divided difference `Δs/Δξ` of the arc length [length].
     pub stretch: Dual<SLOPES>,
-    /// `1/|τ|²` [1/length²].
+    /// Factor `1/|τ|²` [1/length²].
     pub over_square: Dual<SLOPES>,
-    /// Offset of the slave from the smooth axis at the start of the step, `g0 a0` [length].
+    /// Displacement of the slave from the smooth axis at the start of the step, `g0 a0` [length].
     pub offset_before: DualVector<SLOPES>,
     /// Mean vector `r` from the contact point of the master to the slave [length].
     pub arm: DualVector<SLOPES>,
 }
 
-/// Units of the equations of a contact with a kinked axis.
+/// Units of the equations of a contact on a master with a kink.
 pub(super) const UNITS: [Unit; CONTACT_UNKNOWNS] =
     [Unit::Length, Unit::Length, Unit::Force, Unit::Force, Unit::Force];
 
-/// Equations that set these values to zero, with the units [`UNITS`].
+/// Equations that require these values to be zero. Their units are [`UNITS`].
 pub(super) fn vanish(
     numbers: [Dual<ALL_SLOPES>; CONTACT_UNKNOWNS],
 ) -> [Equation; CONTACT_UNKNOWNS] {
@@ -45,8 +45,8 @@ impl<const SLOPES: usize> KinkOnPath<SLOPES> {
         }
     }
 
-    /// Residuals of a contact with a kink `jump` [force] at the end of the step: gap to the kinked axis, moment balance, and force balance along the
-    /// path [force·length].
+    /// Values of the equations of a contact with a kink `jump` [force] at the end of the step: gap to the kinked axis, moment balance, and force
+    /// balance along the path. `balance` is the force balance [force·length].
     pub fn imbalances(
         &self,
         (contact, kink): (&Contact<'_>, &Kink),

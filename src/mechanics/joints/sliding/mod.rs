@@ -1,13 +1,14 @@
-//! Laws of sliding joints: closure of the contact, and the sliding equation.
+//! Laws of sliding joints: equations of a closed gap, and equations of sliding.
 //!
-//! A step has, for each slider, the contact force `λ` on the master, the couple force `η` and the sliding increment `Δξ` as unknowns. All laws apply
-//! the same forces to slave and master (see [`Contact`]) and differ in the five equations for these unknowns.
+//! In a step, each slider has the unknowns contact force `λ` on the master, couple `η` and sliding increment `Δξ`. All laws apply the same forces
+//! to slave and master (see [`Contact`]). They differ in the five equations for these unknowns.
 
 mod conserving;
 mod contact;
 mod dual;
 mod equation;
 mod exact;
+mod friction;
 mod frozen;
 mod held;
 mod kink_on_path;
@@ -24,6 +25,7 @@ pub use contact::{
 };
 pub use equation::{Equation, Unit};
 pub use exact::Exact;
+pub use friction::{Friction, FrictionForces, FrictionMode};
 pub use frozen::Frozen;
 pub use held::HeldSlider;
 pub use kinked::Kinked;

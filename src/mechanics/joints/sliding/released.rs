@@ -1,8 +1,8 @@
-//! Slider that has left its master.
+//! Law of a slider that has left its master.
 
 use super::{CONTACT_UNKNOWNS, Contact, Equation, SlidingLaw};
 
-/// Law of a released slider: no force and no constraint, `λ = 0`, `η = 0`, `Δξ = 0`.
+/// Law of a released slider, without force and constraint: `λ = 0`, `η = 0`, `Δξ = 0`.
 #[derive(Debug, Clone, Copy)]
 pub struct Released;
 

@@ -1,21 +1,21 @@
 //! Static laws of sliders.
 //!
-//! A static contact is a contact with a path of zero length at `ξ1`, on the master in its final configuration.
+//! A static contact is treated as a contact with a path of zero length at `ξ1`, on the master in its final configuration.
 
 use super::{CONTACT_UNKNOWNS, Contact, Equation, SlidingLaw};
 use crate::geometry::Vec2;
 
-/// Static law of a frictionless slider, which makes the potential energy `λ·(x_s - Σ B_i(ξ) x_i) - ½ g(ξ) |λ|²/GA` of its contact stationary:
+/// Static law of a slider without friction. The potential energy of its contact, `λ·(x_s - Σ B_i(ξ) x_i) - ½ g(ξ) |λ|²/GA`, is stationary:
 ///
 /// ```text
 /// x_s = Σ B_i(ξ) x_i + g(ξ) λ/GA          λ·x'(ξ) + ½ g'(ξ) |λ|²/GA = 0          η = 0
 /// ```
 ///
-/// Without a [`Kink`](super::Kink), `g = 0`. Derived in docs/theory.md, section 14.
+/// Without a [`Kink`](super::Kink), `g = 0`. Derivation: docs/theory.md, section 14.
 #[derive(Debug, Clone, Copy)]
 pub struct Resting;
 
-/// Static law of a slider held at the stop at an end of its master: `x_s = Σ B_i(ξ) x_i` at that end, with the kink of the master.
+/// Static law of a slider that a stop holds at an end of its master, including the kink of the master: `x_s = Σ B_i(ξ) x_i` at that end.
 #[derive(Debug, Clone, Copy)]
 pub struct AtStop {
     /// Sliding increment `Δξ` to the end [-].
@@ -40,7 +40,7 @@ impl SlidingLaw for AtStop {
     }
 }
 
-/// `(λ·x'(ξ) + ½ g'(ξ) |λ|²/GA)/ℓ = 0`: the contact does no work in displacements of the slave along the master.
+/// Equation `(λ·x'(ξ) + ½ g'(ξ) |λ|²/GA)/ℓ = 0`: the contact does no work if the slave moves along the master.
 fn not_driven(contact: &Contact<'_>) -> Equation {
     let (force, scale) = (contact.unknowns.force, 1.0 / contact.length);
     let tangent = contact.end_point().by_end;
@@ -63,8 +63,8 @@ impl Contact<'_> {
         self.path.end().iter().map(|value| self.unknowns.force * *value)
     }
 
-    /// Derivatives of the static contact forces `B_i(ξ) λ` on the control points of the master: factors with respect to `λ` and `η`, and a force with
-    /// respect to `Δξ`.
+    /// Derivatives of the static contact forces `B_i(ξ) λ` on the control points of the master: a factor with respect to `λ`, a factor with respect
+    /// to `η`, and a vector with respect to `Δξ`.
     pub fn master_force_slopes_at_rest(&self) -> impl Iterator<Item = (f64, f64, Vec2)> + '_ {
         let force = self.unknowns.force;
         let weights = self.path.end().iter().zip(self.path.slope());

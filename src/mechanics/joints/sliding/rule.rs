@@ -1,10 +1,10 @@
-//! Registry of the sliding rules with their claims, used by tests and help.
+//! List of the sliding rules and their claims, used by tests and help.
 
 use serde::{Deserialize, Serialize};
 
 use super::{Conserving, Exact, Kinked, Relaxed, SlidingLaw};
 
-/// Selection of the law that keeps a slider on its master.
+/// Sliding rule, which selects the law that keeps a slider on its master.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 pub enum SlidingRule {
     /// [`Relaxed`]: the contact is closed on average over each step.
@@ -14,18 +14,18 @@ pub enum SlidingRule {
     /// [`Conserving`]: the contact is closed at the end of each step; energy and momenta are conserved.
     #[default]
     Conserving,
-    /// [`Kinked`]: the contact is closed on the kinked axis at the end of each step; energy and momenta are conserved.
+    /// [`Kinked`]: the contact is closed on the axis with its kink at the end of each step; energy and momenta are conserved.
     Kinked,
 }
 
-/// Quantities that a law conserves to rounding, with an integrator that conserves them without sliders. All laws conserve linear momentum.
+/// Quantities that a law conserves to rounding, if the integrator conserves them in scenes without sliders. All laws conserve linear momentum.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct RuleClaims {
     /// True if the energy is conserved.
     pub energy: bool,
     /// True if angular momentum is conserved.
     pub angular_momentum: bool,
-    /// True if the slave is on the master at the end of every step.
+    /// True if the slave is exactly on the master at the end of every step.
     pub gap: bool,
 }
 
@@ -36,11 +36,11 @@ pub struct RuleEntry {
     pub rule: SlidingRule,
     /// Name in scripts and reports.
     pub name: &'static str,
-    /// Recommended use in a sentence.
+    /// Recommended use as a sentence.
     pub summary: &'static str,
     /// Claims of the law.
     pub claims: RuleClaims,
-    /// Reference.
+    /// Reference to the literature.
     pub source: &'static str,
 }
 

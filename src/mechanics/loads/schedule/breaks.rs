@@ -1,10 +1,10 @@
-//! Breaks of schedules: jumps and kinks.
+//! Breaks of schedules: times of jumps and kinks.
 
 use super::Schedule;
 use crate::loads::SampleClock;
 
 impl Schedule {
-    /// Times of jumps and kinks, at which steps should end.
+    /// Times of jumps and kinks. Steps should end there.
     pub fn breaks(&self) -> Vec<f64> {
         match self {
             Self::Constant(_)
@@ -18,8 +18,8 @@ impl Schedule {
         }
     }
 
-    /// Clock of a digital controller; `None` for other schedules. Steps should end at its samples and actions. Controllers cannot be combined with
-    /// other schedules.
+    /// Clock of a digital controller; `None` for other schedules. Steps should end at its samples and when its commands start to act. Controllers
+    /// cannot be combined with other schedules.
     pub(crate) fn sample_clock(&self) -> Option<SampleClock> {
         if let Self::DigitalController { clock, .. } = self { Some(*clock) } else { None }
     }

@@ -1,9 +1,9 @@
 //! Means of schedules over steps.
 //!
-//! Between breaks, constants and tables are polynomials, which three Gauss points integrate exactly. Sines, smooth pulses and their products with
-//! each other and with tables are sums of `p(x) cos(κ x + φ)`, which are integrated in closed form. All other schedules are sampled at five points,
-//! by two rules: three Gauss points, and their middle point with two additional points. Both rules are exact for cubics, so that their difference
-//! shows what the samples miss.
+//! Between breaks, constants and tables are polynomials, which three Gauss points integrate exactly. Sines, smooth pulses, and their products with
+//! each other and with tables are sums of terms `p(x) cos(κ x + φ)` with a polynomial `p`. They are integrated in closed form. All other schedules
+//! are sampled at five points. Two rules use them: three Gauss points, and the middle point with two additional points. Both rules are exact for
+//! cubic polynomials, so their difference shows what the samples miss.
 
 use super::{GAUSS, LimitSide, LoadError, Operation, Schedule, table_value};
 use crate::elementary::{cos, sin};
@@ -14,32 +14,32 @@ use std::f64::consts::TAU;
 pub struct StepMean {
     /// Mean factor [-].
     pub mean: f64,
-    /// Difference between two rules for the mean; zero if it is exact [-].
+    /// Difference between the two rules [-]; zero if the mean is exact.
     pub sampling_error: f64,
     /// Largest absolute value of the samples [-].
     pub largest: f64,
 }
 
-/// Highest degree that three Gauss points integrate exactly.
+/// Highest degree of a polynomial that three Gauss points integrate exactly.
 const EXACT_DEGREE: usize = 5;
 
-/// Distance of the additional points from the middle, on [-1, 1]. Points at the ends would include jumps there, on which the mean does not depend.
+/// Distance of the additional points from the middle, on [-1, 1]. Points at the ends would see jumps at the ends, which do not affect the mean.
 const OUTER: f64 = 0.96;
 
-/// Weight of each additional point in a rule with the middle point that is exact for cubics.
+/// Weight of each additional point. The rule of these points and the middle point is exact for cubic polynomials.
 const OUTER_WEIGHT: f64 = 1.0 / (6.0 * OUTER * OUTER);
 
-/// Largest number of waves in a closed form. Products with more waves are sampled.
+/// Largest number of terms in a closed form. Products with more terms are sampled.
 const MOST_WAVES: usize = 64;
 
-/// Largest degree of a product of tables in the closed form.
+/// Largest degree of a product of tables that is integrated in closed form.
 const MOST_DEGREE: usize = 4;
 
-/// Terms of the series for moments of slow waves: enough for full accuracy up to a phase of 1.
+/// Number of terms in the power series for slowly oscillating terms. The series is fully accurate up to a phase of 1.
 const TERMS: usize = 10;
 
 impl Schedule {
-    /// Mean factor [-] over a step without an interior break.
+    /// Mean factor [-] over a step. No break may lie inside the step.
     ///
     /// # Errors
     /// Fails if a function fails or a value is not finite.
@@ -95,7 +95,7 @@ impl Schedule {
         Ok(StepMean { mean, sampling_error: (mean - other).abs(), largest })
     }
 
-    /// Returns true if means of the schedule are sampled, so that they may miss fast changes.
+    /// Returns true if means of the schedule are computed from samples, which may miss fast changes.
     pub(crate) fn is_sampled_in_steps(&self) -> bool {
         !self.shape().is_some_and(|shape| shape.suits_points() || shape.suits_waves())
     }
@@ -108,7 +108,7 @@ impl Schedule {
         Ok(values)
     }
 
-    /// Terms between breaks; `None` with a script function.
+    /// Numbers of terms of the closed form between breaks; `None` if there is a script function.
     fn shape(&self) -> Option<Shape> {
         let wave = |waves| Shape { degree: 0, waves, is_polynomial: false };
         match self {
@@ -141,7 +141,7 @@ fn gauss_mean(values: [f64; 3]) -> StepMean {
     found
 }
 
-/// Bounds of the terms of a schedule between breaks.
+/// Upper bounds of the number and degree of the terms that represent a schedule between breaks.
 struct Shape {
     degree: usize,
     waves: usize,
@@ -158,7 +158,7 @@ impl Shape {
     }
 }
 
-/// Product of schedules, as a list on the stack.
+/// Product of schedules, as a linked list in local variables.
 struct Factors<'a> {
     first: &'a Schedule,
     others: Option<&'a Factors<'a>>,
@@ -170,7 +170,7 @@ struct Step {
 }
 
 impl Step {
-    /// Mean of a wave times schedules; `None` without a closed form.
+    /// Mean of a wave multiplied by the schedules `factors`; `None` if there is no closed form.
     fn mean(&self, factors: Option<&Factors>, wave: Wave) -> Option<f64> {
         let Some(Factors { first, others }) = factors else { return Some(wave.mean()) };
         let Self { middle, half } = *self;
@@ -218,7 +218,7 @@ impl Step {
         }
     }
 
-    /// Mean of a wave times `Re(amplitude exp(i turn x))` times schedules.
+    /// Mean of a wave, multiplied by `Re(amplitude exp(i turn x))` and by the schedules `factors`.
     fn mean_of_product(
         &self,
         factors: Option<&Factors>,
@@ -226,7 +226,7 @@ impl Step {
         (amplitude, turn): ([f64; 2], f64),
     ) -> Option<f64> {
         if wave.is_constant() {
-            // Only the real part of a constant counts.
+            // If the wave is constant, only its real part has an effect.
             let [real, _] = wave.amplitude;
             let amplitude = amplitude.map(|part| real * part);
             return self.mean(factors, Wave { amplitude, turn, ..wave });
@@ -238,7 +238,7 @@ impl Step {
     }
 }
 
-/// Value in the middle of a step, and change from there to the end.
+/// Value of a table in the middle of a step, and its change from there to the end of the step.
 fn line(rows: &[(f64, f64)], middle: f64, half: f64) -> [f64; 2] {
     let passed = rows.partition_point(|row| row.0 <= middle);
     let value = table_value(rows, middle, LimitSide::After);
@@ -249,13 +249,13 @@ fn line(rows: &[(f64, f64)], middle: f64, half: f64) -> [f64; 2] {
     [value, slope * half]
 }
 
-/// `p(x) Re(amplitude exp(i turn x))` on [-1, 1].
+/// Function `p(x) Re(amplitude exp(i turn x))` on [-1, 1], with a polynomial `p`.
 #[derive(Clone, Copy)]
 struct Wave {
     /// Coefficients of `p`.
     polynomial: [f64; MOST_DEGREE + 1],
     degree: usize,
-    /// Real and imaginary part.
+    /// Real and imaginary part of the amplitude.
     amplitude: [f64; 2],
     turn: f64,
 }
@@ -294,7 +294,7 @@ impl Wave {
     fn mean(&self) -> f64 {
         let [real, imaginary] = self.amplitude;
         let (sine, cosine) = (sin(self.turn), cos(self.turn));
-        // Half the integral of xᵏ cos (even k) or xᵏ sin (odd k); the others vanish.
+        // Half the integral of xᵏ cos (even k) or xᵏ sin (odd k). The other integrals are zero.
         let mut moment = if self.turn == 0.0 { 1.0 } else { sine / self.turn };
         let mut sum = real * self.polynomial[0] * moment;
         for (power, coefficient) in self.polynomial.iter().enumerate().take(self.degree + 1).skip(1)
@@ -312,7 +312,7 @@ impl Wave {
     }
 }
 
-/// Half the integral over [-1, 1] of `xᵏ cos(turn x)` for even `k`, of `xᵏ sin(turn x)` for odd ones, by its series.
+/// Half the integral over [-1, 1], computed by a power series: of `xᵏ cos(turn x)` for even `k`, of `xᵏ sin(turn x)` for odd `k`.
 fn slow_moment(power: usize, turn: f64) -> f64 {
     let odd = power % 2;
     let (mut term, mut sum) = (if odd == 1 { turn } else { 1.0 }, 0.0);
@@ -333,7 +333,7 @@ mod tests {
         Schedule::combined(Operation::Product, a.clone(), b.clone()).unwrap()
     }
 
-    /// Composite Gauss rule of many parts.
+    /// Mean by a composite Gauss rule with many parts.
     fn by_parts(schedule: &Schedule, start: f64, end: f64) -> f64 {
         let parts = 4000;
         let width = (end - start) / f64::from(parts);

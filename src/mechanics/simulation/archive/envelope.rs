@@ -1,10 +1,10 @@
 //! File envelope: magic number, versions, lengths and checksum.
 //!
 //! ```text
-//! mark       8 bytes    89 "withy" 0D 0A; the first byte is not text, the last two reveal converted line ends
-//! format     u16        little-endian, as all numbers
-//! program    u8, text   length and version of the program that wrote it, for people
-//! length     u64        of the content
+//! mark       8 bytes    89 "withy" 0D 0A; 89 is not text, and 0D 0A reveals a conversion of line ends
+//! format     u16        little-endian like all numbers of the file
+//! program    u8, text   length and text of the version of the program that wrote the file, for information
+//! length     u64        number of bytes of the content
 //! content
 //! checksum   u32        CRC-32 of all preceding bytes
 //! ```
@@ -13,7 +13,7 @@ use super::ArchiveError;
 
 const MAGIC: [u8; 8] = *b"\x89withy\r\n";
 
-/// File format version. Increment it with any change of the stored data.
+/// Version of the file format. It must be incremented with any change of the stored data.
 const FORMAT: u16 = 24;
 
 const PROGRAM: &str = env!("CARGO_PKG_VERSION");

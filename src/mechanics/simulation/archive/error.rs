@@ -18,9 +18,9 @@ pub enum ArchiveError {
     Foreign,
     #[error("the file is truncated: it has {found} of {needed} bytes; use another copy")]
     Truncated {
-        /// Length of the file [bytes].
+        /// Actual length of the file [bytes].
         found: usize,
-        /// Length according to the header, as far as known [bytes].
+        /// Length that the header requires, as far as it could be read [bytes].
         needed: u64,
     },
     #[error(
@@ -37,7 +37,7 @@ pub enum ArchiveError {
     Damaged {
         /// Checksum stored in the file.
         found: u32,
-        /// Checksum of the content.
+        /// Checksum computed from the content.
         right: u32,
     },
     #[error("the file is damaged: {trailing_bytes} bytes follow its end; use another copy")]

@@ -1,4 +1,4 @@
-//! Rewinding to earlier states, and copies of simulations.
+//! Return to earlier states, and copies of simulations.
 
 use std::rc::Rc;
 
@@ -9,8 +9,8 @@ use crate::simulation::{SimulationError, WorkCounts};
 use crate::system::SystemState;
 
 impl Simulation {
-    /// Keeps snapshots after every step within a memory limit in bytes. Beyond the limit, the oldest snapshots are discarded, except the first. A
-    /// limit of zero disables snapshots. A reduced limit applies immediately.
+    /// Stores a snapshot after every step, within a memory limit in bytes. If the limit is exceeded, the oldest snapshots except the first are
+    /// discarded. A limit of zero disables snapshots. A reduced limit applies immediately.
     pub fn enable_snapshots(&mut self, limit: usize) {
         let mut snapshots = std::mem::take(&mut self.snapshots);
         snapshots.set_limit(limit, || self.snapshot(self.model.state()));
@@ -22,15 +22,16 @@ impl Simulation {
         self.snapshots.limit()
     }
 
-    /// Number of snapshots and their memory [bytes].
+    /// Number of snapshots, and the memory that they use [bytes].
     pub fn stored_snapshots(&self) -> (usize, usize) {
         (self.snapshots.count(), self.snapshots.bytes())
     }
 
-    /// Rewinds by a number of steps, bit for bit. Half steps count as steps, as in the history. Cuts of the time grid remain.
+    /// Returns to the state a number of steps earlier, bit for bit. A pair of half steps counts as in the history. Additional end times of steps
+    /// are kept.
     ///
     /// # Errors
-    /// Fails if fewer steps were taken, or the state is not stored.
+    /// Fails if fewer steps have been taken, or the state is not stored.
     pub fn back(&mut self, steps: usize) -> Result<(), SimulationError> {
         let taken = self.progress.counts.steps;
         match taken.checked_sub(steps) {
@@ -39,14 +40,14 @@ impl Simulation {
         }
     }
 
-    /// Rewinds to the end of the last step at or before a time, bit for bit. The present state is included.
+    /// Returns to the end of the last step at or before a time, bit for bit. The present state is a possible result.
     ///
     /// # Errors
     /// Fails if the time is outside the run, or the state is not stored.
     pub fn rewind(&mut self, time: f64) -> Result<(), SimulationError> {
         let (now, slack) = (self.time(), self.slack());
         let begun = self.history().samples().first().map_or(0.0, |row| row.measures.time);
-        // A time of zero denotes the start of the run, which may be later.
+        // A time of zero means the start of the run, which may be at a later time.
         let time = if time.abs() <= slack { begun } else { time };
         if time.is_nan() || time < begun - slack || time > now + slack {
             return Err(SimulationError::OutsideRun { time, start: begun, now });
@@ -65,7 +66,7 @@ impl Simulation {
         }
     }
 
-    /// Number of steps that ended at or before a time, as far as known from history or snapshots.
+    /// Number of steps that ended at or before a time, if history or snapshots contain it.
     fn steps_until(&self, time: f64) -> Option<usize> {
         if self.has_all_rows() {
             let rows = self.record.history.samples();
@@ -74,12 +75,12 @@ impl Simulation {
         Some(self.snapshots.last_until(time, self.progress.counts.steps)?.steps())
     }
 
-    /// Rewinds a dry run by a number of steps, as [`back`](Self::back) does.
+    /// Returns to the state of a dry run a number of steps earlier.
     pub fn dry_run_back(&mut self, steps: usize) {
         self.dry_run_back_to(self.progress.counts.steps.saturating_sub(steps));
     }
 
-    /// Rewinds a dry run to a time, as [`rewind`](Self::rewind) does.
+    /// Returns to the state of a dry run at a time.
     pub fn dry_run_rewind(&mut self, time: f64) {
         self.dry_run_back_to(self.steps_until(time + self.slack()).unwrap_or(0));
     }
@@ -87,7 +88,7 @@ impl Simulation {
     fn dry_run_back_to(&mut self, steps: usize) {
         let Some(first) = self.snapshots.first().map(Snapshot::steps) else { return };
         if self.restore_step(steps.max(first)).is_err() {
-            // The first snapshot is always kept.
+            // This cannot fail, because the first snapshot is always kept.
             let _: Result<(), SimulationError> = self.restore_step(first);
         }
     }
@@ -116,10 +117,10 @@ impl Simulation {
         Ok(())
     }
 
-    /// Restores a snapshot of this simulation or a copy of it. Later rows of the history are removed.
+    /// Restores a snapshot of this simulation or of a copy of it. Later rows of the history are removed.
     ///
     /// # Errors
-    /// Fails if the scene cannot be built, which succeeded before.
+    /// Fails if the scene cannot be built again, although it was built before.
     pub(super) fn restore_snapshot(&mut self, snapshot: &Snapshot) -> Result<(), SimulationError> {
         self.end_derivatives("going back");
         self.restore_releases(&snapshot.releases)?;
@@ -134,7 +135,7 @@ impl Simulation {
         Ok(())
     }
 
-    /// Error for a state that is not stored, with the smallest number of steps that may lead to it.
+    /// Error for a state that is not stored. `steps` is the smallest number of steps back that may lead to it.
     fn missing_snapshot_error(&self, target: String, steps: usize) -> SimulationError {
         let now = self.progress.counts.steps;
         let kept = self.snapshots.first().zip(self.snapshots.unbroken_from(now));
@@ -154,7 +155,7 @@ impl Simulation {
         }
     }
 
-    /// Stores a snapshot of the present if enabled.
+    /// Stores a snapshot of the present state if snapshots are enabled.
     pub(super) fn store_snapshot(&mut self) {
         let Some(blank) = self.snapshots.blank() else { return };
         self.clock.grid.mark_reached(self.time());
@@ -181,7 +182,7 @@ impl Simulation {
     /// Returns an independent copy of the simulation.
     ///
     /// # Errors
-    /// Fails if the scene cannot be built, which succeeded before.
+    /// Fails if the scene cannot be built again, although it was built before.
     pub fn fork(&self) -> Result<Self, SimulationError> {
         let mut fork = self.fork_without_snapshots()?;
         fork.snapshots = self.snapshots.clone();
@@ -191,7 +192,7 @@ impl Simulation {
     /// Returns an independent copy without snapshots.
     ///
     /// # Errors
-    /// Fails if the scene cannot be built, which succeeded before.
+    /// Fails if the scene cannot be built again, although it was built before.
     pub(super) fn fork_without_snapshots(&self) -> Result<Self, SimulationError> {
         let mut fork = Self::start(self.scene.clone(), self.settings)?;
         fork.restore_releases(&self.progress.releases)?;

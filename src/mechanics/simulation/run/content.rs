@@ -1,4 +1,4 @@
-//! Serialised content of a simulation.
+//! Content of a stored simulation.
 
 use std::borrow::Cow;
 use std::rc::Rc;
@@ -14,13 +14,13 @@ use crate::simulation::step_retry::StepRetry;
 use crate::simulation::{Arrival, Recording, ReleaseEvent, Sample, SimulationSettings, WorkCounts};
 use crate::system::{Scene, SystemState, check_name};
 
-/// Largest plausible counter and grid index.
+/// Largest plausible value of a counter or grid index.
 const MOST_COUNTED: usize = 1 << 52;
 
-/// Largest number of Newton iterations in settings.
+/// Largest number of Newton iterations that is accepted in settings.
 const MOST_ITERATIONS: usize = 10_000;
 
-/// Stored data of a simulation; everything else is derived.
+/// Stored data of a simulation. All other data are computed from them.
 #[derive(Serialize, Deserialize)]
 struct Content<'a> {
     name: Cow<'a, str>,
@@ -31,7 +31,7 @@ struct Content<'a> {
     samples: Cow<'a, [Sample]>,
     permanent_rows: usize,
     extra: Cow<'a, [f64]>,
-    /// Number of configurations passed to the trajectory per stored configuration.
+    /// The trajectory keeps one of this number of configurations.
     every: usize,
     times: Cow<'a, [f64]>,
     numbers: Cow<'a, [f64]>,
@@ -49,10 +49,10 @@ fn refused(reason: &str) -> ArchiveError {
 }
 
 impl Simulation {
-    /// Serialises the simulation under a name, for [`from_bytes`](Self::from_bytes). Snapshots are not included.
+    /// Converts the simulation and a name to bytes that [`from_bytes`](Self::from_bytes) reads. Snapshots are not included.
     ///
     /// # Errors
-    /// Fails if a load follows a script function, or a script function triggers a release.
+    /// Fails if the schedule of a load is a script function, or a script function triggers a release.
     pub fn to_bytes(&self, name: &str) -> Result<Vec<u8>, ArchiveError> {
         let mut schedules = self.scene.schedules();
         if let Some((load, schedule)) = schedules.find(|(_, schedule)| !schedule.can_be_stored()) {
@@ -90,10 +90,10 @@ impl Simulation {
         Ok(wrap(&bytes))
     }
 
-    /// Restores a simulation and its name from the result of [`to_bytes`](Self::to_bytes). It continues bit for bit.
+    /// Restores a simulation and its name from the result of [`to_bytes`](Self::to_bytes). The simulation can be continued bit for bit.
     ///
     /// # Errors
-    /// Fails if the file is truncated, damaged, of a later format or another kind, or its content is invalid.
+    /// Fails if the file is truncated or damaged, has a later format or another type, or has an invalid content.
     pub fn from_bytes(file: &[u8]) -> Result<(String, Self), ArchiveError> {
         let bytes = unwrap(file)?;
         let read = postcard::take_from_bytes::<Content>(bytes);

@@ -1,4 +1,4 @@
-//! Derivatives with respect to parameters of the scene, computed together with the steps.
+//! Derivatives of a run with respect to parameters of the scene. They are computed together with the steps.
 
 use super::{Simulation, SimulationSettings};
 use crate::simulation::sensitivities::Sensitivities;
@@ -8,11 +8,11 @@ use crate::simulation::{
 use crate::system::{Scene, System};
 
 impl Simulation {
-    /// Starts a simulation together with scenes at perturbed parameters. The steps also compute derivatives with respect to these parameters, and
-    /// their results do not change.
+    /// Starts a simulation with derivatives. `variations` contain the scenes at perturbed parameters. The steps compute the derivatives in
+    /// addition; their own results do not change.
     ///
     /// # Errors
-    /// Errors of [`start`](Self::start). Also fails if the method provides no derivatives, or the scenes differ in more than numbers.
+    /// Errors of [`start`](Self::start), or an error if the method provides no derivatives or the scenes differ in more than numbers.
     pub fn start_with_derivatives(
         scene: Scene,
         settings: SimulationSettings,
@@ -24,13 +24,13 @@ impl Simulation {
         Ok(run)
     }
 
-    /// Names of the parameters, with their perturbations.
+    /// Names of the parameters, each with its perturbation.
     pub fn parameters(&self) -> impl Iterator<Item = (&str, f64)> {
         self.stepper.sensitivities.iter().flat_map(|of| of.parameters())
     }
 
-    /// Perturbed run of a parameter. Its state is the present state plus or minus the derivative times the perturbation. Half the difference of a
-    /// result between both runs, divided by the perturbation, is a derivative.
+    /// Perturbed run for a parameter. Its state is the present state plus or minus the derivative times the perturbation. The derivative of any
+    /// result is half the difference between the results of both runs, divided by the perturbation.
     ///
     /// # Errors
     /// Fails if there are no derivatives.
@@ -43,7 +43,7 @@ impl Simulation {
         known.perturbed(parameter, side)
     }
 
-    /// Mutable access to a perturbed run, for queries that need it.
+    /// Perturbed run for a parameter, for queries that need mutable access.
     ///
     /// # Errors
     /// Fails if there are no derivatives.
@@ -56,7 +56,7 @@ impl Simulation {
         known.perturbed_mut(parameter, side)
     }
 
-    /// History of a perturbed run between two times, also if derivatives ended later.
+    /// History of a perturbed run between two times. It is available also if the derivatives ended at a later time.
     ///
     /// # Errors
     /// Fails if some of these rows have no derivatives.
@@ -92,7 +92,7 @@ impl Simulation {
         Ok((number(plus?) - number(minus?)) / (2.0 * distance))
     }
 
-    /// Work counters of the derivatives.
+    /// Solver statistics of the derivatives.
     pub fn derivative_counts(&self) -> DerivativeCounts {
         self.stepper.sensitivities.as_ref().map(|of| of.counts()).unwrap_or_default()
     }
@@ -101,7 +101,7 @@ impl Simulation {
         &mut self.model
     }
 
-    /// Ends the computation of derivatives at an event after which they are undefined.
+    /// Ends the computation of derivatives at an event that makes them undefined afterwards.
     pub(super) fn disable_derivatives(&mut self, event: &'static str) {
         let time = self.time();
         if let Some(sensitivities) = &mut self.stepper.sensitivities {

@@ -1,4 +1,4 @@
-//! Conditions under which steps of any length fail.
+//! Extreme conditions under which a step may fail whatever its length.
 
 use super::Simulation;
 use crate::beams::BodyIndex;
@@ -9,20 +9,20 @@ use crate::simulation::Axes;
 use crate::simulation::warning::short;
 use crate::system::{Element, SliderState};
 
-/// Ratio of the axis length to the drawn length below which the axis counts as crushed.
+/// Ratio of deformed to initial length of the axis at any place, below which the axis counts as crushed.
 const COMPRESSED: f64 = 0.5;
 
-/// Ratio of the axis length to the drawn length above which the axis counts as torn.
+/// Ratio of deformed to initial length of the axis at any place, above which the axis counts as torn.
 const STRETCHED: f64 = 1.5;
 
-/// Contact force, relative to the shear stiffness of the beam, above which the axis folds.
+/// Contact force above which the axis folds, as a fraction of the shear stiffness of the beam.
 const FOLDING_FORCE: f64 = 0.1;
 
-/// Distance of a slider from an end, relative to the master, below which the kink under the slider keeps it off the end.
+/// Distance of a slider from an end, as a fraction of the length of the master, below which the kink prevents the slider from reaching the end.
 const END_DISTANCE: f64 = 5e-3;
 
 impl Simulation {
-    /// Extreme conditions of the present configuration, appended to messages; empty if there are none.
+    /// Text about extreme conditions in the present configuration, to be appended to messages; empty if there are none.
     pub(super) fn plight(&self) -> String {
         let extreme = self.extreme_axes().chain(self.extreme_contacts());
         let others = self.bodies_without_inertia().chain(self.driven_backwards());

@@ -1,4 +1,4 @@
-//! Names for the location of a failed step.
+//! Names for the place at which a step failed.
 
 use super::Simulation;
 use crate::beams::{BodyIndex, Station};

@@ -1,15 +1,15 @@
-//! Recording of states.
+//! Recording of the states of a run.
 
 use super::Simulation;
 use crate::simulation::Recording;
 
 impl Simulation {
-    /// Selection of recorded states.
+    /// Rule that selects the states to be recorded.
     pub fn recording(&self) -> Recording {
         self.record.recording
     }
 
-    /// Changes the selection of recorded states for the following steps.
+    /// Changes the rule that selects the states to be recorded, for the following steps.
     pub fn record(&mut self, recording: Recording) {
         self.record.recording = recording;
         if let Some(sensitivities) = &mut self.stepper.sensitivities {
@@ -41,7 +41,7 @@ impl Simulation {
         self.store_snapshot();
     }
 
-    /// Adds a temporary row for the present state, unless the state has a row or a step is paused in its middle.
+    /// Adds a temporary row for the present state. There is none if the state has a row already, or a step is paused in its middle.
     pub(in crate::simulation) fn show_present(&mut self) {
         if self.is_paused_in_step() {
             return;

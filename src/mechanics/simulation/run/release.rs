@@ -1,7 +1,7 @@
 //! Releases between two steps of a run.
 //!
-//! A release occurs at the start of a step. The state at the end of the previous step is unreleased, so that the run after a rewind repeats the
-//! release.
+//! A release occurs at the start of a step. The stored state at the end of the previous step is the state before the release, so that a run that is
+//! continued after a rewind repeats the release.
 
 use std::rc::Rc;
 
@@ -10,12 +10,12 @@ use crate::joints::{Releasable, Release, Trigger};
 use crate::simulation::{ReleaseEvent, SimulationError};
 
 impl Simulation {
-    /// Releases so far, in their order.
+    /// Releases so far, in the order of their execution.
     pub fn releases(&self) -> &[ReleaseEvent] {
         &self.progress.releases
     }
 
-    /// Returns true if a release is triggered by the caller and has not been executed.
+    /// Returns true if the caller triggers the release and it has not been executed yet.
     pub fn waits_for_release(&self, release: usize) -> bool {
         let described = self.scene.releases.get(release);
         described.is_some_and(|described| described.trigger == Trigger::Outside)
@@ -26,10 +26,10 @@ impl Simulation {
         self.releases().iter().any(|gone| gone.release == release)
     }
 
-    /// Executes a release of the scene at the present time, unless it was executed before.
+    /// Executes a release of the scene at the present time, unless it has been executed already.
     ///
     /// # Errors
-    /// Fails if the scene cannot be built, which succeeded before.
+    /// Fails if the scene cannot be built again, although it was built before.
     pub fn release(&mut self, release: usize) -> Result<(), SimulationError> {
         let Some(Release { object: hold, trigger }) = self.scene.releases.get(release).copied()
         else {
@@ -56,7 +56,7 @@ impl Simulation {
         }
     }
 
-    /// Executes the releases due at the present time, before the next step.
+    /// Executes, before the next step, the releases that are due at the present time.
     pub(super) fn execute_due_releases(&mut self) -> Result<(), SimulationError> {
         for release in 0..self.scene.releases.len() {
             if let Trigger::Time(time) = self.scene.releases[release].trigger
@@ -85,14 +85,14 @@ impl Simulation {
         let_go.iter().map(|gone| self.scene.releases[gone.release].object).collect()
     }
 
-    /// Adapts the work space of the method and the sensors to the renumbered model.
+    /// Adapts the work space of the integrator and the sensors to the renumbered unknowns.
     fn adapt_to_model(&mut self) -> Result<(), SimulationError> {
         let Self { settings, model, record, scene, stepper, .. } = self;
         stepper.integrator = settings.method.build(model, settings.tolerance);
         Ok(record.relocate_sensors(scene, model)?)
     }
 
-    /// Executes all releases that the caller triggers in a dry run, because scripts may wait for them.
+    /// Executes all releases that the caller triggers, in a dry run. Scripts may wait for them.
     pub(super) fn dry_run_releases(&mut self) -> Result<(), SimulationError> {
         for release in 0..self.scene.releases.len() {
             if self.waits_for_release(release) {

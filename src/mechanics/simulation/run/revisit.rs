@@ -1,9 +1,9 @@
-//! Access to earlier states through a copy, by a stored snapshot or by repeating the run.
+//! Access to earlier states by means of a copy. The state is restored from a snapshot or computed again.
 
 use super::Simulation;
 use crate::simulation::{Monitor, SimulationError};
 
-/// Monitor that pauses a run at a time.
+/// Monitor that pauses a run at a given time.
 struct PauseTime<'m> {
     time: f64,
     monitor: &'m mut dyn Monitor,
@@ -16,7 +16,7 @@ impl Monitor for PauseTime<'_> {
 }
 
 impl Simulation {
-    /// Steps and times of the uninterrupted sequence of stored states that ends at the present.
+    /// Step numbers and times of the stored states from which no later state is missing up to the present.
     pub fn stored_states(&self) -> Vec<(usize, f64)> {
         let steps = self.progress.counts.steps;
         let from = self.snapshots.unbroken_from(steps).unwrap_or(steps);
@@ -24,10 +24,10 @@ impl Simulation {
         kept.chain([(steps, self.time())]).collect()
     }
 
-    /// Restores in this copy an earlier state of the original simulation. Returns true if that state is stored.
+    /// Restores, in this copy, the state of the original simulation after a number of steps. Returns false if that state is not stored.
     ///
     /// # Errors
-    /// Fails if the scene cannot be built, which succeeded before.
+    /// Fails if the scene cannot be built again, although it was built before.
     pub fn revisit(&mut self, of: &Self, steps: usize) -> Result<bool, SimulationError> {
         if steps == self.progress.counts.steps {
             return Ok(true);
@@ -39,18 +39,18 @@ impl Simulation {
         Ok(true)
     }
 
-    /// Returns a copy at the present without snapshots.
+    /// Returns a copy of the present state without snapshots.
     ///
     /// # Errors
-    /// Fails if the scene cannot be built, which succeeded before.
+    /// Fails if the scene cannot be built again, although it was built before.
     pub fn copy_at_present(&self) -> Result<Self, SimulationError> {
         self.fork_without_snapshots()
     }
 
-    /// Returns a copy at the start of the run, to repeat it.
+    /// Returns a copy of the state at the start of the run, from which the run can be repeated.
     ///
     /// # Errors
-    /// Fails if the scene cannot be built, which succeeded before.
+    /// Fails if the scene cannot be built again, although it was built before.
     pub fn copy_at_start(&self) -> Result<Self, SimulationError> {
         let mut copy = self.fork_without_snapshots()?;
         match self.snapshots.find(0) {
@@ -64,11 +64,11 @@ impl Simulation {
         Ok(copy)
     }
 
-    /// Repeats the run of the original in a copy up to a row of its history. Returns true if energies, momenta and exchanges agree bit for bit. They
-    /// may differ if script functions were called during the original run.
+    /// Repeats, in this copy, the original run up to a row of its history. Returns true if energies, momenta, work and impulses agree bit for bit
+    /// with that row. They may differ if script functions were called during the original run.
     ///
     /// # Errors
-    /// Errors of [`run_to`](Self::run_to), or a missing row.
+    /// Errors of [`run_to`](Self::run_to), or an error if the row does not exist.
     pub fn run_again(
         &mut self,
         of: &Self,

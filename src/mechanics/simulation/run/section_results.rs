@@ -49,7 +49,7 @@ impl Simulation {
         self.model.instant()
     }
 
-    /// Energy of a body by kind. Indices count beams first, then particles.
+    /// Energy of a body by type. Indices count beams first, then particles, then rigid bodies.
     pub fn energy_of(&mut self, body: usize) -> BodyEnergy {
         self.model.energy_of(body)
     }
@@ -60,7 +60,7 @@ impl Simulation {
         sensors.filter(|sensor| sensor.probe == SensorSource::External).count()
     }
 
-    /// Sets these columns in the last row of the history.
+    /// Sets the columns that the caller fills, in the last row of the history.
     pub fn fill_in(&mut self, values: &[f64]) {
         let first = self.record.history.extra_width() - self.scene.sensors.len();
         let sensors = self.scene.sensors.iter().enumerate();

@@ -1,4 +1,4 @@
-//! Steps of the time grid: taken, halved on failure, cut at arrivals of sliders, and recorded.
+//! Steps of the time grid. They are halved on failure, end at arrivals of sliders, and are recorded.
 
 use super::Simulation;
 use super::event_location::MOST_ARRIVALS;
@@ -6,7 +6,7 @@ use crate::integrators::{Interval, StepError};
 use crate::newton::NewtonReport;
 use crate::simulation::step_retry::StepRetry;
 use crate::simulation::{Monitor, SimulationError};
-use crate::system::MasterLimit;
+use crate::system::SliderEvent;
 
 #[derive(PartialEq, Eq)]
 pub(super) enum IntervalProgress {
@@ -32,7 +32,7 @@ impl Simulation {
         Err(self.too_many_arrivals())
     }
 
-    /// Error of a slider with too many arrivals in one step.
+    /// Returns the error of a slider with too many arrivals in one step.
     pub(super) fn too_many_arrivals(&self) -> SimulationError {
         let arrival = self.progress.arrivals.last().map_or_else(
             || format!("a slider is about to reach an end of its beam after t = {}", self.time()),
@@ -51,7 +51,9 @@ impl Simulation {
             let mut stepped = self.step_or_freeze_kinks(interval);
             if let Err(StepError::Overshoot { overshoot, iterations, .. }) = stepped {
                 self.progress.count_try(iterations);
-                self.disable_derivatives("a slider reaches an end of its beam or leaves a stop");
+                self.disable_derivatives(
+                    "a slider reaches an end of its beam, leaves a stop, or begins to slip or stick",
+                );
                 match self.locate_arrival(interval, overshoot) {
                     Ok(landing) => {
                         self.model.unfreeze_kinks();
@@ -61,7 +63,8 @@ impl Simulation {
                             self.keep_row();
                         }
                         let arrived = self.execute_arrivals(&landing);
-                        // An arrival without a step has no snapshot. A run from the previous step reaches the arrival again.
+                        // If an arrival took place without a step, no snapshot is stored. A run from the previous snapshot reaches the arrival
+                        // again.
                         if landing.step.is_some() {
                             self.store_snapshot();
                         }
@@ -77,6 +80,9 @@ impl Simulation {
                 Ok(report) => {
                     self.count_step(interval, report, halving.retries);
                     halving.succeed();
+                    if self.model.has_friction() {
+                        self.model.end_reversed_slips()?;
+                    }
                     self.clock.retry = halving.remaining();
                     self.store_present();
                 }
@@ -98,7 +104,8 @@ impl Simulation {
     }
 
     fn step_or_freeze_kinks(&mut self, interval: Interval) -> Result<NewtonReport, StepError> {
-        // The kinks follow the forces again only from here on, because queries of the last step depend on the fixed kinks.
+        // Kinks that were kept constant in the last step follow the contact forces from now on. They were kept until now because queries of the
+        // last step depend on them.
         self.model.unfreeze_kinks();
         let stepped = self.stepper.step(&mut self.model, interval);
         let stepped = match stepped {
@@ -109,13 +116,13 @@ impl Simulation {
             other => other,
         };
         if self.stepper.sensitivities.is_some() && self.model.has_frozen_kinks() {
-            // The perturbed runs may have had no need to fix the kinks, and then have other equations.
+            // The perturbed runs may have been solved without keeping their kinks constant. Their equations then differ from those of this run.
             self.disable_derivatives("the kink under a slider is not adapted to the contact force");
         }
         stepped
     }
 
-    /// Fixes the kinks under contact forces after a failed step. Returns true if this changes the equations of the step.
+    /// After a failed step, keeps the kinks under contact forces constant. Returns true if this changes the equations of the step.
     pub(super) fn keeps_kinks_for(&mut self, source: &StepError) -> bool {
         match source {
             StepError::Overshoot { .. } | StepError::Load { .. } => false,
@@ -144,12 +151,16 @@ impl Simulation {
     fn no_step(&self, dt: f64, divisions: u64, source: StepError) -> SimulationError {
         let (time, plight) = (self.time(), self.plight());
         if let StepError::Overshoot { overshoot, .. } = &source {
-            let limit = MasterLimit::of(overshoot.limit);
-            let slider = self.scene.sliders[limit.slider].name.clone();
-            let end = limit.end.name();
+            let (slider, event) = match SliderEvent::of(overshoot.limit) {
+                SliderEvent::Limit(limit) => {
+                    (limit.slider, format!("reaches the {} of its beam", limit.end.name()))
+                }
+                SliderEvent::SlipEnd(slider) => (slider, "begins to stick".to_owned()),
+                SliderEvent::SlipStart(slider) => (slider, "begins to slip".to_owned()),
+            };
             return SimulationError::EventLocation {
-                slider,
-                end,
+                slider: self.scene.sliders[slider].name.clone(),
+                event,
                 time,
                 dt,
                 divisions,

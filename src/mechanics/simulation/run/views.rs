@@ -1,4 +1,4 @@
-//! Places, paths and configurations for drawing.
+//! Places, paths and configurations of a simulation for drawing.
 
 use super::Simulation;
 use crate::beams::{BodyPoint, Station};
@@ -18,12 +18,12 @@ impl Simulation {
         self.scene.place(station, self.model.meshes())
     }
 
-    /// Returns true if a column of the history has means of the last step, such as contact forces, instead of present values.
+    /// Returns true if a column of the history contains means over the last step, such as contact forces, and not present values.
     pub fn is_step_mean(&self, column: &str) -> bool {
         columns::is_step_mean(&self.scene, self.settings.method, column)
     }
 
-    /// Lowest natural modes about the present configuration, treated as an equilibrium with its present section and constraint forces.
+    /// Lowest natural modes about the present configuration. It is treated as an equilibrium with its present section forces and constraint forces.
     ///
     /// # Errors
     /// Fails if there are too few modes, a load is a follower load, forces are undetermined, or the search is stopped.
@@ -37,7 +37,7 @@ impl Simulation {
             .map_err(|error| VibrationError::NoForces(error.to_string()))?
     }
 
-    /// Path of a place: times and positions at all recorded configurations.
+    /// Path of a point of a body: times and positions of all recorded configurations.
     pub fn path(&self, place: &BodyPoint) -> Vec<(f64, Vec2)> {
         let counts: Vec<usize> = self.model.control_points().map(<[Vec2]>::len).collect();
         let offset = counts[..place.body].iter().sum::<usize>();

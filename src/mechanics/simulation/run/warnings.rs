@@ -1,4 +1,4 @@
-//! Warnings about unresolved motion.
+//! Warnings about motion that the steps do not resolve.
 
 use std::f64::consts::TAU;
 
@@ -12,56 +12,56 @@ use crate::simulation::{Invariant, Sample, StepSize, Warning};
 use crate::system::{LawArgument, RESOLVED_IMPACT, Resolution, SpringLaw, System, SystemFeature};
 use crate::vibration::{Modes, VibrationError};
 
-/// Unresolved fraction of the kinetic energy above which the steps are too long. A single vibration reaches it with 3.5 steps per period; its period
-/// is then 20 % too long.
+/// Unresolved fraction of the kinetic energy above which the steps are too long. For a single vibration this is the value at 3.5 steps per period,
+/// where the computed period is 20 % too long.
 const LARGEST_SHARE: f64 = 0.2;
 
-/// Unresolved fraction above which a warning is given even if the motion as a whole is resolved, if the phase exceeds [`HIDDEN_TURN`].
+/// Unresolved fraction above which a warning is given if also the phase exceeds [`HIDDEN_TURN`], even if the motion as a whole is resolved.
 const HIDDEN_SHARE: f64 = 0.05;
 
 /// Phase per step above which a small unresolved fraction causes a warning [rad].
 const HIDDEN_TURN: f64 = 2.0 * TAU;
 
-/// Kinetic energy of a body, relative to the total, below which the body is ignored.
+/// Kinetic energy of a body below which the body is ignored, as a fraction of the total kinetic energy.
 const NOTHING: f64 = 1e-8;
 
-/// Energy drift above which a warning is given. Rounding does not reach it in some ten thousand steps, for any stiffness.
+/// Energy drift above which a warning is given. Rounding errors of about ten thousand steps do not reach it, for any stiffness.
 const LARGEST_DRIFT: f64 = 1e-7;
 
-/// Rounding error of dissipated energies, relative to them.
+/// Rounding error of dissipated energies, as a fraction of these energies.
 const DISSIPATION_ROUNDING: f64 = 1e-7;
 
-/// Change of the kinetic energy in a step, relative to the total energy, above which it counts as large.
+/// Change of the kinetic energy in a step that counts as large, as a fraction of the total energy.
 const MUCH: f64 = 0.3;
 
 /// Largest number of unknowns for which modes of the initial configuration are computed.
 const MOST_UNKNOWNS: usize = 1200;
 
-/// Numbers of modes that are computed until one of them is not a rigid-body mode.
+/// Numbers of modes to be computed, in this order, until one mode is not a rigid-body mode.
 const MODES: [usize; 3] = [4, 8, 16];
 
 const RECENT_STEPS: usize = 200;
 
-/// Difference of successive step lengths, relative to them, above which they alternate.
+/// Difference of successive step lengths, as a fraction of the length, above which they alternate.
 const ALTERNATION: f64 = 0.1;
 
-/// Largest acceptable number of alternations.
+/// Largest number of alternations that is acceptable.
 const MOST_TURNS: usize = 20;
 
-/// Number of adaptive steps above which a warning about their number is possible.
+/// Number of adaptive steps above which a warning about their number is given if the other conditions hold.
 const MANY_STEPS: usize = 5000;
 
-/// Ratio of the step size that the motion of the scene needs to the mean step size, above which the steps are too short. The steps then follow a
-/// vibration with an amplitude below a thousandth of the length of the scene.
+/// Ratio of the step size that the motion of the scene needs to the mean step size. If it is larger, the steps follow a vibration whose amplitude
+/// is below a thousandth of the length of the scene, and are shorter than necessary.
 const MUCH_SHORTER: f64 = 50.0;
 
-/// Largest number of sliders whose resolution is described.
+/// Largest number of sliders with a description of their resolution.
 const SLIDERS: usize = 6;
 
 impl Simulation {
     /// Warnings about motion that the steps so far do not resolve. Steps undone by a rewind do not count.
     ///
-    /// The lowest period of the scene is computed when a warning first needs it.
+    /// The lowest period of the scene is computed only when a warning needs it for the first time.
     pub fn warnings(&self) -> Vec<Warning> {
         let (dt, resolution) = (self.longest_step(), self.model.resolution());
         let mut notes = Vec::new();
@@ -147,7 +147,7 @@ impl Simulation {
             || (unresolved_fraction > HIDDEN_SHARE && turn > HIDDEN_TURN)
     }
 
-    /// Damped beams whose motion is unresolved at a step size [time], although the motion of the scene as a whole is resolved.
+    /// Warnings about damped beams whose motion is not resolved with a step size [time], although the motion of the scene as a whole is resolved.
     fn unresolved_beams(&self, dt: f64) -> impl Iterator<Item = Warning> {
         let least = NOTHING * self.model.resolution().kinetic();
         let beams = self.model.resolution_by_beam();
@@ -160,8 +160,8 @@ impl Simulation {
         })
     }
 
-    /// Warning about alternating long and short steps in scenes with persistent velocity errors. Each step multiplies such errors by -1, so the
-    /// errors of a long and a short step do not cancel.
+    /// Warning about alternating long and short steps in scenes with persistent velocity errors. Each step multiplies such errors by -1. The
+    /// resulting position errors of a long and a short step do not cancel.
     fn uneven_steps(&self) -> Option<Warning> {
         let keeps = self.model.has_rigid_links() || self.scene.dissipating().next().is_some();
         if !keeps || !matches!(self.settings.dt, StepSize::Fixed(_)) {
@@ -181,7 +181,8 @@ impl Simulation {
         (turns >= MOST_TURNS).then_some(Warning::Uneven { shortest, longest })
     }
 
-    /// Many adaptive steps of a method of first order, or much shorter ones than the motion of the scene as a whole needs.
+    /// Warning about many adaptive steps, if the method is of first order or the steps are much shorter than the motion of the scene as a whole
+    /// needs.
     fn many_steps(&self) -> Option<Warning> {
         let Adaptive { tolerance, length, order, .. } = **self.adaptive.as_ref()?;
         let (steps, rows) = (self.counts().steps, self.history().samples());
@@ -197,15 +198,15 @@ impl Simulation {
             .then_some(Warning::ManySteps { steps, dt, tolerance, method, travel_time, times })
     }
 
-    /// Longest step taken [time]. The requested step size may be longer.
+    /// Longest step taken so far [time]. The requested step size may be longer.
     fn longest_step(&self) -> f64 {
         let rows = self.history().samples();
         let longest = rows.iter().map(|row| row.dt).fold(0.0, larger);
         if longest > 0.0 { longest.min(self.dt()) } else { self.dt() }
     }
 
-    /// Energy drift that exceeds rounding although the method claims to conserve the energy. Scenes with sliders are excluded, because sliding rules
-    /// have their own claims.
+    /// Energy drift that is larger than rounding, although the method claims to conserve energy. Scenes with sliders are excluded, because sliding
+    /// rules have their own claims.
     fn excess_energy_drift(&self) -> Option<f64> {
         let keeps = self.settings.method.entry().claims.energy == EnergyClaim::Conserved;
         let rows = self.history().samples();
@@ -213,7 +214,7 @@ impl Simulation {
         if !keeps || !self.scene.sliders.is_empty() {
             return None;
         }
-        // All rows are examined only if the first and the last differ too much.
+        // The other rows are examined only if the first and the last row differ too much.
         let apart = Invariant::Energy.value(&last) - Invariant::Energy.value(&first);
         let now = last.energy.kinetic + last.energy.strain + last.energy.stored;
         if apart.norm() <= LARGEST_DRIFT * now {
@@ -223,8 +224,8 @@ impl Simulation {
         (drift > LARGEST_DRIFT).then_some(drift)
     }
 
-    /// Name of the method with numerical damping; `None` if it is in use or has no effect. It damps strains of beams and of springs with a linear
-    /// law.
+    /// Name of a method with numerical damping; `None` if it is in use already or would have no effect. Numerical damping acts on strains of beams
+    /// and on springs with a linear law.
     fn damping_method(&self) -> Option<&'static str> {
         let entries = INTEGRATORS.iter();
         let damping = entries.filter(|entry| entry.claims.energy == EnergyClaim::NonIncreasing);
@@ -235,8 +236,9 @@ impl Simulation {
         others.find(|name| *name != self.settings.method.entry().name)
     }
 
-    /// Step of the fourth-order method in which dampers gained least, if its backward substeps returned more than all steps took, or if a step took
-    /// less than nothing; `None` if explained by rounding.
+    /// Warning that dampers added energy in the method `fourth_order`, whose backward substeps return energy. It is given if the backward substeps
+    /// returned more energy than the dampers took in total, or if a step increased the energy, both by more than rounding. The step with the
+    /// largest return is reported.
     fn energy_gain(&self) -> Option<Warning> {
         if self.settings.method != Method::FourthOrder {
             return None;
@@ -273,7 +275,7 @@ impl Simulation {
     fn possible_causes(&self) -> Vec<RateChangeCause> {
         let rows = self.history().samples();
         let others = rows.last().map(|row| row.measures).unwrap_or_default().dissipated;
-        // A damper may dissipate stored energy arbitrarily slowly, so only the kinetic energy lost within a step counts.
+        // A damper may dissipate stored energy arbitrarily slowly, so the comparison uses the kinetic energy only.
         let left = rows.iter().map(|row| row.measures.energy.kinetic).fold(0.0, larger);
         let most = self.model.most_damping();
         let is_much = |energy: f64| larger(energy, others) > MUCH * (larger(energy, others) + left);
@@ -286,14 +288,14 @@ impl Simulation {
         dampers.into_iter().chain(controllers.take(1)).collect()
     }
 
-    /// Lowest period of the initial configuration [time]; `None` with sliders, without vibration, or for large scenes.
+    /// Lowest period of the initial configuration [time]. It is not computed for scenes with sliders, without vibration, or with many unknowns.
     fn lowest_period(&self) -> Option<f64> {
         self.initial_geometry.lowest_period(|| {
             let slides = self.model.slider_names().next().is_some();
             if slides || self.model.unknowns() > MOST_UNKNOWNS {
                 return None;
             }
-            // If modes cannot be computed, the warning omits the period.
+            // If modes cannot be computed, the warning does not contain the period.
             let drawn = System::assemble(&self.scene).ok()?;
             MODES.iter().find_map(|count| {
                 let modes = match Modes::of(&drawn, *count, &mut || true) {

@@ -1,4 +1,4 @@
-//! Pair of perturbed runs.
+//! Pair of perturbed runs for a parameter.
 
 use super::{DerivativeError, PerturbedSide, Variation};
 use crate::simulation::{Simulation, SimulationError};
@@ -36,7 +36,7 @@ impl PerturbedRuns {
         Ok(twins)
     }
 
-    /// Executes a release of both runs, after which states are shaped like the given one.
+    /// Executes a release in both runs. Afterwards their states have the same structure as `state`.
     pub(super) fn release(
         &mut self,
         release: usize,
@@ -50,7 +50,7 @@ impl PerturbedRuns {
         Ok(())
     }
 
-    /// Computes the derivative of the state from the states of both runs.
+    /// Computes the derivative of the state from the difference between the states of both runs.
     pub(super) fn differentiate(&mut self) {
         let Self { runs, states, derivative, distance, .. } = self;
         for (run, state) in runs.iter().zip(states.iter_mut()) {
@@ -60,7 +60,7 @@ impl PerturbedRuns {
         plus.change_from(minus, 2.0 * *distance, derivative);
     }
 
-    /// Sets both runs to a state plus and minus the derivative times the perturbation.
+    /// Sets the two runs to `state` plus and minus the derivative times the perturbation.
     pub(super) fn set_perturbed_states(&mut self, state: &SystemState) {
         let Self { runs, states, derivative, distance, .. } = self;
         for ((run, beside), amount) in

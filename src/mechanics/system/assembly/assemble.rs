@@ -15,10 +15,10 @@ use crate::system::sliders::Sliders;
 use crate::system::state::MotionState;
 use crate::system::{BeamDefinition, Scene, System, SystemError, SystemState};
 
-/// Accuracy of strains in units of rounding. Strains are differences of coordinates that are larger than spans.
+/// Largest rounding error of strains, as a multiple of the machine precision. Strains are differences of coordinates that are larger than spans.
 const STRAIN_ROUNDINGS: f64 = 100.0;
 
-/// Bodies of a scene on their meshes, from which the model is built.
+/// Bodies of a scene with the meshes of the beams. The model is built from them.
 pub struct Assembly<'a> {
     pub scene: &'a Scene,
     pub meshes: Vec<Mesh>,
@@ -35,11 +35,11 @@ impl System {
         Self::assemble_while(scene, &mut || true)
     }
 
-    /// Builds the mechanism of a scene at its start, as [`assemble`](Self::assemble) does. `goes_on` is called between beams and between phases; if it
+    /// Builds the mechanism of a scene at its start, with a way to stop the assembly. `goes_on` is called between beams and between phases; if it
     /// returns false, the assembly ends with an error.
     ///
     /// # Errors
-    /// Errors of [`assemble`](Self::assemble), or if the assembly is stopped.
+    /// Errors of [`assemble`](Self::assemble), or an error if the assembly is stopped.
     pub fn assemble_while(
         scene: &Scene,
         goes_on: &mut dyn FnMut() -> bool,
@@ -49,7 +49,7 @@ impl System {
         Ok(model)
     }
 
-    /// Builds the mechanism of a scene at the start of a run: kinks under sliders begin with the contact forces at that moment.
+    /// Builds the mechanism of a scene at the start of a run. Kinks under sliders begin with the contact forces at the start.
     ///
     /// # Errors
     /// Errors of [`assemble_while`](Self::assemble_while).
@@ -70,13 +70,15 @@ impl System {
         let mut model = Self::as_drawn(scene, goes_on)?;
         query(scene, goes_on)?;
         model.project_start_velocities(scene)?;
+        model.choose_friction_modes();
         Ok(model)
     }
 
-    /// Builds the mechanism of a scene in the given static state and time. Only there, velocities are checked against the joints.
+    /// Builds the mechanism of a scene in the given static state at the given time. Velocities are checked against the sliders in this state, not
+    /// in the scene as drawn.
     ///
     /// # Errors
-    /// Errors of [`assemble`](Self::assemble), or a function without a value at that time.
+    /// Errors of [`assemble`](Self::assemble), or an error if a function has no value at that time.
     pub(crate) fn assemble_at_rest(
         scene: &Scene,
         state: &SystemState,
@@ -177,7 +179,7 @@ impl<'a> Assembly<'a> {
         Ok(assembly)
     }
 
-    /// Control points of all bodies. The slaves of sliders are moved onto their meshed masters.
+    /// Control points of all bodies in the scene as drawn. The slaves of sliders are moved onto the meshes of their masters.
     fn drawn(&self, goes_on: &mut dyn FnMut() -> bool) -> Result<Vec<Vec<Vec2>>, SystemError> {
         let beams = self.scene.beams.iter().zip(&self.meshes).map(|(beam, mesh)| {
             query(self.scene, goes_on)?;
@@ -187,7 +189,7 @@ impl<'a> Assembly<'a> {
         let rigid = self.scene.rigid_bodies.iter().map(|body| Ok(body.control_points()));
         let mut points =
             beams.chain(particles).chain(rigid).collect::<Result<Vec<_>, SystemError>>()?;
-        // A master may itself be a slave, so masters are placed first.
+        // A master may itself be a slave, so the placement is repeated until no slave moves.
         let place = |slider: &Slider| {
             Ok((
                 self.place_at(slider.master, self.slider_parameter(slider)?)?,
@@ -230,7 +232,7 @@ impl<'a> Assembly<'a> {
         stations.iter().map(|station| self.place(station)).collect()
     }
 
-    /// Starts and ends of all beams, then stations of the scene, then rigid bodies.
+    /// Trackers of the starts and ends of all beams, then of the stations of the scene, then of the rigid bodies.
     fn trackers(&self) -> Result<Vec<Tracker>, SystemError> {
         let ends = self.scene.beams.iter().enumerate().flat_map(|(beam, definition)| {
             [0.0, definition.axis.length()].map(|arc_length| Station::on_beam(beam, arc_length))

@@ -1,4 +1,5 @@
-//! Independent elimination blocks for the contacts of many sliders.
+//! Blocks of the linear system in which the contact and the slave of each slider are eliminated independently. They are used if there are many
+//! sliders.
 
 use super::Numbering;
 use crate::linalg::BlockLayout;
@@ -8,7 +9,7 @@ use crate::system::sliders::SliderContact;
 /// Number of sliders from which contacts are eliminated block by block. For fewer sliders a dense border is faster (docs/studies.md).
 const MANY: usize = 4;
 
-/// Largest number of points of a rigid body that is eliminated together with its contact.
+/// Largest number of control points of a slave that is eliminated together with its contact.
 const MOST_POINTS: usize = 4;
 
 impl Numbering {
@@ -24,7 +25,7 @@ impl Numbering {
         let mut sizes = vec![0_usize; self.unknowns];
         component.iter().for_each(|&of| sizes[of] += 1);
         let unknown = |at: &usize| *at < self.unknowns;
-        // Number of sliders that move the unknowns of a component.
+        // Number of sliders whose slaves have unknowns in each component of coupled unknowns.
         let mut sliders_on = vec![0_usize; self.unknowns];
         for slider in sliders {
             let (body, point) = slider.connection.slave;

@@ -1,4 +1,4 @@
-//! Rigid bodies without mass or without inertia, which need other restraints.
+//! Check of rigid bodies without mass or without inertia, whose motion must be determined by other parts of the scene.
 
 use crate::beams::{BodyIndex, Station};
 use crate::joints::Component;
@@ -6,7 +6,7 @@ use crate::system::elements::{Dragged, Element};
 use crate::system::{Scene, SpringKind, System, SystemError};
 
 impl System {
-    /// Rejects a rigid body with a degree of freedom without inertia and without restraint, because its acceleration would be undetermined.
+    /// Rejects a rigid body with a degree of freedom that has neither inertia nor a restraint, because its acceleration would be undetermined.
     ///
     /// A restraint is a support, a drive, a tied degree of freedom, a mass at a point, or an element at a point. A point restrains the angle only if
     /// it is off the centre or rotates with the body.

@@ -1,4 +1,4 @@
-//! Unknowns in the order of the bodies, and their coupling.
+//! Numbering of the unknowns in the order of the bodies, and the coupling between unknowns.
 
 use super::tied_components::{GROUND, TiedComponents};
 use crate::beams::{BodyDynamics, BodyPoint, Station};
@@ -6,22 +6,22 @@ use crate::joints::Component;
 use crate::system::SystemError;
 use crate::system::scene::Scene;
 
-/// Number of components that are not unknowns.
+/// Number of a component that is not an unknown.
 const NONE: usize = usize::MAX;
 
 /// Unknowns in the order of the bodies, before bandwidth reduction.
 pub struct InitialNumbering {
     pub unknowns: usize,
-    /// Unknown of each class of tied components, indexed by its root.
+    /// Unknown of each class of tied components, indexed by the root of the class.
     pub number: Vec<usize>,
-    /// Force unknowns of each rigid link, numbered before its point.
+    /// Force unknowns of each rigid link, numbered just before the linked point.
     pub forces: Vec<[usize; 2]>,
-    /// Force unknown of each inclined roller, numbered before its point; `None` after a release.
+    /// Force unknown of each inclined roller, numbered just before its point; `None` after a release.
     pub roller_forces: Vec<Option<usize>>,
 }
 
 impl InitialNumbering {
-    /// Numbers the free components of a scene. Tied components share a number.
+    /// Numbers the free components of a scene. Tied components share one number.
     ///
     /// # Errors
     /// Fails if all degrees of freedom are fixed.
@@ -53,7 +53,7 @@ impl InitialNumbering {
             }
         }
         match unknowns {
-            // Reactions of scenes in which all motions are prescribed can still be computed.
+            // A scene in which all motions are prescribed is accepted, because its reactions can be computed.
             0 if scene.drives.is_empty() => {
                 Err(SystemError::NothingMoves { scene: scene.name.clone() })
             }

@@ -1,18 +1,18 @@
-//! Determinacy of the forces of rigid links and inclined rollers. Redundant constraints have no unique forces.
+//! Check that the forces of rigid links and inclined rollers are determined. Redundant constraints have no unique forces.
 
 use crate::elementary::square;
 use crate::geometry::larger;
 use crate::linalg::BandedMatrix;
 use crate::system::{Scene, System, SystemError, UnknownKind};
 
-/// Force response to a unit gap above which a constraint force is undetermined except for rounding.
+/// Constraint force that closes a gap of one, above which the force is determined by rounding only.
 const UNDETERMINED: f64 = 1e11;
 
 impl System {
-    /// Rejects rigid bodies and rollers with redundant constraints.
+    /// Rejects redundant constraints of rigid bodies and rollers.
     ///
-    /// All degrees of freedom get unit mass. Determined forces that close small gaps are then at most as large as the gaps times the square of the
-    /// number of bodies in a chain.
+    /// The check closes small gaps at all constraints, with unit mass at all degrees of freedom. Forces that are determined are then at most as
+    /// large as the gaps times the square of the number of bodies in a chain.
     pub(super) fn check_links(&self, scene: &Scene) -> Result<(), SystemError> {
         if self.links().forces() == 0 {
             return Ok(());
@@ -30,7 +30,7 @@ impl System {
         }
         self.links().add_coupling(self.bodies(), unknowns.count(), &mut matrix);
         matrix.weigh_rows();
-        // Gaps without symmetry, which no symmetry of a scene can close.
+        // The gaps are all different, so that no symmetry of a scene can make redundant constraints compatible.
         let mut forces = vec![0.0; unknowns.count()];
         let across = self.links().rollers().map(|(unknown, _)| unknown);
         let of_links = self.links().iter().flat_map(|link| link.unknowns);

@@ -1,4 +1,4 @@
-//! Releases of a model during a run.
+//! Releases of joints, drives, sliders and springs during a run.
 
 use super::Numbering;
 use super::assemble::joined;
@@ -9,11 +9,11 @@ use crate::system::mechanism::DofNumbers;
 use crate::system::{Scene, System, SystemError};
 
 impl System {
-    /// Releases an object of the scene at the present time; `released` lists the earlier releases. Positions and rates are continuous. The energy
-    /// stored in a released spring counts as dissipated. Integrators must allocate a new work space afterwards.
+    /// Releases an object of the scene at the present time. `released` lists the objects released earlier. Positions and rates are continuous. The
+    /// energy stored in a released spring counts as dissipated. The caller must allocate a new work space of the integrator afterwards.
     ///
     /// # Errors
-    /// Fails if a station lies off its beam, which the scene excludes.
+    /// Fails if a station lies off its beam, which cannot occur in a checked scene.
     pub fn release(
         &mut self,
         scene: &Scene,
@@ -32,10 +32,10 @@ impl System {
         Ok(())
     }
 
-    /// Marks exactly the given objects as released, before a state is restored.
+    /// Marks the given objects as released and all others as attached, before a state is restored.
     ///
     /// # Errors
-    /// Fails if a station lies off its beam, which the scene excludes.
+    /// Fails if a station lies off its beam, which cannot occur in a checked scene.
     pub fn restore_releases(
         &mut self,
         scene: &Scene,

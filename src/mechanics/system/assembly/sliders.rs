@@ -14,8 +14,8 @@ use crate::system::sliders::{
 };
 use crate::system::{BeamDefinition, Scene, System, SystemError};
 
-/// Largest start velocity of a slave across its master that counts as zero, relative to the velocity of the fastest point of the scene. At a dead
-/// centre of a mechanism, velocities of this size are due to rounding.
+/// Largest start velocity of a slave across its master that counts as zero, as a fraction of the velocity of the fastest point of the scene. At a
+/// dead centre of a mechanism, velocities of this size are due to rounding.
 const SAME_VELOCITY: f64 = 1e-9;
 
 impl Assembly<'_> {
@@ -70,7 +70,7 @@ impl Assembly<'_> {
         MasterCurve::new(self.scene.beams[beam].axis.clone(), self.mesh(beam).basis().domain())
     }
 
-    /// Contact path of a beam, cached in `found`.
+    /// Contact path of a beam. Paths that have been computed are stored in `found`.
     fn contact_path(&self, beam: usize, found: &mut [Option<ContactPath>]) -> ContactPath {
         let basis = || ContactPath::new(self.mesh(beam).basis().clone());
         found[beam].get_or_insert_with(basis).clone()
@@ -94,8 +94,8 @@ impl Assembly<'_> {
         legs.iter().map(leg).collect()
     }
 
-    /// Axis of the master with a kink under the contact force, if the rule includes the kink and the mesh of the master is smooth. Kink lengths are
-    /// computed once per master.
+    /// Axis of the master with a kink under the contact force; `None` if the rule of the slider has no kink or the mesh of the master is not
+    /// smooth. Kink lengths are computed once per master and stored in `found`.
     fn kinked_axis(
         &self,
         slider: &Slider,
@@ -140,9 +140,9 @@ fn bar(beam: &BeamDefinition) -> ImpactBar {
 }
 
 impl System {
-    /// Adjusts start velocities across the masters as each slider specifies.
+    /// Applies the rule of each slider for start velocities: the velocity across the master is checked or projected to zero.
     ///
-    /// A speed `w` across a master counts as zero if the strain of its wave is below rounding: `w/c < ε`.
+    /// A speed `w` across a master counts as zero if the strain `w/c` of its wave, with the wave speed `c`, is below the rounding error `ε`.
     pub(super) fn project_start_velocities(&mut self, scene: &Scene) -> Result<(), SystemError> {
         let negligible = self.negligible_velocity(scene);
         let mut is_projected = false;
@@ -159,7 +159,8 @@ impl System {
         Ok(())
     }
 
-    /// Sets a static model to a time. Prescribed motions get the rates of their functions, and points of rigid bodies the compatible rates.
+    /// Sets a static model to a time. Prescribed motions get the rates of their functions. Points of rigid bodies get the rates that fit the rates
+    /// of their bodies.
     ///
     /// # Errors
     /// Fails if a function has no value at that time, or velocities contradict the sliders.

@@ -1,4 +1,4 @@
-//! Start velocities: rigid motions of beams and bodies, tied at joints, and velocities of single nodes.
+//! Start velocities: rigid motions of beams and bodies, and velocities of single nodes. Joints tie the velocities of different bodies.
 
 use super::{Assembly, Numbering};
 use crate::beams::{BodyDynamics, BodyIndex, Station};
@@ -7,11 +7,11 @@ use crate::system::elements::AssemblyContext;
 use crate::system::errors::{rounded, written};
 use crate::system::{Scene, StartMotion, StationVelocity, SystemError, Turning};
 
-/// Largest difference of start velocities tied by a joint, relative to the velocities of the beam.
+/// Largest difference of two start velocities that are tied by a joint, as a fraction of the velocities of the beam.
 const SAME_VELOCITY: f64 = 1e-9;
 
-/// Largest difference of a start velocity from the initial rate of a prescribed motion, relative to that rate. The rate is computed by finite
-/// differences.
+/// Largest difference between a start velocity and the initial rate of a prescribed motion, as a fraction of that rate. The rate is computed by
+/// finite differences.
 const SAME_START: f64 = 1e-6;
 
 /// Names of the components in messages.
@@ -23,7 +23,7 @@ fn given_rate_text(rate: f64) -> String {
     format!("its motion is prescribed there and begins with {}", rounded(rate))
 }
 
-/// Rate of each unknown with the body that set the rate, and the requested rates of single nodes.
+/// Start rates found so far. `rates` holds the rate of each unknown with the body that set it; `requested` holds the rates of single nodes.
 struct SharedRates<'a> {
     rates: Vec<Option<(usize, f64)>>,
     requested: Vec<Option<RequestedRate<'a>>>,
@@ -40,7 +40,7 @@ struct RequestedRate<'a> {
 #[derive(Clone, Copy)]
 struct InitialDriveRates<'a> {
     unknowns: usize,
-    /// Includes leading entries for contact unknowns, which are unused.
+    /// Initial rates, preceded by unused entries for the contact unknowns.
     rates: &'a [f64],
     constraints: usize,
 }
@@ -53,7 +53,7 @@ impl InitialDriveRates<'_> {
 }
 
 impl SharedRates<'_> {
-    /// Sets the rate of a degree of freedom. Returns the earlier rate if another body or the ground set a different one.
+    /// Sets the rate of a degree of freedom. If another body or the ground has set a different rate, that earlier rate is returned.
     fn set_rate(
         &mut self,
         at: usize,
@@ -88,7 +88,7 @@ impl RequestedRate<'_> {
 impl Assembly<'_> {
     /// Rates of the unknowns at the start, compatible with joints and start velocities [length/time, 1/time].
     ///
-    /// The result also contains entries for `border` contact unknowns, and then the rates of prescribed degrees of freedom.
+    /// After the unknowns the result has entries for the `constraints` contact unknowns, then the rates of the prescribed degrees of freedom.
     pub fn start_rates(
         &self,
         numbering: &Numbering,
@@ -107,7 +107,7 @@ impl Assembly<'_> {
         let first = self.scene.first_rigid_body();
         for (index, body) in (first..).zip(&self.scene.rigid_bodies) {
             let degrees = &numbering.degrees_of_freedom[index];
-            // A body without points shares only its centre, so its angle does not matter and any size may be used.
+            // A body whose points are all at its centre shares no rotation with other bodies, so any size may be used.
             let size = if body.size() > 0.0 { body.size() } else { 1.0 };
             self.apply_rigid_motion(index, size, &body.motion, degrees, &mut shared, begun)?;
         }
@@ -164,7 +164,7 @@ impl Assembly<'_> {
             let sized = degrees.iter().zip(rates).zip(sizes).zip(COMPONENTS);
             for (((&at, rate), size), component) in sized {
                 if let Some(begins) = begun.at(at) {
-                    // A body with zero velocity is set in motion by an impact.
+                    // A body with zero start velocity is accepted; an impact at the start sets it in motion.
                     if !rests && (rate - begins).abs() > SAME_START * size.max(begins.abs()) {
                         return Err(SystemError::StartVelocity {
                             body: self.name_of(index),
@@ -208,7 +208,7 @@ impl Assembly<'_> {
         Ok(())
     }
 
-    /// Requested rates of single nodes, by unknown.
+    /// Requested rates of single nodes, by number of the unknown.
     ///
     /// # Errors
     /// Fails if joined stations have different requested rates.

@@ -1,27 +1,27 @@
-//! Classes of tied components of control points.
+//! Components of control points (x, y and angle) that are tied to each other, as classes of equal motion.
 
 use crate::beams::{BodyDynamics, BodyPoint, Station};
 use crate::joints::{Component, Partner, Releasable};
 use crate::system::SystemError;
 use crate::system::scene::{Scene, Ties};
 
-/// Class of the components fixed to the ground.
+/// Class of the components that are fixed to the ground.
 pub const GROUND: usize = 0;
 
-/// Components of control points, numbered from one in the order of the bodies, in classes tied by joints, particles and rigid bodies.
+/// Classes of components tied by joints, particles and rigid bodies. Components are numbered from one in the order of the bodies.
 pub struct TiedComponents {
     pub ties: Ties,
-    /// First component of each body, followed by the total.
+    /// First component of each body, followed by the total number of components.
     offsets: Vec<usize>,
     pub links: Vec<(usize, usize)>,
-    /// Body and control point of each inclined roller, in the order of the joints; `None` after a release.
+    /// Body and control point of each inclined roller, in the order of the joints; `None` for a released roller.
     pub rollers: Vec<Option<(usize, usize)>>,
     /// Classes with a prescribed motion, in the order of the drives.
     pub prescribed: Vec<usize>,
 }
 
 impl TiedComponents {
-    /// Ties the components of a scene; `place` locates stations on the meshes. Joints and drives in `released` tie nothing.
+    /// Ties the components of a scene. `place` locates stations on the meshes. Joints and drives in `released` tie nothing.
     pub fn new(
         scene: &Scene,
         released: &[Releasable],
@@ -44,7 +44,7 @@ impl TiedComponents {
                 classes.rollers.extend(joint.kind.inclined().map(|_| None));
                 continue;
             }
-            // Stations of joints are breaks of the mesh, with a control point on the axis.
+            // Stations of joints are breaks of the mesh, so a control point lies on the axis there.
             let from = place(&joint.station)?;
             let to = match &joint.partner {
                 Partner::Ground => None,
@@ -74,7 +74,7 @@ impl TiedComponents {
         }
     }
 
-    /// The points of a rigid body rotate with it. Points at the centre are the centre.
+    /// Ties the angles of all points of a rigid body to the angle of the body. Points at the centre are tied to the centre.
     fn tie_rigid_bodies(&mut self, scene: &Scene) {
         let first = scene.first_rigid_body();
         for (body, definition) in (first..).zip(&scene.rigid_bodies) {

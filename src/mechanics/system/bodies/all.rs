@@ -10,17 +10,17 @@ use crate::geometry::{Vec2, larger};
 /// Value of a basis function at a node below which the function counts as zero there.
 const NO_WEIGHT: f64 = 1e-12;
 
-/// Bodies of a model (beams, then particles, then rigid bodies) with tracked sections. Dereferences to the slice of bodies.
+/// Bodies of a model (beams, then particles, then rigid bodies), with the tracked sections. Dereferences to the slice of bodies.
 pub struct Bodies {
     pub(super) all: Vec<Body>,
     meshes: Vec<Mesh>,
-    /// Tracked sections: starts and ends of all beams, then stations of the scene, then rigid bodies.
+    /// Trackers of the starts and ends of all beams, then of the stations of the scene, then of the rigid bodies.
     pub(super) trackers: Vec<Tracker>,
     joined: Vec<(BodyPoint, BodyPoint)>,
     /// Mass of the beams [mass].
     mass: f64,
     pub(super) threads: usize,
-    /// Partition for two threads, for large numbers of bodies.
+    /// Division into two halves for two threads; `None` for a small number of bodies.
     pub(super) halves: Option<BodyHalves>,
 }
 
@@ -66,7 +66,7 @@ impl Bodies {
         &self.meshes
     }
 
-    /// Mass of the beams without attached masses [mass].
+    /// Mass of the beams, excluding attached masses [mass].
     pub fn mass(&self) -> f64 {
         self.mass
     }
@@ -80,7 +80,7 @@ impl Bodies {
         self.trackers.get(section).map(|tracker| tracker.angle)
     }
 
-    /// Position of a place at the start of the step [length].
+    /// Position of a point of a body at the start of the step [length].
     pub fn position(&self, place: &BodyPoint) -> Vec2 {
         place.interpolate(self[place.body].dynamics.control_points())
     }
@@ -93,7 +93,7 @@ impl Bodies {
         speeds.fold(0.0, larger)
     }
 
-    /// Largest gap between joined places [length].
+    /// Largest gap between two points that a joint connects [length].
     pub fn largest_gap(&self) -> f64 {
         let gap = |(a, b): &(BodyPoint, BodyPoint)| (self.position(a) - self.position(b)).norm();
         self.joined.iter().map(gap).fold(0.0, larger)
@@ -109,14 +109,14 @@ impl Bodies {
         self.iter().map(|body| body.dynamics.strain_energy()).sum()
     }
 
-    /// Distributes increments of the unknowns to the bodies.
+    /// Stores the increments of the unknowns in the bodies that they move.
     pub fn gather(&mut self, increments: &[f64]) {
         for body in &mut self.all {
             body.gather(increments);
         }
     }
 
-    /// Values at the control points of every body; zero at supported degrees of freedom.
+    /// Values of the unknowns, arranged by body and control point; zero at supported degrees of freedom.
     pub fn by_control_point(&self, values: &[f64]) -> Vec<Vec<Movement>> {
         self.iter().map(|body| body.by_control_point(values).collect()).collect()
     }
@@ -144,7 +144,7 @@ impl Bodies {
         bodies.for_each(|(body, own)| std::mem::swap(&mut body.degrees_of_freedom, own));
     }
 
-    /// Nodes joined at a place, as indices of bodies and control points; `None` if the place is not a node.
+    /// Nodes that joints connect with a node, itself included, as indices of bodies and control points; `None` if the place is not a node.
     pub fn tied_nodes(&self, place: &BodyPoint) -> Option<Vec<(usize, usize)>> {
         let mut nodes = vec![node_of(place)?];
         let mut next = 0;

@@ -20,7 +20,7 @@ pub struct Body {
     /// For each control point, true if the unknowns of all spans that contain it are consecutive.
     in_order: Vec<bool>,
     unknowns: usize,
-    /// First control point and first row of each concurrent part, except the first part.
+    /// First control point and first row of the tangent of each part that is evaluated concurrently, except the first part.
     parts: Vec<(usize, usize)>,
     movements: Vec<Movement>,
     forces: Vec<Movement>,
@@ -71,8 +71,8 @@ impl Body {
         }
     }
 
-    /// Divides the body into at most `most` concurrent parts with unchanged results, and returns their number. Small bodies are not divided, nor
-    /// bodies whose parts have interleaved rows.
+    /// Divides the body into at most `most` parts that are evaluated concurrently, and returns their number. Results do not change. A body is not
+    /// divided if it is small, or if the rows of its parts are interleaved.
     pub fn divide(&mut self, most: usize) -> usize {
         let points = self.dynamics.divide(most);
         let rows_of = |points: &[[usize; 3]]| {
@@ -112,19 +112,19 @@ impl Body {
         self.rows().max()
     }
 
-    /// Gathers values of the unknowns by control point; zero at supported degrees of freedom.
+    /// Stores values of the unknowns by control point, and returns them; zero at supported degrees of freedom.
     pub fn gather(&mut self, values: &[f64]) -> &[Movement] {
         self.degrees_of_freedom.gather(values, &mut self.movements);
         &self.movements
     }
 
-    /// Values of the unknowns by control point; zero at supported degrees of freedom.
+    /// Returns values of the unknowns by control point; zero at supported degrees of freedom.
     pub fn by_control_point(&self, values: &[f64]) -> impl Iterator<Item = Movement> {
         let value = |at: usize| values.get(at).copied().unwrap_or(0.0);
         self.degrees_of_freedom.iter().map(move |degrees| degrees.map(value))
     }
 
-    /// Displacement and rotation of a place [length, length, rad], from values of the unknowns.
+    /// Displacement and rotation at a place of the body [length, length, rad], interpolated from values of the unknowns.
     pub fn at(&self, place: &BodyPoint, values: &[f64]) -> Movement {
         let mut sum = [0.0; 3];
         for (point, weight) in place.weights() {
@@ -141,7 +141,7 @@ impl Body {
         Vec2::new(value(x), value(y))
     }
 
-    /// Position of a control point, and its accumulated rounding remainder [length].
+    /// Position of a control point, and the rounding error that its increments have accumulated [length].
     pub fn precise_point(&self, point: usize) -> (Vec2, Vec2) {
         (self.dynamics.control_points()[point], self.dynamics.remainders()[point])
     }
@@ -154,7 +154,7 @@ impl Body {
         self.dynamics.advance(&self.movements, rotations);
     }
 
-    /// Adds the accumulated forces to `out`, resets them to zero, and returns their summary.
+    /// Adds the forces accumulated in the body to `out`, resets them to zero, and returns their summary.
     pub fn scatter(&mut self, out: &mut [f64]) -> ForceSummary {
         self.degrees_of_freedom.scatter(&mut self.forces, out);
         std::mem::take(&mut self.summary)
@@ -169,7 +169,7 @@ impl Body {
         self.summary = self.dynamics.add_forces(at, &self.movements, weight, &mut self.forces);
     }
 
-    /// Accumulates the condensed internal forces, and adds their derivatives to the given rows of the tangent.
+    /// Accumulates the internal forces, with strain mismatches condensed out, and adds their derivatives to the given rows of the tangent.
     pub fn linearise(
         &mut self,
         at: Collocation,
@@ -216,13 +216,13 @@ impl Body {
         self.dynamics.correct_section_forces(&self.movements);
     }
 
-    /// Accumulates `factor · M · rates`.
+    /// Accumulates the inertia forces `factor · M · rates`.
     pub fn add_inertia_forces(&mut self, factor: f64, rates: &[f64]) {
         self.gather(rates);
         self.dynamics.add_inertia(factor, &self.movements, &mut self.forces);
     }
 
-    /// Calls `add` with the row, column and value of each entry of `factor · M`. Entries at the same place add up.
+    /// Calls `add` with the row, column and value of each entry of `factor · M`. Values for the same row and column must be added up.
     pub fn inertia_entries(&self, factor: f64, add: &mut impl FnMut(usize, usize, f64)) {
         self.inertia_entries_of(0..self.degrees_of_freedom.len(), factor, add);
     }
@@ -248,7 +248,8 @@ impl Body {
     ) {
         let rows = &self.degrees_of_freedom[point];
         for (columns, inertia) in self.degrees_of_freedom[first..].iter().zip(inertia) {
-            // Control points without a common span may be far apart in the numbering, outside the band of the tangent.
+            // Zero entries are omitted: without a common span, two control points may be numbered so far apart that the entry lies outside the band
+            // of the tangent.
             if *inertia == Movement::default() {
                 continue;
             }

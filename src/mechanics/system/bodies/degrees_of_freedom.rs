@@ -4,7 +4,7 @@ use std::ops::{Deref, Range};
 
 use crate::beams::Movement;
 
-/// Degrees of freedom by control point, three for each. Dereferences to a slice of them.
+/// Degrees of freedom of a body: three for each control point. Dereferences to a slice of them.
 #[derive(Debug, Clone, Default)]
 pub struct DegreesOfFreedom {
     numbers: Vec<[usize; 3]>,
@@ -39,7 +39,7 @@ impl Deref for DegreesOfFreedom {
 }
 
 impl DegreesOfFreedom {
-    /// Gathers values by control point; zero for missing values.
+    /// Gathers values by control point. Degrees of freedom without a value get zero.
     pub fn gather(&self, values: &[f64], moved: &mut [Movement]) {
         let moved = moved.as_flattened_mut();
         for DofRun { movements, first } in &self.runs {

@@ -1,20 +1,21 @@
-//! Partition of many bodies into two halves for two threads, with results identical to those of one thread.
+//! Division of many bodies into two halves for two threads. Results are identical to those of one thread.
 //!
-//! Sums are made in the order of the bodies: each body accumulates its own forces, and one thread adds them to the result. In the tangent, only the
-//! second half writes the rows that no body of the first half has. The other rows of bodies of the second half are added afterwards.
+//! Sums are made in the order of the bodies: each body accumulates its own forces, and one thread adds them to the result. In the tangent, the
+//! thread of the second half writes only the rows in which no body of the first half has entries. Bodies of the second half with entries in other
+//! rows are added afterwards.
 
 use super::Body;
 
 /// Smallest number of control points of a half. Smaller halves gain little, and cost time if the other core is busy (docs/studies.md).
 const SMALLEST_HALF: usize = 1500;
 
-/// Largest fraction of control points in bodies that have rows in both halves, whose work is done twice.
+/// Largest fraction of control points in bodies with rows in both halves of the tangent. These bodies are evaluated twice.
 const LARGEST_ASTRIDE: f64 = 0.1;
 
 #[derive(Debug, Clone)]
 pub(super) struct BodyHalves {
     pub(super) body: usize,
-    /// First row of the tangent without a body of the first half.
+    /// First row of the tangent in which no body of the first half has entries.
     pub(super) row: usize,
     /// Bodies of the second half with rows before `row`.
     pub(super) astride: Vec<usize>,

@@ -1,4 +1,4 @@
-//! Rows of a body in the tangent.
+//! Access to the rows of a body in the tangent.
 
 use std::iter::once;
 
@@ -18,7 +18,7 @@ pub(super) fn rows_of_parts<'a>(
     })
 }
 
-/// Degrees of freedom of spans in the tangent.
+/// Degrees of freedom of the spans of a body, for adding span matrices to the tangent.
 pub(super) struct Places<'a> {
     pub(super) degrees_of_freedom: &'a [[usize; 3]],
     pub(super) consecutive: &'a [Option<usize>],

@@ -2,11 +2,11 @@
 
 use crate::beams::{BodyPoint, Movement, Rotation, RotationIncrement};
 
-/// Place of a beam with a tracked section angle, updated in every step.
+/// Place of a body with the angle of its section, which is updated in every step.
 #[derive(Debug, Clone, Copy)]
 pub struct Tracker {
     pub place: BodyPoint,
-    /// Unwrapped angle [rad].
+    /// Angle of the section, counted over full turns [rad].
     pub angle: f64,
     pub rotation: Rotation,
 }

@@ -1,4 +1,4 @@
-//! Step operations on all bodies, in sequence or in two concurrent halves.
+//! Sums over all bodies in a step, computed in sequence or in two concurrent halves.
 
 use super::halves::BodyHalves;
 use super::{Bodies, Body};
@@ -7,7 +7,7 @@ use crate::linalg::{BandRows, BandedMatrix};
 use crate::threads::run_concurrently;
 
 impl Bodies {
-    /// Sets the number of threads for a large body or many bodies, with unchanged results. Returns the largest number in use.
+    /// Sets the number of threads for a large body or many bodies. Results do not change. Returns the largest number of threads in use.
     pub fn divide(&mut self, threads: usize) -> usize {
         self.threads = threads;
         let parts = self.all.iter_mut().map(|body| body.divide(threads)).max().unwrap_or(1);
@@ -45,7 +45,7 @@ impl Bodies {
         self.scatter(out)
     }
 
-    /// Adds the accumulated forces in the order of the bodies, which determines rounding. Returns their summary.
+    /// Adds the forces accumulated in the bodies to `out`, in the order of the bodies so that rounding is reproducible. Returns their summary.
     fn scatter(&mut self, out: &mut [f64]) -> ForceSummary {
         let mut summary = ForceSummary::default();
         for body in &mut self.all {
@@ -54,7 +54,7 @@ impl Bodies {
         summary
     }
 
-    /// Adds the condensed internal forces to `out` and their derivatives to the tangent.
+    /// Adds the internal forces, with strain mismatches condensed out, to `out`, and their derivatives to the tangent.
     pub fn add_linearised_forces(
         &mut self,
         at: Collocation,

@@ -1,4 +1,4 @@
-//! All elements of a model, with their sums over one step.
+//! All elements of a model, and the sums of their forces, work and energies in a step.
 
 use super::element::BuiltElement;
 use super::point_mass::NodalMass;
@@ -18,12 +18,12 @@ pub struct Elements {
     forces: Vec<Box<dyn ExternalForce>>,
     /// Internal forces, in the order of the scene.
     resistances: Vec<Box<dyn InternalForce>>,
-    /// Largest relative force mismatch in the last iterate, and the index of the internal force.
+    /// Largest relative force mismatch in the last iterate, and the index of the internal force with this mismatch.
     largest_mismatch: (f64, usize),
 }
 
 impl Elements {
-    /// Collects built elements, and adds the weight of the point masses to that of the beams.
+    /// Collects elements that have been built, and adds the weight of the point masses to the weight of the beams.
     pub fn new(parts: impl Iterator<Item = BuiltElement>, mut weight: Option<Weight>) -> Self {
         let (mut masses, mut forces, mut resistances) = (Vec::new(), Vec::new(), Vec::new());
         for part in parts {
@@ -64,7 +64,7 @@ impl Elements {
         self.springs_mut().nth(spring).into_iter().for_each(|spring| spring.release());
     }
 
-    /// Marks the given springs as released and all others as attached, before their state is restored.
+    /// Marks the selected springs as released and all others as attached, before their state is restored.
     pub fn detach_only(&mut self, is_released: impl Fn(usize) -> bool) {
         for (at, spring) in self.springs_mut().enumerate() {
             if is_released(at) { spring.detach() } else { spring.attach() }
@@ -74,7 +74,7 @@ impl Elements {
     /// Prepares all elements for a step that starts with the given rates of the unknowns.
     ///
     /// # Errors
-    /// Name of the element without a finite value, and the reason.
+    /// Returns the name of the element without a finite value, and the reason.
     pub fn begin_step(
         &mut self,
         (interval, stages): (Interval, &[Stage]),
@@ -89,10 +89,10 @@ impl Elements {
         })
     }
 
-    /// Evaluates all loads just after a time.
+    /// Evaluates all loads just after a time, that is, after a jump at this time.
     ///
     /// # Errors
-    /// Name of the element without a finite value, and the reason.
+    /// Returns the name of the element without a finite value, and the reason.
     pub fn evaluate_after(&mut self, time: f64) -> Result<(), (String, LoadError)> {
         self.forces.iter_mut().try_for_each(|force| {
             force.evaluate_after(time).map_err(|error| (force.name().to_owned(), error))
@@ -112,7 +112,8 @@ impl Elements {
         self.masses.iter().for_each(|mass| mass.add_inertia(bodies, factor, rates, out));
     }
 
-    /// Calls `add` with the row, column and value of each entry of `factor · M` of all point masses. Entries at the same place add up.
+    /// Calls `add` with the row, column and value of each entry of `factor · M` of all point masses. Values for the same row and column must be
+    /// added up.
     pub fn inertia_entries(
         &self,
         bodies: &[Body],
@@ -133,7 +134,7 @@ impl Elements {
         on_body.map(|mass| mass.momenta(bodies, rates).twice_kinetic).sum()
     }
 
-    /// Potential energy of the weight of a body and the masses on it [energy].
+    /// Potential energy of the weight of a body and of the point masses on it [energy].
     pub fn potential_of(&self, bodies: &[Body], body: usize) -> f64 {
         self.weight.as_ref().map_or(0.0, |weight| weight.energy_of(bodies, body))
     }
@@ -148,7 +149,7 @@ impl Elements {
         })
     }
 
-    /// Adds the negative derivative of all forces with respect to the increments to the tangent with `unknowns` rows.
+    /// Adds the tangent stiffness of all forces, their negative derivative with respect to the increments, to the `unknowns` rows of the tangent.
     pub fn add_tangent(&self, at: TrialState<'_>, unknowns: usize, tangent: &mut BandedMatrix) {
         self.forces.iter().for_each(|force| force.add_tangent(at, unknowns, tangent));
     }
@@ -177,14 +178,14 @@ impl Elements {
         }
     }
 
-    /// Name and relative mismatch of the internal force with the largest mismatch in the last iterate; `None` if all mismatches are zero.
+    /// Name and relative mismatch of the internal force that had the largest mismatch in the last iterate; `None` if all mismatches are zero.
     pub fn farthest(&self) -> Option<(&str, f64)> {
         let (missing, index) = self.largest_mismatch;
         let resistance = self.resistances.get(index)?;
         (missing != 0.0).then(|| (resistance.name(), missing))
     }
 
-    /// Adds all condensed internal forces and their derivatives with respect to the `unknowns` increments.
+    /// Adds all internal forces, with force mismatches condensed out, and their derivatives with respect to the `unknowns` increments.
     pub fn add_linearised_resistance(
         &mut self,
         at: TrialState<'_>,
@@ -230,7 +231,7 @@ impl Elements {
             .for_each(|resistance| resistance.add_forces_at_start(bodies, rates, out));
     }
 
-    /// Calls `take` with each damped rate and its damping coefficient, at the start of the step.
+    /// Calls `take` for each damped rate at the start of the step, with the rate and its damping coefficient.
     pub fn each_damped_rate(&self, bodies: &[Body], rates: &[f64], take: &mut dyn FnMut(f64, f64)) {
         self.resistances().for_each(|resistance| resistance.each_damped_rate(bodies, rates, take));
     }
@@ -244,7 +245,7 @@ impl Elements {
         self.resistances().for_each(|resistance| resistance.static_stiffness(bodies, take));
     }
 
-    /// Work and impulse of all elements in the step whose increments the bodies gathered last.
+    /// Work and impulse of all elements in the step being accepted, from the increments stored in the bodies.
     pub fn exchange(&self, bodies: &[Body], duration: f64) -> WorkAndImpulse {
         let mut sum = WorkAndImpulse::default();
         for element in self.forces().chain(self.weight()) {
@@ -256,7 +257,7 @@ impl Elements {
         sum
     }
 
-    /// Energy stored in weight and external forces [energy].
+    /// Potential energy of weight and external forces [energy].
     pub fn energy(&self, bodies: &[Body]) -> f64 {
         let stored = self.weight().into_iter().chain(self.forces());
         stored.filter_map(|element| element.energy(bodies)).reduce(|a, b| a + b).unwrap_or(0.0)

@@ -1,6 +1,6 @@
-//! Branch of a piecewise law on which a spring is.
+//! Branch of a piecewise linear law on which a spring is.
 
-/// Segment of a piecewise law on which a spring is, and the rate of the elongation.
+/// Segment of a piecewise linear law on which a spring is, and the rate of its elongation.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Branch {
     /// Number of sharp corners of the law below the current elongation. It changes, for example, when the contact of a bumper begins.

@@ -1,18 +1,18 @@
-//! Duration of bounces on springs that can be slack, such as bumpers and ropes.
+//! Duration of contact on springs that can be slack, such as bumpers and ropes. Contacts shorter than a few steps are not resolved.
 
 /// Number of steps up to which a bounce is unresolved. Three steps cover half of the contact period.
 const FEW: f64 = 3.0;
 
-/// Change of the rate during a contact, relative to the rate at its start, below which the contact is not a bounce.
+/// Smallest change of the rate during a contact that counts as a bounce, as a fraction of the rate at the start of the contact.
 const TURNED: f64 = 0.5;
 
-/// Contact depth, relative to the length or angle, below which the contact is attributed to rounding.
+/// Contact depth that is attributed to rounding, as a fraction of the length or angle of the spring.
 const ROUNDING_DEPTH: f64 = 1e-12;
 
-/// Bounce on a spring that the steps do not resolve.
+/// Bounce on a spring, too short to be resolved by the steps.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ShortBounce {
-    /// Number of steps, or fractions of steps, in which the spring is not slack [-].
+    /// Number of steps in which the spring is not slack, including steps in which it is slack at one end [-].
     pub steps: f64,
     /// Largest force of the bounce, averaged over a step [force, force·length].
     pub force: f64,
@@ -23,11 +23,11 @@ pub struct ShortBounce {
 /// Monitor of the contact phases of a spring that can be slack.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct ContactWatch {
-    /// Steps since contact began; zero while slack.
+    /// Number of steps since contact began; zero while slack.
     steps: f64,
     /// Rate of elongation when contact began [length/time, rad/time].
     entry: f64,
-    /// Largest force in this contact [force, force·length].
+    /// Largest force so far in this contact [force, force·length].
     force: f64,
     /// Time since contact began [time].
     duration: f64,
@@ -41,8 +41,8 @@ impl ContactWatch {
         Self { noise: ROUNDING_DEPTH * largest_stiffness * extent, ..Self::default() }
     }
 
-    /// Records a step: whether the spring is slack at its start and end, the rates of elongation of the previous and of this step, force and
-    /// duration.
+    /// Records a step. The arguments are: whether the spring is slack at the start and at the end, the rates of elongation of the previous step and
+    /// of this step, and the force and the duration.
     pub fn add(
         &mut self,
         [was_slack, is_slack]: [bool; 2],
@@ -57,7 +57,7 @@ impl ContactWatch {
             *self = Self { steps: 0.0, entry, force: 0.0, duration: 0.0, ..*self };
         }
         self.steps += 1.0;
-        // Substeps may run back.
+        // Substeps may be backwards in time.
         self.duration += duration.abs();
         self.force = self.force.max(force.abs());
         if !is_slack {

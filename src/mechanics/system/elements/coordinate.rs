@@ -1,9 +1,9 @@
-//! Compensated sums of increments.
+//! Sums of increments with compensated rounding.
 
-/// Length, angle or rate that is accumulated from increments, with the rounding error of the sum.
+/// Length, angle or rate that is a sum of increments, stored together with the rounding error of the sum.
 ///
-/// Compensated summation (N. J. Higham, Accuracy and Stability of Numerical Algorithms (2002), section 4.3). Without it, the elongation of a rope of
-/// 1 m that is stretched by a micrometre in an impact, and thereby its stored energy, would be accurate to ten digits only.
+/// The method is compensated summation (N. J. Higham, Accuracy and Stability of Numerical Algorithms (2002), section 4.3). Without it, the
+/// elongation of a rope of 1 m that is stretched by a micrometre in an impact would be accurate to ten digits only, and so would its stored energy.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Coordinate {
     pub value: f64,
@@ -24,7 +24,7 @@ impl Coordinate {
         Self { value, rest: self.rest + lost }
     }
 
-    /// Difference from a number, as accurate as the rounding of the difference itself.
+    /// Difference from a number. Its error is the rounding error of the difference, not of the sum.
     pub fn difference(self, number: f64) -> f64 {
         (self.value - number) + self.rest
     }

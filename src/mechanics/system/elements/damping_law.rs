@@ -8,15 +8,15 @@ use super::law_range::LawRange;
 use super::spring_law::SpringLaw;
 use crate::geometry::larger;
 
-/// Force, relative to the largest force of the law, below which a force at zero rate or in the direction of the rate is attributed to rounding.
+/// Force that is attributed to rounding, as a fraction of the largest force of the law: at zero rate, or where it would add energy.
 const ROUNDING: f64 = 1e-12;
 
-/// Damping force as a function of the rate `q̇` of an elongation. It is zero at zero rate and opposes the motion.
+/// Damping force as a function of the rate `q̇` of an elongation. It is zero at zero rate and opposes the motion otherwise.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub enum DampingLaw {
-    /// `c q̇`, with `c` at least zero [force·time/length; of torsion force·length·time/rad].
+    /// `c q̇` with `c` ≥ 0 [force·time/length; for torsion force·length·time/rad].
     Linear(f64),
-    /// Piecewise linear force over the rate, from a table or a sampled function.
+    /// Piecewise linear function of the rate, from a table or a sampled function.
     Curve(SpringLaw),
 }
 
@@ -35,9 +35,9 @@ impl From<f64> for DampingLaw {
 /// Range in which a damping law adds energy.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum NegativeDamping {
-    /// At a rate inside the law [length/time, rad/time], with a force [force, force·length].
+    /// Point of the law that adds energy: its rate [length/time, rad/time] and its force [force, force·length].
     At { rate: f64, force: f64 },
-    /// Beyond an end of the law, where its linear extrapolation changes sign.
+    /// Linear extrapolation beyond the end of the law at the rate `end`, which adds energy beyond the rate `from`.
     Extrapolated { end: f64, from: f64 },
 }
 
@@ -57,7 +57,7 @@ impl fmt::Display for NegativeDamping {
 }
 
 impl DampingLaw {
-    /// Samples a damping force over a range of rates that contains zero, by `SpringLaw::sampled` on either side of zero.
+    /// Samples a damping force over a range of rates that contains zero. Each side of zero is sampled separately by `SpringLaw::sampled`.
     ///
     /// # Errors
     /// Errors of the function.
@@ -79,7 +79,7 @@ impl DampingLaw {
         Ok(Self::Curve(SpringLaw::Sampled { points: all, error: worst }))
     }
 
-    /// Corners of the law as pairs of rate and force; empty for a linear law.
+    /// Points of the law as pairs of rate and force; empty for a linear law.
     pub fn corners(&self) -> &[(f64, f64)] {
         match self {
             Self::Curve(SpringLaw::Table { points } | SpringLaw::Sampled { points, .. }) => points,
@@ -87,7 +87,7 @@ impl DampingLaw {
         }
     }
 
-    /// Watch of the rates for which the law is given; `None` if it is defined everywhere.
+    /// Record of rates outside the range for which the law is given; `None` if it is defined everywhere.
     pub fn watch(&self) -> Option<LawRange> {
         match self {
             Self::Linear(_) => None,
@@ -100,7 +100,8 @@ impl DampingLaw {
         *self != Self::Linear(0.0)
     }
 
-    /// Range in which the law adds energy or has a force at zero rate; `None` if it dissipates at every rate, including its extrapolation.
+    /// Range in which the law adds energy or has a force at zero rate. The result is `None` if the law and its extrapolation dissipate at every
+    /// rate.
     pub(crate) fn active_range(&self) -> Option<NegativeDamping> {
         let corners = self.corners();
         let (Some(first), Some(last)) = (corners.first(), corners.last()) else { return None };
@@ -114,7 +115,7 @@ impl DampingLaw {
         if let Some((rate, force)) = moving.find(|at| feeds(*at)) {
             return Some(NegativeDamping::At { rate, force });
         }
-        // Far enough beyond the ends that a falling line changes its sign.
+        // The distance is so large that the force of a falling line has changed its sign there.
         let reach = |end: f64| 1e6 * (end.abs() + (last.0 - first.0));
         let beyond = [(first, first.0 - reach(first.0)), (last, last.0 + reach(last.0))];
         let (end, rate) = beyond.into_iter().find(|(_, rate)| feeds((*rate, self.force(*rate))))?;
@@ -122,7 +123,7 @@ impl DampingLaw {
         Some(NegativeDamping::Extrapolated { end: end.0, from: end.0 - end.1 / slope })
     }
 
-    /// Returns the law with a table point of zero force at zero rate, where its slope may change.
+    /// Returns the law with an additional point of zero force at zero rate, where the slope may then change.
     pub(crate) fn with_corner_at_rest(&self) -> Self {
         let mut law = self.clone();
         if let Self::Curve(SpringLaw::Table { points } | SpringLaw::Sampled { points, .. }) =
@@ -145,7 +146,8 @@ impl DampingLaw {
         }
     }
 
-    /// Derivative of the force with respect to the rate [force·time/length, force·length·time/rad]; at a corner the slope of the segment above it.
+    /// Derivative of the force with respect to the rate [force·time/length, force·length·time/rad]. At a corner it is the slope of the segment
+    /// above the corner.
     pub fn slope(&self, rate: f64) -> f64 {
         match self {
             Self::Linear(constant) => *constant,
@@ -153,8 +155,9 @@ impl DampingLaw {
         }
     }
 
-    /// Force and slope for Newton's method. With an impedance of the loaded system, they belong to the segment that intersects the line of this
-    /// impedance through `rate` and `force`. Without it, the iteration could alternate between two steep segments.
+    /// Force and slope for Newton's method. If the impedance of the rest of the system is known, the linearisation uses the segment of the law that
+    /// intersects the straight line through (`rate`, `force`) with the slope `-impedance`. Without this rule, the iteration could alternate between
+    /// two steep segments.
     pub(crate) fn linearised_target(
         &self,
         rate: f64,
@@ -167,14 +170,14 @@ impl DampingLaw {
         let Some(passed) = corners.iter().position(|(at, _)| above(*at) >= 0.0) else {
             return at_rate;
         };
-        // A rate inside the segment before that corner.
+        // A rate in the interior of the segment below that corner.
         let Some(before) = passed.checked_sub(1) else { return at_rate };
         let inside = 0.5 * (corners[before].0 + corners[passed].0);
         let slope = self.slope(inside);
         (self.force(inside) + slope * (rate - inside), slope)
     }
 
-    /// Damping coefficient for small vibrations: the slope at zero rate, averaged over both sides [force·time/length, force·length·time/rad].
+    /// Damping coefficient for small vibrations: the mean of the slopes on both sides of zero rate [force·time/length, force·length·time/rad].
     pub(crate) fn slope_at_rest(&self) -> f64 {
         match self {
             Self::Linear(constant) => *constant,

@@ -1,4 +1,4 @@
-//! Drag in air or water as described by a scene.
+//! Drag in air or water, as described by a scene.
 
 use serde::{Deserialize, Serialize};
 
@@ -11,7 +11,7 @@ use crate::geometry::{GaussRule, Vec2};
 use crate::system::SystemError;
 use crate::system::errors::finite;
 
-/// Object that experiences drag, with its law.
+/// Object that experiences drag, with its drag law.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub enum Dragged {
     /// A beam, along its whole length, with separate laws across and along the axis.
@@ -27,12 +27,12 @@ pub enum Dragged {
     Point {
         /// Station with drag.
         station: Station,
-        /// Force against the velocity.
+        /// Force opposite to the velocity.
         law: SpeedLaw,
     },
 }
 
-/// Drag: forces against the velocity relative to a medium with a uniform velocity.
+/// Drag force, opposite to the velocity relative to a medium. The medium has a uniform velocity.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Drag {
     /// Name in messages and columns.
@@ -78,7 +78,7 @@ impl ElementDef for Drag {
         }
     }
 
-    /// Quadratic drag couples the velocity components.
+    /// Quadratic drag couples the velocity components of a station.
     fn coupled(&self) -> Vec<Station> {
         match &self.on {
             Dragged::Beam { .. } => Vec::new(),
@@ -101,7 +101,7 @@ impl ElementDef for Drag {
     }
 }
 
-/// Drag points of a beam: `degree + 1` Gauss points per span.
+/// Points at which the drag of a beam is evaluated: `degree + 1` Gauss points per span.
 fn points_of_beam(site: &dyn AssemblyContext, beam: usize) -> Result<Vec<DragPoint>, SystemError> {
     let basis = site.mesh(beam).basis();
     let rule = GaussRule::new(basis.degree() + 1).map_err(|error| site.wrong(beam, error))?;

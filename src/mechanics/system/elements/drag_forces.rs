@@ -1,11 +1,12 @@
 //! Drag in a step.
 //!
 //! ```text
-//! v = Δx/Δt - wind      f_a = -w N_a G(v, t)      D grows by Σ w G·v Δt ≥ 0, W by -Σ w G·wind Δt
+//! v = Δx/Δt - wind      f_a = -w N_a G(v, t)      D increases by Σ w G·v Δt ≥ 0, W by -Σ w G·wind Δt
 //! ```
 //!
-//! The power dissipated relative to the wind, `G·v`, is evaluated from the force `G` by the law. As `G·Δx - G·wind Δt` it would be a small difference
-//! of large numbers whose rounding may have either sign. `W` is the remainder of `-G·Δx`, so that the energy balance is exact.
+//! Here `w` are quadrature weights, `N_a` the basis functions, `f_a` the nodal forces, `D` the dissipated energy and `W` the work of the wind. The
+//! power `G·v` is computed from the force `G` alone by means of the law. The difference `G·Δx - G·wind Δt` would be a small difference of large
+//! numbers whose rounding may have either sign. `W` is the remainder to `-G·Δx`, so that the energy balance is exact.
 //!
 //! `t` is the direction of the axis in the mean configuration.
 
@@ -47,7 +48,7 @@ impl DragForces {
         self.rate_history.at(at.stage, at.weight).filter(|_| is_timed)
     }
 
-    /// Work of the wind and dissipated energy at one point, in the step whose increments its body gathered last [energy].
+    /// Work of the wind and dissipated energy at one point in the step being accepted, from the increments stored in its body [energy].
     fn turnover(&self, point: &DragPoint, body: &Body) -> [f64; 2] {
         let (force, movement) = (point.applied_force(), point.movement(body));
         let taken = force.dot(&movement);
@@ -116,7 +117,7 @@ impl InternalForce for DragForces {
         }
     }
 
-    /// Drag is evaluated once per step, whatever the weight.
+    /// Drag is evaluated once per step, so the weight of a stage does not apply.
     fn add_mismatch_forces(&self, bodies: &[Body], _weight: f64, out: &mut [f64]) {
         for point in &self.points {
             point.scatter(&bodies[point.body], point.missing(), out);
@@ -172,7 +173,7 @@ impl InternalForce for DragForces {
         }
     }
 
-    /// The quadratic part does not damp small vibrations.
+    /// Only the linear part of the law damps small vibrations.
     fn each_damped_rate(&self, bodies: &[Body], rates: &[f64], take: &mut dyn FnMut(f64, f64)) {
         let damping = self.medium.law.linear();
         for point in &self.points {

@@ -1,4 +1,4 @@
-//! Drag laws: force against a velocity, with derivatives.
+//! Drag laws: force as a function of the velocity relative to the medium, with derivatives.
 //!
 //! ```text
 //! point    G = (c + k |v|) v        line    G = φn(n·v) n + φt(t·v) t,  φ(s) = c s + k |s| s        G·v ≥ 0
@@ -8,12 +8,12 @@ use serde::{Deserialize, Serialize};
 
 use crate::geometry::{Vec2, perpendicular};
 
-/// Force over speed, `c s + k |s| s`, of a point or per length of a line.
+/// Force `c s + k |s| s` as a function of the speed `s`, for a point or per length of a line.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct SpeedLaw {
-    /// Coefficient `c` of the linear part [force·time/length; of a line force·time/length²].
+    /// Coefficient `c` of the linear part [force·time/length; for a line force·time/length²].
     pub linear: f64,
-    /// Coefficient `k` of the quadratic part [force·time²/length²; of a line force·time²/length³].
+    /// Coefficient `k` of the quadratic part [force·time²/length²; for a line force·time²/length³].
     pub quadratic: f64,
 }
 
@@ -22,7 +22,7 @@ impl SpeedLaw {
         (self.linear + self.quadratic * speed.abs()) * speed
     }
 
-    /// Power `F s`, computed from the force `F = c s + k |s| s` alone; never negative.
+    /// Power `F s`, computed only from the force `F = c s + k |s| s`, so that it is never negative.
     fn power(&self, force: f64) -> f64 {
         let force = force.abs();
         if force == 0.0 {
@@ -44,7 +44,7 @@ pub enum DragLaw {
     Line { normal: SpeedLaw, tangent: SpeedLaw },
 }
 
-/// Force of the body on the medium, in components across (`n = J t`) and along a line with unit tangent `t`, with its derivatives.
+/// Force of the body on the medium and its derivatives, in components across (`n = J t`) and along a line with unit tangent `t`.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct DragResponse {
     /// `(G·n, G·t)` [force, or force/length].
@@ -54,13 +54,13 @@ pub struct DragResponse {
     pub by_angle: Vec2,
 }
 
-/// Vector in space with the given components across and along a line with unit tangent `t`.
+/// Vector in space, from its components across and along a line with unit tangent `t`.
 pub fn in_space(t: Vec2, components: Vec2) -> Vec2 {
     perpendicular(t) * components.x + t * components.y
 }
 
 impl DragLaw {
-    /// Drag force at a velocity relative to the medium, for a line with unit tangent `t`. Points ignore `t`.
+    /// Drag force at a velocity relative to the medium, for a line with unit tangent `t`. For a point, `t` has no effect.
     pub fn force(&self, velocity: Vec2, t: Vec2) -> DragResponse {
         let n = perpendicular(t);
         let (across, along) = (n.dot(&velocity), t.dot(&velocity));
@@ -103,7 +103,7 @@ impl DragLaw {
         }
     }
 
-    /// Linear coefficients across and along the line [force·time/length; of a line force·time/length²].
+    /// Linear coefficients across and along the line [force·time/length; for a line force·time/length²].
     pub fn linear(&self) -> Vec2 {
         match self {
             Self::Point(law) => Vec2::repeat(law.linear),
@@ -153,7 +153,7 @@ mod tests {
                     assert!((by - expected).norm() < 1e-8, "{law:?}: {by} {expected}");
                 }
                 let turned = force(velocity, angle + h) - force(velocity, angle - h);
-                // Derivative of the components plus derivative of the rotating directions.
+                // The vector changes with its components and with the rotation of the line.
                 let by = found.by_angle + Vec2::new(found.force.y, -found.force.x);
                 assert!((in_space(t, by) - turned / (2.0 * h)).norm() < 1e-8, "{law:?}");
             }

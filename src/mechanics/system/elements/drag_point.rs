@@ -1,7 +1,7 @@
 //! Drag at a point of a body in a step.
 //!
-//! The force is an independent unknown, in components across and along the line. A force computed from velocities would have `c` times their rounding
-//! error. Under strong drag or wind this exceeds the forces in the balance.
+//! The force is an independent unknown, in components across and along the line. If it were computed from velocities, it would have their rounding
+//! error times the damping coefficient `c`. Under strong drag or wind this error exceeds the forces in the balance.
 
 use super::drag_law::{DragLaw, DragResponse, in_space};
 use crate::beams::{BodyPoint, RateCollocation};
@@ -19,20 +19,20 @@ pub struct DragPoint {
     pub body: usize,
     /// First control point with a nonzero basis function at the point.
     first: usize,
-    /// Basis functions at the point [-] and their derivatives with respect to arc length [1/length]. The latter are zero for isotropic drag.
+    /// Basis functions at the point [-]; `slope` holds their derivatives with respect to arc length [1/length], which are zero for isotropic drag.
     shape: Vec<f64>,
     slope: Vec<f64>,
     /// Quadrature weight [length]; 1 for a point.
     weight: f64,
     /// Velocity in the previous step [length/time].
     last_velocity: Vec2,
-    /// Largest speed that enters the velocity as a term, at the start of the step [length/time].
+    /// Largest term in the sum for the velocity, at the start of the step [length/time]. It sets the rounding error of the velocity.
     speed: f64,
-    /// Force components across and along the line in the iterate [force, or force/length].
+    /// Force components across and along the line in the present iterate [force, or force/length].
     force: Vec2,
     last_force: Vec2,
     mismatch: Vec2,
-    /// Force in space that was applied last, times the quadrature weight [force].
+    /// Force vector that was applied last, including the quadrature weight [force].
     applied_force: Vec2,
     linearised: DragTrial,
     rates: Option<RateCollocation>,
@@ -42,7 +42,7 @@ pub struct DragPoint {
 struct DragTrial {
     tangent: Vec2,
     response: DragResponse,
-    /// Derivative of the line angle with respect to the gradient `g` [1/length].
+    /// Derivative of the line angle with respect to the gradient vector [1/length].
     angle_by_gradient: Vec2,
     rates: (f64, f64),
 }
@@ -54,7 +54,7 @@ impl DragTrial {
         Self { tangent: Vec2::x(), response, angle_by_gradient: none, rates: (0.0, 0.0) }
     }
 
-    /// Drag at a velocity, for a line along `gradient` (of any length).
+    /// Drag at a velocity, for a line in the direction of `gradient`.
     fn new(law: &DragLaw, velocity: Vec2, gradient: Vec2, rates: (f64, f64)) -> Self {
         let (tangent, inverse) = unit_tangent(gradient);
         let response = law.force(velocity, tangent);
@@ -62,7 +62,7 @@ impl DragTrial {
     }
 }
 
-/// Unit tangent along a gradient and the inverse length of the gradient [1/length]; an arbitrary direction if the gradient is zero.
+/// Unit tangent along a gradient and the inverse length of the gradient [1/length]. The direction is arbitrary if the gradient is zero.
 fn unit_tangent(gradient: Vec2) -> (Vec2, f64) {
     let length = gradient.norm();
     match length > 0.0 {
@@ -102,14 +102,14 @@ impl DragPoint {
         Self::new((place.body, place.first), shape, slope, 1.0)
     }
 
-    /// Sum of control point values weighted by the functions or their derivatives.
+    /// Sum of control point values, weighted by the basis functions or their derivatives.
     fn combine(&self, by: &[f64], value: impl Fn(usize) -> Vec2) -> Vec2 {
         by.iter()
             .enumerate()
             .fold(Vec2::zeros(), |sum, (at, by)| sum + value(self.first + at) * *by)
     }
 
-    /// Largest term in a sum over the functions, for the rounding of the sum.
+    /// Largest term in a sum over the basis functions, which sets the rounding error of the sum.
     fn size(&self, value: impl Fn(usize) -> Vec2) -> f64 {
         let sizes = self.shape.iter().enumerate();
         sizes.fold(0.0, |sum, (at, by)| sum + value(self.first + at).norm() * by.abs())
@@ -129,7 +129,7 @@ impl DragPoint {
         self.weight
     }
 
-    /// Tangent of the axis at the start of the step.
+    /// Derivative of the position with respect to arc length at the start of the step.
     fn gradient(&self, body: &Body) -> Vec2 {
         let points = body.dynamics.control_points();
         let origin = points[self.first];
@@ -141,7 +141,7 @@ impl DragPoint {
         self.combine(&self.shape, |at| Vec2::new(moved[at][0], moved[at][1]))
     }
 
-    /// Mean position of the point in the step whose increments its body gathered last.
+    /// Mean position of the point in the step being accepted, from the increments stored in its body.
     pub fn middle(&self, body: &Body) -> Vec2 {
         let points = body.dynamics.control_points();
         let origin = points[self.first];
@@ -174,7 +174,7 @@ impl DragPoint {
         DragTrial::new(&around.law, velocity, gradient, (rates.by_change, rates.fraction))
     }
 
-    /// Compares the force with the target of an iterate. Returns the mismatch relative to the scale of the velocities.
+    /// Compares the force with the drag law in an iterate. Returns the mismatch as a fraction of the scale of the velocities.
     pub fn compare(
         &mut self,
         around: &Medium,
@@ -210,8 +210,8 @@ impl DragPoint {
         in_space(tangent, resisted.force) * self.weight
     }
 
-    /// Calls `give` with the derivatives of the nodal forces with respect to nodal increments, including the rotation of the line with the current
-    /// force.
+    /// Calls `give` with the derivatives of the nodal forces with respect to nodal increments. They include the rotation of the line under the
+    /// current force.
     pub fn each_derivative(&self, mut give: impl FnMut((usize, usize), (usize, usize), f64)) {
         let DragTrial {
             tangent,
@@ -255,12 +255,13 @@ impl DragPoint {
         self.applied_force
     }
 
-    /// Dissipated power at the force of the last iterate, without the rounding of velocities [power].
+    /// Dissipated power, computed from the force of the last iterate. It has no rounding error of velocities [power].
     pub fn power(&self, law: &DragLaw) -> f64 {
         law.power(self.force) * self.weight
     }
 
-    /// Displacement of the point minus `duration` times the velocity of the drag law; zero if that is the mean velocity [length].
+    /// Displacement of the point minus `duration` times the velocity that the drag law used [length]. It is zero if that velocity is the mean
+    /// velocity of the step.
     pub fn besides(&self, movement: Vec2, duration: f64) -> Vec2 {
         let Some(rates) = self.rates else { return Vec2::zeros() };
         movement * (1.0 - rates.by_change * duration)
@@ -272,7 +273,7 @@ impl DragPoint {
         in_space(self.linearised.tangent, self.mismatch) * self.weight
     }
 
-    /// Force on the medium for the rates at the start of a step [force].
+    /// Force of the point on the medium for the rates at the start of a step [force].
     pub fn force_at_start(
         &self,
         around: &Medium,

@@ -6,17 +6,17 @@ use crate::beams::Station;
 use crate::joints::Component;
 use crate::loads::{PrescribedMotion, Schedule};
 
-/// Kind of a prescribed motion.
+/// Type of a prescribed motion.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum DriveKind {
-    /// Components of a station follow functions.
+    /// Components of the motion of a station follow functions.
     Move,
     /// A section is rotated relative to the ground.
     Motor,
 }
 
 impl DriveKind {
-    /// Word for the kind in messages.
+    /// Name of the type for messages.
     pub fn name(self) -> &'static str {
         match self {
             Self::Move => "move",
@@ -25,7 +25,7 @@ impl DriveKind {
     }
 }
 
-/// Prescribed motion of a station, by component.
+/// Prescribed motion of a station, with a function for each prescribed component.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub struct Drive {
     /// Name in messages and columns.
@@ -34,17 +34,17 @@ pub struct Drive {
     pub kind: DriveKind,
     /// Station whose motion is prescribed.
     pub station: Station,
-    /// Prescribed motions of x, y and the angle. Displacements are relative to the initial position.
+    /// Prescribed motions of x, y and the angle; `None` for a free component. Displacements are relative to the initial position.
     pub motions: [Option<PrescribedMotion>; 3],
 }
 
 impl Drive {
-    /// Returns true if a component of the station is prescribed.
+    /// Returns true if a component of the motion of the station is prescribed.
     pub fn drives(&self, component: Component) -> bool {
         self.motions[component as usize].is_some()
     }
 
-    /// Flags of the prescribed components x, y and angle.
+    /// Flags for x, y and angle, true if the component is prescribed.
     pub fn prescribed(&self) -> [bool; 3] {
         Component::ALL.map(|component| self.drives(component))
     }

@@ -28,7 +28,7 @@ pub enum Element {
 }
 
 impl Element {
-    /// Word for the kind in messages.
+    /// Name of the type for messages.
     pub fn kind(&self) -> &'static str {
         match self {
             Self::PointMass(_) => "mass",
@@ -78,7 +78,7 @@ pub trait ElementDef {
         Vec::new()
     }
 
-    /// Schedule and name of the element. Steps end where the schedule or its derivative jumps.
+    /// Schedule of the element with the element's name; `None` without a schedule. Steps end where the schedule or its derivative jumps.
     fn schedule(&self) -> Option<(&str, &Schedule)> {
         None
     }
@@ -90,7 +90,7 @@ pub trait ElementDef {
     fn build(&self, site: &dyn AssemblyContext) -> Result<BuiltElement, SystemError>;
 }
 
-/// Built form of an element in a model.
+/// Element of a model, built from its description.
 pub enum BuiltElement {
     PointMass(NodalMass),
     Force(Box<dyn ExternalForce>),
@@ -101,7 +101,7 @@ pub enum BuiltElement {
 pub trait SceneChecks {
     fn describe(&self, station: &Station) -> String;
 
-    /// Checks that a station exists; `object` describes the object there.
+    /// Checks that a station exists. `object` describes the object at the station, for the error message.
     ///
     /// # Errors
     /// Fails if the body does not exist or the station lies outside its beam.
@@ -110,13 +110,13 @@ pub trait SceneChecks {
 
 /// Model queries available while an element is built.
 pub trait AssemblyContext {
-    /// Returns the place of a station on the mesh of its body.
+    /// Returns the place on the mesh for a station.
     ///
     /// # Errors
     /// Fails if the station lies outside its beam.
     fn place(&self, station: &Station) -> Result<BodyPoint, SystemError>;
 
-    /// Returns the place of a beam at a parameter of its mesh.
+    /// Returns the place on a beam for a parameter of its mesh.
     ///
     /// # Errors
     /// Fails if the parameter lies outside the mesh.
@@ -124,12 +124,12 @@ pub trait AssemblyContext {
 
     fn mesh(&self, beam: usize) -> &Mesh;
 
-    /// Sections along a beam.
+    /// Cross section as a function of the position along a beam.
     fn variation(&self, beam: usize) -> &SectionVariation;
 
-    /// Body at its start. Indices count beams first, then particles, then rigid bodies.
+    /// Body in its initial state. Indices count beams first, then particles, then rigid bodies.
     fn body(&self, index: usize) -> &dyn BodyDynamics;
 
-    /// Wraps an error of the geometry of a beam.
+    /// Converts an error of the geometry of a beam to a scene error.
     fn wrong(&self, beam: usize, error: GeometryError) -> SystemError;
 }

@@ -1,12 +1,13 @@
 //! Elongations: the length of a polygonal path over several places, or the angle between two sections.
 //!
 //! ```text
-//! way:    Δℓ = e·Δd, e = (d₀ + d₁)/(ℓ₀ + ℓ₁), part by part        angle:  Δθ = r (Δω_b - Δω_a)
+//! length:  Δℓ = Σ e·Δd, e = (d₀ + d₁)/(ℓ₀ + ℓ₁) for each part     angle:  Δθ = r (Δω_b - Δω_a)
 //! ```
 //!
-//! `e` and `r` are secants. A force along a secant does exactly the work `F Δℓ` or `M Δθ`, and is opposite at both ends. Differences of positions are
-//! updated by increments, so that rounding does not depend on the distance from the origin. The elongation is stored as its growth since the start.
-//! As the difference of a length from the natural length, it would have the rounding error of a length that may be millions of times as large.
+//! `e` and `r` are secants. A force along a secant does exactly the work `F Δℓ` or `M Δθ`, and the forces at both ends are opposite. Differences of
+//! positions are updated by increments, so that their rounding error does not depend on the distance from the origin. The elongation is stored as
+//! its growth since the start, not as a length minus the natural length. That difference would have the rounding error of the length, which may be
+//! millions of times as large as the elongation.
 
 mod shares;
 mod term;
@@ -21,7 +22,7 @@ use crate::beams::{BodyPoint, Movement, RotationIncrement};
 use crate::geometry::{Vec2, larger};
 use crate::system::bodies::Body;
 
-/// Bound of the rounding error of increments, in units of their last digit.
+/// Largest rounding error of increments, as a multiple of the machine precision.
 const MOST_ROUNDING: f64 = 16.0;
 
 /// End of an elongation: a place of a body, or the ground.
@@ -39,7 +40,7 @@ impl ElongationEnd {
         }
     }
 
-    /// Interpolates a vector field of control points; zero on the ground.
+    /// Interpolates a vector field that is given at control points; zero on the ground.
     pub fn combine(&self, of_point: impl Fn(usize, usize) -> Vec2) -> Vec2 {
         let Self::Moving(place) = self else { return Vec2::zeros() };
         place
@@ -50,23 +51,23 @@ impl ElongationEnd {
 
 #[derive(Debug, Clone)]
 enum Measure {
-    /// Length of the path with the differences `d₀` between consecutive terminals [length].
+    /// Length of a path. The values are the differences `d₀` between consecutive terminals at the start of the step [length].
     Length(Vec<Vec2>),
     Angle,
     /// Component of the vector between two terminals: x (0) or y (1).
     Component(usize),
 }
 
-/// Length or angle between terminals at the start of a step, and its change in an iterate.
+/// Length or angle `q` between the terminals of a spring: value at the start of a step, and change in the present iterate.
 ///
-/// Its coordinates are the increments of the terminals in their order: x and y for a length, the rotation for an angle.
+/// Its coordinates `u` are the increments of the terminals in their order: x and y for a length, the rotation for an angle.
 #[derive(Debug, Clone)]
 pub struct Elongation {
     measure: Measure,
     terminals: Vec<ElongationEnd>,
-    /// Coefficients of the degrees of freedom in the coordinates, in the numbering of the last call of `locate`.
+    /// Coefficients that express the coordinates by the degrees of freedom, in the numbering of the last call of `locate`.
     shares: Vec<CoordinateShare>,
-    /// Value in the scene as built [length, rad].
+    /// Value in the scene as built on its meshes [length, rad].
     initial: f64,
     /// Growth since the scene was built, up to the start of the step [length, rad].
     growth: Coordinate,
@@ -74,30 +75,30 @@ pub struct Elongation {
     corrected: Vec<f64>,
     /// Change `Δq` in the step [length, rad].
     pub change: f64,
-    /// Change in the iterate whose force was accepted last, and the correction that the force implies. The correction excludes the rounding of
-    /// increments, which would store energy in a stiff spring [length, rad].
+    /// Change in the iterate whose force was accepted last, and the further change that this force implies. It replaces the change computed from
+    /// increments, whose rounding error would store energy in a stiff spring [length, rad].
     settled: (f64, f64),
-    /// Secant `g` with `Σ g u = Δq`; for forces at the end of a step the derivative of `q` there [-].
+    /// Secant `g` with `Σ g u = Δq`. For methods with forces at the end of a step it is the derivative of `q` at the end [-].
     pub secant: Vec<f64>,
     /// Derivative `∂Δq/∂u` with respect to the coordinates [-].
     pub slope: Vec<f64>,
-    /// Derivative `∂g/∂u` of the secant, row by row, in the iterate of its last evaluation [1/length, 1/rad].
+    /// Derivative `∂g/∂u` of the secant, row by row, in the iterate in which it was evaluated last [1/length, 1/rad].
     pub secant_slope: Vec<f64>,
-    /// Difference between the direction at the time given to [`balance`](Self::balance) and the secant [-].
+    /// Force direction at the time given to [`balance`](Self::balance), minus the secant [-].
     pub lag: Vec<f64>,
-    /// Derivative of the lag with respect to the coordinates, row by row [1/length].
+    /// Derivative of `lag` with respect to the coordinates, row by row [1/length].
     pub lag_slope: Vec<f64>,
 }
 
 impl Elongation {
-    /// Creates the length of a path over terminals at the given initial places.
+    /// Creates the length of a path through terminals. `at` contains their initial positions.
     pub fn path_length(terminals: Vec<ElongationEnd>, at: &[Vec2]) -> Self {
         let parts: Vec<Vec2> = at.windows(2).map(|pair| pair[1] - pair[0]).collect();
         let length = parts.iter().map(Vec2::norm).sum();
         Self::new(Measure::Length(parts), length, terminals, 2)
     }
 
-    /// Creates one component, x or y, of the vector between two terminals at the given initial places.
+    /// Creates one component, x or y, of the vector from the first terminal to the second. The second argument contains their initial positions.
     pub fn component(
         terminals: [ElongationEnd; 2],
         [from, to]: [Vec2; 2],
@@ -146,7 +147,7 @@ impl Elongation {
         self.initial + self.growth.value
     }
 
-    /// Value of `q` in the scene as built [length, rad].
+    /// Value of `q` in the scene as built on its meshes [length, rad].
     pub fn drawn(&self) -> f64 {
         self.initial
     }
@@ -156,7 +157,7 @@ impl Elongation {
         self.growth
     }
 
-    /// Scale of the rounding error of `q` in an iterate: the largest length or angle in its terms [length, rad].
+    /// Largest term in the sum for `q` in an iterate, which sets the rounding error of `q` [length, rad].
     pub fn extent(&self) -> f64 {
         let after = (self.value() + self.change).abs();
         match self.measure {
@@ -169,14 +170,14 @@ impl Elongation {
         }
     }
 
-    /// Bound of the rounding error of the change [length, rad].
+    /// Largest rounding error of the change [length, rad].
     fn rounding(&self) -> f64 {
         let moved = self.movements.iter().fold(0.0, |most, by| larger(most, by.abs()));
         MOST_ROUNDING * f64::EPSILON * moved
     }
 
-    /// Adds `missing` to the elongation change of the last iterate if it is within the rounding error of the increments. Returns true if it was
-    /// added.
+    /// Stores `missing` as part of the elongation change of the last iterate if it is within the rounding error of the increments. Returns true if
+    /// so.
     pub fn absorb_rounding(&mut self, missing: f64) -> bool {
         let is_rounding = missing.abs() <= self.rounding();
         self.settled = (self.change, if is_rounding { missing } else { 0.0 });
@@ -210,8 +211,8 @@ impl Elongation {
         self.compare(collocation.rotations);
     }
 
-    /// Evaluates the lag in the last iterate: the direction at a fraction `share` of the step minus the secant. The lag is zero if `share` is `None`,
-    /// and for angles, whose directions are constant.
+    /// Evaluates the lag in the last iterate: the direction at the fraction `share` of the step, minus the secant. The lag is zero if `share` is
+    /// `None`. It is also zero for angles, whose force directions are constant.
     pub fn balance(&mut self, share: Option<f64>) {
         let Self { measure, movements: moved, lag, lag_slope: lag_bend, .. } = self;
         [&mut *lag, lag_bend].into_iter().for_each(|all| all.fill(0.0));
@@ -239,7 +240,7 @@ impl Elongation {
         }
     }
 
-    /// Rate of `q` at the start of the step for the given rates of all control points.
+    /// Rate of `q` at the start of the step, computed from the rates of all control points.
     pub fn rate(&self, rates: &[Vec<Movement>]) -> f64 {
         let mut sum = 0.0;
         for (place, coordinates) in self.moving() {
@@ -252,12 +253,12 @@ impl Elongation {
         sum
     }
 
-    /// Rate of `q` at the end of the last step, for the rates of the unknowns at that time.
+    /// Rate of `q` at the end of the last step, computed from the rates of the unknowns at that time.
     pub fn rate_at_last_end(&self, bodies: &[Body], rates: &[f64]) -> f64 {
         self.moving().fold(0.0, |sum, (place, coordinates)| {
             let [x, y, spin] = bodies[place.body].at(place, rates);
             match (self.is_angle(), &self.slope[coordinates]) {
-                // The factor that converts increments to angles does not apply to rates.
+                // Rates of angles are given directly, without the conversion factor between increments and angles that the slope contains.
                 (true, slope) => sum + slope[0].signum() * spin,
                 (false, slope) => sum + (slope[0] * x + slope[1] * y),
             }
@@ -352,8 +353,8 @@ impl Elongation {
         }
     }
 
-    /// Length, and derivative with respect to the coordinates, of each segment of a path in the present configuration. The direction of the force
-    /// rotates with the segment.
+    /// Returns for each segment of a path its length, and the derivative of its displacement across itself with respect to the coordinates, in the
+    /// present configuration. The direction of the force rotates with the segment.
     pub fn turned(&self) -> Vec<(f64, Vec<f64>)> {
         let Measure::Length(parts) = &self.measure else { return Vec::new() };
         let of_part = |(index, part): (usize, &Vec2)| {
@@ -367,7 +368,7 @@ impl Elongation {
         parts.iter().enumerate().filter(|(_, part)| part.norm() > 0.0).map(of_part).collect()
     }
 
-    /// Evaluates everything at the start of the step.
+    /// Evaluates secant and slope at the start of the step.
     pub fn evaluate_at_start(&mut self, bodies: &[Body]) {
         self.locate(bodies);
         self.movements.fill(0.0);

@@ -7,7 +7,7 @@ use crate::linalg::BandedMatrix;
 use crate::loads::LoadError;
 use crate::system::bodies::Body;
 
-/// Collocation of the forces of a stage. At the ends of a step, the increments are those of the angle itself.
+/// Collocation of the forces at a stage. At the ends of a step, rotation increments are increments of the angle.
 pub fn collocation(stage: Stage) -> Collocation {
     let (tau, sigma, rotations) = match stage {
         Stage::Start => (0.0, 0.0, RotationIncrement::Angle),
@@ -18,7 +18,7 @@ pub fn collocation(stage: Stage) -> Collocation {
     Collocation { configuration: tau, stress: sigma, rotations }
 }
 
-/// Iterate of a step in which forces are evaluated.
+/// Iterate of a step for which forces are evaluated.
 #[derive(Clone, Copy)]
 pub struct TrialState<'a> {
     /// All bodies of the model at the start of the step.
@@ -35,30 +35,30 @@ pub struct TrialState<'a> {
 pub struct LoadAccount {
     /// Work of the load since the start [energy].
     pub work: f64,
-    /// Value of the load in the last step: force, moment, or force per length, averaged over the step.
+    /// Value of the load, averaged over the last step: force, moment, or force per length.
     pub value: f64,
 }
 
 /// Element that applies forces to bodies: a load or the weight.
 ///
-/// Forces are evaluated in every iterate, work and impulse at the end of a step. If an element has a potential, the work of its forces is exactly the
-/// negative change of the potential (a discrete gradient). All methods with a default are optional. Dispatch is dynamic, once per element and
-/// iterate.
+/// Forces are evaluated in every iterate, work and impulse at the end of a step. If an element has a potential, the work of its forces is exactly
+/// the decrease of the potential (a discrete gradient). All methods with a default are optional. Methods are called dynamically, once per element
+/// and iterate.
 pub trait ExternalForce {
     fn name(&self) -> &str;
 
-    /// Prepares a step that takes forces at the given stages: evaluates time-dependent values.
+    /// Prepares a step: evaluates time-dependent values. `_stages` lists the stages at which the integrator evaluates forces.
     ///
     /// # Errors
-    /// Fails without a finite value.
+    /// Fails if a value is not finite.
     fn begin_step(&mut self, _interval: Interval, _stages: &[Stage]) -> Result<(), LoadError> {
         Ok(())
     }
 
-    /// Evaluates the element just after a time, as at the end of a static load step.
+    /// Evaluates the element just after a time, for example at the end of a static load step.
     ///
     /// # Errors
-    /// Fails without a finite value at this time.
+    /// Fails if a value at this time is not finite.
     fn evaluate_after(&mut self, _time: f64) -> Result<(), LoadError> {
         Ok(())
     }
@@ -68,31 +68,31 @@ pub trait ExternalForce {
         false
     }
 
-    /// Largest change of a schedule that the steps so far have missed.
+    /// Largest change of a schedule that the steps so far have missed because they are too long.
     fn missed_change(&self) -> Option<UnsampledChange> {
         None
     }
 
-    /// Subtracts the forces on bodies in an iterate. Returns the largest force and the largest moment on a control point.
+    /// Subtracts the forces on bodies in an iterate from `out`. Returns the largest force and the largest moment on a control point.
     fn subtract_from(&mut self, at: TrialState<'_>, out: &mut [f64]) -> (f64, f64);
 
-    /// Adds the negative derivative of the forces with respect to the increments to the tangent.
+    /// Adds the tangent stiffness, the negative derivative of the forces with respect to the increments, to the tangent.
     fn add_tangent(&self, _at: TrialState<'_>, _unknowns: usize, _tangent: &mut BandedMatrix) {}
 
-    /// Work and impulse in the step whose increments the bodies gathered last. A change of the potential does not count as work.
+    /// Work and impulse in the step whose increments are stored in the bodies. A change of the potential does not count as work.
     fn exchange(&self, bodies: &[Body], duration: f64) -> WorkAndImpulse;
 
-    /// Stored energy at the start of the step [energy].
+    /// Potential energy at the start of the step [energy].
     fn energy(&self, _bodies: &[Body]) -> Option<f64> {
         None
     }
 
-    /// Account of the work, for named loads.
+    /// Work and value of the element, if it is a named load.
     fn account(&self) -> Option<LoadAccount> {
         None
     }
 
-    /// Returns true if the forces rotate with a section, so that they have no potential.
+    /// Returns true if the forces rotate with a section and therefore have no potential.
     fn turns(&self) -> bool {
         false
     }
@@ -102,14 +102,14 @@ pub trait ExternalForce {
         0
     }
 
-    /// Accepts the increments that the bodies gathered last.
+    /// Updates the element at the end of a step, from the increments stored in the bodies.
     fn advance(&mut self, _bodies: &[Body], _rotations: RotationIncrement) {}
 
     fn save(&self, _state: &mut Vec<f64>) {}
 
     fn restore(&mut self, _next: &mut dyn FnMut() -> f64) {}
 
-    /// Describes the use of the element in a step with any of these methods.
+    /// Describes the evaluation of the element in a step, for each of these methods.
     fn explain(&self, methods: &[Method]) -> String;
 
     /// Number of script functions that the element calls.

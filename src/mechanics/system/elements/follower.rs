@@ -7,12 +7,12 @@ use crate::integrators::Stage;
 use crate::linalg::BandedMatrix;
 use crate::system::bodies::{Body, Tracker};
 
-/// Force that rotates with a section: `f = Λτ F`.
+/// Force that rotates with a section: `f = Λτ F`, with the rotation `Λτ` of the section at a stage `τ` of the step.
 #[derive(Debug, Clone)]
 pub struct Follower {
     tracker: Tracker,
     force: Vec2,
-    /// Force parts from the load at the start of the step and from the load of the iterate.
+    /// Part of the force from the start of the step. The part from the present iterate is in `current`.
     force_parts: Vec2,
     current: Vec2,
 }
@@ -27,7 +27,7 @@ impl Follower {
         &bodies[self.tracker.place.body]
     }
 
-    /// Rotations of the section at the stage `τ` and at the end of the step, and its rotation increment `Δω`.
+    /// Rotations of the section at the stage `τ` and at the end of the step, and the rotation increment `Δω`.
     fn rotations(&self, at: TrialState<'_>) -> (Rotation, Rotation, f64) {
         let [.., increment] = self.body(at.bodies).at(&self.tracker.place, at.increments);
         let collocation = collocation(at.stage);
@@ -56,7 +56,7 @@ impl Follower {
         self.force.amax()
     }
 
-    /// Adds minus the derivative of `weight · factor` times the follower force to the tangent.
+    /// Adds the tangent stiffness of `weight · factor` times the follower force to the tangent.
     pub fn add_tangent(
         &self,
         at: TrialState<'_>,
@@ -84,7 +84,7 @@ impl Follower {
         }
     }
 
-    /// Adds the work and impulse of the follower force in the step whose increments the bodies gathered last.
+    /// Adds the work and impulse of the follower force in the step whose increments are stored in the bodies.
     pub fn add_exchange(&self, bodies: &[Body], duration: f64, sum: &mut WorkAndImpulse) {
         let body = self.body(bodies);
         let force = self.force_parts + self.current;

@@ -11,7 +11,7 @@ use crate::system::bodies::Body;
 pub struct SpringTrialState {
     /// Length [length] or angle [rad] at the start of the step.
     pub elongation: f64,
-    /// Force or moment, averaged over the last step [force, force·length].
+    /// Force or moment in the last step, averaged over the step [force, force·length].
     pub force: f64,
     /// Stiffness at the start of the step; zero for a damper [force/length, force·length/rad].
     pub stiffness: f64,
@@ -19,25 +19,25 @@ pub struct SpringTrialState {
 
 /// Element that resists the motion of bodies and stores or dissipates energy.
 ///
-/// The force is an independent unknown, as the section forces of beams are. Residuals use the current force. Linearisations condense it, and
-/// corrections update it together with the increments. Hence the rounding error of the configuration is not multiplied by the stiffness, and the
-/// number of iterations does not grow with stiffness. Dispatch is dynamic, once per element and iterate.
+/// The force is an independent unknown, like the section forces of beams. Residuals use its current value. Linearisations eliminate it by
+/// condensation, and corrections update it together with the increments. Hence the rounding error of the configuration is not multiplied by the
+/// stiffness, and the number of iterations does not increase with the stiffness. Methods are called dynamically, once per element and iterate.
 pub trait InternalForce {
     fn name(&self) -> &str;
 
-    /// Prepares a step with the given rates of the unknowns. Forces start from their values in the last step.
+    /// Prepares a step that starts with the given rates of the unknowns. Iterations start with the forces of the last step.
     fn begin_step(&mut self, interval: Interval, bodies: &[Body], rates: &[f64]);
 
-    /// Prepares an increment of zero duration without damping.
+    /// Prepares an increment of zero duration, such as a static load step, without damping.
     fn begin_movement(&mut self);
 
-    /// Discards the rate history after a jump of the rates.
+    /// Forgets the rates of the last step, after a jump of the rates.
     fn clear_rate_history(&mut self) {}
 
-    /// Adds `at.weight` times the current forces on bodies. Returns the largest force and the mismatch.
+    /// Adds `at.weight` times the current forces on bodies to `out`. Returns the largest force and the mismatch.
     fn add_forces(&mut self, at: TrialState<'_>, out: &mut [f64]) -> ForceSummary;
 
-    /// Adds `at.weight` times the condensed forces and their derivatives with respect to the increments.
+    /// Adds `at.weight` times the forces, with the mismatch condensed out, and their derivatives with respect to the increments.
     fn add_linearised_forces(
         &mut self,
         at: TrialState<'_>,
@@ -46,18 +46,18 @@ pub trait InternalForce {
         tangent: &mut BandedMatrix,
     );
 
-    /// Adds `weight` times the forces that would remove the current force mismatch, with the directions of the last linearisation.
+    /// Adds `weight` times the forces that would remove the current force mismatch. Their directions are those of the last linearisation.
     fn add_mismatch_forces(&self, bodies: &[Body], weight: f64, out: &mut [f64]);
 
     fn correct(&mut self, bodies: &[Body], correction: &[f64]);
 
-    /// Work and impulse from the ground in the step whose increments the bodies gathered last.
+    /// Work and impulse that the ground exerts through the element, in the step whose increments are stored in the bodies.
     fn exchange(&self, bodies: &[Body], duration: f64) -> WorkAndImpulse;
 
-    /// Accepts the increments that the bodies gathered last.
+    /// Updates the element at the end of a step, from the increments stored in the bodies.
     fn advance(&mut self, bodies: &[Body]);
 
-    /// Stored energy at the start of the step [energy].
+    /// Potential energy at the start of the step [energy].
     fn stored(&self) -> f64 {
         0.0
     }
@@ -65,31 +65,31 @@ pub trait InternalForce {
     /// Dissipated energy since the start of the simulation [energy].
     fn dissipated(&self) -> f64;
 
-    /// Work of the wind since the start, for elements with a wind [energy].
+    /// Work of the wind since the start; `None` for elements without a wind [energy].
     fn wind_work(&self) -> Option<f64> {
         None
     }
 
-    /// Elongation and force, for springs.
+    /// Elongation and force of a spring; `None` for other elements.
     fn stretched(&self) -> Option<SpringTrialState> {
         None
     }
 
-    /// Branch of the law at the end of the last step; `None` for laws without sharp corners.
+    /// Branch of the law at the end of the last step; `None` for laws without sharp corners, or other elements.
     fn branch(&self, _bodies: &[Body], _rates: &[f64]) -> Option<Branch> {
         None
     }
 
-    /// Calls `take` with each value outside the range of a law.
+    /// Calls `take` with each elongation or rate that has left the range of a law.
     fn each_outside_law(&self, _take: &mut dyn FnMut(OutsideLaw)) {}
 
-    /// Unresolved bounce with the largest force.
+    /// Bounce with the largest force among the bounces that the steps do not resolve.
     fn short_bounce(&self) -> Option<ShortBounce> {
         None
     }
 
-    /// Damping force [force] and moment [force·length] at a place of a beam, for the given rates at the start of the step. `None` if the element does
-    /// not damp this beam.
+    /// Damping force [force] and damping moment [force·length] at a place of a beam, computed from the given rates at the start of the step. `None`
+    /// if the element does not damp this beam.
     fn transmitted(
         &self,
         _bodies: &[Body],
@@ -104,17 +104,17 @@ pub trait InternalForce {
         None
     }
 
-    /// Adds the forces for the given rates at the start of the step.
+    /// Adds the forces at the start of the step, computed from the given rates.
     fn add_forces_at_start(&self, bodies: &[Body], rates: &[Vec<Movement>], out: &mut [f64]);
 
-    /// Calls `take` with each damped rate and its damping coefficient for small rates, at the start of the step. Coefficient times squared rate is
-    /// the dissipated power. The number and order of calls do not depend on the rates.
+    /// Calls `take` with each damped rate at the start of the step and its damping coefficient for small rates. The coefficient times the squared
+    /// rate is the dissipated power. The number and order of calls do not depend on the rates.
     fn each_damped_rate(&self, bodies: &[Body], rates: &[f64], take: &mut dyn FnMut(f64, f64));
 
-    /// Calls `take` with the degrees of freedom and the static stiffness.
+    /// Calls `take` with the degrees of freedom of the element and its static stiffness.
     fn static_stiffness(&self, _bodies: &[Body], _take: &mut dyn FnMut(&[usize], &SpanStiffness)) {}
 
-    /// Releases the element at the start of a step. Its stored energy counts as dissipated. By default nothing happens.
+    /// Releases the element at the start of a step. Its stored energy counts as dissipated. The default does nothing.
     fn release(&mut self) {}
 
     /// Marks the element as released, before a released state is restored.
@@ -127,6 +127,6 @@ pub trait InternalForce {
 
     fn restore(&mut self, next: &mut dyn FnMut() -> f64);
 
-    /// Description of the contribution of the element to the equations of a step.
+    /// Describes the contribution of the element to the equations of a step.
     fn explain(&self) -> String;
 }

@@ -1,11 +1,11 @@
-//! Largest excursions of tabulated laws outside their range.
+//! Record of how far elongations or rates leave the range of a tabulated law.
 
 use super::spring_law::SpringLaw;
 
-/// Distance beyond a range that is attributed to rounding, relative to the range.
+/// Distance beyond a range that is attributed to rounding, as a fraction of the range.
 const ROUNDING: f64 = 1e-9;
 
-/// Argument of a law.
+/// Argument of a force law.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum LawArgument {
     /// Elongation of a spring.
@@ -14,18 +14,18 @@ pub enum LawArgument {
     Rate,
 }
 
-/// Value outside of the range in which a law is given.
+/// Value outside the range in which a law is given.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct OutsideLaw {
     /// Argument that left the range.
     pub argument: LawArgument,
-    /// Ends of the range [length, rad; of rates per time]. An end with a constant continuation is infinite.
+    /// Ends of the range [length, rad; for rates per time]. An end is infinite if the force is constant beyond it.
     pub range: [f64; 2],
-    /// Farthest value outside of it.
+    /// Value farthest outside the range.
     pub reached: f64,
 }
 
-/// Farthest value outside of the range of a law.
+/// Record of the value farthest outside the range of a law.
 #[derive(Debug, Clone, Copy)]
 pub struct LawRange {
     farthest: OutsideLaw,
@@ -33,12 +33,12 @@ pub struct LawRange {
 }
 
 impl LawRange {
-    /// Record of the elongations of a law; `None` for laws that are defined everywhere.
+    /// Creates the record of the elongations of a spring law; `None` for laws that are defined everywhere.
     pub fn of_elongations(law: &SpringLaw) -> Option<Self> {
         Self::of(law, LawArgument::Elongation)
     }
 
-    /// Record of the rates of a damping law; `None` for laws that are defined everywhere.
+    /// Creates the record of the rates of a damping law; `None` for laws that are defined everywhere.
     pub fn of_rates(law: &SpringLaw) -> Option<Self> {
         Self::of(law, LawArgument::Rate)
     }
@@ -57,7 +57,7 @@ impl LawRange {
         }
     }
 
-    /// Farthest value outside the range; `None` if it is outside by rounding only.
+    /// Value farthest outside the range; `None` if it is outside by rounding only.
     pub fn outside(&self) -> Option<OutsideLaw> {
         let [from, to] = self.farthest.range;
         let ends = [from, to].into_iter().filter(|end| end.is_finite());

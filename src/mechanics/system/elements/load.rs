@@ -33,7 +33,7 @@ impl ElementDef for Load {
         }
     }
 
-    /// If the force rotates with a rigid body, it couples its point with the rotation of the body.
+    /// A force that rotates with a rigid body couples the displacement of its point with the rotation of the body.
     fn coupled(&self) -> Vec<Station> {
         match &self.kind {
             LoadKind::Force { station, frame: LoadFrame::Follower, .. }
@@ -92,7 +92,7 @@ impl ElementDef for Load {
     }
 }
 
-/// Distributed follower load with `degree` Gauss points per span.
+/// Creates a distributed follower load as follower forces at `degree` Gauss points per span.
 fn line_of_followers(
     site: &dyn AssemblyContext,
     beam: usize,
@@ -116,23 +116,23 @@ enum Action {
     Follower(Vec<Follower>),
 }
 
-/// Load of the model with its values in the current step.
+/// Load of a model, with its values in the current step.
 struct AppliedLoad {
     name: String,
     schedule: Schedule,
     check: Option<ScheduleCheck>,
     action: Action,
     factors: StageFactors,
-    /// Weighted schedule factors: of the start of the step, and of the iterate.
+    /// Schedule factor at the start of the step, times the weight of that stage. The product for the iterate is in `current`.
     weighted_factors: f64,
     current: f64,
     account: Option<LoadAccount>,
-    /// Magnitude at a schedule factor of 1.
+    /// Magnitude of the load at a schedule factor of 1.
     size: f64,
 }
 
-/// Schedule factors by stage. The ends of a step are those of a line with the mean of the step and the change of the schedule, so that every method
-/// has the exact impulse of a load. They are NaN if the step does not use them.
+/// Schedule factors at the stages of a step. `start` and `end` are the ends of a straight line that has the mean of the schedule over the step and
+/// its change in the step. Hence every method has the exact impulse of a load. Factors that the step does not use are NaN.
 #[derive(Debug, Clone, Copy)]
 struct StageFactors {
     start: f64,
@@ -173,7 +173,7 @@ impl AppliedLoad {
 
     fn calls(&self, methods: &[Method]) -> String {
         let functions = self.schedule.functions();
-        // A controller is sampled once per step by the caller, not by the load.
+        // The caller samples a controller once per step, so the load does not call it.
         if functions == 0 || self.schedule.is_sampled() {
             return String::new();
         }
@@ -316,7 +316,7 @@ impl ExternalForce for AppliedLoad {
     }
 }
 
-/// Sorted times after the start at which steps end because of a schedule.
+/// Times after the start, in increasing order, at which steps must end because the schedule or its derivative jumps.
 fn cuts(schedule: &Schedule) -> Vec<f64> {
     let mut times = schedule.breaks();
     times.retain(|time| *time > 0.0);
@@ -325,7 +325,7 @@ fn cuts(schedule: &Schedule) -> Vec<f64> {
     times
 }
 
-/// Number of evaluations of a schedule in a step with forces at the given stages, all in the middle of substeps or both at the ends of the step.
+/// Number of evaluations of a schedule in a step. Forces are evaluated either in the middle of each substep, or at one or both ends of the step.
 fn calls_in_step(stages: &[Stage]) -> usize {
     match stages.contains(&Stage::End) {
         true => VALUES_OF_A_MEAN + stages.len(),

@@ -44,7 +44,7 @@ impl LoadVector {
         (factor.abs() * self.largest.0, factor.abs() * self.largest.1)
     }
 
-    /// Work and impulse, at the mean positions of the step whose increments the bodies gathered last.
+    /// Work and impulse of `factor` times the forces in the step whose increments are stored in the bodies. Forces act at mean positions.
     pub fn exchange(&self, bodies: &[Body], factor: f64, duration: f64) -> WorkAndImpulse {
         let mut sum = WorkAndImpulse::default();
         for (body, point, [fx, fy, moment]) in &self.entries {
@@ -60,12 +60,12 @@ impl LoadVector {
         sum
     }
 
-    /// Sum `Σ f·x` over the loaded points: minus the potential of constant forces [energy].
+    /// Sum `Σ f·x` over the loaded points, which is minus the potential of constant forces [energy].
     pub fn potential_work(&self, bodies: &[Body]) -> f64 {
         self.potential_work_on(bodies, |_| true)
     }
 
-    /// Part of the sum `Σ f·x` on selected bodies [energy].
+    /// Part of the sum `Σ f·x` from the selected bodies [energy].
     pub fn potential_work_on(&self, bodies: &[Body], counts: impl Fn(usize) -> bool) -> f64 {
         let work = |(body, point, [fx, fy, _]): &(usize, usize, Movement)| {
             bodies[*body].dynamics.control_points()[*point].dot(&Vec2::new(*fx, *fy))

@@ -1,4 +1,4 @@
-//! Kelvin–Voigt material damping of a beam, by dashpots parallel to the section forces at the quadrature points.
+//! Kelvin–Voigt material damping of a beam. Dashpots act parallel to the section forces at the quadrature points.
 
 use serde::{Deserialize, Serialize};
 
@@ -18,7 +18,7 @@ use crate::system::bodies::Body;
 /// Relaxation times of the material of a beam, as described by a scene.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct MaterialDamping {
-    /// Name of the beam, used for the columns of its damping.
+    /// Name of the beam, which also names the columns of its damping.
     pub name: String,
     /// Index of the beam.
     pub beam: usize,
@@ -56,7 +56,7 @@ impl ElementDef for MaterialDamping {
     }
 }
 
-/// Dashpots of a beam in the steps of a model.
+/// Internal force of a damped beam: its dashpots, their increments in the present step, and the dissipated energy.
 struct DampedMaterial {
     name: String,
     beam: usize,
@@ -136,7 +136,7 @@ impl InternalForce for DampedMaterial {
         self.dashpots.add_linearised_forces(rates, &self.movements, give, &mut add);
     }
 
-    /// Dashpots are evaluated once per step, whatever the weight.
+    /// Dashpots are evaluated once per step, so the weight of a stage does not apply.
     fn add_mismatch_forces(&self, bodies: &[Body], _weight: f64, out: &mut [f64]) {
         let degrees = &bodies[self.beam].degrees_of_freedom;
         self.dashpots.add_mismatch_forces(&mut scatter(degrees, out));

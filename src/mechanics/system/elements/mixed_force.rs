@@ -1,4 +1,4 @@
-//! Force of an element as an independent unknown.
+//! Force of an element as an independent unknown that is iterated towards the force by its law (the target).
 
 use crate::geometry::larger;
 
@@ -7,24 +7,24 @@ pub struct MixedForce {
     pub force: f64,
     pub last: f64,
     pub mismatch: f64,
-    /// Derivative of the target with respect to `Δq`, from the last linearisation.
+    /// Derivative of the target force with respect to the elongation change `Δq`, at the last linearisation.
     pub stiffness: f64,
-    /// Derivative of the target at the last comparison.
+    /// Derivative of the target force at the last comparison.
     target_slope: f64,
     search: IterationState,
 }
 
-/// Number of linearisations in a step, with rate and force at the last one.
+/// Number of linearisations in the present step, and the rate (or elongation change) and force at the last one.
 #[derive(Debug, Clone, Copy, Default)]
 struct IterationState {
     linearised: u32,
     at: (f64, f64),
 }
 
-/// Number of linearisations after which the impedance is used. Smooth laws usually converge earlier.
+/// Number of linearisations after which a secant estimate of the impedance is used. Smooth laws usually converge earlier.
 const PLAIN_LINEARISATIONS: u32 = 4;
 
-/// Target force of a configuration, and its derivative with respect to `Δq`.
+/// Force that the law requires in a configuration, and its derivative with respect to the elongation change `Δq`.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct ForceTarget {
     pub force: f64,
@@ -32,7 +32,8 @@ pub struct ForceTarget {
 }
 
 impl MixedForce {
-    /// Compares the force with its target. Returns the mismatch relative to a length or angle `extent`.
+    /// Compares the force with its target. Returns the mismatch as a fraction of the force scale, which includes the stiffness times `extent` (a
+    /// length or angle).
     pub fn compare(&mut self, target: ForceTarget, extent: f64) -> f64 {
         self.mismatch = target.force - self.force;
         self.target_slope = target.stiffness;
@@ -41,7 +42,7 @@ impl MixedForce {
         if self.mismatch == 0.0 { 0.0 } else { self.mismatch.abs() / size }
     }
 
-    /// Change of `Δq` after which the target would equal the current force, to first order; infinite if no change does.
+    /// Change of `Δq` after which the target would equal the current force, to first order; infinite for a slope that is not positive.
     pub fn missing_change(&self) -> f64 {
         match self.mismatch == 0.0 {
             true => 0.0,
@@ -55,7 +56,7 @@ impl MixedForce {
         self.search = IterationState::default();
     }
 
-    /// Secant estimate of the impedance of the loaded system from the last two iterates; `None` during the first iterations.
+    /// Secant estimate of the impedance of the rest of the system, from the last two iterates; `None` during the first iterations.
     pub fn impedance(&mut self, rate: f64) -> Option<f64> {
         let IterationState { linearised, at: (rate_before, force_before) } = self.search;
         self.search = IterationState { linearised: linearised + 1, at: (rate, self.force) };
@@ -64,7 +65,7 @@ impl MixedForce {
             .then_some(impedance)
     }
 
-    /// Stores target and derivative for the next correction.
+    /// Stores the mismatch with a target and the derivative of the target for the next correction.
     pub fn linearise(&mut self, target: ForceTarget) {
         self.mismatch = target.force - self.force;
         self.stiffness = target.stiffness;

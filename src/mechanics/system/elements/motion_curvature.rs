@@ -3,22 +3,22 @@
 use crate::integrators::Interval;
 use crate::loads::{MotionInStep, PrescribedMotion};
 
-/// Change of the rate, relative to the rate, below which the motion counts as smooth.
+/// Largest change of the rate of a smooth motion from one step to the next, as a fraction of the rate.
 const LARGEST_SMOOTH_CHANGE: f64 = 0.1;
 
-/// Kink of a prescribed motion within a step whose integration assumes a smooth motion.
+/// Kink of a prescribed motion within a step. The integration of a step assumes a smooth motion.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct MotionCurvature {
     /// Start of the step [time].
     pub time: f64,
-    /// Rates at the end of the previous step and at the start of this one [length/time, rad/time].
+    /// Rate at the end of the previous step, and rate at the start of this step [length/time, rad/time].
     pub rates: [f64; 2],
 }
 
 impl MotionCurvature {
-    /// Detects a kink of a script function at the start of a step or within it. The rates of a smooth motion in consecutive steps agree up to the
-    /// fifth power of the step length. They do not agree if the rate jumps or if the motion is much faster than the step. Declared breaks of the
-    /// function are exempt.
+    /// Detects a kink of a script function at the start of a step or within it. For a smooth motion, the rate at the end of a step and the rate at
+    /// the start of the next one agree up to the fifth power of the step length. They differ if the rate jumps or if the motion is much faster than
+    /// the step. Declared breaks of the function are exempt.
     pub fn of(
         motion: &PrescribedMotion,
         interval: Interval,

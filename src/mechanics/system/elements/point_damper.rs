@@ -1,12 +1,12 @@
-//! Damper along the line between two places whose distance may pass through zero.
+//! Damper along the line between two points whose distance may pass through zero.
 //!
 //! ```text
 //! v = Δd/Δt      d̄ = d₀ + ½ Δd      e = d̄/|d̄|      F = φ(e·v) e, opposite at both ends      D grows by F·Δd ≥ 0
 //! ```
 //!
-//! The rate of a length, `Δℓ/Δt`, vanishes if the connecting vector reverses through zero within a step, although the ends pass each other at full
-//! speed. The rate along the mean vector is correct in this case, and agrees to second order otherwise. The force acts along the mean line, so that
-//! angular momentum is conserved.
+//! The rate of the length, `Δℓ/Δt`, vanishes if the connecting vector reverses through zero within a step, although the ends pass each other at
+//! full speed. The rate along the mean vector `d̄` is correct in this case, and otherwise agrees with `Δℓ/Δt` to second order. The force acts along
+//! the mean line, so that angular momentum is conserved. `D` is the dissipated energy.
 
 use super::damping_law::DampingLaw;
 use super::elongation::ElongationEnd;
@@ -21,12 +21,12 @@ use crate::integrators::Interval;
 use crate::linalg::BandedMatrix;
 use crate::system::bodies::Body;
 
-/// Damper between two places, whose force depends on the rate of their distance.
+/// Damper between two points. Its force depends on the rate of their distance.
 #[derive(Debug, Clone)]
 pub struct PointDamper {
     name: String,
     terminals: [ElongationEnd; 2],
-    /// Places of terminals on the ground [length].
+    /// Positions of terminals on the ground [length]; `None` for terminals on bodies.
     grounds: [Option<Vec2>; 2],
     /// Vector `d₀` from the first to the second terminal [length].
     distance: Vec2,
@@ -36,7 +36,7 @@ pub struct PointDamper {
     rate_history: RateHistory,
     /// `Δd/Δt` in the previous step [length/time].
     last_velocity: Vec2,
-    /// Largest speed that enters the rate as a term, at the start of the step [length/time].
+    /// Largest term in the sum for the rate, at the start of the step [length/time]. It sets the rounding error of the rate.
     speed: f64,
     force: MixedForce,
     /// Force on the second terminal in the last evaluation [force].
@@ -54,7 +54,7 @@ struct DamperTrial {
     target: ForceTarget,
     /// Derivative of the rate with respect to `Δd` [1/time].
     rate_by_movement: Vec2,
-    /// Factor in `∂e/∂Δd = (1 - e⊗e) · turn` [1/length].
+    /// Factor in `∂e/∂Δd = (1 - e⊗e) · direction_slope` [1/length].
     direction_slope: f64,
 }
 
@@ -135,7 +135,7 @@ impl PointDamper {
         }
     }
 
-    /// Adds a force on the second terminal and its opposite on the first.
+    /// Adds a force on the second terminal and the opposite force on the first terminal to `out`.
     fn scatter(&self, bodies: &[Body], force: Vec2, out: &mut [f64]) {
         for (terminal, sign) in self.terminals.iter().zip([-1.0, 1.0]) {
             let ElongationEnd::Moving(place) = terminal else { continue };
@@ -239,7 +239,7 @@ impl InternalForce for PointDamper {
         }
     }
 
-    /// The damper is evaluated once per step, whatever the weight.
+    /// The damper is evaluated once per step, so the weight of a stage does not apply.
     fn add_mismatch_forces(&self, bodies: &[Body], _weight: f64, out: &mut [f64]) {
         self.scatter(bodies, self.linearised.direction * self.force.mismatch, out);
     }
@@ -297,7 +297,7 @@ impl InternalForce for PointDamper {
         self.scatter(bodies, self.force_at_start(velocity), out);
     }
 
-    /// At zero length, small vibrations are damped in both directions.
+    /// If both ends coincide, the damper acts on small vibrations in both directions.
     fn each_damped_rate(&self, bodies: &[Body], rates: &[f64], take: &mut dyn FnMut(f64, f64)) {
         if !self.law.is_active() {
             return;

@@ -57,7 +57,7 @@ impl ElementDef for PointMass {
     }
 }
 
-/// Point mass on a body of a model. Its inertia acts on the control points whose basis functions are nonzero at its place.
+/// Point mass on a body of a model. Its inertia is distributed to the control points whose basis functions are nonzero at its place.
 #[derive(Debug, Clone, Copy)]
 pub struct NodalMass {
     pub place: BodyPoint,
@@ -83,7 +83,7 @@ impl NodalMass {
         }
     }
 
-    /// Calls `add` with the row, column and value of each entry of `factor · M`. Entries at the same place add up.
+    /// Calls `add` with the row, column and value of each entry of `factor · M`. Values for the same row and column must be added up.
     pub fn inertia_entries(
         &self,
         bodies: &[Body],

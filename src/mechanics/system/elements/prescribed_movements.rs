@@ -1,14 +1,14 @@
-//! Prescribed motions of supported degrees of freedom: increments in a step, and work and impulse of the drives.
+//! Prescribed motions of supported degrees of freedom: their increments in a step, and the work and impulse of the drives.
 //!
-//! Let `v` be the rates; for prescribed degrees of freedom, they are the derivatives of the prescribed functions. Let `ε = Δx - Δt v̄` be the
-//! difference between a prescribed increment and its mean rate times `Δt` (third order in `Δt`; zero for unknowns). By the proofs of the
-//! energy–momentum step
+//! Let `v` be the rates and `v̄` their mean over a step. For prescribed degrees of freedom they are the derivatives of the prescribed functions.
+//! Let `ε = Δx - Δt v̄` be the difference between a prescribed increment and its mean rate times `Δt`. It is of third order in `Δt`, and zero for
+//! unknowns. By the proofs of the energy–momentum step, the changes of energy, momentum and angular momentum are exactly
 //!
 //! ```text
-//! ΔE = Σ R·Δx - Σ ε·M Δv/Δt          Δp = Δt Σ R          ΔL = Δt Σ x̄ × R + Σ ε × M v̄          R: what is left of the equations
+//! ΔE = Σ R·Δx - Σ ε·M Δv/Δt          Δp = Δt Σ R          ΔL = Δt Σ x̄ × R + Σ ε × M v̄          R: residual of the equations, the reaction
 //! ```
 //!
-//! over the prescribed degrees of freedom, exactly. These are work, impulse and angular impulse of a drive.
+//! summed over the prescribed degrees of freedom. They are the work, impulse and angular impulse of the drives.
 
 mod at_rest;
 
@@ -41,10 +41,10 @@ struct Driven {
 struct PresentMotion {
     /// Acceleration at the end of the last step [length/time², 1/time²].
     acceleration: f64,
-    /// Sharpest kink so far, and the kink of the current step.
+    /// Largest kink so far; the kink of the current step is in `step_curvature`.
     curvature: MotionCurvature,
     step_curvature: MotionCurvature,
-    /// For rates that are sampled.
+    /// Check for rates that change within a step; `None` for rates with exact means.
     check: Option<ScheduleCheck>,
     /// Reaction; moments are conjugate to the angle [force, force·length].
     reaction: StepMean<f64>,
@@ -52,9 +52,9 @@ struct PresentMotion {
     impact_momentum: f64,
     /// Static position or angle under the full load [length, rad].
     goal: f64,
-    /// Part of the displacement to `goal` that has been applied [length, rad].
+    /// Part of the displacement to `goal` that has already been applied [length, rad].
     placed: f64,
-    /// `M v̄` of its control point in the step being accepted [mass·length/time].
+    /// `M v̄` of the control point in the step being accepted, with the mean rates `v̄` [mass·length/time].
     momentum: Vec2,
 }
 
@@ -77,13 +77,13 @@ pub struct DriveState<'a> {
     pub prescribed: [bool; 3],
     /// Work since the start [energy].
     pub work: f64,
-    /// Force on the station, averaged over the last step [force].
+    /// Force on the station in the last step, averaged over the step [force].
     pub force: Vec2,
-    /// Moment on the station, averaged over the last step and conjugate to the angle of the section [force·length].
+    /// Moment on the station in the last step, averaged over the step and conjugate to the angle of the section [force·length].
     pub moment: f64,
 }
 
-/// `Δω/Δθ` of a rotation increment. It converts moments conjugate to increments into moments conjugate to angles.
+/// `Δω/Δθ` for a rotation increment. It converts moments conjugate to increments into moments conjugate to angles.
 fn per_angle(increment: f64, rotations: RotationIncrement) -> f64 {
     let angle = rotations.angle(increment);
     if angle == 0.0 { 1.0 } else { increment / angle }
@@ -98,16 +98,16 @@ pub struct PrescribedMovements {
     first: usize,
     constraints: usize,
     prescribed: PrescribedKinematics,
-    /// Largest rotation of the step [rad].
+    /// Largest prescribed rotation in the current step [rad].
     largest_rotation: f64,
     scratch: Vec<f64>,
 }
 
 impl PrescribedMovements {
-    /// Creates the prescribed degrees of freedom of drives, numbered after unknowns and constraint multipliers.
+    /// Creates the prescribed degrees of freedom of drives. They are numbered after the unknowns and the constraint multipliers.
     ///
     /// # Errors
-    /// Name of the drive whose function has no value at the start, and the reason.
+    /// Returns the name of the drive whose function has no value at the start, and the reason.
     pub fn new<'d>(
         movements: Vec<PrescribedMovement>,
         drives: impl Iterator<Item = &'d Drive>,
@@ -139,10 +139,10 @@ impl PrescribedMovements {
         Ok((all, rates))
     }
 
-    /// Evaluates rates and accelerations just after a time.
+    /// Evaluates prescribed rates and accelerations just after a time.
     ///
     /// # Errors
-    /// Name of the drive whose function has no value there, and the reason.
+    /// Returns the name of the drive whose function has no value at this time, and the reason.
     pub fn begin_at(&mut self, time: f64) -> Result<(), (String, LoadError)> {
         for (at, (movement, present)) in self.movements.iter().zip(&mut self.present).enumerate() {
             let MotionAtStart { rate, acceleration } = movement
@@ -155,8 +155,8 @@ impl PrescribedMovements {
         Ok(())
     }
 
-    /// Replaces the prescribed degrees of freedom by the given ones after a release, numbered after `unknowns` entries. The states of the remaining
-    /// ones are kept.
+    /// Replaces the prescribed degrees of freedom by `movements` after a release. They are numbered after the `unknowns` and the multipliers. The
+    /// states of the remaining ones are kept.
     pub fn with(self, movements: Vec<PrescribedMovement>, unknowns: usize) -> Self {
         let known = |wanted: &PrescribedMovement| {
             let mut all = self.movements.iter().zip(&self.present);
@@ -213,7 +213,7 @@ impl PrescribedMovements {
         })
     }
 
-    /// Drives whose motion has a kink within a step, with the largest kink of each.
+    /// Drives whose motion has a kink within a step, each with its largest kink.
     pub fn bends(&self) -> impl Iterator<Item = (&str, MotionCurvature)> {
         let all = self.movements.iter().zip(&self.present);
         let bent = all.filter(|(_, present)| present.curvature.size() > 0.0);
@@ -222,7 +222,7 @@ impl PrescribedMovements {
         })
     }
 
-    /// Drives by a rate that changes within steps unseen, with the largest change of each.
+    /// Drives with a prescribed rate whose changes within a step the method misses, each with its largest missed change.
     pub fn missed_changes(&self) -> impl Iterator<Item = (&str, UnsampledChange)> {
         let all = self.movements.iter().zip(&self.present);
         all.filter_map(|(movement, present)| {
@@ -234,7 +234,7 @@ impl PrescribedMovements {
     /// Evaluates the prescribed increments in a step, and the rates at its start.
     ///
     /// # Errors
-    /// Name of the drive whose function has no finite value, and the reason.
+    /// Returns the name of the drive whose function has no finite value, and the reason.
     pub fn begin_step(
         &mut self,
         interval: Interval,
@@ -270,8 +270,8 @@ impl PrescribedMovements {
         Ok(())
     }
 
-    /// Jumps of prescribed rates at the start of a step, by degree of freedom; `None` without a jump. Rates may jump at declared breaks of a function
-    /// and at samples of a controller.
+    /// Jumps of prescribed rates at the start of a step, by number of the degree of freedom; `None` without a jump. Rates may jump at declared
+    /// breaks of a function and at samples of a controller.
     ///
     /// # Errors
     /// Fails if a function has no finite value.
@@ -295,21 +295,21 @@ impl PrescribedMovements {
         &self.scratch
     }
 
-    /// Prescribed accelerations at the start of the step, by degree of freedom; zero for unknowns.
+    /// Prescribed accelerations at the start of the step, by number of the degree of freedom; zero for unknowns.
     pub fn accelerations(&self) -> Vec<f64> {
         let behind = self.present.iter().map(|present| present.acceleration);
         let ahead = if self.movements.is_empty() { 0 } else { self.first };
         std::iter::repeat_n(0.0, ahead).chain(behind).collect()
     }
 
-    /// Stores the prescribed part of `M Δv` of a step.
+    /// Stores the entries of `M Δv` of a step for the prescribed degrees of freedom.
     pub fn store_impact_momentum(&mut self, struck: &[f64]) {
         for (present, struck) in self.present.iter_mut().zip(&struck[self.first..]) {
             present.impact_momentum = *struck;
         }
     }
 
-    /// Stores the prescribed part of `M v̄` of a step.
+    /// Stores the entries of `M v̄` of a step for the control points of the prescribed degrees of freedom.
     pub fn store_mean_momentum(&mut self, bodies: &[Body], momentum: &[f64]) {
         for (movement, present) in self.movements.iter().zip(&mut self.present) {
             let Support { body, point, .. } = movement.support;
@@ -318,7 +318,7 @@ impl PrescribedMovements {
         }
     }
 
-    /// Work and impulse of the drives in the step whose increments the bodies gathered last. The work of each drive is accumulated.
+    /// Work and impulse of the drives in the step whose increments are stored in the bodies. The work is added to the work of each drive.
     ///
     /// `mean` returns the mean rate of a degree of freedom.
     pub fn exchange(

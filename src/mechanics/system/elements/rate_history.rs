@@ -1,4 +1,4 @@
-//! Collocation of rates in a step, for dissipative elements.
+//! Rates of the present and the last step, from which dissipative elements compute their forces.
 
 use super::collocation;
 use crate::beams::RateCollocation;
@@ -31,10 +31,10 @@ impl RateHistory {
         self.before = if self.duration.is_finite() { self.duration } else { 0.0 };
     }
 
-    /// Collocation of rates for a stage with a weight; `None` at the start of a step.
+    /// Coefficients of the rates for a stage with a weight; `None` at the start of a step, where no rates are used.
     ///
-    /// Rates are evaluated once per step. A method with forces at both ends of the step balances forces at the time `weight` within the step. The
-    /// rate at that time is extrapolated from the middles of this step and the last one.
+    /// Rates are evaluated once per step. A method with forces at both ends of the step balances forces at the fraction `weight` of the step. The
+    /// rate at that time is extrapolated from the rates at the middle of this step and of the last one.
     pub fn at(&self, stage: Stage, weight: f64) -> Option<RateCollocation> {
         let by_change = 1.0 / self.duration;
         let rotations = collocation(stage).rotations;

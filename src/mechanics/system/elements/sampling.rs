@@ -1,9 +1,9 @@
-//! Functions of an elongation, sampled into tables with exactly known energy.
+//! Sampling of force functions into tables, whose stored energy is known exactly.
 
 use super::spring_law::SpringLaw;
 use crate::geometry::larger;
 
-/// Allowed deviation of the polygon from the function, relative to the largest force.
+/// Allowed deviation of the polygon from the function, as a fraction of the largest force.
 const TOLERANCE: f64 = 1e-7;
 
 /// Initial number of segments.
@@ -12,10 +12,10 @@ const SEGMENTS: usize = 32;
 /// Largest number of points of a sampled function.
 const MOST_POINTS: usize = 20_000;
 
-/// Second test point of a segment, as a fraction of its length [-]. At the middle, an oscillating function may match by chance.
+/// Second test point of a segment, as a fraction of its length [-]. In the middle, an oscillating function may match the polygon by chance.
 const SECOND_TEST_POINT: f64 = 0.381_966;
 
-/// Factor of the tolerance at the second test point.
+/// Factor by which the tolerance is larger at the second test point.
 const OFF_MIDDLE_MARGIN: f64 = 4.0;
 
 type Polygon = Vec<(f64, f64)>;
@@ -54,7 +54,7 @@ impl SpringLaw {
         }
     }
 
-    /// Deviation from the function [force] and largest force, if the deviation exceeds the tolerance.
+    /// Deviation of the polygon from the function [force], and the largest force; `None` if the deviation is within the tolerance.
     pub fn sampling_error(&self) -> Option<(f64, f64)> {
         let Self::Sampled { points, error } = self else { return None };
         let largest = largest_force(points);
@@ -66,8 +66,8 @@ fn largest_force(points: &[(f64, f64)]) -> f64 {
     points.iter().map(|(_, force)| force.abs()).fold(0.0, larger)
 }
 
-/// Polygon with an additional point in every segment that deviates by more than allowed at the fraction `at` of the segment, and the largest
-/// deviation.
+/// Adds a point to every segment of the polygon that deviates by more than `allowed` at its fraction `part`. Returns the new polygon and the
+/// largest deviation.
 fn refined<E>(
     points: &[(f64, f64)],
     force: &mut impl FnMut(f64) -> Result<f64, E>,
@@ -107,7 +107,7 @@ mod tests {
             let missed = (law.force(q) - 100.0 * q - 50.0 * q * q * q).abs();
             assert!(missed < 1.2e-5, "{q}: {missed:e}");
         }
-        // The polygon defines the energy, which is close to that of the function.
+        // The energy is that of the polygon, and close to that of the function.
         let (low, high) = (law.energy(-0.2), law.energy(0.7));
         let exact = |q: f64| 50.0 * q * q + 12.5 * q * q * q * q;
         assert!((high - low - exact(0.7) + exact(-0.2)).abs() < 1e-5);

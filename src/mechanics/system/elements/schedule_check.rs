@@ -1,22 +1,22 @@
-//! Check of sampled schedules for changes within a step that the samples miss.
+//! Check of sampled schedules for changes within a step that lie between the samples.
 
 use crate::integrators::Interval;
 use crate::loads::{Schedule, StepMean};
 
-/// Difference between two rules for the mean over a step, relative to the largest value, above which the steps do not resolve a schedule. A jump
-/// causes at least a tenth of its size, a sine this value with 2.7 steps per period.
+/// Difference between two quadrature rules for the mean over a step, as a fraction of the largest value, above which the steps do not resolve a
+/// schedule. For a jump, the difference is at least a tenth of the jump. For a sine with 2.7 steps per period, it is the value given here.
 const LARGEST_MISS: f64 = 0.01;
 
-/// Largest difference between two rules for the mean of a schedule over a step.
+/// Largest difference between two quadrature rules for the mean of a schedule over a step.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct UnsampledChange {
-    /// Middle of the step [time].
+    /// Middle of the step with this difference [time].
     pub time: f64,
-    /// Difference, relative to the largest value of the schedule [-].
+    /// Difference, as a fraction of the largest value of the schedule [-].
     pub sampling_error: f64,
 }
 
-/// Largest difference so far. Schedules with exact means have no entry in the state.
+/// Record of the largest difference so far between two quadrature rules. Schedules with exact means have no such record in the saved state.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct ScheduleCheck {
     time: f64,
@@ -32,7 +32,7 @@ struct MissedInStep {
 }
 
 impl ScheduleCheck {
-    /// Check of a schedule; `None` if its means are exact.
+    /// Creates the check of a schedule; `None` if its means are exact.
     pub fn of(schedule: &Schedule) -> Option<Self> {
         schedule.is_sampled_in_steps().then(Self::default)
     }

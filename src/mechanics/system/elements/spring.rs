@@ -25,18 +25,19 @@ pub enum Anchor {
 /// Quantity measured by a spring.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub enum SpringKind {
-    /// Length of the path over these places: two for a spring or damper, more for a tendon, which slides over intermediate places without friction.
+    /// Length of the path through these places. A spring or damper has two places. A tendon has more, and slides over intermediate places without
+    /// friction.
     Length(Vec<Anchor>),
-    /// Angle of the section of the second place minus that of the first. The ground does not rotate.
+    /// Angle of the section at the second place, minus the angle of the section at the first. The ground does not rotate.
     Torsion([Anchor; 2]),
 }
 
-/// Origin of the elongations of a law.
+/// Zero of the elongations on which a law depends.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Origin {
-    /// Zero: the law depends on the length or angle itself.
+    /// The law depends on the length or angle itself.
     Zero,
-    /// Length or angle in the scene as built on its meshes.
+    /// The law depends on the change of the length or angle since the scene was built on its meshes.
     AsBuilt,
 }
 
@@ -45,13 +46,13 @@ pub enum Origin {
 pub struct Spring {
     /// Name in messages and columns.
     pub name: String,
-    /// Measured quantity.
+    /// Quantity on which the forces depend.
     pub kind: SpringKind,
-    /// Force over the measured quantity; `None` for a pure damper.
+    /// Force as a function of the quantity; `None` for a pure damper.
     pub law: Option<SpringLaw>,
     /// Origin of the elongations of the law.
     pub origin: Origin,
-    /// Damping force over the rate of the measured quantity.
+    /// Damping force as a function of the rate of the quantity.
     pub damping: DampingLaw,
 }
 
@@ -250,7 +251,7 @@ impl Spring {
         })
     }
 
-    /// Rejects springs whose ends cannot move relative to each other: equal neighbouring stations, or ground only.
+    /// Rejects springs whose ends cannot move relative to each other: two consecutive equal stations, or only places on the ground.
     fn check_movable(&self, setting: &dyn SceneChecks) -> Result<(), SystemError> {
         let idle = |[from, to]: [&Anchor; 2], why| {
             let [from, to] = [from, to].map(|anchor| match anchor {

@@ -1,9 +1,11 @@
 //! Springs and dampers in a step: forces along an elongation, as independent unknowns.
 //!
 //! ```text
-//! energy–momentum      F = ΔU/Δq + d(Δq/Δt)  along the secant: F Δq = ΔU + D, opposite at both ends
-//! forces at the ends   U'(q₀) and U'(q₁), and the damper d(q̇) once a step where the method balances it, its direction that at this time
+//! energy–momentum      F = ΔU/Δq + d(Δq/Δt)  along the secant of the elongation: F Δq = ΔU + D, opposite at both ends
+//! forces at the ends   U'(q₀) and U'(q₁); once per step the damper force d(q̇), at the time and in the direction of the force balance
 //! ```
+//!
+//! `U` is the stored energy, `d` the damping law and `D` the dissipated energy.
 
 mod targets;
 
@@ -22,15 +24,15 @@ use crate::integrators::{Interval, Stage};
 use crate::linalg::BandedMatrix;
 use crate::system::bodies::Body;
 
-/// Tolerance of forces of laws with corners, relative to the rounding scale of the elongation. A linear law has zero mismatch after the next
-/// iteration; a law with corners does not.
+/// Tolerance of forces of laws with corners, as a fraction of the rounding error of the elongation times the stiffness. For a linear law, the
+/// mismatch is zero after the next iteration; for a law with corners it is not.
 const CORNER_TOLERANCE: f64 = 2e-4;
 
 #[derive(Debug, Clone)]
 pub struct SpringDamper {
     name: String,
     elongation: Elongation,
-    /// Secant, slope and lag of the last linearisation, used by corrections.
+    /// Secant, slope and lag at the last linearisation. Corrections use these values.
     linearised: [Vec<f64>; 3],
     /// Derivative of the force with respect to the coordinates, row by row.
     tangent: Vec<f64>,
@@ -42,10 +44,10 @@ pub struct SpringDamper {
     rises: bool,
     /// Growths of the elongation at which the stiffness jumps [length, rad].
     corners: Vec<f64>,
-    /// Elongation of zero growth, in terms of the law as given.
+    /// Elongation of the law, in the terms of the scene, at which the growth of the elongation is zero.
     offset: f64,
     ranges: [Option<LawRange>; 2],
-    /// Description of the law in terms of the elongations of the scene.
+    /// Description of the law as given in the scene.
     law_text: Option<String>,
     /// Damping law `d(q̇)`.
     damping: DampingLaw,
@@ -54,10 +56,10 @@ pub struct SpringDamper {
     damper: MixedForce,
     /// `Δt`; infinite for increments of zero duration [time].
     duration: f64,
-    /// `Δt` and `Δq/Δt` of the last step.
+    /// Duration `Δt` of the last step, and its mean rate `Δq/Δt`.
     last: (f64, f64),
     rotations: RotationIncrement,
-    /// Forces along the coordinates: at the start of the step, and in the iterate.
+    /// Force along the coordinates from the start of the step. The force of the present iterate is in `current`.
     force_coordinates: Vec<f64>,
     current: Vec<f64>,
     dissipated: f64,
@@ -112,7 +114,7 @@ impl SpringDamper {
         new
     }
 
-    /// Evaluates an iterate, including the lag of a damper at the time of its rate.
+    /// Evaluates an iterate. If there is a damper, this includes the difference of its force direction from the secant.
     fn evaluate(&mut self, at: TrialState<'_>) {
         self.elongation.evaluate(at);
         if self.damping.is_active() {
@@ -128,7 +130,7 @@ impl SpringDamper {
         }
     }
 
-    /// Records a force along the secant, and the damper force along secant plus lag.
+    /// Records the forces along the coordinates: `force` acts along the secant, `damper` along the lag in addition.
     fn record_force(&mut self, stage: Stage, force: f64, damper: f64) {
         let Self {
             elongation: Elongation { secant, lag, .. },
@@ -341,7 +343,7 @@ impl InternalForce for SpringDamper {
         }
     }
 
-    /// The stored energy of a released spring counts as its dissipation.
+    /// The stored energy of a released spring counts as dissipated.
     fn release(&mut self) {
         self.dissipated += self.stored();
         self.detach();

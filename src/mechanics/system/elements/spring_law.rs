@@ -1,17 +1,17 @@
-//! Force laws over an elongation, with their stored energy.
+//! Force laws as functions of an elongation, with their stored energy.
 
 use serde::{Deserialize, Serialize};
 
 use super::coordinate::Coordinate;
 use crate::geometry::larger;
 
-/// Force, relative to the largest force of the law, below which it counts as zero.
+/// Force that counts as zero, as a fraction of the largest force of the law.
 const ROUNDING: f64 = 1e-12;
 
-/// Change of the stiffness at a corner, relative to the largest stiffness, above which the corner is sharp.
+/// Change of the stiffness above which a corner is sharp, as a fraction of the largest stiffness.
 const SHARP_CORNER: f64 = 0.5;
 
-/// Restoring force over an elongation `q`, a length or an angle.
+/// Restoring force as a function of an elongation `q`, which is a length or an angle.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub enum SpringLaw {
     /// `k (q - q₀)`
@@ -21,7 +21,7 @@ pub enum SpringLaw {
         /// `q₀`, the natural length or angle [length, rad].
         natural: f64,
     },
-    /// Polygon through points, extrapolated by its first and last segments.
+    /// Polygon through points, extrapolated by the lines of its first and last segments.
     Table {
         /// Increasing elongations `q` [length, rad] with forces [force, force·length]; at least two.
         points: Vec<(f64, f64)>,
@@ -30,17 +30,17 @@ pub enum SpringLaw {
     Sampled {
         /// Increasing elongations with forces, as in a table.
         points: Vec<(f64, f64)>,
-        /// Largest deviation of the function from the polygon in the middle of a segment [force, force·length].
+        /// Largest deviation of the function from the polygon at the test points within the segments [force, force·length].
         error: f64,
     },
 }
 
-/// Mean force of a step: the discrete gradient of the stored energy (Gonzalez 1996), with its derivative.
+/// Mean force of a step, defined as the discrete gradient of the stored energy (Gonzalez 1996), with its derivative.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct MeanForce {
-    /// Mean force `G = ΔU/Δq`, or `U'` for zero change [force, force·length].
+    /// Mean force `G = ΔU/Δq` for an elongation change `Δq`, or `U'` for zero change [force, force·length].
     pub force: f64,
-    /// Derivative `∂G/∂q₁` with respect to the coordinate at the end of the step [force/length, force·length/rad].
+    /// Derivative `∂G/∂q₁` with respect to the elongation `q₁` at the end of the step [force/length, force·length/rad].
     pub slope: f64,
 }
 
@@ -51,7 +51,8 @@ impl SpringLaw {
         match self {
             Self::Linear { stiffness, natural } => stiffness * (q.value - natural),
             Self::Table { points } | Self::Sampled { points, .. } => {
-                // Interpolates from the end with the smaller force. From the other end, rounding of the larger force would remain.
+                // The interpolation starts at the end with the smaller force. From the other end, the rounding error of the larger force would
+                // remain.
                 let [first, second] = segment(points, q);
                 let (at, force) = if first.1.abs() <= second.1.abs() { first } else { second };
                 force + self.slope(q) * q.difference(at)
@@ -59,7 +60,7 @@ impl SpringLaw {
         }
     }
 
-    /// Stiffness `U''(q)` [force/length, force·length/rad]; at a corner the stiffness of the segment above it.
+    /// Stiffness `U''(q)` [force/length, force·length/rad]. At a corner it is the stiffness of the segment above the corner.
     pub fn slope(&self, q: impl Into<Coordinate>) -> f64 {
         match self {
             Self::Linear { stiffness, .. } => *stiffness,
@@ -90,8 +91,8 @@ impl SpringLaw {
         }
     }
 
-    /// Range in which the law is given, beyond which it goes on straight. An end where it is level is infinite. `None` for a law that is defined
-    /// everywhere: a straight line, or a corner between slack and a line.
+    /// Range in which the law is given. Beyond the range it is extended linearly. If the force is constant at an end, the range has no limit there.
+    /// `None` for a law that is defined everywhere: a straight line, or a straight line that ends in a slack segment.
     pub fn range(&self) -> Option<[f64; 2]> {
         match self {
             Self::Linear { .. } => None,
@@ -162,7 +163,7 @@ impl SpringLaw {
         }
     }
 
-    /// Work `∫ F dq` between two elongations of a table, summed by segment to avoid differences of large numbers.
+    /// Work `∫ F dq` between two elongations of a table. It is summed by segment to avoid differences of large numbers.
     fn work(&self, points: &[(f64, f64)], from: Coordinate, to: Coordinate) -> f64 {
         let rises = to.difference_from(from) >= 0.0;
         let (low, high) = if rises { (from, to) } else { (to, from) };
@@ -202,7 +203,7 @@ impl SpringLaw {
         }
     }
 
-    /// Returns the law with a corner at each zero of its force, so that small forces there are exact.
+    /// Returns the law with a corner at each zero of its force, so that small forces near the zeros are accurate.
     pub(crate) fn with_corners_at_zeros(mut self) -> Self {
         if let Self::Table { points } | Self::Sampled { points, .. } = &mut self {
             let crossing = |pair: &[(f64, f64)]| {
@@ -260,14 +261,14 @@ fn shifted(points: &[(f64, f64)], by: f64) -> Vec<(f64, f64)> {
     points.iter().map(|(q, force)| (q + by, *force)).collect()
 }
 
-/// Ends of the segment at or nearest to an elongation; at a corner, of the segment above it.
+/// Ends of the segment that contains an elongation or is nearest to it. At a corner, it is the segment above the corner.
 fn segment(points: &[(f64, f64)], q: Coordinate) -> [(f64, f64); 2] {
     let beyond = points.partition_point(|(at, _)| q.difference(*at) >= 0.0);
     let beyond = beyond.clamp(1, points.len() - 1);
     [points[beyond - 1], points[beyond]]
 }
 
-/// Zero of the line through two points; the first point if the line is horizontal.
+/// Zero of the straight line through two points. If the line is horizontal, the abscissa of the first point.
 fn zero((q0, f0): (f64, f64), (q1, f1): (f64, f64)) -> f64 {
     match (f1 == f0, f1 == 0.0) {
         (true, _) => q0,
@@ -276,7 +277,8 @@ fn zero((q0, f0): (f64, f64), (q1, f1): (f64, f64)) -> f64 {
     }
 }
 
-/// Elongation of least energy, where the force of a table or its extrapolation changes from negative to positive; if there is none, the first point.
+/// Elongation of least energy, where the force of a table or its extrapolation changes from negative to positive. Without such an elongation, the
+/// first point.
 fn natural_elongation(points: &[(f64, f64)]) -> f64 {
     let passes = |pair: &&[(f64, f64)]| pair[0].1 <= 0.0 && pair[1].1 >= 0.0;
     let last = points.len() - 1;

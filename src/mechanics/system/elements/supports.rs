@@ -23,7 +23,7 @@ impl Support {
     }
 }
 
-/// Supports of a model, numbered after all other degrees of freedom: prescribed ones first, then fixed ones.
+/// Supported degrees of freedom of a model. They are numbered after all others: prescribed ones first, then fixed ones.
 pub struct Supports {
     prescribed: PrescribedMovements,
     held: Vec<Support>,
@@ -62,9 +62,9 @@ impl Supports {
         self.iter().zip(residual[first..].iter().copied())
     }
 
-    /// Impulse of the fixed supports in the step whose increments the bodies gathered last.
+    /// Impulse of the fixed supports in the step whose increments are stored in the bodies.
     ///
-    /// Reactions act at the mean position, because a roller moves in its free direction.
+    /// Reactions act at the mean position in the step, because a roller moves in its free direction.
     pub fn exchange(&self, bodies: &[Body], residual: &[f64], duration: f64) -> WorkAndImpulse {
         self.impulse(residual, duration, |body, point| {
             let [x, y, _] = bodies[body].moved()[point];
@@ -93,8 +93,8 @@ impl Supports {
         sum
     }
 
-    /// Reaction force [force] and moment [force·length] on some nodes (body and control point) and rigid bodies (rotation); `None` if nothing is
-    /// supported there.
+    /// Reaction force [force] and moment [force·length] on the given nodes (body and control point) and on the angles of the rigid bodies
+    /// `turning`. `None` if none of them is supported.
     pub fn force_on(
         &self,
         nodes: &[(usize, usize)],

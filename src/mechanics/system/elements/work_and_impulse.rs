@@ -1,4 +1,4 @@
-//! Exchange of a model with its surroundings.
+//! Work and impulse that a model exchanges with its surroundings.
 
 use crate::geometry::Vec2;
 

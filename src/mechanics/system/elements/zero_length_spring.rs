@@ -1,8 +1,8 @@
 //! Springs of zero natural length, whose ends may coincide.
 //!
-//! A linear spring of zero natural length acts on both components: `U = ½ k (x² + y²)`. With a force `k ℓ` along the connecting vector, the rate of
-//! change of the force direction would be unbounded where the ends meet. Other laws act on the length. The parallel damper uses the rate along the
-//! mean vector, because the rate of the length is wrong if the ends pass through each other within a step.
+//! A linear spring of zero natural length is a pair of springs along x and y: `U = ½ k (x² + y²)`. A single force `k ℓ` along the connecting vector
+//! would have an unbounded rate of change of its direction where the ends meet. Other laws act on the length. The parallel damper uses the rate
+//! along the mean vector, because the rate of the length is wrong if the ends pass through each other within a step.
 
 use super::damping_law::DampingLaw;
 use super::elongation::{Elongation, ElongationEnd};
@@ -17,14 +17,14 @@ use crate::integrators::Interval;
 use crate::linalg::BandedMatrix;
 use crate::system::bodies::Body;
 
-/// Springs along x and y, or one along the length, with an optional damper along the connecting vector.
+/// Springs along x and y, or one spring along the length, with an optional damper along the connecting vector.
 pub struct ZeroLengthSpring {
     along: Vec<SpringDamper>,
     damper: Option<PointDamper>,
 }
 
 impl ZeroLengthSpring {
-    /// Creates a linear spring [force/length] with a damper between two terminals at the given initial places.
+    /// Creates a linear spring [force/length] with a damper between two terminals. The last argument contains their initial positions.
     pub fn new(
         name: &str,
         terminals: [ElongationEnd; 2],
@@ -43,7 +43,7 @@ impl ZeroLengthSpring {
         Self::beside(name, along, terminals, at, grounds, damping)
     }
 
-    /// Creates a spring with a law of the length and a damper between two terminals at the given initial places.
+    /// Creates a spring with a law of the length, and a damper, between two terminals. The last argument contains their initial positions.
     pub fn of_law(
         name: &str,
         terminals: [ElongationEnd; 2],
@@ -83,7 +83,7 @@ impl ZeroLengthSpring {
         along.chain(self.damper.iter_mut().map(|part| part as &mut dyn InternalForce))
     }
 
-    /// Elongation and force, as magnitudes of both components.
+    /// Elongation and force as magnitudes of vectors, from their components along x and y.
     fn magnitudes(&self) -> Option<SpringTrialState> {
         let [x, y] = self.along.as_slice() else { return self.along[0].stretched() };
         let (x, y) = (x.stretched()?, y.stretched()?);

@@ -48,7 +48,7 @@ pub enum SystemError {
     NoSection { body: String },
     #[error("forces and accelerations at t = {time} are undetermined: {reason}")]
     NoInstant {
-        /// The time [time].
+        /// Time for which the function has no value [time].
         time: f64,
         reason: String,
     },
@@ -71,7 +71,7 @@ pub enum SystemError {
         index: usize,
         /// Elongation of the rejected point of the table [length, rad].
         elongation: f64,
-        /// Elongation of the previous point [length, rad].
+        /// Elongation of the point before it [length, rad].
         before: f64,
     },
     #[error(
@@ -81,7 +81,7 @@ pub enum SystemError {
         joint: String,
         from: String,
         to: String,
-        /// Distance between the partners [length].
+        /// Distance between the two connected places [length].
         gap: f64,
     },
     #[error("{joint}: {place} is already {existing}; remove one of the two joints")]
@@ -89,7 +89,7 @@ pub enum SystemError {
     #[error("{damper}: {active_range}")]
     ActiveDamper {
         damper: String,
-        /// Range of rates in which the law adds energy, and advice for correcting it.
+        /// Description of the range of rates in which the law adds energy, with advice for correcting it.
         active_range: String,
     },
     #[error(
@@ -140,7 +140,7 @@ pub enum SystemError {
     StartVelocity {
         body: String,
         place: String,
-        /// Start velocity of the body there [length/time, or 1/time for a rotation].
+        /// Start velocity of the body at this place [length/time, or 1/time for a rotation].
         velocity: f64,
         other: String,
     },
@@ -164,7 +164,7 @@ pub enum SystemError {
     Beam { beam: String, source: BeamError },
 }
 
-/// Object that would rotate a particle, which has no rotation.
+/// Object that would have to rotate a particle, which has no rotation.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Turning {
     /// Rigid joint.
@@ -182,12 +182,12 @@ pub enum Turning {
 }
 
 impl SystemError {
-    /// Returns a closure for `map_err` that attributes a geometry error to a beam.
+    /// Returns a closure for `map_err` that adds the name of a beam to a geometry error.
     pub(in crate::system) fn geometry(beam: &str) -> impl Fn(GeometryError) -> Self + '_ {
         move |source| Self::Beam { beam: beam.to_owned(), source: source.into() }
     }
 
-    /// Returns a closure for `map_err` that attributes an error to a beam.
+    /// Returns a closure for `map_err` that adds the name of a beam to a beam error.
     pub(in crate::system) fn beam(name: &str) -> impl Fn(BeamError) -> Self + '_ {
         move |source| Self::Beam { beam: name.to_owned(), source }
     }

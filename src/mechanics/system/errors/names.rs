@@ -9,11 +9,11 @@ use super::SystemError;
 /// Largest number of characters of a name.
 const LONGEST: usize = 100;
 
-/// First characters by which spreadsheets recognise formulas.
+/// First characters by which spreadsheets recognise formulas. Names must not begin with them.
 const FORMULA: [char; 4] = ['=', '+', '-', '@'];
 
-/// Characters without width or direction, and look-alikes of letters: Unicode 16, general categories Cf and Mn where invisible, fillers, variation
-/// selectors, full-width forms and mathematical alphabets.
+/// Characters that are invisible or look like other letters. By Unicode 16 they are the invisible characters of the general categories Cf and Mn,
+/// fillers, variation selectors, full-width forms and mathematical alphabets.
 const INVISIBLE_OR_COPIES: [RangeInclusive<u32>; 14] = [
     0xAD..=0xAD,
     0x34F..=0x34F,
@@ -40,7 +40,7 @@ enum Alphabet {
     Cherokee,
 }
 
-/// Returns the reason to reject a name, or `None`.
+/// Returns the reason for rejecting a name; `None` if the name is accepted.
 pub fn refusal(name: &str) -> Option<&'static str> {
     let code = |letter: char| u32::from(letter);
     let is_hidden = |letter: char| {

@@ -5,7 +5,7 @@ use crate::geometry::Vec2;
 /// Largest number of objects listed in a message.
 pub const MOST: usize = 6;
 
-/// Formats a number with at most six digits, as a power of ten where it is very small or large.
+/// Formats a number with at most six digits. Very small and very large numbers are written with a power of ten.
 pub fn rounded(number: f64) -> String {
     let rounded: f64 = format!("{number:.5e}").parse().unwrap_or(number);
     let is_plain = rounded == 0.0 || !rounded.is_finite() || (1e-4..1e7).contains(&rounded.abs());

@@ -4,7 +4,7 @@ use std::fmt;
 
 use super::rounded;
 
-/// Descriptions of the parts of a slider.
+/// Descriptions of a slider, its slave and its master.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct SliderParts {
     /// Name of the slider.
@@ -15,17 +15,17 @@ pub struct SliderParts {
     pub guide: String,
 }
 
-/// Place of a beam or track nearest to a point.
+/// Nearest place of a beam or track to a point.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Approach {
-    /// The point lies on it.
+    /// The point lies on the beam or track.
     On {
         /// Relative position of the point along the master [-].
         place: f64,
         /// The word `beam` or `track`.
         guide: &'static str,
     },
-    /// The point does not lie on it.
+    /// The point does not lie on the beam or track.
     Distant {
         /// Relative position of the nearest place along the master [-].
         place: f64,
@@ -70,7 +70,7 @@ pub enum SliderError {
         parts: SliderParts,
         from: String,
         to: String,
-        /// Distance between both places [length].
+        /// Distance between the two places [length].
         gap: f64,
         nearest: Approach,
     },
@@ -88,7 +88,7 @@ pub enum SliderError {
     RuleOfOneBeam {
         parts: SliderParts,
         rule: &'static str,
-        /// Behaviour at seams under that rule.
+        /// Behaviour at seams under the selected sliding rule.
         behaviour: &'static str,
     },
     #[error("slider '{slider}': restitution is {restitution}, but must be from 0 to 1")]
@@ -97,12 +97,22 @@ pub enum SliderError {
         /// Rejected coefficient [-].
         restitution: f64,
     },
+    #[error("slider '{slider}': friction is {friction}, but must be zero or more")]
+    Friction {
+        slider: String,
+        /// Rejected coefficient [-].
+        friction: f64,
+    },
+    #[error(
+        "slider '{slider}': friction is available with the conserving rule only, not with the {rule} rule"
+    )]
+    FrictionRule { slider: String, rule: &'static str },
     #[error(
         "slider '{slider}': at the start its point moves across its beam with a velocity of {}", rounded(*speed)
     )]
     LeavesMaster {
         slider: String,
-        /// Velocity of the slave relative to the master, across it [length/time].
+        /// Velocity of the slave relative to the master, in the direction across the master [length/time].
         speed: f64,
     },
     #[error(

@@ -15,7 +15,7 @@ pub enum TrackError {
         track: String,
         before: String,
         next: String,
-        /// End of the beam before the gap.
+        /// Description of the end of the beam before the gap.
         place: String,
         start: String,
         end: String,
@@ -25,19 +25,19 @@ pub enum TrackError {
     )]
     Open {
         track: String,
-        /// End of the last beam.
+        /// Description of the end of the last beam.
         place: String,
-        /// Start of the first beam.
+        /// Description of the start of the first beam.
         start: String,
-        /// Distance between both [length].
+        /// Distance between these two places [length].
         gap: f64,
     },
     #[error("track '{track}': {first_end} and {other} are both at {place}, but are not joined")]
     NotJoined {
         track: String,
-        /// End of the first beam.
+        /// Description of the end of the first beam.
         first_end: String,
-        /// End of the second beam.
+        /// Description of the end of the second beam.
         other: String,
         place: String,
     },

@@ -19,7 +19,7 @@ impl Links {
         Self { rigid, rollers, force_unknowns: ForceUnknowns::AtRest }
     }
 
-    /// Renumbers the force unknowns of all links and rollers; `None` for a released roller.
+    /// Renumbers the force unknowns of all links and rollers. The number of a released roller is `None`.
     pub fn renumber(
         &mut self,
         rigid: impl Iterator<Item = [usize; 2]>,
@@ -57,7 +57,8 @@ impl Links {
         2 * self.rigid.len() + self.rollers().count()
     }
 
-    /// Force of the inclined rollers at the given nodes, for a multiplier of each roller [force]; `None` without a roller there.
+    /// Sum of the forces of the inclined rollers at the given nodes. `force` returns the force of each roller [force]. `None` without a roller at
+    /// these nodes.
     pub fn force_of_rollers(
         &self,
         nodes: &[(usize, usize)],
@@ -93,7 +94,7 @@ impl Links {
         }
     }
 
-    /// Adds the derivatives of [`add`](Self::add).
+    /// Adds the derivatives of the terms of [`add`](Self::add) to the tangent.
     pub fn add_tangent(
         &self,
         bodies: &Bodies,
@@ -146,7 +147,7 @@ impl Links {
         }
     }
 
-    /// Adds the constraint forces among the unknowns to the forces on bodies, with the arms at the start of a step.
+    /// Adds the constraint forces to the forces on bodies. The forces are among the `unknowns`; their arms are those at the start of a step.
     pub fn transmit(&self, bodies: &Bodies, unknowns: &[f64], out: &mut [f64]) {
         for link in &self.rigid {
             let force = Vec2::new(unknowns[link.unknowns[0]], unknowns[link.unknowns[1]]);
@@ -168,12 +169,13 @@ impl Links {
         self.rollers().for_each(|(at, roller)| rates[at] = roller.multiplier());
     }
 
-    /// Swaps the forces of all rigid links [force].
+    /// Exchanges the stored forces of all rigid links with those in `others` [force].
     pub fn exchange_forces(&mut self, others: &mut [Vec2]) {
         self.rigid.iter_mut().zip(others).for_each(|(link, other)| link.exchange_force(other));
     }
 
-    /// Largest constraint violation in a residual [-]. Links are relative to their increments and arm, rollers to the size of the scene.
+    /// Largest constraint violation in a residual [-]. The violation of a link is a fraction of its increments and arm, that of a roller a fraction
+    /// of the size of the scene.
     pub fn violation(&self, residual: &[f64]) -> f64 {
         let most = self.rigid.iter().fold(0.0, |most, link| larger(most, link.violation(residual)));
         self.rollers.iter().fold(most, |most, roller| larger(most, roller.violation(residual)))
@@ -192,7 +194,7 @@ impl Links {
         self.rollers.iter_mut().for_each(|roller| roller.advance(self.force_unknowns, values));
     }
 
-    /// Calls the callback with the static stiffness of all constraints, for a penalty stiffness [force/length].
+    /// Calls `take` with the static stiffness of each constraint, which is replaced by a spring of the given penalty stiffness [force/length].
     pub fn for_each_static_stiffness(
         &self,
         bodies: &Bodies,

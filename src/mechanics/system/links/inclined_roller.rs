@@ -1,7 +1,7 @@
-//! Inclined roller in a step: a point constrained to a straight line by a force across it.
+//! Inclined roller in a step: a point on a straight line, held there by a force across the line.
 //!
 //! ```text
-//! n·Δx = 0          on the point -λ n,   n across the line, of length one
+//! n·Δx = 0          force on the point: -λ n,   n: unit normal of the line
 //! ```
 //!
 //! The equation is linear in the increments, so the force `-λ n` does no work in any increment that satisfies it. Its impulse `-Δt λ n` acts at the
@@ -25,9 +25,9 @@ pub struct InclinedRoller {
     pub unknown: Option<usize>,
     /// Unit normal `n` [-].
     normal: Vec2,
-    /// Place of the point as drawn, on the line [length].
+    /// Initial position of the point on the line [length].
     origin: Vec2,
-    /// Scale of the violation: the size of the scene plus the increments of the iterate [length].
+    /// Scale of the violation: the size of the scene. The increments of the iterate are added to it [length].
     size: f64,
     movement: f64,
     /// Multiplier `λ` of the last step or static solution [force].
@@ -35,7 +35,7 @@ pub struct InclinedRoller {
 }
 
 impl InclinedRoller {
-    /// Creates a roller at a control point on its line; `size` is the size of the scene [length], `across` the unit normal of the line.
+    /// Creates a roller at a control point on its line. `size` is the size of the scene [length].
     pub fn new(
         joint: usize,
         node: (usize, usize),
@@ -68,7 +68,7 @@ impl InclinedRoller {
         self.force
     }
 
-    /// Values at the degrees of freedom x and y; zero at supported degrees of freedom.
+    /// Values of the unknowns at the degrees of freedom x and y of the point; zero at supported degrees of freedom.
     fn values_at(&self, bodies: &Bodies, values: &[f64]) -> Vec2 {
         let [x, y] = self.degrees(bodies).map(|at| values.get(at).copied().unwrap_or(0.0));
         Vec2::new(x, y)
@@ -90,7 +90,7 @@ impl InclinedRoller {
         ForceSummary { force: force.abs(), ..ForceSummary::default() }
     }
 
-    /// Adds the derivatives of [`add`](Self::add), restricted to unknowns.
+    /// Adds the derivatives of the terms of [`add`](Self::add) to the rows and columns of the unknowns.
     pub fn add_tangent(
         &self,
         bodies: &Bodies,
@@ -115,14 +115,14 @@ impl InclinedRoller {
         }
     }
 
-    /// Adds the force of multiplier `λ` to a residual.
+    /// Adds `force` times the unit normal to the residual at the point.
     pub fn transmit(&self, bodies: &Bodies, force: f64, out: &mut [f64]) {
         let [x, y] = self.degrees(bodies);
         out[x] += force * self.normal.x;
         out[y] += force * self.normal.y;
     }
 
-    /// Constraint violation in a residual, relative to the size of the scene plus the increments [-].
+    /// Constraint violation in a residual, as a fraction of the size of the scene plus the increments [-].
     pub fn violation(&self, residual: &[f64]) -> f64 {
         let off = self.unknown.map_or(0.0, |at| residual[at].abs());
         if off == 0.0 { 0.0 } else { off / (self.size + self.movement) }
@@ -136,13 +136,13 @@ impl InclinedRoller {
         }
     }
 
-    /// Place of the point at the start of a step [length].
+    /// Position of the point at the start of a step [length].
     pub fn place(&self, bodies: &Bodies) -> Vec2 {
         let (body, point) = self.node;
         bodies[body].dynamics.control_points()[point]
     }
 
-    /// Mean position of the point in the step whose increments the bodies gathered last [length].
+    /// Mean position of the point in the step whose increments are stored in the bodies [length].
     pub fn mean_place(&self, bodies: &Bodies) -> Vec2 {
         let (body, point) = self.node;
         let [x, y, _] = bodies[body].moved()[point];
@@ -160,7 +160,7 @@ impl InclinedRoller {
         }
     }
 
-    /// Calls the callback with the static stiffness of the constraint, for a penalty stiffness [force/length].
+    /// Calls `take` with the static stiffness of the constraint, which is replaced by a spring of the given penalty stiffness [force/length].
     pub fn at_rest(
         &self,
         bodies: &Bodies,

@@ -1,12 +1,14 @@
 //! Rigid link in a step: a point fixed in the frame of a rigid body, and its constraint force.
 //!
 //! ```text
-//! Δx_p - Δx_b - χ J ā = 0        a = Λ r,   ā = ½ (a0 + a1),   χ = 2 tan(Δθ/2), the tangent-scaled increment itself
-//! on the point -λ,   on the body λ and aτ × λ        aτ = (1-τ) a0 + τ a1,   τ = ½ except for generalized-α and in statics
+//! Δx_p - Δx_b - χ J ā = 0        a = Λ r,   ā = ½ (a0 + a1),   χ = 2 tan(Δθ/2)
+//! force on the point -λ,   on the body λ with the moment aτ × λ        aτ = (1-τ) a0 + τ a1,   τ = ½ except for generalized-α and in statics
 //! ```
 //!
-//! `χ J ā = a1 - a0` holds for every increment, so the point is at its position in the body at the end of every step. With tangent-scaled increments
-//! and `τ = ½`, the work `λ·Δx_b + (ā × λ) Δω - λ·Δx_p` of the force is zero, and so are the sums of forces and of moments in the mean configuration.
+//! `x_p` is the position of the point and `x_b` that of the body; `a` is the arm between them, with the rotation `Λ` of the body and the place `r`
+//! in the body frame. `χ` is the tangent-scaled rotation increment. Since `χ J ā = a1 - a0` holds for every increment, the point is at its position
+//! in the body at the end of every step. With tangent-scaled increments `Δω` and `τ = ½`, the work `λ·Δx_b + (ā × λ) Δω - λ·Δx_p` of the force is
+//! zero, and the sums of forces and of moments in the mean configuration are also zero.
 
 use std::ops::{Add, Div};
 
@@ -15,17 +17,17 @@ use crate::geometry::{Vec2, cross, larger, perpendicular};
 use crate::linalg::BandedMatrix;
 use crate::system::bodies::Bodies;
 
-/// Meaning of the force unknowns of a rigid link.
+/// Quantity that the force unknowns of a rigid link represent.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum ForceUnknowns {
-    /// In a step: the impulse of the force; the value is the duration [time].
+    /// In a step: the impulse of the force. The contained value is the duration of the step [time].
     Step(f64),
     /// In a displacement between two equilibria: the change of the force.
     AtRest,
 }
 
 impl ForceUnknowns {
-    /// Force for a value of the unknown, given the last force [force].
+    /// Force for a value of the unknown. `last` is the force before the step or displacement [force].
     pub fn force<F>(self, last: F, unknown: F) -> F
     where
         F: Add<Output = F> + Div<f64, Output = F>,
@@ -45,7 +47,7 @@ impl ForceUnknowns {
     }
 }
 
-/// Arm of the force of rigid links for a method.
+/// Position in a step at which a method takes the arms of rigid links for their forces.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ArmRule {
     pub rotations: RotationIncrement,
@@ -53,11 +55,11 @@ pub struct ArmRule {
     pub fraction: f64,
 }
 
-/// Point of a rigid body off its centre of mass.
+/// Rigid link between the centre of mass of a rigid body and another point of the body.
 #[derive(Debug, Clone)]
 pub struct RigidLink {
     pub body: usize,
-    /// Control point that is linked to the first one, the centre of mass.
+    /// Control point of the linked point. The centre of mass is the first control point.
     pub point: usize,
     pub unknowns: [usize; 2],
     /// Place of the point in the body frame [length].
@@ -66,12 +68,12 @@ pub struct RigidLink {
     rotation: Rotation,
     /// Force `-λ` on the point in the last step or static solution [force].
     force: Vec2,
-    /// Scale of the violation: the increments of the iterate [length].
+    /// Scale of the violation: the arm plus the increments of the iterate [length].
     size: f64,
 }
 
 struct Iterated {
-    /// Arms `a0`, `a1`, and the arm of the force [length].
+    /// Arm `a0` at the start of the step. The arm `a1` at its end is in `end`, the arm of the force in `force_arm` [length].
     start: Vec2,
     end: Vec2,
     force_arm: Vec2,
@@ -85,7 +87,7 @@ struct Iterated {
 }
 
 impl RigidLink {
-    /// Creates a rigid link to a control point of a body with a frame angle [rad].
+    /// Creates a rigid link from the centre of a body to its control point `point`. `angle` is the initial angle of the body [rad].
     pub fn new(body: usize, point: usize, unknowns: [usize; 2], at: [Vec2; 2], angle: f64) -> Self {
         let rotation = Rotation::by(angle);
         let [centre, end] = at;
@@ -165,7 +167,7 @@ impl RigidLink {
         }
     }
 
-    /// Adds the derivatives of [`add`](Self::add), restricted to unknowns.
+    /// Adds the derivatives of the terms of [`add`](Self::add) to the rows and columns of the unknowns.
     pub fn add_tangent(
         &self,
         bodies: &Bodies,
@@ -185,7 +187,7 @@ impl RigidLink {
         }
     }
 
-    /// Adds the coupling of impulse and rates at the start of a step to a mass matrix.
+    /// Adds the coupling between the force unknowns and the rates at the start of a step to a mass matrix.
     pub fn add_coupling(&self, bodies: &Bodies, movements: usize, matrix: &mut BandedMatrix) {
         let arm = perpendicular(self.arm());
         self.couple(bodies, 1.0, arm, arm, movements, matrix);
@@ -225,7 +227,7 @@ impl RigidLink {
         out[rotation] -= cross(arm, force);
     }
 
-    /// Constraint violation in a residual, relative to increments and arm [-].
+    /// Constraint violation in a residual, as a fraction of increments and arm [-].
     pub fn violation(&self, residual: &[f64]) -> f64 {
         let off = larger(residual[self.unknowns[0]].abs(), residual[self.unknowns[1]].abs());
         if off == 0.0 { 0.0 } else { off / self.size }
@@ -244,8 +246,8 @@ impl RigidLink {
         self.arm() * (-spin * spin)
     }
 
-    /// Velocity of the point relative to its position in the body [length/time]. The velocities at the ends of steps give a second-order error that
-    /// alternates. For accelerations, the rotation of the arm is excluded.
+    /// Difference between the velocity of the point and the velocity of its position in the body [length/time]. With the velocities at the ends of
+    /// steps it is an error of second order with alternating sign. With accelerations instead of velocities, it excludes the rotation of the arm.
     pub fn velocity_violation(&self, bodies: &Bodies, rates: &[f64]) -> Vec2 {
         let body = &bodies[self.body];
         let ([.., rotation], _) = self.degrees(bodies);
@@ -266,8 +268,8 @@ impl RigidLink {
         self.rotation = self.rotation.turned(arms.rotations, now.increment).normalised();
     }
 
-    /// Calls the callback with the static stiffness: a penalty stiffness [force/length] at the position of the point, and the geometric stiffness of
-    /// the force.
+    /// Calls `take` with the static stiffness of the link: a penalty stiffness [force/length] that holds the point at its position in the body, and
+    /// the geometric stiffness of the force.
     pub fn at_rest(
         &self,
         bodies: &Bodies,

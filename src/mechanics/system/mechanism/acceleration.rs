@@ -1,4 +1,4 @@
-//! Accelerations, for methods that have them in their state.
+//! Accelerations of a mechanism, for integrators that have them in their state.
 
 use super::System;
 use crate::integrators::Accelerated;
@@ -9,7 +9,7 @@ impl Accelerated for System {
     }
 
     fn accelerations(&self) -> Option<&[f64]> {
-        // Accelerations before a jump are invalid after it.
+        // Accelerations computed before a jump are not valid after it.
         self.motion.accelerations.known().filter(|_| !self.step.jumps)
     }
 

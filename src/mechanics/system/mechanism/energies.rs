@@ -2,10 +2,10 @@
 
 use super::System;
 
-/// Energy of a body with its point masses, by kind [energy].
+/// Energies of a body, including its point masses [energy].
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct BodyEnergy {
-    /// Kinetic energy, including point masses.
+    /// Kinetic energy.
     pub kinetic: f64,
     /// Axial strain energy, `½ ∫ EA Γ1² dX`.
     pub axial: f64,
@@ -13,7 +13,7 @@ pub struct BodyEnergy {
     pub shear: f64,
     /// Bending strain energy, `½ ∫ EI κ² dX`.
     pub bending: f64,
-    /// Potential energy in gravity, zero at the origin.
+    /// Potential energy in gravity, relative to the origin.
     pub potential: f64,
 }
 

@@ -1,8 +1,9 @@
-//! Impulses at sliders: consistent start velocities, and impacts at the ends of masters, all simultaneous ones together.
+//! Impulses at sliders: consistent start velocities, and impacts at the ends of masters. Simultaneous impacts are computed together.
 //!
-//! Impulses `P` at contacts change the velocities by `M (v⁺ - v⁻) = Σ Gᵀ P`, where `G v` is the velocity of a slave relative to the contact point of
-//! the master. A closed contact conserves linear and angular momentum; a gap of the relaxed rule changes angular momentum. In an impact, `G` is the
-//! part of that velocity that the steps resolve ([`Rigidity`]). The work of a contact on the bodies is `½ P (w⁻ + w⁺)`.
+//! Impulses `P` at contacts change the velocities by `M (v⁺ - v⁻) = Σ Gᵀ P`, where `G v` is the velocity of a slave relative to the contact point
+//! of the master. A contact without a gap conserves linear and angular momentum. A gap, as the relaxed rule has, changes the angular momentum. In
+//! an impact, `G v` is the part of the relative velocity that the steps resolve ([`Rigidity`]). The work of a contact on the bodies is `½ P (w⁻ +
+//! w⁺)`, with the relative velocities `w⁻` before and `w⁺` after the impact.
 
 use super::System;
 use super::rigidity::{Deformation, Rigidity};
@@ -12,24 +13,24 @@ use crate::linalg::{BandedLu, LinearError, Pairing, complementary};
 use crate::system::SystemError;
 use crate::system::elements::WorkAndImpulse;
 
-/// Slider, and the direction of its relative velocity on which an impulse acts.
+/// Slider, and the direction in which an impulse acts on its relative velocity.
 pub(super) type ImpactDirection = (usize, Vec2);
 
-/// Directions of contact impulses, and the deformations included in the impact.
+/// Directions of contact impulses, and the deformations that take part in the impact.
 pub(super) type ImpactSelection<'a> = (&'a [ImpactDirection], Deformation);
 
-/// Ratio of the velocity response in a direction to the full response, below which the direction counts as fixed.
+/// Ratio of the velocity response with selected deformations to the response with all deformations, below which a direction counts as rigid.
 pub(super) const GIVES: f64 = 1e-9;
 
-/// Forces of a unit impulse, and the velocity response.
+/// Forces of a unit impulse in one direction, and the velocities that it causes.
 pub(super) struct ImpulseResponse {
-    /// `Gᵀ` on all degrees of freedom, including forces transmitted within a step.
+    /// `Gᵀ` at all degrees of freedom, including the impulses of section forces.
     pub(super) forces: Vec<f64>,
-    /// `M⁻¹ Gᵀ` of the unknowns.
+    /// `M⁻¹ Gᵀ` at the unknowns.
     pub(super) rates: Vec<f64>,
     /// Nonzero entries of `Gᵀ`.
     touched: Vec<usize>,
-    /// Impulses of section forces, if any strain is rigid.
+    /// Impulses of section forces; empty if no strain resists the impulse.
     transmitted: Vec<f64>,
 }
 
@@ -46,14 +47,14 @@ impl ImpulseResponse {
         Self { forces, rates, touched, transmitted }
     }
 
-    /// Velocity `G v` of rates in the direction of the impulse.
+    /// Component of velocity `G v` in the direction of the impulse, for given rates `v`.
     pub(super) fn velocity(&self, rates: &[f64]) -> f64 {
         let of_rates = self.touched.iter().filter(|at| **at < rates.len());
         of_rates.map(|&at| rates[at] * self.forces[at]).sum()
     }
 }
 
-/// Law of an impact for the velocity `w` on which its impulse acts.
+/// Law of an impact: condition on the velocities `w⁻` before and `w⁺` after the impact, and on the impulse `P`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum ImpactLaw {
     /// `w⁺ = 0`, with an impulse of either sign.
@@ -76,7 +77,7 @@ impl ImpactLaw {
         }
     }
 
-    /// Deficit of the velocity after the impact without an impulse [length/time].
+    /// Value by which the velocity misses the law without an impulse, for the velocity `w` before the impact [length/time].
     fn deficit(self, w: f64) -> f64 {
         match self {
             Self::Ends | Self::Held => w,
@@ -87,47 +88,47 @@ impl ImpactLaw {
     }
 }
 
-/// Contacts of one impact with their directions and the velocity responses to their impulses.
+/// Contacts of one impact with their directions, and the velocities that their impulses cause.
 pub(super) struct ImpactProblem {
     directions: Vec<ImpactDirection>,
     responses: Vec<ImpulseResponse>,
-    /// `G M⁻¹ Gᵀ` [1/mass].
+    /// `G M⁻¹ Gᵀ`, one row per contact direction [1/mass].
     pub(super) response: Vec<Vec<f64>>,
-    /// `w⁻` [length/time].
+    /// Relative velocities `w⁻` before the impact [length/time].
     before: Vec<f64>,
-    /// Velocity change without contact impulses, due to rigid links and jumps of prescribed rates.
+    /// Changes of the rates that rigid links and jumps of prescribed rates cause without contact impulses.
     change: Vec<f64>,
-    /// Jumps of prescribed rates by degree of freedom; empty without jumps.
+    /// Jumps of prescribed rates by number of the degree of freedom; empty without jumps.
     jumps: Vec<f64>,
 }
 
 #[derive(Debug, Clone)]
 pub(super) struct ImpactImpulses {
-    /// [mass·length/time]
+    /// Impulse in each direction [mass·length/time].
     pub(super) values: Vec<f64>,
     /// Work of each impulse on the bodies, `½ P (w⁻ + w⁺)` [energy].
     pub(super) works: Vec<f64>,
 }
 
 impl ImpactProblem {
-    /// Velocity change in a direction without contact impulses [length/time].
+    /// Velocity change in a direction that rigid links and jumps of prescribed rates cause without contact impulses [length/time].
     fn by_links(&self, at: usize) -> f64 {
         self.responses[at].velocity(&self.change)
     }
 
-    /// Velocity in a direction before the impact, and its change by the given impulses [length/time].
+    /// Velocity in a direction before the impact, and its total change with the given impulses [length/time].
     pub(super) fn approach_velocities(&self, at: usize, impulses: &[f64]) -> (f64, f64) {
         let by_impulses: f64 = self.response[at].iter().zip(impulses).map(|(a, p)| a * p).sum();
         (self.before[at], self.by_links(at) + by_impulses)
     }
 
-    /// Mean of the velocities before and after the impact, without contact impulses [length/time].
+    /// Mean of the velocities before and after the impact if no contact impulse acts [length/time].
     pub(super) fn mean_velocity(&self) -> Vec<f64> {
         let half_way = |(at, w): (usize, &f64)| w + 0.5 * self.by_links(at);
         self.before.iter().enumerate().map(half_way).collect()
     }
 
-    /// Deficits of the velocities after the impact without impulses, for the laws of the last directions [length/time].
+    /// Values by which the velocities miss the laws without contact impulses [length/time]. The laws belong to the last directions of the problem.
     pub(super) fn lacks(&self, laws: &[ImpactLaw]) -> Vec<f64> {
         let first = self.before.len() - laws.len();
         let lack =
@@ -151,7 +152,7 @@ impl ImpactProblem {
     }
 }
 
-/// Velocities in all directions caused by unit impulses: `G M⁻¹ Gᵀ`, one row per response [1/mass].
+/// Velocity in each direction caused by a unit impulse in each direction: `G M⁻¹ Gᵀ` [1/mass].
 fn response(answers: &[ImpulseResponse]) -> Vec<Vec<f64>> {
     let row = |answer: &ImpulseResponse| {
         answers.iter().map(|other| answer.velocity(&other.rates)).collect()
@@ -160,7 +161,7 @@ fn response(answers: &[ImpulseResponse]) -> Vec<Vec<f64>> {
 }
 
 impl System {
-    /// Removes the velocities of sliders across all masters by the smallest change (Gauss's principle of least constraint).
+    /// Sets the velocities of all slaves across their masters to zero by the smallest change (Gauss's principle of least constraint).
     ///
     /// # Errors
     /// Fails if the impulses are not determined.
@@ -176,8 +177,8 @@ impl System {
         Ok(())
     }
 
-    /// Adjusts the velocities of points of rigid bodies to the initial rates of drives if they differ by more than a tolerance [length/time].
-    /// Otherwise the difference would alternate from step to step permanently.
+    /// Adjusts the velocities of points of rigid bodies to the initial rates of drives, if they differ by more than `negligible` [length/time].
+    /// Without the adjustment, the difference would alternate in sign from step to step.
     pub(in crate::system) fn fit_links_to_drives(&mut self, negligible: f64) {
         if self.links.count() == 0 || !self.supports.prescribed().has_start_rate() {
             return;
@@ -187,7 +188,8 @@ impl System {
         if missed.iter().all(|missed| missed.abs() <= negligible) {
             return;
         }
-        // The impulse that starts the motion acts before the start time and is not accumulated. A singular matrix is reported by the first step.
+        // The impulse that starts the motion acts before the start time and is therefore not accumulated. A singular matrix is ignored here,
+        // because the first step reports it.
         let before = std::mem::take(&mut self.exchanged);
         let struck = self.apply_transverse_impact();
         self.exchanged = before;
@@ -196,19 +198,19 @@ impl System {
         }
     }
 
-    /// Transmits jumps of prescribed rates at the start of a step to rigid links and sliders by an impact. Otherwise the violated velocity
-    /// constraints would alternate from step to step permanently. The impact conserves energy except for the work of drives, because it reverses the
-    /// constraint violation (theory.md 9.5). Returns true if there was a jump.
+    /// Computes the impact of rigid links and sliders that is caused by jumps of prescribed rates at the start of a step. Without it, the violation
+    /// of the velocity constraints would alternate in sign from step to step. The impact reverses the violation, so that it conserves energy except
+    /// for the work of drives (theory.md 9.5). Returns true if there was a jump.
     pub(crate) fn apply_drive_jumps(&mut self, interval: Interval) -> bool {
         if self.links.count() == 0 && self.sliders.iter().next().is_none() {
             return false;
         }
-        // If a function has no value, the step that follows reports it.
+        // A function without a value is ignored here, because the step that follows reports it.
         let prescribed = self.supports.prescribed();
         let Ok(Some(jumps)) = prescribed.jumps(interval, &self.motion.rates) else { return false };
         let directions = self.sliders.directions(&self.bodies);
         let laws = vec![ImpactLaw::Elastic; directions.len()];
-        // If the matrix is singular, the step that follows reports it.
+        // A singular matrix is ignored here, because the step that follows reports it.
         let Ok(encounter) =
             self.impact_problem_with_jumps(&[(&directions, Deformation::All)], -2.0, jumps)
         else {
@@ -216,10 +218,11 @@ impl System {
         };
         let Ok(impulses) = encounter.impulses(&laws) else { return false };
         self.apply(encounter, &impulses.values);
+        self.choose_friction_modes();
         true
     }
 
-    /// Speeds of a slave and of the contact point of its master in a direction [length/time].
+    /// Speeds of the slave and of the contact point of the master in a direction [length/time].
     pub(super) fn speeds(&self, (slider, unit): ImpactDirection, rates: &[f64]) -> (f64, f64) {
         let slider = &self.sliders[slider];
         let (slave, relative) = (
@@ -244,7 +247,7 @@ impl System {
         self.sliders.iter().map(|slider| slider.across(&self.bodies)).enumerate().collect()
     }
 
-    /// Column of `Gᵀ` of a direction: generalised forces of a unit impulse on all degrees of freedom.
+    /// Column of `Gᵀ` for a direction: the generalised forces of a unit impulse at all degrees of freedom.
     fn transmitted(&self, (slider, unit): ImpactDirection) -> Vec<f64> {
         let mut forces = vec![0.0; self.degrees_of_freedom()];
         self.sliders[slider].transmit(&self.bodies, unit, &mut forces);
@@ -263,7 +266,8 @@ impl System {
         directions.iter().map(answer).collect()
     }
 
-    /// Velocity responses to unit impulses with the given deformations. If these fix both partners in a direction, all deformations are used.
+    /// Velocity responses to unit impulses with the given deformations. In a direction in which these leave both partners rigid, all deformations
+    /// are used.
     ///
     /// # Errors
     /// Fails if the matrix is singular.
@@ -291,8 +295,8 @@ impl System {
         Ok(directions.iter().map(&mut answer).collect())
     }
 
-    /// Impact problem for the given directions. The velocity violation `w` of each rigid link changes by `links · w`; with `links = -2` the links do
-    /// no work.
+    /// Impact problem for the given directions. The velocity violation `w` of each rigid link changes by `links · w`. For `links = -2` the
+    /// violation is reversed, and the links do no work.
     pub(super) fn impact_problem(
         &mut self,
         met: &[ImpactSelection<'_>],
@@ -301,7 +305,7 @@ impl System {
         self.impact_problem_with_jumps(met, links, Vec::new())
     }
 
-    /// Impact problem with jumps of prescribed rates. Contacts and links use the mean of the rates before and after the jump.
+    /// Impact problem with jumps of prescribed rates. Contacts and links see the mean of the rates before and after the jump.
     fn impact_problem_with_jumps(
         &mut self,
         met: &[ImpactSelection<'_>],
@@ -349,7 +353,7 @@ impl System {
             own.for_each(|(sum, passed)| *sum += impulse * passed);
         }
         change.extend(jumps.iter().skip(change.len()));
-        // The remainder of `M (v⁺ - v⁻) - Gᵀ P` at supports is their impulse.
+        // The remainder of `M (v⁺ - v⁻) - Gᵀ P` at supports is the impulse of the supports.
         self.add_inertia(1.0, &change, &mut residual);
         self.links.transmit(&self.bodies, &change, &mut residual);
         for (unknown, roller) in self.links.rollers() {
@@ -362,7 +366,7 @@ impl System {
             self.sliders[slider].impulse -= impulse;
         }
         self.add_impact_impulses(&change, &passed_on, on_slaves);
-        // Impulses of rigid links must not be kept as forces of the next step.
+        // The entries for rigid links are impulses of the impact. They must not become forces of the next step.
         self.links.clear(&mut change);
         self.motion.jump(&change);
         self.elements.clear_rate_history();
@@ -375,7 +379,7 @@ impl System {
         }
     }
 
-    /// Velocities across the masters caused by unit impulses: `G M⁻¹ Gᵀ`, one row per direction [1/mass].
+    /// Velocities across the masters caused by unit impulses across the masters: `G M⁻¹ Gᵀ`, one row per slider [1/mass].
     pub(in crate::system) fn response_across(&self) -> Result<Vec<Vec<f64>>, LinearError> {
         let mut inertia = self.banded_inertia();
         let answers = self.impulse_responses(&inertia.factorise()?, &self.across());

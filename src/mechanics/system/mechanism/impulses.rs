@@ -1,13 +1,13 @@
-//! Impulses of joints and supports in the last step, accumulated if their mean is requested.
+//! Impulses of joints and supports in the last step. They are accumulated if mean forces over a step are requested.
 //!
-//! The solved balance of a step is evaluated again with separate degrees of freedom for every control point, so that joints tie none of them. The
-//! residual at each control point is then the force of joints and supports. Impulses of impacts are added.
+//! After a step has been solved, its balance is evaluated again with separate degrees of freedom for every control point, so that joints tie none
+//! of them. The residual at each control point is then the force of joints and supports. Impulses of impacts are added.
 //!
 //! ```text
 //! M (v1 - v0)/Δt + Σ share · F(stage) + G = r        p1 - p0 = Δt Σ (r + loads)
 //! ```
 //!
-//! Methods that balance accelerations instead of momenta have no such mean forces.
+//! Methods that balance accelerations instead of momenta do not have such mean forces.
 
 use super::rigidity::add_transmitted_impulses;
 use super::{Reactions, System};
@@ -18,7 +18,7 @@ use crate::system::elements::WorkAndImpulse;
 use crate::system::links::InclinedRoller;
 use crate::system::sliders::{InStep, SliderContact};
 
-/// Exchange of a model with its surroundings, and impulses of joints and supports on each control point.
+/// Work and impulse that a model exchanges with its surroundings, and impulses of joints and supports on each control point.
 #[derive(Default)]
 pub struct ExchangeLedger {
     pub total: WorkAndImpulse,
@@ -28,24 +28,26 @@ pub struct ExchangeLedger {
 
 /// Impulses on all control points, with preallocated buffers.
 pub struct Impulses {
-    /// Separate degrees of freedom of every control point. During an evaluation, they are swapped with those of the model.
+    /// Separate degrees of freedom of every control point. During an evaluation, they are exchanged with the degrees of freedom of the model.
     numbers: Vec<DegreesOfFreedom>,
-    /// Force unknowns of rigid links, numbered after all separate degrees of freedom. During an evaluation, they are swapped with those of the model.
+    /// Force unknowns of rigid links, numbered after all separate degrees of freedom. During an evaluation, they are exchanged with the numbers of
+    /// the model.
     links: Vec<[usize; 2]>,
-    /// `None` for each inclined roller, whose force is summed separately. During an evaluation, they are swapped with the force unknowns of the
-    /// model.
+    /// `None` for each inclined roller, whose force is summed separately. During an evaluation, the list is exchanged with the force unknowns of
+    /// the model.
     rollers: Vec<Option<usize>>,
     values: Vec<f64>,
     /// Residual of the balance, with additional space for contact equations.
     residual: Vec<f64>,
-    /// Impulses since the end of the last step by control point, followed by the multipliers of inclined rollers [force·time, force·length·time].
+    /// Impulses since the end of the last step by control point, followed by the impulses of the multipliers of inclined rollers [force·time,
+    /// force·length·time].
     present: Vec<f64>,
     /// Means of the last step, in the same order; before the first one the present forces [force, force·length].
     means: Vec<f64>,
 }
 
 impl Impulses {
-    /// Adds the residual times a factor, and the impulses of inclined rollers, which are unknowns of the model.
+    /// Adds the residual times a factor, and the impulses of inclined rollers, to the accumulated impulses.
     fn sum_up(&mut self, factor: f64, rollers: &[InclinedRoller], unknowns: &[f64]) {
         let movements = self.present.len() - rollers.len();
         let (present, across) = self.present.split_at_mut(movements);
@@ -169,7 +171,8 @@ impl System {
         self.exchanged.impulses = Some(impulses);
     }
 
-    /// Adds the impulses of an impact: changes of the rates (including impulses of rigid links), section forces, and forces on slaves.
+    /// Adds the impulses of an impact. They follow from the changes of the rates (with the impulses of rigid links), the impulses of section
+    /// forces, and the impulses on slaves.
     pub(super) fn add_impact_impulses(
         &mut self,
         change: &[f64],
@@ -191,7 +194,7 @@ impl System {
         self.exchanged.impulses = Some(impulses);
     }
 
-    /// Copies `count` values of the unknowns to the separate numbering of control points and rigid links.
+    /// Copies `count` values of the unknowns to the separate numbers of control points and rigid links.
     fn separate_values(&self, impulses: &mut Impulses, value: impl Fn(usize) -> f64, count: usize) {
         let Impulses { numbers, links, values, .. } = impulses;
         let of = |at: usize| if at < count { value(at) } else { 0.0 };

@@ -18,13 +18,13 @@ impl Inertia for System {
 }
 
 impl System {
-    /// Calls `add` with the row, column and value of each entry of the inertia matrix. Entries at the same place add up.
+    /// Calls `add` with the row, column and value of each entry of the inertia matrix. Values for the same row and column must be added up.
     pub(super) fn inertia_entries(&self, add: &mut impl FnMut(usize, usize, f64)) {
         self.bodies.iter().for_each(|body| body.inertia_entries(1.0, add));
         self.elements.inertia_entries(&self.bodies, 1.0, self.unknowns.count(), add);
     }
 
-    /// Inertia matrix in the given order of unknowns [mass, mass·length, mass·length²].
+    /// Inertia matrix for the given order of unknowns [mass, mass·length, mass·length²].
     pub(crate) fn sparse_inertia(&self, order: &StaticOrder) -> SymmetricSparse {
         SymmetricSparse::new(order.count(), |add| {
             self.inertia_entries(&mut |row, column, value| {
@@ -33,16 +33,16 @@ impl System {
         })
     }
 
-    /// Forces on the unknown degrees of freedom over the diagonal of the inertia, as if no inertia were coupled; zero without inertia
-    /// [length/time², 1/time²].
+    /// Forces at the unknowns divided by the diagonal of the inertia matrix, that is, without the coupling by inertia; zero where there is no
+    /// inertia [length/time², 1/time²].
     pub fn uncoupled_accelerations(&self, forces: &[f64]) -> Vec<f64> {
         let inertia = self.diagonal_of_inertia();
         let of = |(force, inertia): (&f64, f64)| if inertia > 0.0 { force / inertia } else { 0.0 };
         forces.iter().zip(inertia).map(of).collect()
     }
 
-    /// Band matrix of the inertia with the couplings of rigid links [mass, mass·length, mass·length²]. Its solution gives accelerations and link
-    /// forces.
+    /// Band matrix of the inertia, bordered by the constraints of rigid links [mass, mass·length, mass·length²]. Solving with it gives
+    /// accelerations and link forces.
     pub(super) fn banded_inertia(&self) -> BandedMatrix {
         let mut inertia =
             BandedMatrix::zeros(self.unknowns.count(), self.unknowns.half_bandwidth());

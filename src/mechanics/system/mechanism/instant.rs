@@ -1,12 +1,12 @@
-//! Instantaneous equations of motion: accelerations, and forces of supports, joints and contacts.
+//! Solution of the equations of motion at the present time: accelerations, and forces of supports, joints and contacts.
 //!
 //! ```text
-//! M a + F(x) - f(t) - Gᵀ λ = r        G a = 2 ξ̇ u·Σ B_i' v_i + ξ̇² u·Σ B_i'' x_i        r = 0 but where something is held
+//! M a + F(x) - f(t) - Gᵀ λ = r        G a = 2 ξ̇ u·Σ B_i' v_i + ξ̇² u·Σ B_i'' x_i        r = 0 except at supported degrees of freedom
 //! ```
 //!
-//! If the axis is compliant under a slider, `λ` follows from the kink. Configuration and rates at the end of a step are of second order for every
-//! method, and so are these results. They depend on the present state only; they are the same after a rewind, in a copy and in a simulation read from
-//! a file. Unresolved vibrations appear in them; the mean of two consecutive steps is free of these vibrations.
+//! If the master has a kink under a slider, `λ` follows from the kink. Every method gives configuration and rates at the end of a step with
+//! second-order accuracy, and these results have the same order. They depend on the present state only, so they are the same after a rewind, in a
+//! copy and in a simulation read from a file. They contain unresolved vibrations, which the mean of two consecutive steps does not.
 
 use super::{Reactions, System};
 use crate::beams::BodyPoint;
@@ -17,23 +17,23 @@ use crate::system::elements::{TrialState, collocation};
 use crate::system::links::InclinedRoller;
 use crate::system::{SliderState, SystemError};
 
-/// Instantaneous accelerations and forces.
+/// Accelerations and forces at one time.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Instant {
-    /// Accelerations of the unknowns [length/time², 1/time²], with forces of rigid links at their unknowns.
+    /// Accelerations of the unknowns [length/time², 1/time²], and the forces of rigid links at their unknowns.
     accelerations: Vec<f64>,
     reactions: Reactions,
-    /// Contact force of each slave on its master [force].
+    /// Force of each slave on its master [force].
     contacts: Vec<Vec2>,
 }
 
 impl Instant {
-    /// Accelerations of the unknowns, with forces of rigid links and rollers at their unknowns [length/time², 1/time²; force].
+    /// Accelerations of the unknowns [length/time², 1/time²], and the forces of rigid links and rollers at their unknowns [force].
     pub fn accelerations(&self) -> &[f64] {
         &self.accelerations
     }
 
-    /// Forces of joints and supports.
+    /// Forces of joints and supports at this time.
     pub fn reactions(&self) -> &Reactions {
         &self.reactions
     }
@@ -45,7 +45,7 @@ impl Instant {
 }
 
 impl System {
-    /// Computes the present accelerations and forces, with loads just after the present time. The state of motion is unchanged.
+    /// Computes the accelerations and forces at the present time, with loads just after this time. The state of motion is unchanged.
     ///
     /// # Errors
     /// Fails if a load has no value, or contact forces are not determined.
@@ -107,11 +107,11 @@ impl System {
         })
     }
 
-    /// Evaluates a function of the model with the present forces of rigid links instead of the forces of the last step, which are zero before the
-    /// first step.
+    /// Calls a function while the model stores the present forces of its rigid links instead of the forces of the last step, which are zero before
+    /// the first step.
     ///
     /// # Errors
-    /// Errors of [`instant`](Self::instant), for models with rigid links.
+    /// Errors of [`instant`](Self::instant), if the model has rigid links.
     pub(crate) fn with_present_link_forces<T>(
         &mut self,
         look: impl FnOnce(&Self) -> T,
@@ -175,7 +175,7 @@ impl System {
         Ok((accelerations, contacts))
     }
 
-    /// Acceleration of a place [length/time²].
+    /// Acceleration of a point of a body [length/time²].
     pub fn acceleration(&self, now: &Instant, place: &BodyPoint) -> Vec2 {
         let [x, y, _] = self.bodies[place.body].at(place, &now.accelerations);
         Vec2::new(x, y)

@@ -1,20 +1,20 @@
-//! Energy and momenta of a model.
+//! Energy and momenta of a mechanism.
 
 use serde::{Deserialize, Serialize};
 
 use super::System;
 use crate::geometry::{Vec2, larger};
 
-/// Energy of a model by kind [energy].
+/// Energy of a mechanism by type [energy].
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct Energy {
     /// Kinetic energy `½ ∫ ρA |ẋ|² + ρI θ̇² dX`, including point masses and moving kinks under sliders [energy].
     pub kinetic: f64,
-    /// Strain energy `½ ∫ Γ·CΓ + EI κ² dX`, including kinks under sliders and stops that hold sliders [energy].
+    /// Strain energy `½ ∫ Γ·CΓ + EI κ² dX`, including kinks under sliders and energy stored in stops [energy].
     pub strain: f64,
-    /// Potential energy of gravity, zero at the origin [energy].
+    /// Potential energy of gravity, relative to the origin [energy].
     pub potential: f64,
-    /// Energy `Σ U` of springs and tendons.
+    /// Potential energy `Σ U` of springs and tendons.
     pub stored: f64,
 }
 
@@ -25,12 +25,12 @@ impl Energy {
     }
 }
 
-/// Measures of a model at the end of a step.
+/// Energy, momenta, work and impulse of a mechanism at the end of a step.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct Measures {
     /// Time of the measures [time].
     pub time: f64,
-    /// Energy `E` by kind [energy].
+    /// Energy `E` by type [energy].
     pub energy: Energy,
     /// Work `W` of the loads so far [energy].
     pub work: f64,
@@ -44,9 +44,9 @@ pub struct Measures {
     pub angular_momentum: f64,
     /// Angular impulse `∫ M dt` of loads, gravity and supports about the origin so far [force·length·time].
     pub angular_impulse: f64,
-    /// Sum `∫ |F| dt` of the magnitudes of impulses so far, for each load and support separately [force·time].
+    /// Sum `∫ |F| dt` of the magnitudes of all impulses so far, added up separately for each load and support [force·time].
     pub gross_impulse: f64,
-    /// Sum `∫ |M| dt` of the magnitudes of angular impulses so far, for each load and support separately [force·length·time].
+    /// Sum `∫ |M| dt` of the magnitudes of all angular impulses so far, added up separately for each load and support [force·length·time].
     pub gross_angular_impulse: f64,
     /// Largest distance between the partners of a joint [length].
     pub gap: f64,

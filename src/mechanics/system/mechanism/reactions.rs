@@ -1,23 +1,23 @@
-//! Forces of joints and supports by control point, instantaneous or averaged over a step.
+//! Forces of joints and supports on control points, at one time or averaged over a step.
 
 use super::System;
 use crate::beams::{BodyPoint, Movement};
 use crate::geometry::Vec2;
 use crate::integrators::Mechanism;
 
-/// Forces of joints and supports: the residual of the balance of each separate control point.
+/// Forces of joints and supports. They are the residuals of the balance of each control point, evaluated without joints.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Reactions {
-    /// Residual at each degree of freedom: the support forces [force, force·length].
+    /// Residual at each degree of freedom, which is the support force at supported ones [force, force·length].
     residual: Vec<f64>,
     /// Forces of joints and supports on each control point of each body [force, force·length].
     nodes: Vec<Vec<Movement>>,
-    /// Forces of inclined rollers, which `residual` and `nodes` exclude [force].
+    /// Forces of inclined rollers, which are not contained in `residual` and `nodes` [force].
     roller_forces: Vec<Vec2>,
 }
 
 impl Reactions {
-    /// Force of joints and supports on a control point [force, force·length].
+    /// Force of joints and supports on one control point [force, force·length].
     pub fn to(&self, (body, point): (usize, usize)) -> Movement {
         self.nodes[body][point]
     }
@@ -39,7 +39,7 @@ impl Reactions {
 }
 
 impl System {
-    /// Forces of joints and supports from the residuals of all control points and the multipliers of all inclined rollers.
+    /// Computes the forces of joints and supports from the residuals of all control points and the multipliers of all inclined rollers.
     pub(super) fn reactions_from_residuals(&self, left: &[f64], across: &[f64]) -> Reactions {
         let mut residual = vec![0.0; self.degrees_of_freedom()];
         let mut forces = left.chunks_exact(3).map(|force| [force[0], force[1], force[2]]);
@@ -62,13 +62,13 @@ impl System {
         nodes.iter().map(|(body, _)| *body).filter(is_rigid).collect()
     }
 
-    /// Force of supports at a place: force [force] and moment [force·length]; `None` without a support there.
+    /// Reaction of supports at a place: force [force] and moment [force·length]; `None` without a support there.
     pub fn reaction(&self, given: &Reactions, place: &BodyPoint) -> Option<(Vec2, f64)> {
         self.held_by(place, &given.residual, |roller| given.roller_forces[roller])
     }
 
-    /// Force of supports and inclined rollers at a place, from the residual of all degrees of freedom and the force of each roller; `None` without a
-    /// support there.
+    /// Reaction of supports and inclined rollers at a place, from the residual at all degrees of freedom and the force of each roller. `None`
+    /// without a support there.
     pub(super) fn held_by(
         &self,
         place: &BodyPoint,

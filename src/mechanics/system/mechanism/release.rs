@@ -1,6 +1,6 @@
-//! Releases: joints and drives tie degrees of freedom by common numbers, and a release gives them separate numbers.
+//! Releases of joints and drives. They tie degrees of freedom by common numbers, and a release gives these separate numbers.
 //!
-//! Positions and rates are unchanged. Energy and momenta of the bodies stay the same to the last bit.
+//! A release changes neither positions nor rates. Energy and momenta of the bodies are unchanged to the last bit.
 
 use super::System;
 use crate::beams::BodyPoint;
@@ -10,12 +10,12 @@ use crate::linalg::BlockLayout;
 use crate::system::elements::{PrescribedMovement, Support, Supports};
 use crate::system::state::{StepMeasures, Unknowns};
 
-/// Numbering of all degrees of freedom of a model, and data that depend on it.
+/// Numbers of all degrees of freedom of a model, and data that depend on these numbers.
 pub struct DofNumbers {
     /// Degree of freedom of each component of each control point of each body.
     pub degrees_of_freedom: Vec<Vec<[usize; 3]>>,
     pub links: Vec<[usize; 2]>,
-    /// Force unknowns of inclined rollers; `None` after a release.
+    /// Force unknowns of inclined rollers; `None` for a released roller.
     pub rollers: Vec<Option<usize>>,
     /// Prescribed degrees of freedom, in the order of their numbers.
     pub prescribed: Vec<PrescribedMovement>,
@@ -23,7 +23,7 @@ pub struct DofNumbers {
     pub held: Vec<Support>,
     pub unknowns: Unknowns,
     pub joined: Vec<(BodyPoint, BodyPoint)>,
-    /// Blocks of the contacts of sliders, if contacts are eliminated block by block.
+    /// Blocks in which contacts of sliders are eliminated; `None` if contacts are eliminated together.
     pub contacts: Option<BlockLayout>,
 }
 

@@ -1,7 +1,7 @@
-//! Statics of the model: static residual and its derivatives.
+//! Statics of a mechanism: residual of the static equations, and its derivatives.
 //!
-//! Displacements are relative to the present configuration. Rotations are increments of the angle itself, so that the stiffness is the Hessian of the
-//! potential energy.
+//! Displacements are relative to the present configuration. Rotation increments are increments of the angle, so that the stiffness is the Hessian
+//! of the potential energy.
 
 use super::System;
 use crate::beams::{BodyPoint, RotationIncrement};
@@ -11,32 +11,32 @@ use crate::linalg::BorderedMatrix;
 use crate::system::links::ArmRule;
 use crate::system::sliders::{AtRest, MasterEnd};
 
-/// Largest forces in a static iterate.
+/// Scales of the forces in a static iterate.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct StaticForces {
     /// Largest force, of a section or a load [force].
     pub force: f64,
     /// Largest moment, of a section or a load [force·length].
     pub moment: f64,
-    /// Largest difference between the strains of the section forces and of the configuration [-].
+    /// Largest difference between the strains of the section forces and the strains of the configuration [-].
     pub strain_mismatch: f64,
 }
 
 impl System {
-    /// Starts a displacement between two equilibria with the section forces of the last equilibrium.
+    /// Starts the search for the next equilibrium with the section forces of the last equilibrium.
     pub fn begin_movement(&mut self) {
         self.bodies.begin_step();
         self.elements.begin_movement();
         self.links.begin_movement();
     }
 
-    /// Predicts zero displacement between two equilibria, with unchanged contacts. Contact unknowns follow the degrees of freedom.
+    /// Sets the displacements to zero and the contact unknowns to their last values. The contact unknowns follow the degrees of freedom.
     pub(crate) fn predict_unchanged(&self, unknowns: &mut [f64]) {
         unknowns.fill(0.0);
         self.sliders.predict_unchanged(&mut unknowns[self.unknowns.count()..]);
     }
 
-    /// Adds the internal forces for the current section forces minus `load_factor` times the loads, followed by the contact equations. The unknowns
+    /// Adds the internal forces of the current section forces, minus `load_factor` times the loads, and then the contact equations. The unknowns
     /// are displacements followed by contact unknowns.
     pub fn add_static_forces(
         &mut self,
@@ -57,7 +57,8 @@ impl System {
         }
     }
 
-    /// Adds the condensed internal forces minus `load_factor` times the loads, and their derivatives with respect to the displacements.
+    /// Adds the internal forces with strain mismatches condensed out, minus `load_factor` times the loads, and their derivatives with respect to
+    /// the displacements.
     pub fn add_linearised_static_forces(
         &mut self,
         unknowns: &[f64],
@@ -75,18 +76,18 @@ impl System {
         sliders.add_linearised::<AtRest>(bodies, count, movements, contacts, out, border);
     }
 
-    /// Largest violation of a rigid link or contact equation in a static iterate, relative to a force scale or to the lengths involved [-].
+    /// Largest violation of a rigid link or contact equation in a static iterate, as a fraction of a force scale or of the lengths involved [-].
     pub(crate) fn violation_at_rest(&self, residual: &[f64], force: f64) -> f64 {
         let equations = &residual[self.unknowns.count()..];
         let relative = |off: f64| if off == 0.0 { 0.0 } else { off / force };
         larger(self.sliders.violation(equations, relative), self.links.violation(residual))
     }
 
-    /// Holds sliders that the displacement takes beyond stops, and frees sliders with tensile stop forces. Returns true if the state of a slider
+    /// Holds sliders that a displacement moves beyond stops, and frees sliders with tensile stop forces. Returns true if the state of a slider has
     /// changed.
     ///
     /// # Errors
-    /// Slider and end of its master, if a slider would leave its master.
+    /// Returns the slider and the end of its master, if a slider would leave its master.
     pub(crate) fn update_stop_contacts(
         &mut self,
         unknowns: &[f64],
@@ -97,7 +98,7 @@ impl System {
         self.sliders.update_stop_contacts(&self.bodies, movements, contacts)
     }
 
-    /// Subtracts `load_factor` times loads and weight. Returns the largest force and moment on a control point.
+    /// Subtracts `load_factor` times loads and weight from `out`. Returns the largest force and the largest moment on a control point.
     pub(crate) fn subtract_static_loads(
         &mut self,
         movements: &[f64],
@@ -107,8 +108,8 @@ impl System {
         self.subtract_loads(Stage::End, movements, load_factor, out)
     }
 
-    /// Moves the model by displacements and rotations [length, rad], followed by contact unknowns, to the prescribed positions under a fraction of
-    /// the load. All velocities are then zero.
+    /// Accepts a static solution: applies its displacements and rotations [length, rad], its contact unknowns and the prescribed positions under a
+    /// fraction of the load. Afterwards all velocities are zero.
     pub(crate) fn move_by(&mut self, unknowns: &[f64], load_factor: f64) {
         let (movements, contacts) = unknowns.split_at(self.unknowns.count());
         let movements = self.supports.prescribed().at_rest(movements, load_factor);
@@ -127,9 +128,9 @@ impl System {
         self.supports.prescribed().has_positions()
     }
 
-    /// Support force at a place in equilibrium: force [force] and moment [force·length]; `None` without a support there.
+    /// Support reaction at a place in equilibrium: force [force] and moment [force·length]; `None` without a support there.
     ///
-    /// If several bodies are joined at the place, the force acts on all of them together.
+    /// If several bodies are joined at the place, the reaction acts on all of them together.
     pub(crate) fn support_force(&self, place: &BodyPoint, forces: &[f64]) -> Option<(Vec2, f64)> {
         self.held_by(place, forces, |roller| self.links.all_rollers()[roller].force())
     }

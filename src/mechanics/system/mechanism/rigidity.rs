@@ -1,14 +1,15 @@
-//! Response of beams to an impulse, with a selection of deformations.
+//! Response of beams to an impulse, if only selected deformations take part.
 //!
-//! The response `a = M⁻¹ f` to a unit impulse `Gᵀ` and the impulses `n` of the section forces satisfy
+//! The velocity response `a` to a unit impulse `Gᵀ`, and the impulses `n` of the section forces, satisfy
 //!
 //! ```text
 //! M a + Bᵀ n = Gᵀ        B a = n/(s C)        f = Gᵀ - Bᵀ n        a = M⁻¹ f
 //! ```
 //!
-//! Here `s = h²/4` for strains that steps of a length `h` resolve, and `1/s = 0` for suppressed strains. `f` is the impulse including the impulses of
-//! section forces. `n` is a separate unknown and `Bᵀ n` has no resultant, so momenta are conserved in spite of rounding. Springs and dampers are
-//! excluded: their forces are bounded, so their impulse during an impact is zero.
+//! Here `B` is the strain–rate matrix and `C` the section stiffness. For strains that steps of a length `h` resolve, `s = h²/4`; for suppressed
+//! strains, `1/s = 0`. `f` is the unit impulse together with the impulses of section forces. `n` is a separate unknown and `Bᵀ n` has no resultant,
+//! so momenta are conserved in spite of rounding. Springs and dampers do not take part: their forces are bounded, so their impulse during an impact
+//! is zero.
 
 use super::System;
 use crate::beams::StrainKind;
@@ -17,33 +18,34 @@ use crate::geometry::larger;
 use crate::integrators::{Inertia, Mechanism};
 use crate::linalg::{BandedLu, BandedMatrix};
 
-/// Largest ratio of weighted stiffness to inertia. Larger ratios are reduced to it; the deformation is then rigid to at least five digits.
+/// Largest ratio of weighted stiffness to inertia. Larger ratios are reduced to this value, for which the deformation is rigid to at least five
+/// digits.
 const MOST: f64 = 1e10;
 
-/// Smallest number of corrections of a solution. Each multiplies the error by `MOST` rounding units.
+/// Smallest number of corrections of a solution. Each correction multiplies the error by `MOST` times the machine precision.
 const CORRECTIONS: usize = 4;
 
-/// Largest number of corrections to remove suppressed strains.
+/// Largest number of corrections that reduce suppressed strains to zero.
 const MOST_CORRECTIONS: usize = 60;
 
-/// Energy of the suppressed strains, relative to the energy of the impulse, below which they count as zero [-].
+/// Energy of the suppressed strains that counts as zero, as a fraction of the energy of the impulse [-].
 const NO_STRAIN: f64 = 1e-20;
 
-/// Deformations included in an impact.
+/// Deformations that take part in an impact.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Deformation {
     /// All deformations: only inertia resists the impulse.
     All,
-    /// Deformations that steps of a length resolve [time].
+    /// Deformations that steps of the given length resolve [time].
     Resolved(f64),
-    /// Deformations that steps of a length resolve [time], without axial strain.
+    /// Deformations that steps of the given length resolve [time], except axial strain.
     Inextensible(f64),
 }
 
 struct StrainResistance {
     degrees: Vec<usize>,
     strain: Vec<f64>,
-    /// Stiffness times integration length times `s`, or the penalty weight of a suppressed strain.
+    /// Stiffness times integration length times `s`; for a suppressed strain, its penalty weight.
     weight: f64,
     is_rigid: bool,
 }
@@ -101,9 +103,9 @@ impl Rigidity {
         matrix
     }
 
-    /// Adds the transmitted section forces to a unit impulse, with the factors of the [`matrix`](Self::matrix).
+    /// Adds the impulses of section forces to a unit impulse. `factors` are the factors of the [`matrix`](Self::matrix).
     ///
-    /// Suppressed strains are brought to zero by the method of multipliers (Hestenes 1969). Returns the impulses `n` of the section forces.
+    /// Suppressed strains are reduced to zero by the method of multipliers (Hestenes 1969). Returns the impulses `n` of the section forces.
     pub(super) fn transmit_unit_impulse(
         &self,
         model: &mut System,
@@ -143,7 +145,7 @@ impl Rigidity {
         passed
     }
 
-    /// Adds `factor · Bᵀ n` to `out`, with the strain–rate matrix `B` and the transmitted impulses `n` of the resisting strains.
+    /// Adds `factor · Bᵀ n` to `out`, with the strain–rate matrix `B` and the impulses `n` of the section forces.
     fn add_transmitted(&self, passed: &[f64], factor: f64, out: &mut [f64]) {
         for (passed, StrainResistance { degrees, strain, .. }) in
             passed.iter().zip(&self.resistances)
@@ -166,7 +168,7 @@ fn fastest<'r>(inertia: &[f64], resistances: impl Iterator<Item = &'r StrainResi
     with_inertia.map(|(k, m)| k / m).fold(0.0, larger)
 }
 
-/// Calls `take` for every strain with stiffness: degrees of freedom, coefficients, stiffness and kind.
+/// Calls `take` for every strain with a nonzero stiffness, with degrees of freedom, coefficients, stiffness and type.
 fn for_each_stiff_strain(model: &System, mut take: impl FnMut(&[usize], &[f64], f64, StrainKind)) {
     model.each_span_of_bodies(&mut |degrees, span| {
         let rows = span.stiffness.iter().zip(&span.kinds).zip(span.strains.chunks(degrees.len()));
@@ -175,7 +177,7 @@ fn for_each_stiff_strain(model: &System, mut take: impl FnMut(&[usize], &[f64], 
     });
 }
 
-/// Adds the transmitted impulses `Bᵀ n` of an impact in the current numbering; nothing if no strain is rigid.
+/// Adds the impulses `Bᵀ n` of section forces in an impact, in the current numbering. `passed` is empty if no strain resists the impulse.
 pub(super) fn add_transmitted_impulses(model: &System, passed: &[f64], out: &mut [f64]) {
     let mut passed = passed.iter();
     for_each_stiff_strain(model, |degrees, row, _, _| {

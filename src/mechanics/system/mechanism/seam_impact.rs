@@ -1,4 +1,4 @@
-//! Sliders that pass from beam to beam of a track: effect of a corner at the seam on velocities.
+//! Sliders that pass from beam to beam of a track: effect of a corner at the seam on the velocities.
 //!
 //! The corner is treated as the limit of a rounded corner. Let `w` be the velocity of the slave relative to the contact point of the master. While
 //! the tangent rotates, the contact acts by impulses normal to the tangent, which do no work and conserve the component of `w` along the tangent.
@@ -8,9 +8,10 @@
 //! w⁺ = w⁻ + W P        P = γ J ½ (w⁻ + w⁺)        γ = 2 tan(θ/2)/√det W
 //! ```
 //!
-//! Here `θ` is the angle between both tangents in that metric. The section directions give the first rotation, of the part `G` of the velocity that
-//! the steps resolve, in one impact with all simultaneous impacts. The remaining angle is the difference of the shear on both sides; it rotates the
-//! full velocity. Derived in docs/theory.md, section 10.3.
+//! Here `θ` is the angle between the tangents before and after the corner in that metric. The rotation has two parts. The first is the rotation
+//! from the section direction on one side to the section direction on the other. It acts on the part `G v` of the velocity that the steps resolve,
+//! in one impact with all simultaneous impacts. The remaining angle is the difference of the shear on both sides; it rotates the full velocity.
+//! Derivation: docs/theory.md, section 10.3.
 
 use super::System;
 use super::impact::{ImpactDirection, ImpactImpulses, ImpactLaw, ImpactProblem};
@@ -23,7 +24,8 @@ use crate::system::sliders::{MasterEnd, MasterLimit, Seam};
 /// Angle below which two tangents are equal within rounding [rad].
 const STRAIGHT: f64 = 1e-13;
 
-/// Determinant of the response, relative to its squared size, below which the response has rank one. Such a response is not rotated at corners.
+/// Determinant of the response, as a fraction of its squared trace, below which the response has rank one. Such a response is not rotated at
+/// corners.
 const ONE_WAY: f64 = 1e-20;
 
 /// Largest number of corrections of the rotation angles, for coupled sliders that pass corners simultaneously.
@@ -32,10 +34,10 @@ const CORRECTIONS: usize = 40;
 /// Tolerance of a rotation angle [rad].
 const RIGHT: f64 = 1e-12;
 
-/// Range in which an estimated derivative of the rotation angle with respect to the parameter angle is plausible.
+/// Plausible range of the estimated derivative of the rotation angle with respect to its parameter.
 const SLOPES: std::ops::Range<f64> = 0.2..5.0;
 
-/// Corner that a slider passes: its incoming and outgoing directions [-].
+/// Corner that a slider passes: its directions before and after the corner [-].
 #[derive(Debug, Clone, Copy)]
 pub(super) struct SeamCorner {
     pub(super) slider: usize,
@@ -67,13 +69,13 @@ pub(super) struct SeamCrossings {
 }
 
 impl SeamCrossings {
-    /// Corners of the sections; empty if all are straight.
+    /// Corners between the section directions; empty if none has an angle.
     pub(super) fn corners_of_sections(&self) -> &[SeamCorner] {
         if self.sections.iter().all(SeamCorner::is_straight) { &[] } else { &self.sections }
     }
 }
 
-/// Response of the relative velocity of a slider to an impulse: the symmetric matrix `W` by rows [1/mass].
+/// Relative velocity of a slider caused by an impulse: the symmetric matrix `W`, given by rows [1/mass].
 #[derive(Debug, Clone, Copy)]
 struct Response([Vec2; 2]);
 
@@ -96,7 +98,7 @@ impl Response {
 
     /// Rotation angle between two velocities in the metric `W⁻¹` [rad].
     fn angle(&self, from: Vec2, to: Vec2) -> f64 {
-        // `det W` times the scalar product.
+        // Scalar product in the metric, times `det W`.
         let along = perpendicular(from).dot(&self.times(perpendicular(to)));
         atan2(self.determinant().sqrt() * cross(from, to), along)
     }
@@ -141,8 +143,8 @@ impl System {
         Ok(())
     }
 
-    /// Rotates the velocities of sliders at the ends of kinked axes onto the smooth axes. The kink has no energy there, and its motion becomes motion
-    /// along the axis.
+    /// Rotates the velocities of sliders at the ends of masters with a kink from the kinked to the smooth axis. The kink has no energy there, and
+    /// its motion becomes motion along the axis.
     pub(super) fn straighten_kinks(&mut self, limits: &[MasterLimit]) -> Result<(), LinearError> {
         let rates = &self.motion.rates;
         let corner = |&MasterLimit { slider, end }: &MasterLimit| {
@@ -155,7 +157,7 @@ impl System {
         Ok(())
     }
 
-    /// Unsheared axis directions in which a slider leaves one side of a seam and enters the other [-].
+    /// Section directions along which a slider leaves one side of a seam and enters the other side [-].
     fn sections_at(&self, slider: usize, end: MasterEnd, seam: Seam) -> Option<[Vec2; 2]> {
         let slider = &self.sliders[slider];
         let along = |beam: usize, end: MasterEnd| {
@@ -166,7 +168,7 @@ impl System {
         Some([along(slider.connection.master, end)?, -beyond])
     }
 
-    /// Deflects the relative velocities of sliders at corners, with the deformations that take part.
+    /// Rotates the relative velocities of sliders at corners. Only the given deformations take part.
     pub(super) fn deflect(
         &mut self,
         corners: &[SeamCorner],
@@ -191,17 +193,20 @@ impl System {
     }
 }
 
-/// Direction rotated by the angle between two others.
+/// Rotates a direction by the angle between two other directions.
 fn turned(direction: Vec2, [from, to]: [Vec2; 2]) -> Vec2 {
     direction * from.dot(&to) + perpendicular(direction) * cross(from, to)
 }
 
-/// Impulses of an impact in which sliders are rotated at corners, with two impulses each, and laws for all other contacts. At corners
-/// `P = γ J ½ (w⁻ + w⁺)`, with `γ` such that each slider rotates by its own angle to 1e-12, or as accurately as the last correction allows. `None` if stops are
-/// struck too and the angles are not reached.
+/// Computes the impulses of an impact in which corners rotate the velocities of sliders. A corner has two components of impulse; all other contacts
+/// have laws.
 ///
-/// For any `γ` this is one complementarity problem, with the rows `cos(θ/2) √det W P - sin(θ/2) J W P = sin(θ/2) J 2 w̄` for corners. Its solution is
-/// unique (docs/theory.md, section 10.3).
+/// At a corner the impulse is `P = γ J ½ (w⁻ + w⁺)`, with the velocities `w⁻` before and `w⁺` after the impact. The factor `γ` is such that the
+/// velocity rotates by the angle of the corner, to 1e-12 or as accurately as the last correction allows. The result is `None` if sliders also strike
+/// stops and the angles are not reached.
+///
+/// For any `γ` the impulses solve one complementarity problem. Its rows for corners are `cos(θ/2) √det W P - sin(θ/2) J W P = sin(θ/2) J 2 w̄`,
+/// with the mean velocity `w̄` without impulses. The solution is unique (docs/theory.md, section 10.3).
 pub(super) fn deflect_at_corners(
     encounter: &ImpactProblem,
     corners: &[SeamCorner],
@@ -246,7 +251,7 @@ pub(super) fn deflect_at_corners(
     Ok(last.filter(|_| !strikes).map(|impulses| encounter.with_works(impulses)))
 }
 
-/// Responses of sliders at corners to their own impulses, with the responses of all contacts that keep slaves on masters.
+/// Response `W` of each slider at a corner to its own impulse. The contacts that keep slaves on masters respond at the same time.
 fn own_responses(
     encounter: &ImpactProblem,
     corners: &[SeamCorner],
@@ -274,12 +279,12 @@ fn own_responses(
     (0..corners.len()).map(own).collect()
 }
 
-/// Search for the `γ` that rotates the slider at a corner by the required angle.
+/// Iterative search for the factor `γ` that rotates the velocity of a slider at a corner by the required angle.
 struct TurnSearch {
     own: Response,
     /// Required angle [rad].
     required_angle: f64,
-    /// Angle that parametrises `γ` [rad], and the error of the rotation angle at the previous parameter.
+    /// Angle that parametrises `γ` [rad]. The next field holds the previous parameter and its error of the rotation angle.
     angle: f64,
     before: Option<(f64, f64)>,
 }
@@ -306,7 +311,7 @@ impl TurnSearch {
         }
         let off = self.own.angle(before, after) - self.required_angle;
         let slope = self.before.map(|(angle, other)| (off - other) / (self.angle - angle));
-        // Secant method, if the slope is plausible.
+        // Secant method if the estimated slope is plausible, otherwise the slope 1.
         let slope = slope.filter(|slope| SLOPES.contains(slope)).unwrap_or(1.0);
         self.before = Some((self.angle, off));
         self.angle -= off / slope;

@@ -1,4 +1,4 @@
-//! Saving and restoring the state of a model bit for bit.
+//! Saving and restoring the state of a mechanism bit for bit.
 
 use serde::{Deserialize, Serialize};
 
@@ -8,7 +8,8 @@ use crate::system::SystemError;
 use crate::system::sliders::SliderState;
 use crate::system::state::Prediction;
 
-/// State of a [`System`], to be restored in the same one: everything that determines its later motion, and the accumulated work and impulse.
+/// State of a [`System`] that can be restored in the same system. It contains everything that determines the later motion, and the accumulated work
+/// and impulse.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct SystemState {
     numbers: Vec<f64>,
@@ -32,7 +33,7 @@ impl SystemState {
         self.numbers.len() == other.numbers.len() && self.sliders.len() == other.sliders.len()
     }
 
-    /// Sets the state to `from` plus `amount` times `change`.
+    /// Sets the state to `from` plus `amount` times the vector `change`.
     pub(crate) fn displace(&mut self, from: &Self, change: &[f64], amount: f64) {
         let Self { numbers, prediction: trend, knows_accelerations, sliders } = self;
         numbers.clear();
@@ -42,7 +43,7 @@ impl SystemState {
         sliders.extend_from_slice(&from.sliders);
     }
 
-    /// Writes the difference of the values from those of `other`, divided by `distance`.
+    /// Writes the difference between the values of this state and of `other`, divided by `distance`, to `change`.
     pub(crate) fn change_from(&self, other: &Self, distance: f64, change: &mut Vec<f64>) {
         let per_unit = |(own, other): (&f64, &f64)| match own == other || own.is_nan() {
             true => 0.0,
@@ -68,7 +69,7 @@ impl System {
         state
     }
 
-    /// Writes the [`state`](Self::state) to a buffer. Nothing is allocated if it holds a state of this model.
+    /// Writes the [`state`](Self::state) to a buffer. Nothing is allocated if the buffer already holds a state of this model.
     pub(crate) fn write_state(&self, state: &mut SystemState) {
         let SystemState { numbers, prediction: trend, knows_accelerations, sliders } = state;
         numbers.clear();
@@ -104,10 +105,10 @@ impl System {
         assert!(numbers.next().is_none(), "the state is one of this model");
     }
 
-    /// Restores a state from a file with checks.
+    /// Restores a state that was read from a file, with checks.
     ///
     /// # Errors
-    /// Fails if it cannot be a state of this model.
+    /// Fails if the values cannot be a state of this model.
     pub(crate) fn restore_checked(&mut self, state: &SystemState) -> Result<(), SystemError> {
         let refused = |reason: &'static str| SystemError::State { reason };
         let numbers = &state.numbers;
@@ -118,7 +119,7 @@ impl System {
         if !numbers.iter().all(|number| number.is_finite()) {
             return Err(refused("it has a value that is not finite"));
         }
-        // The values of the sliders are at the end.
+        // The values of the sliders are at the end of `numbers`.
         let of_sliders = &numbers[numbers.len() - self.sliders.saved()..];
         if !self.sliders.fit(of_sliders) {
             return Err(refused("a slider is outside its beam"));

@@ -3,13 +3,13 @@
 use super::System;
 use crate::linalg::reverse_cuthill_mckee;
 
-/// Order of the unknowns in static and modal matrices. Without sliders it is the order of the time steps. With sliders, the slider positions are
-/// additional unknowns, and all unknowns are reordered for a narrow band.
+/// Order of the unknowns in static and modal matrices. Without sliders it is their order in time steps. With sliders, the positions of the sliders
+/// are additional unknowns, and all unknowns are reordered for a narrow band.
 #[derive(Debug, Clone)]
 pub struct StaticOrder {
     count: usize,
     half_bandwidth: usize,
-    /// Position of each unknown in the order of elimination; `None` if it is the order used in time steps.
+    /// Position of each unknown in the order of elimination; `None` if the order is that of time steps.
     position: Option<Vec<usize>>,
 }
 
@@ -24,7 +24,7 @@ impl StaticOrder {
         self.half_bandwidth
     }
 
-    /// Place of an unknown. Supported degrees of freedom follow all unknowns.
+    /// Position of an unknown in this order. Supported degrees of freedom follow all unknowns.
     pub fn place(&self, unknown: usize) -> usize {
         let position = |position: &Vec<usize>| position.get(unknown).copied();
         match &self.position {
@@ -33,12 +33,12 @@ impl StaticOrder {
         }
     }
 
-    /// Returns true if the order is the order of the steps.
+    /// Returns true if the order is that of time steps.
     pub(crate) fn is_step_order(&self) -> bool {
         self.position.is_none()
     }
 
-    /// Converts values from this order to the order of the steps, restricted to `unknowns` entries.
+    /// Converts values from this order to the order of time steps, and truncates them to `unknowns` entries.
     pub(crate) fn to_step_order(&self, values: Vec<f64>, unknowns: usize) -> Vec<f64> {
         match &self.position {
             None => values,

@@ -1,7 +1,7 @@
 //! Stiffness, inertia and damping matrices of the present configuration.
 //!
-//! Rotations are increments of the angle itself, so that the stiffness is the Hessian of the strain energy. Loads of fixed direction have no
-//! stiffness; the stiffness of follower loads is neglected.
+//! Rotations are increments of the angle, so that the stiffness is the Hessian of the strain energy. Loads of fixed direction have no stiffness.
+//! The stiffness of follower loads is neglected.
 
 use super::{StaticOrder, System};
 use crate::beams::SpanStiffness;
@@ -11,13 +11,13 @@ use crate::linalg::{PreciseBand, SymmetricSparse};
 use crate::system::links::RigidLink;
 use crate::system::state::UnknownKind;
 
-/// Penalty stiffness of rigid links relative to the stiffest element. It lowers frequencies by a smaller relative amount, and 32 digits are enough to
-/// resolve all other stiffnesses beside it.
+/// Penalty stiffness of rigid links, as a multiple of the stiffest element. It lowers frequencies by a relative amount smaller than its inverse.
+/// With 32 digits, all other stiffnesses can be resolved beside it.
 const RIGID: f64 = 1e8;
 
 impl System {
-    /// Calls the callback with the static stiffness of every span and spring, and the places of the unknowns. Supported degrees of freedom follow all
-    /// unknowns.
+    /// Calls `take` with the static stiffness of every span and spring, and the positions of its unknowns in `order`. Supported degrees of freedom
+    /// follow all unknowns.
     pub(crate) fn for_each_static_span(
         &self,
         order: &StaticOrder,
@@ -42,15 +42,15 @@ impl System {
         }
     }
 
-    /// Power dissipated by dampers, damped materials and drag at given rates of the unknowns in the present configuration [energy/time].
+    /// Power that dampers, damped materials and drag dissipate at given rates of the unknowns in the present configuration [energy/time].
     pub(crate) fn dissipation(&self, rates: &[f64]) -> f64 {
         let mut power = 0.0;
         self.each_damped_rate(rates, &mut |damping, rate| power += damping * square(rate));
         power
     }
 
-    /// Calls `take` with each damped rate and its damping coefficient for small rates, in the present configuration. Coefficient times squared rate
-    /// is the dissipated power [energy/time]. The number and order of calls do not depend on the rates.
+    /// Calls `take` with each damped rate and its damping coefficient for small rates, in the present configuration. The coefficient times the
+    /// squared rate is the dissipated power [energy/time]. The number and order of calls do not depend on the rates.
     pub(crate) fn each_damped_rate(&self, rates: &[f64], take: &mut dyn FnMut(f64, f64)) {
         self.elements.each_damped_rate(&self.bodies, rates, take);
     }
@@ -71,8 +71,8 @@ impl System {
         reaches.fold(self.unknowns.half_bandwidth(), usize::max)
     }
 
-    /// Calls the callback with a penalty stiffness of every rigid link and contact: `RIGID` times the largest `stiffness` at its degrees of freedom,
-    /// queried by place [force/length, force·length].
+    /// Calls `take` with the penalty stiffness of every rigid link and contact. It is `RIGID` times the largest stiffness at its degrees of
+    /// freedom. `stiffness` returns that value for a position in `order` [force/length, force·length].
     pub(crate) fn for_each_static_constraint(
         &self,
         order: &StaticOrder,
@@ -99,7 +99,7 @@ impl System {
         self.sliders.for_each_static_stiffness(&self.bodies, self.unknowns.count(), rigid, take);
     }
 
-    /// Number of degrees of freedom with mass that rigid links and contacts remove.
+    /// Number of degrees of freedom with mass that the constraints of rigid links and contacts remove.
     pub(crate) fn constrained_movements(
         &self,
         order: &StaticOrder,
@@ -119,8 +119,8 @@ impl System {
         self.links.forces().saturating_sub(kinds.filter(is_light).count())
     }
 
-    /// Estimate of the square of the lowest bending frequency, as if all beams formed one: the smallest `EI` over the largest `ρA` and the fourth
-    /// power of the total length; `None` without a beam [1/time²].
+    /// Estimate of the square of the lowest bending frequency, as if all beams formed a single beam: the smallest `EI`, divided by the largest `ρA`
+    /// and by the fourth power of the total length; `None` without a beam [1/time²].
     pub(crate) fn slowest_bending(&self) -> Option<f64> {
         let extents = || self.bodies.iter().filter_map(|body| body.dynamics.extent());
         let length: f64 = extents().map(|(_, length)| length).sum();
@@ -154,7 +154,7 @@ impl System {
     }
 }
 
-/// Wraps a callback so that it receives places instead of unknowns.
+/// Wraps a callback so that it receives positions in `order` instead of numbers of unknowns.
 fn in_order<'t>(
     order: &'t StaticOrder,
     take: &'t mut dyn FnMut(&[usize], &SpanStiffness),
@@ -168,7 +168,7 @@ fn in_order<'t>(
     }
 }
 
-/// Adds the stiffness `Bᵀ k B + K_g` of a span.
+/// Adds the stiffness `Bᵀ k B + K_g` of a span: its material part with the strain matrix `B`, and its geometric part `K_g`.
 pub fn add_resistance(stiffness: &mut PreciseBand, degrees: &[usize], span: &SpanStiffness) {
     let width = degrees.len();
     for (factor, row) in span.stiffness.iter().zip(span.strains.chunks_exact(width)) {

@@ -1,7 +1,7 @@
 //! Impacts at the ends of masters: simultaneous impacts, energy stored in stops, and sliders that leave a stop.
 //!
-//! When a slider becomes held at a stop, an impulse reduces its speed along the master to zero. The stop, as an elastic body, stores the lost kinetic
-//! energy and returns it when the slider leaves. With a coefficient of restitution below one the energy is lost.
+//! When a slider comes to rest at a stop that then holds it, an impulse reduces its speed along the master to zero. The stop acts as an elastic
+//! body: it stores the lost kinetic energy and returns it when the slider leaves. With a coefficient of restitution below one the energy is lost.
 
 use super::System;
 use super::impact::{GIVES, ImpactDirection, ImpactLaw};
@@ -14,35 +14,35 @@ use crate::linalg::LinearError;
 use crate::system::SystemError;
 use crate::system::sliders::{AxialImpact, MasterLimit, SliderState};
 
-/// Distance of a slider from the end of its master, relative to the parameter range, below which it arrives simultaneously with another slider.
+/// Distance of a slider from the end of its master that counts as simultaneous arrival with another slider, as a fraction of the parameter range.
 const TOGETHER: f64 = 1e-12;
 
-/// Number of steps per period below which a vibration counts as rigid in an impact.
+/// Number of steps per period. Vibrations with fewer steps per period count as rigid in an impact.
 pub(super) const RIGID: f64 = 4.0;
 
 /// Largest ratio of step length to impact duration at which the steps resolve the impact [-].
 pub const RESOLVED_IMPACT: f64 = 0.125;
 
-/// Smallest approach speed relative to the speed of the fastest point of the model.
+/// Smallest approach speed, as a fraction of the speed of the fastest point of the model.
 const APPROACHES: f64 = 1e-12;
 
-/// Direction of a contact impulse, with its law.
+/// Direction of a contact impulse, and the law of the contact.
 #[derive(Debug, Clone, Copy)]
 struct ImpactContact {
     direction: ImpactDirection,
     law: ImpactLaw,
 }
 
-/// Sliders that reach an end of their master at the same time, by their behaviour there.
+/// Sliders that reach an end of their master at the same time, grouped by their behaviour there.
 #[derive(Debug, Clone, Default)]
 pub struct Arriving {
     /// Limits at which sliders bounce.
     pub strike: Vec<MasterLimit>,
-    /// Limits that sliders strike without rebound: the stop has zero restitution, and the steps do not resolve the impact.
+    /// Limits that sliders strike without rebound. The stop has zero restitution, and the steps do not resolve the impact.
     pub plastic: Vec<MasterLimit>,
-    /// Limits at which sliders become held.
+    /// Limits at which the stop holds sliders.
     pub held: Vec<MasterLimit>,
-    /// Limits that sliders pass along their tracks.
+    /// Limits at which sliders continue to the next beam of their tracks.
     pub crossing: Vec<MasterLimit>,
 }
 
@@ -65,7 +65,8 @@ impl Arriving {
 }
 
 impl System {
-    /// Limits reached simultaneously with the given limit, in the order of the scene: sliders that are at an end within rounding and move beyond it.
+    /// Limits that sliders reach simultaneously with the given limit, in the order of the scene. These sliders are at an end within rounding and
+    /// move beyond it.
     pub(crate) fn simultaneous_arrivals(&self, limit: MasterLimit) -> Vec<MasterLimit> {
         let limits = (0..self.sliders.len()).flat_map(MasterLimit::both);
         let arrives = |other: &MasterLimit| {
@@ -76,8 +77,8 @@ impl System {
         limits.filter(arrives).collect()
     }
 
-    /// Returns true if the velocity of a slider at an end is directed beyond it, with the deformations included in an impact in steps of length `dt`
-    /// [time].
+    /// Returns true if the velocity of a slider at an end points beyond the end. The velocity is that of the deformations that take part in an
+    /// impact with steps of length `dt` [time].
     ///
     /// # Errors
     /// Fails if the impulse is not determined.
@@ -94,8 +95,8 @@ impl System {
         Ok(speed < -APPROACHES * self.fastest_speed())
     }
 
-    /// Returns true if steps of length `dt` [time] resolve the impact of a slider at a limit. The impact duration follows from wave speeds, if one of
-    /// the bodies is deformable and light enough. Records the ratio of step length to impact duration.
+    /// Returns true if steps of length `dt` [time] resolve the impact of a slider at a limit. The impact duration is computed from wave speeds if
+    /// at least one of the bodies is deformable and light enough. The ratio of step length to impact duration is recorded.
     ///
     /// # Errors
     /// Fails if the impulse is not determined.
@@ -122,8 +123,8 @@ impl System {
         Ok(self.sliders[limit.slider].impact_duration(&self.bodies, AxialImpact { slave, master }))
     }
 
-    /// Deformations included in an impact at limits in steps of length `dt` [time]. With a coefficient of restitution, axial waves and all vibrations
-    /// faster than the impact are suppressed; an elastic contact includes the deformations that the steps resolve.
+    /// Deformations that take part in an impact at limits, for steps of length `dt` [time]. With a coefficient of restitution, axial waves and all
+    /// vibrations faster than the impact are suppressed. In an elastic contact, the deformations that the steps resolve take part.
     fn deformation_at(&self, limits: &[MasterLimit], dt: f64) -> Result<Deformation, LinearError> {
         let mut longest = None;
         for limit in limits.iter().filter(|at| self.end_action(at.slider) != EndAction::Contact) {
@@ -155,9 +156,9 @@ impl System {
         self.sliders[limit.slider].along_contact(&self.bodies) * -limit.end.outward()
     }
 
-    /// Computes one impact of all sliders that arrive at ends of masters and at seams at the present time, in steps of length `dt` [time]. The laws
-    /// are `0 ≤ P ⟂ w⁺ + e w⁻ ≥ 0` at stops, including stops that hold sliders, a rotation at the corners of seams, and constraints at all other
-    /// contacts. Afterwards, sliders that pass a seam are on its other side.
+    /// Computes one impact of all sliders that arrive at ends of masters and at seams at the present time, for steps of length `dt` [time]. Stops
+    /// have the law `0 ≤ P ⟂ w⁺ + e w⁻ ≥ 0`, also those that hold sliders. Corners of seams rotate velocities. All other contacts are constraints.
+    /// Afterwards, sliders that pass a seam are on its other side.
     ///
     /// # Errors
     /// Fails if the impulses are not determined.
@@ -165,6 +166,7 @@ impl System {
         self.sliders.iter_mut().for_each(|slider| slider.impulse = Vec2::zeros());
         let met = self.solve_simultaneous_impacts(arriving, dt);
         met.map_err(|_| self.sliders.overdetermined())?;
+        self.choose_friction_modes();
         self.leave_tensile_stops()
     }
 
@@ -186,7 +188,8 @@ impl System {
             self.apply_impulses(&hits, corners, [Deformation::Resolved(RIGID * dt), at_stops])?;
         }
         if !arriving.plastic.is_empty() {
-            // The impact acts on a rigid body, not only on its end, so a velocity due to rounding may remain at the end and must be removed.
+            // This impact acted on a body with suppressed deformations. At the end of the body, a velocity due to rounding may remain, which is
+            // removed here.
             let hits = self.impulse_directions(|_, limit| {
                 arriving.plastic.contains(&limit).then_some(ImpactLaw::Ends)
             });
@@ -196,8 +199,8 @@ impl System {
         self.pass_seams(&passages)
     }
 
-    /// Applies simultaneous impulses: sliders that pass corners are deflected, all other contacts follow their impact laws. Impulses that hold
-    /// sliders at a stop use all deformations.
+    /// Applies simultaneous impulses. Corners rotate the velocities of sliders that pass them; all other contacts follow their impact laws. For
+    /// impulses that hold sliders at a stop, all deformations take part.
     fn apply_impulses(
         &mut self,
         hits: &[ImpactContact],
@@ -216,7 +219,7 @@ impl System {
         let met = [(&turned[..], at_corners), (others, at_stops), (held, Deformation::All)];
         let encounter = self.impact_problem(&met, -2.0)?;
         let Some(impulses) = deflect_at_corners(&encounter, corners, &laws)? else {
-            // Impacts that reverse the velocity of a slider at a corner are applied first.
+            // The rotation angles were not reached, so the impacts at stops are applied first and the corners afterwards.
             self.apply_impulses(hits, &[], [Deformation::All, at_stops])?;
             return self.deflect(corners, at_corners);
         };
@@ -239,7 +242,7 @@ impl System {
         self.sliders[slider].impulse
     }
 
-    /// Frees all sliders with tensile stop forces and returns the energy stored in the stops to them.
+    /// Frees all sliders with tensile stop forces, and gives them the energy stored in the stops.
     ///
     /// # Errors
     /// Fails if the impulses are not determined.
@@ -263,10 +266,10 @@ impl System {
         Ok(())
     }
 
-    /// Returns the energy stored in stops to the sliders that leave. Their speeds are proportional to the square roots of their stored energies.
+    /// Gives the energy stored in stops to the sliders that leave. Their speeds are proportional to the square roots of their stored energies.
     ///
-    /// The impulses are linear in a common factor `s` of these speeds while the same contacts are active, and the returned energy is quadratic in
-    /// `s`.
+    /// The impulses are linear in a common factor `s` of these speeds as long as the set of active contacts is the same. The returned energy is
+    /// then quadratic in `s`.
     fn return_stop_energy(&mut self) -> Result<(), LinearError> {
         let hits = self.impulse_directions(|model, limit| {
             let slider = &model.sliders[limit.slider];
@@ -311,8 +314,8 @@ impl System {
         Ok(())
     }
 
-    /// Directions [-] of all contact impulses: across masters without a compliant axis, and along masters for held sliders and sliders with an impact
-    /// law at a limit.
+    /// Directions [-] of all contact impulses: along masters for held sliders and sliders with an impact law at a limit, and across masters for the
+    /// same sliders and for all sliders on masters without a kink.
     fn impulse_directions(
         &self,
         law: impl Fn(&Self, MasterLimit) -> Option<ImpactLaw>,
@@ -340,10 +343,10 @@ impl System {
     }
 }
 
-/// Positive root of `a x² + b x + c`, if there is one.
+/// Nonnegative root of `a x² + b x + c`, if there is one.
 fn nonnegative_root(a: f64, b: f64, c: f64) -> Option<f64> {
     let root = (square(b) - 4.0 * a * c).sqrt();
-    // These forms of the quotient avoid cancellation.
+    // Each form of the quotient avoids cancellation for its sign of `b`.
     let x = if b > 0.0 { -2.0 * c / (b + root) } else { (root - b) / (2.0 * a) };
     (x.is_finite() && x >= 0.0).then_some(x)
 }

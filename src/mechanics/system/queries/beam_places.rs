@@ -7,9 +7,9 @@ use crate::elementary::atan2;
 use crate::geometry::{Vec2, corresponding};
 use crate::system::{Scene, System, SystemError};
 
-/// Places along a beam, precomputed for repeated sampling: its knots, and equidistant places between consecutive knots.
+/// Places along a beam, precomputed for repeated sampling: its knots, and equally spaced places between consecutive knots.
 ///
-/// At a joint inside the beam there are two places of the same arc length, at the end of one part and the start of the next.
+/// At a joint inside the beam there are two places with the same arc length: the end of one part and the start of the next.
 #[derive(Debug, Clone, PartialEq)]
 pub struct BeamPlaces {
     beam: usize,
@@ -19,37 +19,37 @@ pub struct BeamPlaces {
 /// State of a beam at one of its places.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct BeamSample {
-    /// Arc length as drawn [length].
+    /// Arc length in the scene as drawn [length].
     pub arc_length: f64,
     /// Position [length].
     pub position: Vec2,
     /// Velocity [length/time].
     pub velocity: Vec2,
-    /// Section angle, unwrapped from the tracked angle at the start of the beam [rad].
+    /// Section angle with whole turns, counted from the tracked angle at the start of the beam [rad].
     pub angle: f64,
     /// Section forces, including the forces of material damping.
     pub forces: SectionForces,
-    /// Strain energy per length as drawn [energy/length].
+    /// Strain energy per undeformed length [energy/length].
     pub strain_energy: f64,
 }
 
 impl BeamPlaces {
-    /// Number of places between two knots that resolves the variation of section forces.
+    /// Number of places between two knots that is enough to show the variation of section forces.
     pub const WITHIN_A_SPAN: usize = 3;
 
-    /// Keeps only the second of two places with the same arc length at a joint inside the beam.
+    /// Removes, at a joint inside the beam, the first of the two places with the same arc length.
     pub fn deduplicate_places(mut self) -> Self {
         let mut behind = self.arc_lengths().skip(1).collect::<Vec<_>>().into_iter();
         self.places.retain(|(arc_length, ..)| behind.next() != Some(*arc_length));
         self
     }
 
-    /// Increasing arc lengths as drawn [length].
+    /// Increasing arc lengths of the places in the scene as drawn [length].
     pub fn arc_lengths(&self) -> impl Iterator<Item = f64> + '_ {
         self.places.iter().map(|(arc_length, ..)| *arc_length)
     }
 
-    /// Positions of the places for given control points of the beam [length].
+    /// Positions of the places, computed from control points of the beam [length].
     pub fn positions(&self, control_points: &[Vec2]) -> impl Iterator<Item = Vec2> {
         self.places.iter().map(|(_, place, _)| place.interpolate(control_points))
     }
@@ -100,7 +100,7 @@ impl System {
     }
 }
 
-/// Angle that differs from `angle` by whole turns and is nearest to `other` [rad].
+/// Angle nearest to `other` that differs from `angle` by whole turns [rad].
 fn unwrap_to_nearest(angle: f64, other: f64) -> f64 {
     angle + 2.0 * PI * ((other - angle) / (2.0 * PI)).round()
 }

@@ -9,25 +9,25 @@ impl System {
         self.supports().prescribed().states()
     }
 
-    /// First drive whose position under a fraction of the load differs from its function just after a time: its name and both positions [length,
-    /// rad].
+    /// Finds the first drive whose position under a fraction of the load differs from its function just after a time. Returns its name and both
+    /// positions [length, rad].
     pub(crate) fn drive_elsewhere(&self, load_factor: f64, time: f64) -> Option<(&str, [f64; 2])> {
         self.supports().prescribed().first_displaced_drive(load_factor, time)
     }
 
-    /// Drives whose motion has a kink within a step, with the largest kink of each.
+    /// Drives whose motion has a kink within a step, each with its largest kink.
     pub fn bends(&self) -> impl Iterator<Item = (&str, MotionCurvature)> {
         self.supports().prescribed().bends()
     }
 
-    /// Names of loads and drives whose schedule changes within steps unseen, with the largest change of each.
+    /// Loads and drives with changes of their schedule within a step that the method misses. Each name comes with its largest missed change.
     pub(crate) fn missed_changes(&self) -> impl Iterator<Item = (&str, UnsampledChange)> {
         let loads = self.elements().forces();
         let loads = loads.filter_map(|load| Some((load.name(), load.missed_change()?)));
         loads.chain(self.supports().prescribed().missed_changes())
     }
 
-    /// Accounts of the named loads, in the order of the scene.
+    /// Work and values of the named loads, in the order of the scene.
     pub(crate) fn named_loads(&self) -> impl Iterator<Item = LoadAccount> {
         self.elements().forces().filter_map(|force| force.account())
     }

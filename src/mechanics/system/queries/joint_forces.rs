@@ -1,8 +1,8 @@
 //! Forces transmitted by joints.
 //!
-//! A joint connects two sets of nodes at one place. The force on one side is the sum of the forces of joints and supports on all nodes of that side,
-//! because the forces of joints within the side cancel. If one side is the ground, its force is the opposite of the force on the other side. Scenes
-//! reject redundant joints, so no other joint connects both sides.
+//! A joint connects two sets of nodes at one place. Joints within one side exert forces that cancel in the sum over its nodes. Hence the force of
+//! the joint on one side is the sum of the forces of joints and supports on all nodes of this side. If one side is the ground, its force is the
+//! opposite of the force on the other side. Scenes reject redundant joints, so no other joint connects both sides.
 
 use crate::geometry::Vec2;
 use crate::joints::{Component, Joint, JointKind, Partner, Releasable};
@@ -17,16 +17,16 @@ struct JointSide {
     sign: f64,
 }
 
-/// Joint whose nodes were located for repeated queries.
+/// Joint with the nodes on its sides, located for repeated queries.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Transmission {
     sides: [Option<JointSide>; 3],
-    /// Index of the inclined roller, if the joint is one.
+    /// Index of the inclined roller; `None` for other joints.
     roller: Option<usize>,
 }
 
 impl Transmission {
-    /// Force [force] and moment [force·length] on the first station of the joint, at the time or over the step of the reactions.
+    /// Force [force] and moment [force·length] of the joint on its first station, at the time of the reactions or averaged over their step.
     pub fn read(&self, given: &Reactions) -> (Vec2, f64) {
         let sum = |component: Component| {
             let at = component as usize;
@@ -41,10 +41,10 @@ impl Transmission {
 }
 
 impl System {
-    /// Locates the nodes of a joint; empty after its release.
+    /// Locates the nodes on both sides of a joint. A released joint has none.
     ///
     /// # Errors
-    /// Fails if a station lies off its beam, which the scene excludes.
+    /// Fails if a station lies off its beam, which cannot occur in a checked scene.
     pub fn transmission(&self, scene: &Scene, joint: usize) -> Result<Transmission, SystemError> {
         let ends = |joint: &Joint| -> Result<(Node, Node), SystemError> {
             let node = |station| -> Result<Node, SystemError> {
@@ -61,7 +61,7 @@ impl System {
         let has_let_go = |hold: Releasable| unknowns.are_free_of(hold);
         let all = scene.joints.iter().map(|joint| Ok((joint.kind, ends(joint)?)));
         let all = all.collect::<Result<Vec<_>, SystemError>>()?;
-        // A rigid body transmits force and moment through all its points together.
+        // All points of a rigid body together transmit its force and moment.
         let links = self.links().iter();
         let turning = links.map(|link| (Some((link.body, 0)), Some((link.body, link.point))));
         let turning: Vec<(Node, Node)> = turning.collect();
@@ -100,7 +100,7 @@ impl System {
     }
 }
 
-/// Nodes connected to `from` by pairs, without a connection through the ground.
+/// Nodes connected to `from` by chains of pairs that do not contain the ground.
 fn connected_nodes(from: Node, pairs: &[(Node, Node)]) -> Vec<Node> {
     let mut found = vec![from];
     let mut next = 0;

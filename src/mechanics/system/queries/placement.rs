@@ -1,4 +1,4 @@
-//! Comparison of two configurations.
+//! Configurations of a model, and the distance between two of them.
 
 use crate::elementary::atan2;
 use crate::geometry::{Vec2, cross, larger};
@@ -21,7 +21,7 @@ pub struct Distance {
 }
 
 impl Placement {
-    /// Largest distances from another placement of the same model; NaN if any is NaN.
+    /// Largest distances between this and another placement of the same model; NaN if any is NaN.
     pub fn distance(&self, other: &Self) -> Distance {
         let points = self.points.iter().zip(&other.points);
         let normals = self.normals.iter().zip(&other.normals);

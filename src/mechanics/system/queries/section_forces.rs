@@ -5,7 +5,7 @@ use crate::beams::{BodyIndex, SectionForces, SectionPlace, SectionPoints, Statio
 use crate::integrators::Mechanism;
 use crate::system::{Scene, System, SystemError};
 
-/// Station of a beam, located among the quadrature points for repeated queries.
+/// Station of a beam, located between quadrature points for repeated queries.
 #[derive(Debug, Clone, PartialEq)]
 pub struct CrossSection {
     body: usize,
@@ -15,14 +15,14 @@ pub struct CrossSection {
 /// Section forces at a place along a beam.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SectionSample {
-    /// Arc length as drawn [length].
+    /// Arc length in the scene as drawn [length].
     pub arc_length: f64,
     /// Section forces and strains at the place.
     pub forces: SectionForces,
 }
 
 impl System {
-    /// Locates a station of a beam for section forces. At a joint inside the beam it is the start of the second part.
+    /// Locates a station of a beam for queries of section forces. At a joint inside the beam, the place is the start of the second part.
     ///
     /// # Errors
     /// Fails if the station lies outside its beam or on a particle.
@@ -43,12 +43,12 @@ impl System {
         Ok(CrossSection { body: beam, place })
     }
 
-    /// Section forces in the present configuration, from the strains by the material law: see [`SectionPlace`].
+    /// Section forces in the present configuration. They follow from the strains by the material law: see [`SectionPlace`].
     ///
-    /// A step of the energy–momentum method balances loads and inertia with the mean of the section forces at both ends of the step. If the section
-    /// forces of a stiff beam oscillate from step to step, this mean does not.
+    /// A step of the energy–momentum method balances loads and inertia with the mean of the section forces at its start and end. In a stiff beam
+    /// the section forces may oscillate from step to step; this mean does not.
     ///
-    /// Material damping contributes at the present rates. Strains do not depend on rates.
+    /// Forces of material damping are included. They follow from the present rates.
     pub fn section_forces(&self, at: &CrossSection) -> SectionForces {
         let of_strains = self.bodies()[at.body].dynamics.section_forces(&at.place);
         self.with_damping(of_strains, at.body, &at.place)
@@ -68,8 +68,8 @@ impl System {
         viscous.fold(of_strains, SectionForces::with_viscous)
     }
 
-    /// Section forces along a beam from start to end, at the knots and three places between consecutive knots. A joint inside the beam has two rows
-    /// of the same arc length, one for each part.
+    /// Section forces along a beam from start to end, at the knots and at three places between consecutive knots. A joint inside the beam has two
+    /// rows with the same arc length, one for each part.
     ///
     /// # Errors
     /// Fails if an axis has a point without a tangent.

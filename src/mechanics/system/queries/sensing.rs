@@ -8,7 +8,7 @@ use crate::system::{
     Transmission, Value,
 };
 
-/// Sensors of a scene, located in its model.
+/// Sensors of a scene, with their places located in its model.
 #[derive(Debug, Clone, Default)]
 pub struct SensorReader {
     readings: Vec<SensorReading>,
@@ -78,12 +78,12 @@ impl SensorReader {
         Ok(Self { values, readings, needs_instant, needs_mean })
     }
 
-    /// Returns true if sensors need the mean forces of joints and supports over a step.
+    /// Returns true if a sensor needs the mean forces of joints and supports over a step.
     pub(crate) fn need_mean_forces(&self) -> bool {
         self.needs_mean
     }
 
-    /// Evaluates all sensors. Unavailable values and values that the caller provides are NaN.
+    /// Evaluates all sensors. Values that are unavailable or provided by the caller are NaN.
     pub fn read(&mut self, model: &mut System) -> &[f64] {
         self.values.clear();
         let now = if self.needs_instant { model.instant().ok() } else { None };
@@ -117,7 +117,7 @@ fn at_station(
     })
 }
 
-/// Precomputed data that the sensors need.
+/// Quantities of a model that several sensors share, computed before they are read.
 #[derive(Clone, Copy)]
 struct SensorContext<'a> {
     instant: Option<&'a Instant>,

@@ -17,7 +17,7 @@ impl System {
         self.slider(slider).state
     }
 
-    /// Limit at which a slider is held: the `start` or `end` of its master or track, or a `seam` of the track.
+    /// Name of the limit at which a slider is held: `start` or `end` of its master or track, or a `seam` of the track.
     pub fn slider_held_by(&self, slider: usize) -> Option<&'static str> {
         self.slider(slider).held_by(self.bodies())
     }
@@ -42,32 +42,44 @@ impl System {
         self.slider(slider).kink_speed_limit()
     }
 
-    /// Force of a slider on its master as the mean over the last step [force].
+    /// Mean force of a slider on its master over the last step [force].
     ///
     /// Before the first step it is the present force; zero after a release.
     pub fn contact_force(&self, slider: usize) -> Vec2 {
         self.slider(slider).contact_force()
     }
 
-    /// Force of the kink under a slider that follows the contact force, otherwise the [`contact_force`](Self::contact_force) [force].
+    /// Present force at the kink under a slider, if the kink follows the contact force; otherwise the [`contact_force`](Self::contact_force)
+    /// [force].
     pub fn kink_force(&self, slider: usize) -> Vec2 {
         self.slider(slider).force_of_state()
     }
 
-    /// Position of a slider along its master or track as drawn, from 0 at the start to 1 at the end. It is unwrapped on closed tracks [-].
+    /// Friction force of a slider on its master as the mean over the last step, positive towards the end of the master [force]; `None` without
+    /// friction.
+    pub fn friction_force(&self, slider: usize) -> Option<f64> {
+        self.slider(slider).friction_force()
+    }
+
+    /// Position of a slider along its master or track as drawn, from 0 at the start to 1 at the end [-]. On closed tracks whole rounds are counted.
     pub fn slider_position(&self, slider: usize) -> f64 {
         self.slider(slider).position()
     }
 
-    /// Distance of a slider from the start of its master or track as drawn; unwrapped on closed tracks [length].
+    /// Arc length of a slider from the start of its master or track as drawn [length]. On closed tracks whole rounds are counted.
     pub fn slider_arc_length(&self, slider: usize) -> f64 {
         self.slider(slider).arc_length()
     }
 
-    /// Speed of a slider along its master or track as drawn, positive towards the end [length/time]. It follows from the present velocities, and is
-    /// zero for a slider that is held or released.
+    /// Speed of a slider along its master or track as drawn, positive towards the end [length/time]. It is computed from the present velocities,
+    /// and zero for a slider that is held or released.
     pub fn slider_speed(&self, slider: usize) -> f64 {
         self.slider(slider).speed(self.bodies(), self.rates())
+    }
+
+    /// Speed of the slip of a slider with friction at the start of the last attempted step [length/time].
+    pub(crate) fn slip_speed(&self, slider: usize) -> f64 {
+        self.slider(slider).slip_speed()
     }
 
     /// Distance of a slider from a limit, as a fraction of the parameter range of its master [-].

@@ -4,7 +4,7 @@ use crate::integrators::Mechanism;
 use crate::system::System;
 use crate::system::elements::{Branch, InternalForce, OutsideLaw, ShortBounce, SpringTrialState};
 
-/// Rounding error of an elongation, relative to the elongation.
+/// Rounding error of an elongation, as a fraction of the elongation.
 const ROUNDING: f64 = 1e-14;
 
 /// State of a spring or a damper.
@@ -12,8 +12,8 @@ const ROUNDING: f64 = 1e-14;
 pub struct SpringState {
     /// Length [length], or angle of a torsion spring [rad].
     pub elongation: f64,
-    /// Force (positive in tension) or moment [force, force·length]. It is the mean over the last step. For methods that take forces at the ends of
-    /// steps it is the value at the end.
+    /// Force (positive in tension) or moment [force, force·length], averaged over the last step. For methods with forces at the ends of steps, it
+    /// is the value at the end of the step.
     pub force: f64,
     /// Stored energy [energy].
     pub stored: f64,
@@ -31,7 +31,7 @@ impl System {
         })
     }
 
-    /// Returns true if a spring carries a force beyond rounding.
+    /// Returns true if a spring has a force that is larger than rounding.
     pub(crate) fn is_strung(&self) -> bool {
         let all = self.elements().resistances();
         all.filter_map(|one: &dyn InternalForce| one.stretched()).any(|spring| {
@@ -51,12 +51,12 @@ impl System {
         branches.extend(all.filter_map(|one| one.branch(self.bodies(), self.rates())));
     }
 
-    /// Springs with a bounce that the steps did not resolve, by name.
+    /// Springs with a bounce that the steps have not resolved, with their names.
     pub(crate) fn short_bounces(&self) -> impl Iterator<Item = (&str, ShortBounce)> {
         self.elements().resistances().filter_map(|one| Some((one.name(), one.short_bounce()?)))
     }
 
-    /// Values of springs and dampers outside of the range of their laws, with the indices of the springs in the scene.
+    /// Elongations and rates of springs and dampers outside the range of their laws, with the indices of the springs in the scene.
     pub(crate) fn outside_laws(&self) -> Vec<(usize, OutsideLaw)> {
         let mut found = Vec::new();
         let all = self.elements().resistances().filter(|one| one.stretched().is_some());
@@ -82,10 +82,10 @@ impl System {
     }
 
     /// Dissipated energies of other elements since the start, in the order of the scene: material damping, drag, impacts of sliders with restitution
-    /// below 1 [energy].
+    /// below 1, and friction [energy].
     pub(crate) fn dissipations(&self) -> impl Iterator<Item = f64> {
         let others = self.elements().resistances().filter(|other| other.stretched().is_none());
-        let losing = self.sliders().iter().filter(|slider| slider.restitution < 1.0);
+        let losing = self.sliders().iter().filter(|slider| slider.dissipates());
         others.map(InternalForce::dissipated).chain(losing.map(|slider| slider.lost_energy))
     }
 }

@@ -17,7 +17,7 @@ impl System {
         self.bodies().iter().map(|body| body.dynamics.control_points())
     }
 
-    /// Body, control point and component (x, y or angle) of an unknown; the first of several that share it.
+    /// Body, control point and component (x, y or angle) that belong to an unknown. If several share the unknown, the first is returned.
     pub(crate) fn movement(&self, unknown: usize) -> Option<(usize, usize, usize)> {
         self.bodies().iter().enumerate().find_map(|(body, one)| {
             let all = one.degrees_of_freedom.as_flattened();
@@ -26,34 +26,34 @@ impl System {
         })
     }
 
-    /// Body and point of the rigid link whose force is the given unknown.
+    /// Body and point of the rigid link whose constraint force is the given unknown.
     pub(crate) fn linked_by(&self, unknown: usize) -> Option<(usize, usize)> {
         let link = self.links().iter().find(|link| link.unknowns.contains(&unknown))?;
         Some((link.body, link.point))
     }
 
-    /// Number of degrees of freedom and link forces among the unknowns, without contact multipliers.
+    /// Number of unknowns without contact multipliers: degrees of freedom and link forces.
     pub(crate) fn unknown_count(&self) -> usize {
         self.unknown_movements().count()
     }
 
-    /// Position of a place [length].
+    /// Position of a point of a body [length].
     pub fn position(&self, place: &BodyPoint) -> Vec2 {
         self.bodies().position(place)
     }
 
-    /// Velocity of a place [length/time].
+    /// Velocity of a point of a body [length/time].
     pub fn velocity(&self, place: &BodyPoint) -> Vec2 {
         let [x, y, _] = self.bodies()[place.body].at(place, self.rates());
         Vec2::new(x, y)
     }
 
-    /// Unwrapped section angle at a station [rad]; `None` if it is not tracked.
+    /// Section angle at a station, with whole turns [rad]; `None` if the angle is not tracked.
     pub fn angle(&self, scene: &Scene, station: &Station) -> Option<f64> {
         self.section_angle(self.tracked_section(scene, station)?)
     }
 
-    /// Unwrapped angle of a tracked section [rad].
+    /// Angle of a tracked section, with whole turns [rad].
     pub fn section_angle(&self, section: usize) -> Option<f64> {
         self.bodies().angle(section)
     }
@@ -79,18 +79,18 @@ impl System {
         })
     }
 
-    /// Unwrapped section angles at the start and end of a beam [rad].
+    /// Section angles at the start and end of a beam, with whole turns [rad].
     pub fn end_angles(&self, beam: usize) -> (f64, f64) {
         let angle = |section| self.bodies().angle(section).unwrap_or(f64::NAN);
         (angle(2 * beam), angle(2 * beam + 1))
     }
 
-    /// Kinds of all unknowns.
+    /// Types of all unknowns.
     pub fn unknown_kinds(&self) -> &[UnknownKind] {
         self.unknown_movements().kinds()
     }
 
-    /// Displacements of the control points of all bodies, for values of the unknowns [length].
+    /// Displacements of the control points of all bodies, from values of the unknowns [length].
     pub(crate) fn displacements(&self, movements: &[f64]) -> Vec<Vec<Vec2>> {
         let of_body = |body: &Body| {
             (0..body.degrees_of_freedom.len()).map(|at| body.vector_at(at, movements)).collect()
@@ -98,7 +98,7 @@ impl System {
         self.bodies().iter().map(of_body).collect()
     }
 
-    /// Name of the first follower load, which has no potential.
+    /// Name of the first follower load, if there is one. Follower loads have no potential.
     pub fn follower(&self) -> Option<&str> {
         self.elements().forces().find(|element| element.turns()).map(|element| element.name())
     }

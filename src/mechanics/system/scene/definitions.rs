@@ -50,7 +50,7 @@ impl BeamDefinition {
         Self { name: name.into(), axis, mesh, section: section.into(), motion }
     }
 
-    /// Length of the axis on the mesh, which weighs in a run [length].
+    /// Length of the axis on the mesh, from which the mass in a run is computed [length].
     ///
     /// # Errors
     /// Fails if the mesh cannot interpolate the axis.
@@ -67,7 +67,7 @@ impl BeamDefinition {
         Ok(basis.spans().iter().map(of_span).sum())
     }
 
-    /// Mass of the beam without attached masses [mass].
+    /// Mass of the beam, excluding attached masses [mass].
     pub fn mass(&self) -> f64 {
         self.section.mean().mass_per_length * self.axis.length()
     }
@@ -78,27 +78,27 @@ impl BeamDefinition {
     }
 }
 
-/// Particle of a scene. Its mass is a point mass of the scene.
+/// Particle of a scene. Its mass is stored as a point mass of the scene.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct ParticleDefinition {
     /// Name in messages and reports.
     pub name: String,
-    /// Initial place [length].
+    /// Initial position [length].
     pub position: Vec2,
 }
 
-/// Rigid body of a scene: a centre of mass with points. Its mass and inertia are a point mass of the scene.
+/// Rigid body of a scene: a centre of mass and further points. Its mass and inertia are stored as a point mass of the scene.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct RigidBodyDefinition {
     /// Name in messages and reports.
     pub name: String,
-    /// Initial place of the centre of mass [length].
+    /// Initial position of the centre of mass [length].
     pub position: Vec2,
     /// Initial angle of the body frame [rad].
     pub angle: f64,
     /// Named points in the body frame, relative to the centre of mass [length].
     pub points: Vec<(String, Vec2)>,
-    /// Corners of the polygon shown in pictures, in the body frame relative to the centre of mass [length]; empty to show the points.
+    /// Corners of the polygon drawn in pictures, in the body frame relative to the centre of mass [length]. If empty, the points are drawn.
     pub outline: Vec<Vec2>,
     /// Motion at the start.
     pub motion: StartMotion,
@@ -118,13 +118,14 @@ impl RigidBodyDefinition {
         std::iter::once(self.position).chain(points).collect()
     }
 
-    /// Indices of the control points off the centre of mass, which rigid links connect to it.
+    /// Indices of the control points off the centre of mass. Rigid links connect them to the centre of mass.
     pub fn links(&self) -> impl Iterator<Item = usize> + '_ {
         let points = self.points.iter().enumerate();
         points.filter(|(_, (_, place))| *place != Vec2::zeros()).map(|(at, _)| at + 1)
     }
 
-    /// Reason to reject the outline. A polygon needs at least three corners. To show its rotation, the body needs a point off the centre of mass.
+    /// Reason for rejecting the outline; `None` if it is accepted. A polygon needs at least three corners. The body also needs a point off the
+    /// centre of mass, to show its rotation.
     pub(crate) fn outline_refused(&self) -> Option<&'static str> {
         match self.outline.len() {
             0 => None,
@@ -154,6 +155,6 @@ pub struct StationVelocity {
     pub station: Station,
     /// Velocity of the node [length/time].
     pub velocity: Vec2,
-    /// Angular velocity of the node [1/time]; if `None`, that of the beam.
+    /// Angular velocity of the node [1/time]; `None` for the angular velocity of the beam.
     pub spin: Option<f64>,
 }

@@ -55,7 +55,7 @@ impl Scene {
         self.beams.iter().map(|beam| beam.axis.length()).reduce(f64::max)
     }
 
-    /// Returns the scene with about `ratio` times as many spans in each beam, at least one between breaks of reduced continuity.
+    /// Returns the scene with about `ratio` times as many spans in each beam. Between two breaks of reduced continuity there is at least one span.
     ///
     /// # Errors
     /// Fails if a beam has too many or too short spans.
@@ -80,7 +80,7 @@ impl Scene {
         squares.fold(0.0, f64::max).sqrt()
     }
 
-    /// Joints at a beam.
+    /// Joints with a station on a beam.
     pub fn joints_of(&self, beam: usize) -> impl Iterator<Item = &Joint> {
         self.joints.iter().filter(move |joint| {
             let other = match joint.partner {
@@ -115,7 +115,7 @@ impl Scene {
         })
     }
 
-    /// Schedules of elements and drives with the names of their owners.
+    /// Schedules of elements and drives, each with the name of its element or drive.
     pub fn schedules(&self) -> impl Iterator<Item = (&str, &Schedule)> {
         let of_elements = self.elements.iter();
         let of_elements = of_elements.filter_map(|element| element.description().schedule());
@@ -176,7 +176,7 @@ impl Scene {
     /// Adds a sliding joint and returns its index.
     ///
     /// # Errors
-    /// Fails if the name is taken, or if the slave does not lie on the master, belongs to it, or slides on it already.
+    /// Fails if the name is taken, if the slave does not lie on the master or belongs to it, or if the slave slides on the master already.
     pub fn add_slider(&mut self, slider: Slider) -> Result<usize, SystemError> {
         self.check_name("slider", &slider.name)?;
         self.check_slider(&slider)?;
@@ -210,7 +210,7 @@ impl Scene {
         }
     }
 
-    /// First of the names `kind1`, `kind2`, … that is free.
+    /// First free name among `kind1`, `kind2`, ….
     pub fn free_name(&self, kind: &str) -> String {
         let numbered = self.names().filter_map(|(_, name)| name.strip_prefix(kind)?.parse().ok());
         let taken: HashSet<u64> = numbered.collect();
@@ -235,7 +235,7 @@ impl Scene {
     /// Joins a station to the ground or to another station.
     ///
     /// # Errors
-    /// Fails if the stations are equal, do not meet, or one of them is joined already.
+    /// Fails if the stations are equal or not at the same place, or if one of them is joined already.
     pub fn join(
         &mut self,
         kind: JointKind,
@@ -297,7 +297,7 @@ impl Scene {
         self.add_element(Element::Spring(spring))
     }
 
-    /// Length of the beam, or size of the rigid body, of a station; zero for particles [length].
+    /// Length of the beam, or size of the rigid body, that a station belongs to; zero for particles [length].
     pub fn length_at(&self, station: &Station) -> f64 {
         match station.body {
             BodyIndex::Beam(beam) => self.beams[beam].axis.length(),
@@ -306,7 +306,7 @@ impl Scene {
         }
     }
 
-    /// Place of a station as drawn [length].
+    /// Position of a station in the scene as drawn [length].
     ///
     /// # Errors
     /// Fails if the station lies outside its beam.
@@ -322,7 +322,7 @@ impl Scene {
         }
     }
 
-    /// Place of a station on its body for the given meshes of the beams.
+    /// Place of a station on its body, for given meshes of the beams.
     ///
     /// # Errors
     /// Fails if the station lies outside its beam.
@@ -346,7 +346,7 @@ impl Scene {
         }
     }
 
-    /// Description of the body of a station, such as `beam 'arm'`.
+    /// Description of the body that a station belongs to, such as `beam 'arm'`.
     pub(crate) fn name_of_body(&self, station: &Station) -> String {
         match station.body {
             BodyIndex::Beam(beam) => format!("beam '{}'", self.beams[beam].name),

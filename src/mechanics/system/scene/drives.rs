@@ -7,18 +7,18 @@ use crate::loads::{LimitSide, PrescribedMotion};
 use crate::system::SystemError;
 use crate::system::elements::{Drive, SceneChecks};
 
-/// Tolerance for the initial value of a prescribed displacement, relative to the size of the motion.
+/// Tolerance for the initial value of a prescribed displacement, as a fraction of the size of the motion.
 const CLOSED_AT_START: f64 = 1e-12;
 
-/// Tolerance for jumps of a prescribed motion at declared breaks, relative to the size of the motion.
+/// Tolerance for jumps of a prescribed motion at declared breaks, as a fraction of the size of the motion.
 const LARGEST_JUMP: f64 = 1e-9;
 
 impl Scene {
     /// Prescribes the motion of a station.
     ///
     /// # Errors
-    /// Fails if the name is taken, the station does not exist, a component is supported or prescribed already, or a motion is undefined at its start,
-    /// does not start at the station, or jumps.
+    /// Fails if the name is taken, the station does not exist, or a component is supported or prescribed already. It also fails if a motion is
+    /// undefined at its start, does not start at the station, or jumps.
     pub fn add_drive(&mut self, drive: Drive) -> Result<(), SystemError> {
         self.check_name(drive.kind.name(), &drive.name)?;
         self.check_station("a drive", &drive.station)?;

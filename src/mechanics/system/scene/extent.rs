@@ -1,4 +1,4 @@
-//! Size of a scene without beams, independent of its location, and its rounding scale.
+//! Size of a scene without beams, which does not depend on its location, and rounding error of its energy.
 
 use super::{Scene, Ties};
 use crate::beams::{BodyIndex, Station};
@@ -7,20 +7,20 @@ use crate::joints::Partner;
 use crate::loads::LoadKind;
 use crate::system::elements::{Anchor, Origin, Spring, SpringKind, SpringLaw};
 
-/// Tolerance for equal places, relative to their coordinates.
+/// Distance of two places that counts as zero, as a fraction of their coordinates.
 const ROUNDED: f64 = 1e-9;
 
-/// Group of particles and rigid bodies connected by springs and joints, with the ground anchors of the springs.
+/// Particles and rigid bodies that springs and joints connect, and the ground anchors of these springs.
 #[derive(Default)]
 struct Group {
     points: Vec<Vec2>,
-    /// Longest natural length of its springs [length].
+    /// Longest natural length of the springs [length].
     natural_length: f64,
 }
 
 impl Group {
-    /// Twice the largest distance of a point from the mean of all points, or the longest natural length if that is larger. Distances within rounding
-    /// count as zero [length].
+    /// The larger of two lengths: twice the largest distance of a point from the mean of all points, and the longest natural length. Distances
+    /// within rounding count as zero [length].
     fn extent(&self) -> f64 {
         let count = self.points.len().max(1) as f64;
         let centre = self.points.iter().sum::<Vec2>() / count;
@@ -33,8 +33,8 @@ impl Group {
 }
 
 impl Scene {
-    /// Largest extent of a group of particles and rigid bodies connected by springs or joints, as drawn. It is independent of the location of the
-    /// scene, and zero for isolated particles without size [length].
+    /// Largest extent of a group of connected particles and rigid bodies as drawn [length]. It does not depend on the location of the scene, and is
+    /// zero for isolated particles without size.
     pub fn extent(&self) -> f64 {
         let mut groups = self.groups();
         for (index, particle) in self.particles.iter().enumerate() {
@@ -55,14 +55,14 @@ impl Scene {
         groups.all.iter().map(Group::extent).fold(0.0, larger)
     }
 
-    /// Length scale of a scene: its longest beam, or without beams its [extent](Self::extent); `None` for isolated particles without size [length].
+    /// Length scale of a scene [length]: its longest beam, or without beams its [extent](Self::extent). `None` for isolated particles without size.
     pub fn size(&self) -> Option<f64> {
         let extent = || Some(self.extent()).filter(|extent| *extent > 0.0 && extent.is_finite());
         self.longest_beam().or_else(extent)
     }
 
-    /// Rounding error of strain energies, `ε Σ (EA L + EI/L)`. Without beams it is the work of the initial forces over the rounding errors of
-    /// positions [energy].
+    /// Rounding error of strain energies, `ε Σ (EA L + EI/L)` [energy]. Without beams, it is the work of the initial forces along the rounding
+    /// errors of positions.
     pub(crate) fn rounding_energy(&self) -> f64 {
         if self.beams.is_empty() {
             return f64::EPSILON * self.rounded_work();
@@ -75,7 +75,7 @@ impl Scene {
         f64::EPSILON * stiffness.sum::<f64>()
     }
 
-    /// Sum over all weights, loads and spring forces in the initial configuration of the force times the rounding error of the position [energy].
+    /// Sum over all weights, loads and spring forces in the initial configuration: force times rounding error of the position [energy].
     fn rounded_work(&self) -> f64 {
         let extent = self.extent();
         let reach = |at: &Station| extent + self.drawn_at(at).map_or(0.0, |place| place.norm());
@@ -116,7 +116,7 @@ impl Scene {
         groups
     }
 
-    /// Index among particles and rigid bodies.
+    /// Index of the body of a station, counted among particles and rigid bodies.
     fn member(&self, station: &Station) -> Option<usize> {
         match station.body {
             BodyIndex::Beam(_) => None,
@@ -140,7 +140,7 @@ fn natural_length(spring: &Spring) -> f64 {
     }
 }
 
-/// Disjoint sets of connected members, with the group of each set.
+/// Disjoint sets of connected particles and rigid bodies, with the group of each set.
 struct Groups {
     ties: Ties,
     all: Vec<Group>,

@@ -8,11 +8,11 @@ use super::Scene;
 use crate::geometry::larger;
 use crate::system::Element;
 
-/// Relative tolerance for equal numbers, which may come from different formulas.
+/// Relative tolerance for equal numbers. They may have been computed by different formulas.
 const TOLERANCE: f64 = 1e-9;
 
-/// Difference of two numbers, relative to the largest number of the same field in both scenes, that is attributed to rounding, as of a number that
-/// should be zero.
+/// Absolute tolerance for equal numbers, as a fraction of the largest number of the same field in both scenes. It is needed for numbers that are
+/// zero except for rounding.
 const ROUNDING: f64 = 64.0 * f64::EPSILON;
 
 impl Scene {
@@ -44,13 +44,13 @@ impl Scene {
             .chain(plain.elements.iter_mut().filter_map(Element::name_mut));
         names.for_each(String::clear);
         plain.rigid_bodies.iter_mut().for_each(|body| body.outline.clear());
-        // The order between elements of different kinds is irrelevant.
+        // The order of elements of different types is irrelevant.
         plain.elements.sort_by_key(Element::kind);
         serde_json::to_value(plain)
     }
 }
 
-/// Largest absolute number of each field, which has the same dimension in all objects.
+/// Largest absolute number of each field. A field has the same dimension in all objects.
 type Scales<'v> = BTreeMap<&'v str, f64>;
 
 fn add_scales<'v>(value: &'v Value, field: &'v str, scales: &mut Scales<'v>) {
@@ -95,7 +95,7 @@ mod tests {
     use crate::geometry::Vec2;
     use crate::system::ParticleDefinition;
 
-    /// Two particles of a scene in a unit of length and a unit of mass.
+    /// Scene with two particles, in a given unit of length and unit of mass.
     fn pair(place: Vec2, mass: f64, (length, unit): (f64, f64)) -> Scene {
         let mut scene = Scene::new("pair");
         for (name, at, mass) in [("a", Vec2::new(0.0, 3.0), 1.0), ("b", place, mass)] {

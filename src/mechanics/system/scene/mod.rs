@@ -1,4 +1,4 @@
-//! Description of what is simulated, and its checks.
+//! Description of the system that is simulated, and checks of this description.
 
 mod definitions;
 mod description;

@@ -8,7 +8,7 @@ impl Scene {
     /// Adds a release during a run.
     ///
     /// # Errors
-    /// Fails if the object does not exist, is released already, or the time is not positive and finite.
+    /// Fails if the object does not exist or is released already, or if the time is not positive and finite.
     pub fn add_release(&mut self, release: Release) -> Result<(), SystemError> {
         let (kind, index, count) = match release.object {
             Releasable::Joint(index) => ("joint", index, self.joints.len()),

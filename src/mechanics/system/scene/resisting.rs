@@ -26,9 +26,9 @@ impl Scene {
         own.chain(self.dissipative_sliders().map(|slider| slider.name.as_str()))
     }
 
-    /// Sliders that lose energy in impacts.
+    /// Sliders that lose energy in impacts or by friction.
     pub(crate) fn dissipative_sliders(&self) -> impl Iterator<Item = &Slider> + Clone {
-        self.sliders.iter().filter(|slider| slider.restitution < 1.0)
+        self.sliders.iter().filter(|slider| slider.dissipates())
     }
 
     /// Names of drag elements with a wind.
@@ -42,7 +42,7 @@ impl Scene {
     /// Adds Kelvin–Voigt material damping to a beam.
     ///
     /// # Errors
-    /// Fails if a relaxation time is negative or not finite, or the beam does not exist or is damped already.
+    /// Fails if a relaxation time is negative or not finite, or if the beam does not exist or is damped already.
     pub fn add_damping(&mut self, beam: usize, relaxation: Relaxation) -> Result<(), SystemError> {
         let name = self.beams.get(beam).map(|beam| beam.name.clone()).unwrap_or_default();
         self.add_element(Element::Damping(MaterialDamping { name, beam, relaxation }))

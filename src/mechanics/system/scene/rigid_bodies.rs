@@ -18,11 +18,11 @@ impl Scene {
 
     /// Adds a rigid body with a mass [mass] and an inertia about its centre of mass [mass·length²], and returns its index.
     ///
-    /// One of both may be zero. Movements without inertia must be restrained by another element.
+    /// Either the mass or the inertia may be zero. Movements without inertia must then be restrained by another element.
     ///
     /// # Errors
-    /// Fails if the name is taken, two points share a name, a number is not finite or negative, the outline is not a polygon or has no point to show
-    /// its rotation, or mass and inertia are both zero.
+    /// Fails if the name is taken, two points share a name, a number is not finite or is negative, or mass and inertia are both zero. It also fails
+    /// if the outline is not a polygon, or the body has no point that shows its rotation.
     pub fn add_rigid_body(
         &mut self,
         body: RigidBodyDefinition,
@@ -68,7 +68,7 @@ impl Scene {
         Ok(())
     }
 
-    /// Returns the station of a rigid body at a named point.
+    /// Returns the station at a named point of a rigid body.
     ///
     /// # Errors
     /// Fails if the point does not exist. The error lists the points of the body.

@@ -1,6 +1,6 @@
 //! Recorded quantities of a scene in addition to the standard ones.
 //!
-//! Built-in sensors are named by object, place and quantity: `rod.end.x`, `rod[0.5].M`, `rod.energy`, `hinge1.force`.
+//! Built-in sensors have names composed of object, place and quantity: `rod.end.x`, `rod[0.5].M`, `rod.energy`, `hinge1.force`.
 
 use serde::{Serialize, Serializer};
 
@@ -10,7 +10,7 @@ use crate::joints::{Joint, JointKind, Partner};
 use crate::system::SystemError;
 use crate::system::errors::check_name;
 
-/// Kind of object in messages about the name of a sensor.
+/// Word for a sensor in messages about its name.
 const COLUMN: &str = "column";
 
 /// Recorded quantity.
@@ -27,7 +27,7 @@ pub struct Sensor {
 pub enum SensorSource {
     /// Quantity of a station or of its support.
     Station(Station, Quantity),
-    /// Quantity of a beam, particle or rigid body as a whole.
+    /// Quantity of a whole beam, particle or rigid body.
     Body(BodyIndex, Quantity),
     /// Quantity of a joint.
     Joint(usize, Quantity),
@@ -37,18 +37,18 @@ pub enum SensorSource {
     External,
 }
 
-/// Quantity with name, dimension and value.
+/// Quantity with its name, dimension and the rule for its value.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Quantity {
     /// Name as part of sensor names.
     pub name: &'static str,
     /// Dimension of the quantity.
     pub dimension: &'static str,
-    /// Value of the subject.
+    /// Rule for the value.
     pub value: Value,
 }
 
-/// Value of a subject.
+/// Value of a station, body, joint or slider.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[allow(missing_docs, reason = "the names of the quantities say it")]
 pub enum Value {
@@ -85,7 +85,7 @@ pub enum Value {
 }
 
 impl Value {
-    /// Returns true if the value is an average over the last step instead of an instantaneous value.
+    /// Returns true if the value is an average over the last step and not an instantaneous value.
     pub(crate) fn is_of_step(self) -> bool {
         matches!(self, Self::MeanForce | Self::MeanForceX | Self::MeanForceY | Self::MeanCouple)
     }
@@ -95,7 +95,7 @@ const fn quantity(name: &'static str, dimension: &'static str, value: Value) -> 
     Quantity { name, dimension, value }
 }
 
-/// Quantities of stations. Particles have the first seven, points of rigid bodies the first nine.
+/// Quantities of stations. Particles have the first seven of the list, points of rigid bodies the first nine.
 pub const OF_STATIONS: &[Quantity] = &[
     quantity("x", "length", Value::X),
     quantity("y", "length", Value::Y),
@@ -137,7 +137,7 @@ pub const OF_SLIDERS: &[Quantity] = &[
     quantity("present_force_y", "force", Value::ForceY),
 ];
 
-/// Quantities of a body as a whole.
+/// Quantities of a whole body.
 pub const OF_BODIES: &[Quantity] = &[
     quantity("energy", "energy", Value::Energy),
     quantity("kinetic", "energy", Value::Kinetic),
@@ -182,10 +182,10 @@ impl Serialize for Sensor {
 }
 
 impl Scene {
-    /// Records a built-in quantity by its name.
+    /// Records a built-in quantity, given by its name.
     ///
     /// # Errors
-    /// Fails if the object, place or quantity does not exist or is recorded already.
+    /// Fails if the object, place or quantity does not exist, or if the quantity is recorded already.
     pub fn record(&mut self, name: &str) -> Result<(), SystemError> {
         self.check_column(name)?;
         let probe = self.find_sensor(name)?;
@@ -246,7 +246,7 @@ impl Scene {
         beams.chain(particles).chain(rigid).chain(joints).chain(sliders).collect()
     }
 
-    /// Names of the joints in sensors, in their order: `hinge1`, `clamp1`, `hinge2`, `rigid1`, `support1`.
+    /// Names of the joints for sensors, in the order of the joints: `hinge1`, `clamp1`, `hinge2`, `rigid1`, `support1`.
     pub fn joint_names(&self) -> Vec<String> {
         let mut counts = [0; 4];
         let name = |joint: &Joint| {
@@ -286,7 +286,7 @@ impl Scene {
         let sliders = self.sliders.iter().enumerate();
         let sliders =
             sliders.filter_map(|(at, slider)| Some((of(&slider.name)?, Object::Slider(at))));
-        // Names may share a prefix. The first of equal names wins.
+        // A name may be the beginning of another name. Of equal names the first is used.
         let all = beams.chain(particles).chain(rigid).chain(joints).chain(sliders);
         let longest = all.reduce(|best, other| if other.0.0 > best.0.0 { other } else { best });
         let mut others = self.springs().map(|spring| &spring.name);

@@ -8,11 +8,11 @@ use crate::joints::{Slider, SlidingRule};
 use crate::system::SystemError;
 use crate::system::errors::{Approach, SliderError, SliderParts, written};
 
-/// Largest initial distance of a slave from its master, relative to the length of the master and the distance from the origin. It admits coordinates
-/// with six digits. The slave is then moved onto its master exactly.
+/// Largest initial distance of a slave from its master, as a fraction of the length of the master plus the distance from the origin. It admits
+/// coordinates with six digits. The slave is then moved exactly onto its master.
 const CLOSED: f64 = 1e-6;
 
-/// Reason why a sliding rule is unavailable on tracks, if it is.
+/// Reason why a sliding rule cannot be used on tracks; `None` if it can.
 fn at_seams(rule: SlidingRule) -> Option<&'static str> {
     match rule {
         SlidingRule::Conserving | SlidingRule::Exact => None,
@@ -24,7 +24,7 @@ fn at_seams(rule: SlidingRule) -> Option<&'static str> {
 }
 
 impl Scene {
-    /// Arc length of the point of a beam nearest to a station, both as drawn [length].
+    /// Arc length of the point of a beam that is nearest to a station in the scene as drawn [length].
     ///
     /// # Errors
     /// Fails if the station lies outside its beam.
@@ -67,6 +67,14 @@ impl Scene {
         if !(0.0..=1.0).contains(&slider.restitution) {
             let (slider, restitution) = (slider.name.clone(), slider.restitution);
             return Err(SliderError::Restitution { slider, restitution }.into());
+        }
+        if !(slider.friction >= 0.0 && slider.friction.is_finite()) {
+            let (slider, friction) = (slider.name.clone(), slider.friction);
+            return Err(SliderError::Friction { slider, friction }.into());
+        }
+        if slider.friction > 0.0 && slider.rule != SlidingRule::Conserving {
+            let (rule, slider) = (slider.rule.entry().name, slider.name.clone());
+            return Err(SliderError::FrictionRule { slider, rule }.into());
         }
         let is_same = |other: &Slider| {
             let is_on = self.masters(other).iter().any(|master| masters.contains(master));

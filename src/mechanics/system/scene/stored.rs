@@ -1,4 +1,4 @@
-//! Loading of scenes, with the same checks as for scenes that are built by a script.
+//! Loading of scenes from files, with the same checks as for scenes that a script builds.
 
 use serde::Deserialize;
 
@@ -12,7 +12,7 @@ use crate::system::SystemError;
 use crate::system::elements::{Drive, Element, ElementDef, SceneChecks};
 use crate::system::errors::{check_name, finite};
 
-/// Largest number of sliders in a stored scene. The matrix of a step grows with its square.
+/// Largest number of sliders in a stored scene. The size of the matrix of a step grows with the square of this number.
 const MOST_SLIDERS: usize = 2000;
 
 const MOST_TRACKS: usize = 1000;
@@ -125,7 +125,7 @@ impl TryFrom<StoredScene> for Scene {
 }
 
 impl Scene {
-    /// Adds an element from a file. Names derived from other objects are created again.
+    /// Adds an element from a file. The name of a load is not read from the file but derived from the place of the load.
     fn add_stored_element(&mut self, element: Element) -> Result<(), SystemError> {
         match element {
             Element::PointMass(mass) => self.add_mass(mass),

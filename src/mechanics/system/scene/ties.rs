@@ -7,13 +7,14 @@ use crate::joints::{Component, JointKind, Partner};
 use crate::system::SystemError;
 use crate::system::errors::{Turning, written};
 
-/// Largest initial gap of a joint, relative to the length of its beam and its distance from the origin.
+/// Largest initial gap of a joint, relative to the sum of the length of its beam and the distance of the joint from the origin.
 const CLOSED: f64 = 1e-12;
 
 /// Angle below which two inclined rollers count as parallel [rad].
 const PARALLEL: f64 = 1e-9;
 
-/// Disjoint sets by union–find with path halving (R. E. Tarjan, Efficiency of a good but not linear set union algorithm, J. ACM 22 (1975) 215–225).
+/// Disjoint sets, implemented by union–find with path halving (R. E. Tarjan, Efficiency of a good but not linear set union algorithm, J. ACM 22
+/// (1975) 215–225).
 pub struct Ties {
     parent: Vec<usize>,
 }
@@ -31,7 +32,7 @@ impl Ties {
         at
     }
 
-    /// Unites two sets. Returns false if they were united already.
+    /// Unites two sets. Returns false if they are already one set.
     pub fn unite(&mut self, a: usize, b: usize) -> bool {
         let (a, b) = (self.root(a), self.root(b));
         // The smaller index stays the root, so that the ground, index 0, is always a root.
@@ -58,7 +59,7 @@ pub fn check_ties(scene: &Scene) -> Result<(), SystemError> {
         .collect();
     let driven: Vec<usize> = scene.drives.iter().map(|drive| index(&drive.station)).collect();
     let mut ties = Ties::new(1 + 3 * places.len());
-    // The points of a rigid body rotate with it.
+    // The angles of all points of a rigid body are equal.
     for (at, place) in places.iter().enumerate() {
         let is_own = |other: &Station| match (place.body, other.body) {
             (BodyIndex::Rigid(body, _), BodyIndex::Rigid(other, _)) => body == other,
@@ -132,7 +133,7 @@ pub fn check_ties(scene: &Scene) -> Result<(), SystemError> {
     Ok(())
 }
 
-/// Checks that inclined rollers restrain a free direction, and that no two of them restrain the same one.
+/// Checks that every inclined roller restrains a free direction, and that no two rollers restrain the same direction.
 fn check_rollers(
     scene: &Scene,
     places: &[usize],
@@ -178,8 +179,8 @@ impl Scene {
         })
     }
 
-    /// Stations joined to a component of a station, including the station itself, and true if the ground fixes the component. The search ends at the
-    /// ground.
+    /// Stations that joints connect to a station in one component, including the station itself. The second value is true if the ground fixes this
+    /// component. The search ends when it reaches the ground.
     fn held_with(&self, station: &Station, component: Component) -> (Vec<Station>, bool) {
         let mut places = vec![*station];
         let mut next = 0;
@@ -212,7 +213,7 @@ pub fn same_place(a: &Station, b: &Station, scene: &Scene) -> bool {
     a.body == b.body && (a.arc_length - b.arc_length).abs() <= 1e-10 * scene.length_at(a)
 }
 
-/// Returns true if a gap at a place of a beam is within the tolerance [length].
+/// Returns true if a gap at a place of a beam of the given length is within the tolerance [length].
 pub fn is_closed(gap: f64, length: f64, at: Vec2) -> bool {
     gap <= CLOSED * (length + at.norm())
 }

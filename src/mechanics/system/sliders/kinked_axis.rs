@@ -21,7 +21,8 @@ const BESIDE_END: f64 = 0.1;
 /// Largest speed, relative to the largest at which a kink follows its force, with which a kink begins loaded at an end.
 const SLOW: f64 = 0.25;
 
-/// Fraction of that length below which the kink is fixed also on the way from an end, where rounding errors of positions would determine it.
+/// Fraction of the length by [`BESIDE_END`] below which also a loaded kink that moves away from an end is fixed. Rounding errors of positions would
+/// determine it there.
 const FROM_END: f64 = 0.01;
 
 /// Largest contact force relative to `GA` with which a kink begins [-]. Forces that are larger come from vibrations that the steps do not resolve.
@@ -103,7 +104,8 @@ impl KinkedAxis {
         self.fastest
     }
 
-    /// Returns true if the kink is fixed: beside an end unless it is loaded and moves away from there, close to the speed of shear waves, or on request.
+    /// Returns true if the kink is fixed: close to an end, at speeds close to that of shear waves, or on request. A loaded kink that moves slowly
+    /// away from an end is fixed only very close to the end.
     pub fn is_frozen(&self) -> bool {
         let [length, slope, _] = self.compliance_derivatives;
         let leaves =

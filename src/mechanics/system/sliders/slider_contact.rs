@@ -12,6 +12,7 @@ use crate::system::bodies::Body;
 use crate::system::step_mean::StepMean;
 
 mod at_rest;
+mod friction;
 mod kinematics;
 mod passing;
 mod place;
@@ -19,6 +20,7 @@ mod saved;
 mod seams;
 mod stops;
 
+pub use friction::{FrictionTransition, SliderFriction};
 pub use passing::{AtRest, InStep, Passing};
 
 #[derive(Debug, Clone)]
@@ -32,7 +34,7 @@ pub struct SliderContact {
     pub state: SliderState,
     /// Energy stored in the stop that holds the slider [energy].
     pub stop_energy: f64,
-    /// Energy lost in impacts at stops so far [energy].
+    /// Energy lost in impacts at stops and by friction so far [energy].
     pub lost_energy: f64,
     /// Impulse on the master in the last impact [mass·length/time].
     pub impulse: Vec2,
@@ -52,6 +54,8 @@ pub struct SliderContact {
     pub most_spans: f64,
     /// Largest ratio of step length to impact duration at a bounce [-].
     pub steps_per_impact: f64,
+    /// Friction along the master; `None` without friction.
+    pub friction: Option<Box<SliderFriction>>,
     master: MasterCurve,
     /// Path along the track; `None` for a slider on a single beam.
     track: Option<Box<TrackPath>>,
@@ -130,6 +134,8 @@ impl SliderContact {
             steps_per_impact: 0.0,
             length: rail.length() / (last - first),
             size: rail.length(),
+            friction: (slider.friction > 0.0)
+                .then(|| Box::new(SliderFriction::new(slider.friction))),
             master: rail,
             track: None,
             bars,
@@ -181,6 +187,11 @@ impl SliderContact {
     /// Replaces the kinked axis of the master; without one the contact is rigid. Returns the previous one.
     pub fn exchange_kinked_axis(&mut self, axis: Option<KinkedAxis>) -> Option<KinkedAxis> {
         std::mem::replace(&mut self.kinked_axis, axis)
+    }
+
+    /// Returns true if the slider loses energy at its ends or by friction.
+    pub fn dissipates(&self) -> bool {
+        self.restitution < 1.0 || self.friction.is_some()
     }
 
     pub fn is_sliding(&self) -> bool {
@@ -263,6 +274,7 @@ impl SliderContact {
             let rate = self.rate(bodies, rates);
             self.kinked_axis.iter_mut().for_each(|axis| axis.begin_step(interval.duration(), rate));
         }
+        self.begin_friction(bodies, rates, interval);
     }
 
     pub fn predict(
@@ -306,9 +318,12 @@ impl SliderContact {
             self.before_first = window.start;
         }
         self.movements.clear();
-        self.movements.extend(window.map(|at| master.vector_at(at, increments)));
+        self.movements.extend(window.clone().map(|at| master.vector_at(at, increments)));
         let slave_moved = slave.vector_at(point, increments);
-        let Self { path: passage, before, movements: moved, length, kinked_axis, .. } = self;
+        let is_sliding = self.is_sliding();
+        let Self { path: passage, before, movements: moved, length, kinked_axis, friction, .. } =
+            self;
+        let friction = friction.as_deref().filter(|_| is_sliding);
         let kink = kinked_axis.as_ref().map(|axis| axis.along(passage));
         Contact {
             path: passage,
@@ -316,6 +331,7 @@ impl SliderContact {
             slave_movement: slave_moved,
             unknowns,
             kink,
+            friction: friction.and_then(|friction| friction.in_step(window)),
             length: *length,
         }
     }
@@ -335,6 +351,7 @@ impl SliderContact {
         let values = equations.map(|(value, _)| value);
         connection.add_values(bodies, &contact, P::forces(&contact), values, movements, out);
         let (pressing, chord) = (contact.unknowns.force, P::chord(&contact));
+        let friction = contact.friction.as_ref().map(|friction| contact.friction_forces(friction));
         let force = pressing.norm();
         let push = match state {
             // With an infinite tensile force, the stop releases the slider at once.
@@ -345,6 +362,7 @@ impl SliderContact {
         (self.size, self.chord) = (contact.length + contact.slave_movement.norm(), chord);
         self.units = equations.map(|(_, unit)| unit);
         (self.push, self.contact_force) = (push, force);
+        self.record_friction(friction);
         self.push_beyond = self.seam_push(bodies, increments, pressing);
         force
     }
@@ -388,6 +406,13 @@ impl SliderContact {
 
     /// Evaluates the contact at the end of an accepted step. The bodies must not be moved yet.
     pub fn evaluate_end(&mut self, bodies: &[Body], increments: &[f64], unknowns: &[f64]) {
+        if self.active_friction().is_some() {
+            let contact = self.evaluate(bodies, increments, unknowns);
+            let increment = contact.unknowns.increment;
+            let forces = contact.friction.as_ref().map(|of| contact.friction_forces(of));
+            self.record_friction(forces);
+            self.dissipate(increment);
+        }
         if self.kinked_axis.is_none() {
             return;
         }
@@ -408,6 +433,7 @@ impl SliderContact {
             true => axis.accept_frozen_jump(kink),
             false => axis.advance(mean, kink),
         });
+        self.count_friction_step();
         if interval.ending() == IntervalEnd::Step {
             self.stop_may_pull = false;
         }

@@ -1,4 +1,4 @@
-//! Accelerations, for methods that have them in their state.
+//! Accelerations of a mechanism, for integrators that have them in their state.
 
 /// Accelerations of the unknowns at the start of a step; empty if the method does not need them.
 #[derive(Debug, Clone, Default)]
@@ -8,7 +8,7 @@ pub struct Accelerations {
 }
 
 impl Accelerations {
-    /// Allocates accelerations of `unknowns` entries without valid values.
+    /// Allocates accelerations for `unknowns` entries, without valid values.
     pub fn allocate(&mut self, unknowns: usize) {
         *self = Self { values: vec![0.0; unknowns], are_known: false };
     }

@@ -1,4 +1,4 @@
-//! Selection of the rates that predict the next step.
+//! Selection of the rates from which the next step is predicted.
 
 use serde::{Deserialize, Serialize};
 
@@ -7,7 +7,7 @@ use super::resolution::GuessErrors;
 /// Basis of the prediction of the next step.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 pub enum Prediction {
-    /// No step has been taken. Only the start rates are available.
+    /// No step has been taken, so only the start rates are available.
     #[default]
     Unknown,
     /// Prediction from the rates at the start of the step.
@@ -16,10 +16,10 @@ pub enum Prediction {
     FromMeanRates,
 }
 
-/// Ratio of the squared errors of both predictions, below which the mean rates are selected.
+/// Ratio of the squared error of the prediction by mean rates to that of the other prediction, below which mean rates are selected.
 const SELECTION_RATIO: f64 = 0.8;
 
-/// Mean rates of the last step, and the selected prediction.
+/// Mean rates of the last step, and the selected basis of the prediction.
 #[derive(Debug, Clone)]
 pub struct IncrementPrediction {
     mean_rates: Vec<f64>,
@@ -32,7 +32,7 @@ impl IncrementPrediction {
         Self { mean_rates: rates.to_vec(), prediction: Prediction::Unknown, inertia }
     }
 
-    /// Rates that predict the next step, given the rates at its start [length/time, 1/time].
+    /// Rates from which the next step is predicted. `at_start` contains the rates at its start [length/time, 1/time].
     pub fn rates<'a>(&'a self, at_start: &'a [f64]) -> &'a [f64] {
         match self.prediction {
             Prediction::Unknown | Prediction::Smooth => at_start,
@@ -40,8 +40,8 @@ impl IncrementPrediction {
         }
     }
 
-    /// Selects the better prediction by comparing the increments of a step with both predictions, in the norm of the diagonal inertia. Returns the
-    /// errors of both.
+    /// Selects the better prediction. Both predictions are compared with the increments of a step, in the norm of the diagonal inertia. Returns
+    /// their errors.
     pub fn update(&mut self, at_start: &[f64], increments: &[f64], duration: f64) -> GuessErrors {
         let inverse = 1.0 / duration;
         let mut missed = GuessErrors::default();
@@ -52,7 +52,7 @@ impl IncrementPrediction {
             *mean = found;
         }
         self.prediction = match self.prediction {
-            // Start velocities may belong to single nodes only, so the mean rates of the first step predict better.
+            // The start velocities may belong to a few nodes only, so the mean rates of the first step are the better prediction.
             Prediction::Unknown => Prediction::FromMeanRates,
             _ if missed.by_mean < SELECTION_RATIO * missed.by_start => Prediction::FromMeanRates,
             _ => Prediction::Smooth,
@@ -65,7 +65,7 @@ impl IncrementPrediction {
         self.mean_rates.iter_mut().zip(change).for_each(|(rate, change)| *rate += change);
     }
 
-    /// Prediction errors of selected degrees of freedom, before the selection is updated.
+    /// Prediction errors at selected degrees of freedom, for the selection before its update.
     pub fn prediction_errors(
         &self,
         movements: &[usize],

@@ -1,4 +1,4 @@
-//! Motion of a model: rates, prediction of the next step, and measures of the present step.
+//! Motion of a model: rates, prediction of the next step, and force scales of the present step.
 
 mod accelerations;
 mod forecast;

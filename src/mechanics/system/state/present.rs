@@ -4,16 +4,16 @@ use super::accelerations::Accelerations;
 use super::forecast::{IncrementPrediction, Prediction};
 use super::{MonitoredBody, Resolution, StepMeasures};
 
-/// Present time and rates, with statistics of the motion.
+/// Present time and rates, with measures of how well the steps resolve the motion.
 pub struct MotionState {
-    /// Present time, the end of the last step [time].
+    /// Present time, which is the end of the last step [time].
     pub time: f64,
     /// Rates of the unknowns at the present time [length/time, 1/time].
     pub rates: Vec<f64>,
     pub accelerations: Accelerations,
     forecast: IncrementPrediction,
     resolution: Resolution,
-    /// Bodies with separate resolution measures; empty if there is only one body.
+    /// Bodies whose resolution is measured separately; empty if there is only one body.
     monitored: Vec<MonitoredBody>,
 }
 
@@ -30,12 +30,12 @@ impl MotionState {
         }
     }
 
-    /// Starts the prediction from the present rates, in the norm of the diagonal inertia.
+    /// Starts with a prediction from the present rates. Errors of predictions are measured in the norm of the diagonal inertia.
     pub fn begin(&mut self, inertia: Vec<f64>) {
         self.forecast = IncrementPrediction::new(&self.rates, inertia);
     }
 
-    /// Measures the resolution of the given bodies separately, by index and degrees of freedom.
+    /// Starts separate measures of resolution for the given bodies (index and degrees of freedom).
     pub fn measure_resolution_of(&mut self, bodies: impl Iterator<Item = (usize, Vec<usize>)>) {
         let noise = self.resolution.noise();
         self.monitored = bodies.map(|(body, at)| MonitoredBody::new(body, at, noise)).collect();
@@ -45,8 +45,8 @@ impl MotionState {
         &self.monitored
     }
 
-    /// Continues the motion with renumbered unknowns, from their rates and diagonal inertia. Only accelerations are lost. `degrees` returns the
-    /// degrees of freedom of a body.
+    /// Continues the motion after the unknowns have been renumbered, with their rates and diagonal inertia. Only the accelerations are lost.
+    /// `movements` returns the degrees of freedom of a body.
     pub fn renumber(
         &mut self,
         rates: Vec<f64>,
@@ -88,7 +88,7 @@ impl MotionState {
         self.accelerations.mark_unknown();
     }
 
-    /// Selected prediction, the part of the state that is not numeric.
+    /// Selected basis of the prediction, which is the only part of the state that is not a number.
     pub fn trend(&self) -> Prediction {
         self.forecast.trend()
     }

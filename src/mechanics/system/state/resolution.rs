@@ -1,4 +1,4 @@
-//! Resolution of the motion by time steps, measured from quantities that each step computes.
+//! Measures of how well time steps resolve the motion, from quantities that each step computes.
 
 use crate::beams::RotationIncrement;
 use crate::elementary::square;
@@ -10,7 +10,7 @@ pub struct GuessErrors {
     pub by_start: f64,
     /// Error `Σ m (v̄ - v̄₋)²` of the mean rates `v̄₋` of the previous step [energy].
     pub by_mean: f64,
-    /// Size `Σ m v̄²` of the mean rates, to which the errors are compared [energy].
+    /// Size `Σ m v̄²` of the mean rates, with which the errors are compared [energy].
     pub motion: f64,
 }
 
@@ -25,27 +25,27 @@ impl GuessErrors {
 /// Relative difference of two step lengths below which they count as equal.
 const EQUALLY_LONG: f64 = 1e-3;
 
-/// Resolution of the motion by the steps so far. It is part of the state, so that undone steps do not count.
+/// Measures of how well the steps so far resolve the motion. They are part of the state, so that undone steps do not count.
 ///
-/// A vibration `v = a cos ωt` advances by a phase `φ` in each step of the energy–momentum method, with `tan(φ/2) = ω h/2`. Averaged over the phases,
-/// `Σ m v̄² = ½ m a² cos²(φ/2)`, `S = Σ m (v̄ - v0)² = ½ m a² sin²(φ/2)` and `M = Σ m (v̄ - v̄₋)² = ½ m a² sin²φ`. Hence `S - M/4 = ½ m a² sin⁴(φ/2)`
-/// is the energy of unresolved motion; the contribution of resolved motion is negligible. For motions at several frequencies, the sums add up
-/// (theory.md, section 13).
+/// A vibration `v = a cos ωt` advances by a phase `φ` in each step of length `h` of the energy–momentum method, with `tan(φ/2) = ω h/2`. Averaged
+/// over the phases, `Σ m v̄² = ½ m a² cos²(φ/2)`, `S = Σ m (v̄ - v0)² = ½ m a² sin²(φ/2)` and `M = Σ m (v̄ - v̄₋)² = ½ m a² sin²φ`. Hence `S - M/4
+/// = ½ m a² sin⁴(φ/2)`. This is the energy of unresolved motion, because resolved motion contributes a negligible amount. For motions with several
+/// frequencies, the sums add up (theory.md, section 13).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Resolution {
-    /// `Σ (m v̄² + S)` over steps as long as the previous one [energy].
+    /// `Σ (m v̄² + S)` over all steps that are as long as the step before them [energy].
     kinetic: f64,
-    /// `Σ (S - M/4)` over these steps [energy].
+    /// `Σ (S - M/4)` over the same steps [energy].
     unresolved: f64,
-    /// `Σ h² M/16` over these steps [energy·time²]; `ω² = unresolved / bent`.
+    /// `Σ h² M/16` over the same steps [energy·time²]; `ω² = unresolved / bent`.
     bent: f64,
     /// Length of the last step [time].
     last: f64,
     /// Largest rotation of a section in a step [rad].
     rotation: f64,
-    /// Length of the step or substep with the largest rotation; negative for a backward substep [time].
+    /// Length of the step or substep with the largest rotation [time]; negative for a backward substep.
     duration: f64,
-    /// Energy below which motions are rounding [energy].
+    /// Energy below which motions are attributed to rounding [energy].
     noise: f64,
 }
 
@@ -62,12 +62,12 @@ impl Resolution {
         }
     }
 
-    /// Energy below which motions are rounding [energy].
+    /// Energy below which motions are attributed to rounding [energy].
     pub(super) fn noise(&self) -> f64 {
         self.noise
     }
 
-    /// Records a step or substep of a length [time] with its largest rotation increment.
+    /// Records a step or substep of a duration [time] with its prediction errors and its largest rotation increment.
     pub(super) fn add(
         &mut self,
         missed: &GuessErrors,
@@ -75,7 +75,7 @@ impl Resolution {
         increment: f64,
         rotations: RotationIncrement,
     ) {
-        // The increment bounds its angle from above and is cheaper to compare.
+        // The increment is an upper bound of the angle, and is cheaper to compare.
         if increment > self.rotation {
             let angle = rotations.angle(increment);
             if angle > self.rotation {
@@ -102,8 +102,8 @@ impl Resolution {
         self.kinetic
     }
 
-    /// Angular frequency `ω`, weighted by accelerations [rad/time]. It is exact for a single vibration, infinite if the period is lost in rounding,
-    /// and zero without vibration.
+    /// Angular frequency `ω`, as a mean over all vibrations weighted by accelerations [rad/time]. It is exact for a single vibration, infinite if
+    /// the period is lost in rounding, and zero without vibration.
     pub fn angular_frequency(&self) -> f64 {
         if self.unresolved <= 0.0 { 0.0 } else { (self.unresolved / self.bent).sqrt() }
     }
@@ -113,7 +113,7 @@ impl Resolution {
         self.rotation
     }
 
-    /// Length of the step or substep with the largest rotation; negative for a backward substep [time].
+    /// Length of the step or substep with the largest rotation [time]; negative for a backward substep.
     pub(crate) fn turned_in(&self) -> f64 {
         self.duration
     }
@@ -143,7 +143,7 @@ impl Resolution {
 mod tests {
     use super::*;
 
-    /// Steps of the energy–momentum method for vibrations given as (mass, velocity amplitude, `ω h`).
+    /// Resolution after steps of the energy–momentum method, for vibrations given by mass, velocity amplitude and `ω h`.
     fn vibrating(vibrations: &[(f64, f64, f64)], steps: usize) -> Resolution {
         let mut resolution = Resolution::above(0.0);
         let mut mean: Option<Vec<f64>> = None;

@@ -1,19 +1,19 @@
-//! Force and moment scales of the present step, with which its residual is compared.
+//! Scales of force and moment in the present step. The residual of the step is compared with them.
 
 use crate::beams::{ForceSummary, RotationIncrement};
 use crate::integrators::Interval;
 
-/// Interval of the present step, with the largest force and moment of sections, inertia, loads and contacts.
+/// Interval of the present step, and the largest forces and moments of sections, inertia, loads and contacts.
 pub struct StepMeasures {
     pub interval: Interval,
-    /// Force and moment of inertia at the start of the step: twice `M v0` over the duration [force, force·length].
+    /// Force and moment of inertia at the start of the step: twice `M v0`, divided by the duration [force, force·length].
     pub inertia: (f64, f64),
     pub loads: (f64, f64),
     pub summary: ForceSummary,
     /// Largest contact force [force].
     pub contact: f64,
     pub rotations: RotationIncrement,
-    /// True if loads may jump at the start of the step and accelerations are kept.
+    /// True if loads may jump at the start of the step and the method has accelerations in its state.
     pub jumps: bool,
     /// Energy that dampers returned in the last backward substep [energy].
     pub returned: f64,
@@ -56,18 +56,18 @@ impl StepMeasures {
         self.summary.moment + self.inertia.1 + self.loads.1
     }
 
-    /// Residual force relative to the force scale [-].
+    /// Residual force as a fraction of the force scale [-].
     pub fn relative_force(&self, residual: f64) -> f64 {
         relative(residual, self.force())
     }
 
-    /// Residual moment relative to the moment scale [-].
+    /// Residual moment as a fraction of the moment scale [-].
     pub fn relative_moment(&self, residual: f64) -> f64 {
         relative(residual, self.moment())
     }
 }
 
-/// A zero residual is zero relative to every scale, including a zero scale.
+/// Quotient of residual and scale. A zero residual gives zero also for a zero scale.
 fn relative(residual: f64, scale: f64) -> f64 {
     if residual == 0.0 { 0.0 } else { residual / scale }
 }

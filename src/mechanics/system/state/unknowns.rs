@@ -2,18 +2,18 @@
 
 use crate::joints::Releasable;
 
-/// Kind of an unknown and of its equation.
+/// Type of an unknown and of its equation.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum UnknownKind {
     /// Displacement along an axis [length], with a force balance.
     Position,
     /// Rotation [rad], with a moment balance.
     Rotation,
-    /// Constraint force, or its impulse in a time step [force, force·time], with a length as equation.
+    /// Constraint force, or its impulse in a time step [force, force·time]. Its equation is a length.
     Force,
 }
 
-/// Unknowns of a model: number, kinds and half-bandwidth.
+/// Unknowns of a model: their number, types and half-bandwidth.
 pub struct Unknowns {
     kinds: Vec<UnknownKind>,
     half_bandwidth: usize,
@@ -33,7 +33,7 @@ impl Unknowns {
         self.half_bandwidth
     }
 
-    /// Returns true if a joint or drive is released in the numbering.
+    /// Returns true if the numbering was made after the given joint or drive had been released.
     pub fn are_free_of(&self, hold: Releasable) -> bool {
         self.released.contains(&hold)
     }
@@ -43,7 +43,7 @@ impl Unknowns {
     }
 
     pub fn largest(&self, values: &[f64]) -> (f64, f64) {
-        // As integers, the bit patterns of magnitudes have the same order, with NaN as the largest.
+        // The bit patterns of magnitudes, read as integers, have the same order as the magnitudes. NaN is the largest.
         let magnitude = |value: &f64| value.abs().to_bits();
         let (mut position, mut rotation) = (0, 0);
         for (value, kind) in values.iter().zip(&self.kinds) {

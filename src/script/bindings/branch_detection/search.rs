@@ -1,4 +1,5 @@
-//! Search of the syntax tree of a function, its callees and captured functions for branches that depend on a parameter of a scene.
+//! Search for branches that depend on a parameter of a scene. The search covers the syntax tree of a function, the functions that it calls, and
+//! captured functions.
 
 use std::cell::Cell;
 use std::collections::{BTreeMap, BTreeSet};
@@ -11,13 +12,13 @@ use crate::script::bindings::call::{body_named, defined, written_within};
 use crate::script::bindings::parameter_variants::VariantValue;
 use crate::script::source::syntax::OWN;
 
-/// Operators, functions and methods whose results jump.
+/// Operators, functions and methods whose results can jump.
 const JUMPS: &[&str] = &[
     "<", ">", "<=", ">=", "==", "!=", "%", "floor", "ceiling", "round", "round_to", "int",
     "to_int", "fraction", "quotient", "sign", "is_zero",
 ];
 
-/// Functions that create a schedule with jumps at given times.
+/// Functions that create a schedule that jumps at given times.
 const JUMPING_SCHEDULES: &[&str] = &["pulse", "hold_for", "table"];
 
 /// Maximum depth of nested calls that are searched.
@@ -39,7 +40,7 @@ struct VariableFacts {
     varied: BTreeSet<String>,
     /// Variables that depend on the argument of the function.
     asked: BTreeSet<String>,
-    /// Variables with schedules that jump at times which depend on a parameter.
+    /// Variables that contain schedules which jump at times that depend on a parameter.
     jumping: BTreeSet<String>,
     functions: BTreeMap<String, FnPtr>,
 }
@@ -55,7 +56,7 @@ struct Facts {
 struct BranchSearch<'s, 'n> {
     native: &'s NativeCallContext<'n>,
     depth: usize,
-    /// Remaining number of functions to search.
+    /// Number of functions that may still be searched.
     left: &'s Cell<usize>,
 }
 
@@ -116,7 +117,7 @@ impl VariableFacts {
         }
     }
 
-    /// First variable in an expression whose schedule jumps at times that depend on a parameter, or from which the expression creates such a
+    /// First variable in an expression that contains a schedule whose jumps depend on a parameter, or from which the expression creates such a
     /// schedule.
     fn jumping_in(&self, expression: &Expr) -> Option<String> {
         first_in(expression, |node| match node {
@@ -128,7 +129,7 @@ impl VariableFacts {
         })
     }
 
-    /// Branch on several expressions that together depend on a parameter and on the argument of the function.
+    /// Reports a branch on several expressions that together depend on a parameter and on the argument of the function.
     fn by<'e>(
         &self,
         expressions: impl Iterator<Item = &'e Expr> + Clone,
@@ -191,7 +192,7 @@ impl BranchSearch<'_, '_> {
         if JUMPS.contains(&sign) {
             return known.by(call.args.iter(), sign, at);
         }
-        // The call creates a closure. Its first arguments are the captured variables.
+        // This call creates a closure. Its first arguments are the captured variables.
         if let Some((function, captured)) = written_within(call) {
             return self.within(&function, captured, known);
         }
@@ -248,7 +249,7 @@ impl BranchSearch<'_, '_> {
         }
     }
 
-    /// Searches a function that a variable holds and that is called with arguments.
+    /// Searches a function that is the value of a variable and is called with arguments.
     fn held(
         &self,
         function: &FnPtr,
@@ -263,7 +264,7 @@ impl BranchSearch<'_, '_> {
         self.deeper().function(&definition, own)
     }
 
-    /// Searches a closure inside another function; its arguments are treated like those of the outer function.
+    /// Searches a closure inside another function. Its arguments are treated like those of the outer function.
     fn within(
         &self,
         function: &FnPtr,

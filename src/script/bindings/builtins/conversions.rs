@@ -1,4 +1,4 @@
-//! Conversions between kinds of values, and tests of numbers.
+//! Conversions between types of values, and tests of numbers.
 
 use crate::script::bindings::built_in::{BuiltInTable, built_in};
 use crate::script::bindings::returns::Returns;

@@ -1,4 +1,4 @@
-//! Functions as values.
+//! Operations on functions that are values.
 
 use crate::script::bindings::built_in::{BuiltInTable, built_in};
 use crate::script::bindings::returns::Returns;

@@ -1,4 +1,4 @@
-//! Methods of arrays that search and transform with functions.
+//! Methods of arrays that call a function to search or transform elements.
 
 use crate::script::bindings::built_in::{BuiltInTable, built_in};
 use crate::script::bindings::returns::Returns;

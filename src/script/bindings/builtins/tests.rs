@@ -1,4 +1,4 @@
-//! Tests: every engine function has help, every help entry has a function, every example runs.
+//! Tests: every engine function has help, every help entry has a function, and every example runs.
 
 use std::collections::HashSet;
 
@@ -93,7 +93,7 @@ fn every_function_of_the_engine_has_help() {
         let refused =
             REFUSED.iter().any(|refused| refused.name == name && refused.counts.contains(&count));
         let has_help = match name.split_once('$') {
-            // x.floor is floor(x): Rhai lets functions of one value be read as properties.
+            // x.floor is floor(x), because Rhai lets functions of one value be read as properties.
             Some(("get", property)) => is_documented(property, 1),
             Some(("set", property)) => language().named(property).any(|row| row.setter.is_some()),
             Some(("index", _)) => true,
@@ -134,7 +134,7 @@ fn every_number_of_arguments_that_help_allows_exists() {
                 let exists = known
                     .iter()
                     .any(|function| function.name == form.name && function.count == count)
-                    // Built into the engine for any number of arguments.
+                    // The engine provides these functions for any number of arguments.
                     || ["print", "debug", "type_of"].contains(&form.name);
                 assert!(exists, "there is no {} of {count}", form.name);
             }

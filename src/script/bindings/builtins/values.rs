@@ -1,4 +1,4 @@
-//! Printing, and functions of any value.
+//! Printing, and functions for values of any type.
 
 use crate::script::bindings::built_in::{BuiltInTable, built_in};
 use crate::script::bindings::returns::Returns;

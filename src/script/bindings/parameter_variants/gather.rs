@@ -1,4 +1,4 @@
-//! Combination of the results of all variants into one value.
+//! Combination of the results of a call in all variants to one value.
 
 use std::rc::Rc;
 
@@ -10,11 +10,11 @@ use crate::geometry::Vec2;
 use crate::script::messages::error::ScriptError;
 use crate::script::messages::numbers::as_number;
 
-/// Combines `results`, one per variant with variant 0 first, into one value. Equal results stay plain values, and scene objects (`is_thing`) contain
-/// their variants. Booleans, texts and integers keep only the result of variant 0.
+/// Combines the results of all variants, variant 0 first, to one value. Results that are equal stay plain values, and scene objects (`is_thing`)
+/// contain their variants already. Of booleans, texts and integers, only the result of variant 0 is kept.
 ///
 /// # Errors
-/// Fails if arrays or maps differ in more than numbers.
+/// Fails if arrays or maps differ between variants in more than numbers.
 pub fn combine_variants(
     family: &Rc<ParameterSet>,
     results: &[Dynamic],
@@ -76,7 +76,7 @@ fn is_defined(value: &Dynamic) -> bool {
         && vector.is_none_or(|of| of.x.is_finite() && of.y.is_finite())
 }
 
-/// Returns true if two values are bitwise equal numbers or equal vectors.
+/// Returns true if two values are numbers with equal bits, or equal vectors.
 fn are_equal(one: &Dynamic, other: &Dynamic) -> bool {
     if let (Some(one), Some(other)) = (as_number(one), as_number(other)) {
         return one.to_bits() == other.to_bits();

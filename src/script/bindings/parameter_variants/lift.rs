@@ -14,16 +14,16 @@ use crate::script::bindings::parameter::Parameter;
 use crate::script::bindings::table::{CallSyntax, FunctionBinding};
 use crate::script::messages::error::{CallPart, ScriptError};
 
-/// Hint for an error that occurs only in a perturbed variant.
+/// Hint for an error that occurs only with a perturbed parameter.
 const BESIDE: &str = "derivatives are computed from values on both sides of a parameter: choose it inside the \
     allowed range, or use value_of(x) here, which has no derivatives";
 
 type Make<'m> = &'m mut dyn FnMut(Option<&mut Dynamic>, &[Dynamic]) -> Result<Dynamic, ScriptError>;
 
-/// Evaluates a binding for each variant of its receiver and arguments, according to the policy of its domain.
+/// Evaluates a binding for each variant of its receiver and arguments, by the rule for its domain.
 ///
 /// # Errors
-/// Errors of the call; also if derivatives would be lost, or parameters of two scenes are combined.
+/// Errors of the call, or an error if derivatives would be lost or parameters of two scenes are combined.
 pub fn evaluate_variants(
     (row, lifting): (&FunctionBinding, Lifting),
     mut receiver: Option<&mut Dynamic>,
@@ -75,12 +75,12 @@ pub fn evaluate_variants(
         }
     };
     let mut results = Vec::with_capacity(family.variants());
-    // Variant 0 is evaluated last, because a scene starts its variants from the state before the call.
+    // Variant 0 is evaluated last, because the variants of a scene start from its state before the call.
     for variant in (0..family.variants()).rev() {
         match at(variant) {
             Ok(made) => results.push(made),
             Err(error) if variant == 0 => return Err(error),
-            // If variant 0 fails too, the error of variant 0 is reported.
+            // If the call fails in variant 0 too, the error in variant 0 is reported.
             Err(beside) => {
                 return Err(at(0).err().unwrap_or(beside.with_variant_context(&family, variant)));
             }
@@ -135,7 +135,8 @@ fn expect_plain_whole_numbers(
     }
 }
 
-/// Error of an argument that must not depend on parameters. Its position is that of the option that does.
+/// Error for an argument that must not depend on parameters. If the argument is a map of options, the error refers to the option that depends on
+/// them.
 fn refusal(
     row: &FunctionBinding,
     parameter: Option<&Parameter>,
@@ -167,7 +168,7 @@ fn option_in(options: &Dynamic) -> Option<(String, Dynamic)> {
 }
 
 impl ScriptError {
-    /// Adds the variant to the message of an error in a perturbed variant.
+    /// Adds a description of the variant to the error message, if the error occurred in a perturbed variant.
     fn with_variant_context(self, family: &ParameterSet, variant: usize) -> Self {
         match self {
             Self::Failure(mut failure) => {
@@ -194,10 +195,10 @@ fn families(
 }
 
 impl ParameterSet {
-    /// Common parameter set of some values; `None` if none of them depends on a parameter.
+    /// Set of parameters that some values have in common; `None` if none of them depends on a parameter.
     ///
     /// # Errors
-    /// Fails if they depend on parameters of two scenes.
+    /// Fails if the values depend on parameters of two scenes.
     pub fn common(values: &[&Dynamic]) -> Result<Option<Rc<Self>>, ScriptError> {
         let own = |value: &&Dynamic| parameter_set_of(value).or_else(|| of_thing(value));
         let mut found: Option<Rc<Self>> = None;
@@ -223,10 +224,10 @@ impl ParameterSet {
     }
 }
 
-/// Combines the results that were computed from these values in each variant.
+/// Combines the results of all variants. `from` are the values from which they were computed.
 ///
 /// # Errors
-/// Fails if arrays or maps differ in more than numbers.
+/// Fails if arrays or maps differ between variants in more than numbers.
 pub fn combined(
     family: &Rc<ParameterSet>,
     results: &[Dynamic],
@@ -237,10 +238,10 @@ pub fn combined(
     combine_variants(family, results, lost.as_ref(), &|_| false)
 }
 
-/// Combines the results of all variants into one value without derivatives, and stores the reason.
+/// Combines the results of all variants to one value without derivatives, and stores the reason for their absence.
 ///
 /// # Errors
-/// Fails if arrays or maps differ in more than numbers.
+/// Fails if arrays or maps differ between variants in more than numbers.
 pub fn combined_without_derivatives(
     family: &Rc<ParameterSet>,
     results: &[Dynamic],

@@ -1,7 +1,7 @@
 //! Evaluation of calls for variants of the parameters of a scene. A call with an argument that depends on a parameter is evaluated at the parameter
-//! values and for all perturbed variants.
+//! values, and again for every perturbed variant.
 //!
-//! Derivatives thereby propagate through sections, loads, simulations, and functions of their results.
+//! By this, derivatives are computed through sections, loads, simulations, and functions of their results.
 
 mod gather;
 mod lift;

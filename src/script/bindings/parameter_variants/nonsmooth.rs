@@ -1,4 +1,4 @@
-//! Functions that are not differentiable at or near their arguments because of kinks, jumps or infinite slopes.
+//! Functions that are not differentiable at or near their arguments, because of kinks, jumps or infinite slopes.
 
 use std::rc::Rc;
 
@@ -11,11 +11,11 @@ use crate::geometry::Vec2;
 use crate::script::bindings::accept::as_point;
 use crate::script::messages::numbers::as_number;
 
-/// Minimum distance from a point of infinite slope, in units of the perturbation of the argument. The relative error of the difference quotient is
-/// about its inverse square, 1e-5.
+/// Minimum distance of an argument from a point of infinite slope, as a multiple of the perturbation of the argument. The relative error of the
+/// difference quotient is about the inverse square of this number, 1e-5.
 const NEAR: f64 = 300.0;
 
-/// Arguments of a call at the parameter values, and with a positive and a negative perturbation of one parameter.
+/// Arguments of a call: at the parameter values, and with a positive and a negative perturbation of one parameter.
 pub struct Sides<'s> {
     pub at: &'s [Dynamic],
     pub plus: &'s [Dynamic],
@@ -34,7 +34,7 @@ pub enum NoDerivative {
 /// Check of a function for kinks, jumps and infinite slopes between the perturbed arguments.
 pub type NonsmoothCheck = fn(&Sides) -> Option<NoDerivative>;
 
-/// Error message if the function has no derivative at its arguments; `None` if it has one.
+/// Error message if the function has no derivative at the given arguments; `None` if it has one.
 pub fn corner_of(
     (name, corner): (&str, NonsmoothCheck),
     family: &ParameterSet,
@@ -66,20 +66,20 @@ impl Sides<'_> {
         [self.at, self.plus, self.minus].map(what)
     }
 
-    /// Reports a jump or kink if a quantity of the arguments changes its sign between the perturbations.
+    /// Reports a jump or kink if a function of the arguments changes its sign between the perturbations.
     fn passes_zero(&self, what: impl Fn(&[Dynamic]) -> f64) -> Option<NoDerivative> {
         let [_, plus, minus] = self.each(what);
         (plus * minus < 0.0).then_some(NoDerivative::Discontinuous)
     }
 
-    /// Reports an infinite slope if a quantity varies with the parameter and is zero or near zero.
+    /// Reports an infinite slope if a function of the arguments varies with the parameter and is zero or close to zero.
     fn nears_zero(&self, what: impl Fn(&[Dynamic]) -> f64) -> Option<NoDerivative> {
         let [at, plus, minus] = self.each(what);
         let change = (plus - at).abs().max((minus - at).abs());
         (change > 0.0 && at.abs() <= NEAR * change).then_some(NoDerivative::InfiniteSlope)
     }
 
-    /// Reports an infinite slope if a vector varies with the parameter and is zero or near zero.
+    /// Reports an infinite slope if a vector varies with the parameter and is zero or close to zero.
     fn nears_origin(&self, what: impl Fn(&[Dynamic]) -> Option<Vec2>) -> Option<NoDerivative> {
         let (at, plus, minus) = (what(self.at)?, what(self.plus)?, what(self.minus)?);
         let change = (plus - at).norm().max((minus - at).norm());
@@ -87,48 +87,48 @@ impl Sides<'_> {
     }
 }
 
-/// Kink or jump where the argument is zero, as for `abs`.
+/// Check for a kink or jump at the argument zero, as for `abs`.
 pub fn at_zero(sides: &Sides) -> Option<NoDerivative> {
     sides.passes_zero(|given| number(given, 0))
 }
 
-/// Infinite slope where the argument is zero, as for `sqrt` and `ln`.
+/// Check for an infinite slope at the argument zero, as for `sqrt` and `ln`.
 pub fn near_zero(sides: &Sides) -> Option<NoDerivative> {
     sides.nears_zero(|given| number(given, 0))
 }
 
-/// Infinite slope where the argument is one or minus one, as for `acos`.
+/// Check for an infinite slope at the arguments one and minus one, as for `acos`.
 pub fn near_one(sides: &Sides) -> Option<NoDerivative> {
     sides.nears_zero(|given| number(given, 0).abs() - 1.0)
 }
 
-/// Infinite slope at the poles of `tan`.
+/// Check for an infinite slope at the poles of `tan`.
 pub fn near_quarters(sides: &Sides) -> Option<NoDerivative> {
     sides.nears_zero(|given| cos(number(given, 0)))
 }
 
-/// Infinite slope of a logarithm where the argument is zero, or the base is zero or one.
+/// Check for an infinite slope of a logarithm, where the argument is zero, or the base is zero or one.
 pub fn near_ends_of_logarithm(sides: &Sides) -> Option<NoDerivative> {
     let base = || sides.nears_zero(|given| number(given, 1) - 1.0);
     near_zero(sides).or_else(base).or_else(|| sides.nears_zero(|given| number(given, 1)))
 }
 
-/// Kink where the arguments are equal, as for `max`.
+/// Check for a kink where the arguments are equal, as for `max`.
 pub fn at_equality(sides: &Sides) -> Option<NoDerivative> {
     sides.passes_zero(|given| number(given, 0) - number(given, 1))
 }
 
-/// Infinite slope at the origin of the vector of both arguments, as for `hypot`.
+/// Check for an infinite slope where both arguments are zero, as for `hypot`.
 pub fn at_origin(sides: &Sides) -> Option<NoDerivative> {
     sides.nears_origin(|given| Some(Vec2::new(number(given, 0), number(given, 1))))
 }
 
-/// Jump or infinite slope of the angle of the vector `(second, first)`, at its branch cut or the origin, as for `atan2`.
+/// Check for a jump or infinite slope of the angle of the vector `(second, first)`, as for `atan2`: at its branch cut or the origin.
 pub fn at_branch_cut(sides: &Sides) -> Option<NoDerivative> {
     cut(sides, |given| Some(Vec2::new(number(given, 1), number(given, 0))))
 }
 
-/// Jump or infinite slope of the angle of a vector argument, at its branch cut or the origin.
+/// Check for a jump or infinite slope of the angle of a vector argument, at its branch cut or the origin.
 pub fn at_branch_cut_of_vector(sides: &Sides) -> Option<NoDerivative> {
     cut(sides, |given| point(given, 0))
 }
@@ -141,23 +141,23 @@ fn cut(sides: &Sides, what: fn(&[Dynamic]) -> Option<Vec2>) -> Option<NoDerivati
     sides.nears_origin(what).or_else(passes)
 }
 
-/// Infinite slope where a vector is zero, as for `norm`.
+/// Check for an infinite slope where a vector is zero, as for `norm`.
 pub fn at_zero_vector(sides: &Sides) -> Option<NoDerivative> {
     sides.nears_origin(|given| point(given, 0))
 }
 
-/// Infinite slope where two points coincide, as for `distance`.
+/// Check for an infinite slope where two points coincide, as for `distance`.
 pub fn at_coinciding_points(sides: &Sides) -> Option<NoDerivative> {
     sides.nears_origin(|given| point(given, 1).zip(point(given, 0)).map(|(b, a)| b - a))
 }
 
-/// Jump where the argument is an integer, as for `fraction`.
+/// Check for a jump where the argument is an integer, as for `fraction`.
 pub fn at_integers(sides: &Sides) -> Option<NoDerivative> {
     let [_, plus, minus] = sides.each(|given| number(given, 0).trunc());
     (plus != minus).then_some(NoDerivative::Discontinuous)
 }
 
-/// Jump where a digit changes, as for `round_to`.
+/// Check for a jump where a digit changes, as for `round_to`.
 pub fn at_digit_changes(sides: &Sides) -> Option<NoDerivative> {
     let [_, plus, minus] = sides.each(|given| {
         let digits = number(given, 1);
@@ -166,7 +166,7 @@ pub fn at_digit_changes(sides: &Sides) -> Option<NoDerivative> {
     (plus != minus).then_some(NoDerivative::Discontinuous)
 }
 
-/// Jump of a remainder where the argument is a multiple of the divisor.
+/// Check for a jump of a remainder where the argument is a multiple of the divisor.
 pub fn at_multiples(sides: &Sides) -> Option<NoDerivative> {
     let [at, plus, minus] = sides.each(|given| (number(given, 0) / number(given, 1)).trunc());
     (plus != at || minus != at).then_some(NoDerivative::Discontinuous)
@@ -176,7 +176,7 @@ pub fn near_zero_divisor(sides: &Sides) -> Option<NoDerivative> {
     sides.nears_zero(|given| number(given, 1))
 }
 
-/// Infinite slope of a power where the base is zero, unless the exponent is a constant non-negative integer.
+/// Check for an infinite slope of a power where the base is zero, unless the exponent is a constant non-negative integer.
 pub fn near_zero_base(sides: &Sides) -> Option<NoDerivative> {
     let exponents = sides.each(|given| number(given, 1));
     let is_smooth = exponents[0] >= 0.0
@@ -185,12 +185,12 @@ pub fn near_zero_base(sides: &Sides) -> Option<NoDerivative> {
     if is_smooth { None } else { sides.nears_zero(|given| number(given, 0)) }
 }
 
-/// Kink where the largest element of an array changes its index.
+/// Check for a kink where another element of an array becomes the largest.
 pub fn at_largest_change(sides: &Sides) -> Option<NoDerivative> {
     selection_changes(sides, |x, y| x > y)
 }
 
-/// Kink where the smallest element of an array changes its index.
+/// Check for a kink where another element of an array becomes the smallest.
 pub fn at_smallest_change(sides: &Sides) -> Option<NoDerivative> {
     selection_changes(sides, |x, y| x < y)
 }

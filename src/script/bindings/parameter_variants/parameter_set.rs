@@ -1,4 +1,4 @@
-//! Set of the parameters of a scene. Each parameter has two perturbed variants, at its value plus and minus a perturbation.
+//! Set of the parameters of a scene. Each parameter has two perturbed variants: its value plus and minus a perturbation.
 
 use std::any::TypeId;
 use std::cell::{Cell, RefCell};
@@ -11,17 +11,18 @@ use super::variant_value::VariantValue;
 use crate::output::significant;
 use crate::script::messages::error::{CallPart, ScriptError};
 
-/// Default perturbation, relative to the size of the parameter. The relative error of the difference quotient is about the square of this number,
-/// plus rounding divided by it.
+/// Default perturbation, as a fraction of the parameter. The relative error of the difference quotient is about the square of this number, plus the
+/// rounding error divided by it.
 pub const RELATIVE_DISTANCE: f64 = 1e-5;
 
-/// Parameters of a scene. Variant 0 has their values. Variants 1 and 2 perturb the first parameter positively and negatively, 3 and 4 the second one.
+/// Parameters of a scene. Variant 0 has their values. Variants 1 and 2 perturb the first parameter positively and negatively, variants 3 and 4 the
+/// second one, and so on.
 #[derive(Default)]
 pub struct ParameterSet {
     parameters: RefCell<Vec<DeclaredParameter>>,
-    /// True once variants are in use. Then no parameter may be added.
+    /// True if variants have been used. No parameter may be added afterwards.
     is_in_use: Cell<bool>,
-    /// Script positions (line and column) at which a branch that depends on a parameter was reported.
+    /// Script positions (line and column) for which a branch that depends on a parameter has been reported.
     reported: RefCell<BTreeSet<(usize, usize)>>,
 }
 
@@ -38,12 +39,12 @@ pub struct CurrentVariant {
 }
 
 thread_local! {
-    /// True if a parameter set was created in this thread.
+    /// True if a parameter set has been created in this thread.
     static ANY: Cell<bool> = const { Cell::new(false) };
-    /// Names of the types of scene objects, and functions that return the parameter sets of these objects.
+    /// Names of the types of scene objects, with functions that return the parameter sets of objects of these types.
     static THINGS: RefCell<HashMap<TypeId, (&'static str, SceneParameters)>> = RefCell::default();
     static PRESENT: RefCell<Option<CurrentVariant>> = const { RefCell::new(None) };
-    /// Reason why a perturbed variant has no values.
+    /// Reason why the present call has no values in perturbed variants.
     static LOST: RefCell<Option<Rc<str>>> = const { RefCell::new(None) };
 }
 
@@ -64,12 +65,12 @@ pub(super) fn of_thing(value: &Dynamic) -> Option<Rc<ParameterSet>> {
     known.and_then(|(_, family_of)| family_of(value))
 }
 
-/// Variant of the current call; `None` outside of variant evaluation.
+/// Variant in which the present call is evaluated; `None` if it is not evaluated for variants.
 pub fn present() -> Option<CurrentVariant> {
     PRESENT.with_borrow(Clone::clone)
 }
 
-/// Index of the current variant; 0 outside of variant evaluation.
+/// Index of the variant in which the present call is evaluated; 0 if it is not evaluated for variants.
 pub fn present_variant() -> usize {
     present().map_or(0, |present| present.variant)
 }
@@ -83,7 +84,7 @@ pub(super) fn take_unavailable() -> Option<Rc<str>> {
     LOST.take()
 }
 
-/// Guard for the evaluation of a call in a variant, which ends when the guard is dropped.
+/// Guard for the evaluation of a call in a variant. The evaluation ends when the guard is dropped.
 pub(super) struct VariantGuard;
 
 impl VariantGuard {
@@ -105,15 +106,15 @@ impl ParameterSet {
         Rc::default()
     }
 
-    /// Returns false if no parameter set exists, so that calls need no variant handling.
+    /// Returns false if there is no parameter set. Calls then need no handling of variants.
     pub fn is_any() -> bool {
         ANY.get()
     }
 
-    /// Adds a parameter with its value and a perturbation, or the default perturbation. Returns its index.
+    /// Adds a parameter with its value and a perturbation. If none is given, it has the default perturbation. Returns the index of the parameter.
     ///
     /// # Errors
-    /// Fails if the name is in use, or variants are in use already.
+    /// Fails if the name is used already, or if variants have been used.
     pub fn declare(
         self: &Rc<Self>,
         name: &str,
@@ -136,7 +137,7 @@ impl ParameterSet {
         }
         let size = if value == 0.0 { 1.0 } else { value.abs() };
         let distance = distance.unwrap_or(RELATIVE_DISTANCE * size);
-        // Rounds the perturbation so that the perturbed values are exact.
+        // Rounds the perturbation so that the perturbed values have no rounding error.
         let distance = 0.5 * ((value + distance) - (value - distance));
         let mut values = vec![Dynamic::from(value); self.variants()];
         values.extend([value + distance, value - distance].map(Dynamic::from));
@@ -144,17 +145,17 @@ impl ParameterSet {
         Ok(VariantValue::new(self, values, None))
     }
 
-    /// Returns true on the first call for a position of the script.
+    /// Returns true when it is called for the first time for a position of the script.
     pub fn is_first_report(&self, line: usize, column: usize) -> bool {
         self.reported.borrow_mut().insert((line, column))
     }
 
-    /// Returns true if a function of the scene branches on a parameter, so that derivatives are wrong at its jumps.
+    /// Returns true if a function of the scene branches on a parameter, so that derivatives are wrong where it jumps.
     pub fn branches_on_parameter(&self) -> bool {
         !self.reported.borrow().is_empty()
     }
 
-    /// Disallows further parameters.
+    /// Records that variants are used, so that no further parameters may be added.
     pub fn use_variants(&self) {
         self.is_in_use.set(true);
     }
@@ -178,13 +179,13 @@ impl ParameterSet {
         self.parameters.borrow().iter().position(|of| of.name == name)
     }
 
-    /// Index of the parameter of a perturbed variant, and true for a positive perturbation; `None` for variant 0.
+    /// Index of the parameter that a variant perturbs, and true for a positive perturbation; `None` for variant 0.
     pub fn side_of_variant(variant: usize) -> Option<(usize, bool)> {
         let beside = variant.checked_sub(1)?;
         Some((beside / 2, beside % 2 == 0))
     }
 
-    /// Description of a variant: `EI = … + 1e-3`; empty for variant 0.
+    /// Description of a variant, for example `EI = … + 1e-3`; empty for variant 0.
     pub fn describe(&self, variant: usize) -> String {
         let parameters = self.parameters.borrow();
         let of =

@@ -1,17 +1,17 @@
-//! Evaluation of the calls of each domain if arguments depend on parameters.
+//! Rules for each domain: how calls are evaluated whose arguments depend on parameters.
 
 use crate::script::bindings::table::{BindingTable, CallSyntax, FunctionBinding};
 
-/// Evaluation of a call with arguments that depend on parameters.
+/// Rule for the evaluation of a call whose arguments depend on parameters.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Lifting {
-    /// Once per variant.
+    /// The call is evaluated in each variant.
     Each,
-    /// Once, with the values of variant 0.
+    /// The call is evaluated once, with the values of variant 0.
     AtValues,
-    /// Once, for receivers that contain their variants. Arguments that depend on parameters are rejected.
+    /// The call is evaluated once, for receivers that contain their variants. Arguments that depend on parameters are rejected.
     Once,
-    /// Rejected, because the result would have no derivatives.
+    /// The call is rejected, because the result would have no derivatives.
     Refused,
 }
 
@@ -54,12 +54,12 @@ const AT_VALUES: &[&str] = &[
     "animations",
 ];
 
-/// Domains without derivatives.
+/// Domains without derivatives, whose calls are rejected.
 const REFUSED: &[&str] = &["equilibrium", "modes"];
 
 const WHOLE: &[&str] = &["quotient"];
 
-/// Methods that advance a simulation together with its variants, or return values that do not depend on variants, such as the time.
+/// Methods that advance a simulation together with its variants, or return values that are the same in all variants, such as the time.
 const ONCE: &[&str] = &["start", "step", "run_to", "at", "t", "dt", "invariants", "parameter"];
 
 pub fn lifting_of(table: &BindingTable, row: &FunctionBinding) -> Lifting {
@@ -79,6 +79,6 @@ pub fn lifting_of(table: &BindingTable, row: &FunctionBinding) -> Lifting {
     }
 }
 
-/// Domains in the lists above.
+/// Lists of all domains for which a rule is given.
 #[cfg(test)]
 pub const NAMED: [&[&str]; 3] = [EACH, AT_VALUES, REFUSED];

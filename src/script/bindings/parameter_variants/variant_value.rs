@@ -1,4 +1,4 @@
-//! Values that depend on parameters of a scene, stored per variant.
+//! Values that depend on parameters of a scene. They are stored for each variant.
 
 use std::rc::Rc;
 
@@ -17,7 +17,7 @@ const DIGITS: usize = 5;
 #[derive(Clone)]
 pub struct VariantValue {
     family: Rc<ParameterSet>,
-    /// Values by variant, from variant 0 on. Variants beyond the end have the value of variant 0.
+    /// Value in each variant, starting with variant 0. In variants after the last stored one, the value is that of variant 0.
     values: Rc<[Dynamic]>,
     lost: Option<Rc<str>>,
 }
@@ -27,7 +27,7 @@ impl VariantValue {
         Self { family: Rc::clone(family), values: values.into(), lost }
     }
 
-    /// Value in a variant, including elements of arrays and maps and captured values.
+    /// Value in a variant. This applies also to elements of arrays and maps and to captured values.
     pub fn project(value: &Dynamic, variant: usize) -> Dynamic {
         project(value, variant)
     }
@@ -74,12 +74,12 @@ impl VariantValue {
     }
 }
 
-/// Set of the parameters on which a value depends. Arrays, maps and captured values are searched.
+/// Set of the parameters on which a value depends. Elements of arrays and maps and captured values are searched.
 pub fn parameter_set_of(value: &Dynamic) -> Option<Rc<ParameterSet>> {
     find(value, &|varied| Some(Rc::clone(&varied.family)))
 }
 
-/// Reason for missing derivatives of a value, its elements or captured values.
+/// Reason why a value, one of its elements or a captured value has no derivatives; `None` if all have them.
 pub fn unavailable_reason_in(value: &Dynamic) -> Option<Rc<str>> {
     find(value, &|varied| varied.unavailable_reason().cloned())
 }

@@ -1,8 +1,8 @@
-//! Entries of the tables of foreign names, and their lookup.
+//! Tables of names from other languages and programs, and the search in them.
 
 use super::{languages, mechanics};
 
-/// Names of other programs and languages with the same meaning, and their replacement.
+/// Names from other languages and programs with the same meaning, and their replacement in withy.
 #[derive(Debug, PartialEq)]
 pub struct ForeignName {
     pub words: &'static [&'static str],
@@ -10,7 +10,7 @@ pub struct ForeignName {
     pub see: &'static [&'static str],
 }
 
-/// Entry of a foreign name. Case matters only if names differ in nothing else.
+/// Entry for a name from another language; `None` if there is none. Case matters only between names that differ only in case.
 pub fn find(name: &str) -> Option<&'static ForeignName> {
     find_exactly(name).or_else(|| {
         let lower = name.to_lowercase();
@@ -32,7 +32,7 @@ impl ForeignName {
     }
 }
 
-/// Hint for a function called with as many arguments as the function of the same name in other languages.
+/// Hint for a call with as many arguments as the function with the same name has in other languages.
 pub fn called_with(name: &str, count: usize) -> Option<&'static str> {
     Some(match (name, count) {
         ("print" | "debug", 2..) => "print takes one value: print(`a = ${a}, b = ${b}`)",

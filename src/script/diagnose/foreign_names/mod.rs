@@ -1,4 +1,4 @@
-//! Names of other languages and programs, with their replacements. They are searched only if a name is unknown.
+//! Names from other languages and programs, with their replacements. They are searched only if a script uses an unknown name.
 
 mod entry;
 mod languages;

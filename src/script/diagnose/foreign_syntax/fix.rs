@@ -1,4 +1,4 @@
-//! List of all patterns of foreign syntax, and their matching.
+//! List of all patterns of syntax from other languages, and the search for a match.
 
 use rhai::{ParseErrorType, Position};
 
@@ -7,17 +7,17 @@ use super::{blocks, brackets, declarations, expressions, signs};
 use crate::script::bindings::catalog::Catalog;
 use crate::script::source::program::Program;
 
-/// Explanation of foreign syntax: message, replacement and position.
+/// Explanation of syntax from another language: message, replacement and position.
 pub struct SyntaxFix {
     pub message: String,
     pub hint: String,
     pub at: Position,
 }
 
-/// Pattern of foreign syntax. It inspects the tokens around the error, and returns an explanation if it matches.
+/// Pattern of syntax from another language. It examines the tokens around the error, and returns an explanation if it matches.
 pub(super) type ForeignSyntax = fn(&TokenWindow) -> Option<SyntaxFix>;
 
-/// All patterns. Those that need more context come first.
+/// All patterns. Patterns that need more context come first.
 const PATTERNS: &[&[ForeignSyntax]] = &[
     signs::PATTERNS,
     blocks::PATTERNS,
@@ -26,7 +26,7 @@ const PATTERNS: &[&[ForeignSyntax]] = &[
     brackets::PATTERNS,
 ];
 
-/// Explanation for a source that the parser rejected at `at` with `error`.
+/// Explanation for a source in which the parser reports `error` at `at`; `None` if no pattern matches.
 pub fn explain(
     program: &Program,
     catalog: &Catalog,

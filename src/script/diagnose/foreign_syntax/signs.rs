@@ -7,7 +7,7 @@ use super::token_window::TokenWindow;
 
 pub const PATTERNS: &[ForeignSyntax] = &[comment, sign, dotted_operator, quotes, formatted_text];
 
-/// `# …` and, where a statement begins, `% …`.
+/// Recognises the comments `# …` and, at the start of a statement, `% …`.
 fn comment(spot: &TokenWindow) -> Option<SyntaxFix> {
     let hint = "a comment begins with //";
     match spot.word(0) {
@@ -43,7 +43,7 @@ fn sign(spot: &TokenWindow) -> Option<SyntaxFix> {
         ("\\", "a statement continues on the next line without a sign: remove the \\"),
         ("$", "names have no $; in a text between backquotes, ${x} is the value of x"),
     ];
-    // The parser may see only the first half of an operator.
+    // The parser may report only the first half of an operator.
     for (sign, hint) in signs {
         let is_here = spot.word(0) == *sign;
         let halves = spot.word(0).len() < sign.len()
@@ -62,7 +62,7 @@ fn sign(spot: &TokenWindow) -> Option<SyntaxFix> {
 
 const ARROW: &str = "write |x| … for a function without a name; in switch, => follows a case";
 
-/// `.*`, `./` and `.^`.
+/// Recognises `.*`, `./` and `.^`.
 fn dotted_operator(spot: &TokenWindow) -> Option<SyntaxFix> {
     let operator = spot.word(0).chars().next().filter(|sign| "*/^\\'".contains(*sign))?;
     let is_dotted = spot.word(-1) == "." && spot.is_joined(0);
@@ -107,7 +107,7 @@ impl TokenWindow<'_> {
     }
 }
 
-/// `f"x = {x}"`.
+/// Recognises `f"x = {x}"`.
 fn formatted_text(spot: &TokenWindow) -> Option<SyntaxFix> {
     let is_prefix = matches!(spot.word(-1), "f" | "F" | "r" | "b" | "u");
     let is_text = spot.word(0).starts_with('"') && spot.is_joined(0);

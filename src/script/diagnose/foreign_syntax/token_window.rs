@@ -1,4 +1,4 @@
-//! Tokens around the position of a parse error.
+//! Tokens around the position of a syntax error.
 
 use rhai::{ParseErrorType, Position, Token};
 
@@ -16,7 +16,7 @@ struct Word {
     is_joined: bool,
 }
 
-/// Tokens around the position of a parse error.
+/// Tokens around the position of a syntax error.
 pub struct TokenWindow<'s> {
     pub catalog: &'s Catalog,
     pub error: &'s ParseErrorType,
@@ -24,12 +24,12 @@ pub struct TokenWindow<'s> {
     here: usize,
     first: usize,
     place: Position,
-    /// Text between the position and the token before it, including comments.
+    /// Text between the position and the previous token, including comments.
     gap: String,
 }
 
 impl<'s> TokenWindow<'s> {
-    /// Tokens of `program` around `place`.
+    /// Collects the tokens of `program` around `place`.
     pub fn of(
         program: &Program,
         catalog: &'s Catalog,
@@ -58,7 +58,7 @@ impl<'s> TokenWindow<'s> {
         }
         let here = found - start;
         let gap = here.checked_sub(1).and_then(|last| {
-            // Inside unclosed strings, token positions are not guaranteed to increase.
+            // Within a string that is not closed, token positions need not increase.
             program.text.get(ends[last]..ends[last + 1])
         });
         let gap = gap.unwrap_or_default().to_owned();
@@ -66,12 +66,12 @@ impl<'s> TokenWindow<'s> {
         Self { catalog, error, words, here, first, place, gap }
     }
 
-    /// Token at this offset from the position of the error; empty if there is none.
+    /// Token at the given offset from the position of the error; empty if there is none.
     pub fn word(&self, from_here: isize) -> &str {
         self.find(from_here).map_or("", |word| word.text.as_str())
     }
 
-    /// Token at this offset from the beginning of the statement.
+    /// Token at the given index from the start of the statement.
     pub fn in_statement(&self, index: usize) -> &str {
         self.words.get(self.first + index).map_or("", |word| word.text.as_str())
     }
@@ -80,7 +80,7 @@ impl<'s> TokenWindow<'s> {
         self.here - self.first
     }
 
-    /// Returns true if no blank precedes the token at this offset.
+    /// Returns true if no blank precedes the token at the given offset.
     pub fn is_joined(&self, from_here: isize) -> bool {
         self.find(from_here).is_some_and(|word| word.is_joined)
     }
@@ -93,7 +93,7 @@ impl<'s> TokenWindow<'s> {
         self.word(from_here).starts_with(|letter: char| letter.is_ascii_digit())
     }
 
-    /// Returns true if the token at this offset begins a value: a number, text or name.
+    /// Returns true if the token at the given offset starts a value: a number, text or name.
     pub fn is_value(&self, from_here: isize) -> bool {
         self.is_name(from_here) || self.is_number(from_here) || self.is_text(from_here)
     }
@@ -102,7 +102,7 @@ impl<'s> TokenWindow<'s> {
         self.word(from_here).starts_with(['"', '`', '\''])
     }
 
-    /// Offset and text of the first token of the statement, up to two tokens after the error, that is in `sought`.
+    /// Offset and text of the first token of the statement that is in `sought`. The search ends two tokens after the error.
     pub fn find_word(&self, sought: &[&str]) -> Option<(isize, &str)> {
         let last = (self.here + 3).min(self.words.len());
         let mut words = self.words.get(self.first..last)?.iter().enumerate();
@@ -128,7 +128,7 @@ impl<'s> TokenWindow<'s> {
         self.first as isize - self.here as isize
     }
 
-    /// Missing token that the parser reported, and the explanation of the parser.
+    /// Token that the parser reported as missing, and the explanation by the parser.
     pub fn missing(&self) -> (&str, &str) {
         match self.error {
             ParseErrorType::MissingToken(token, why) => (token, why),
@@ -140,7 +140,7 @@ impl<'s> TokenWindow<'s> {
         self.here >= self.words.len()
     }
 
-    /// Explanation at the position of the token at this offset.
+    /// Creates an explanation for the position of the token at the given offset.
     pub fn explain(
         &self,
         from_here: isize,

@@ -1,9 +1,9 @@
-//! Outputs of the controllers of a simulation. The cells of the scene may be shared with other simulations, so each simulation restores its own
-//! values before it is used.
+//! Outputs of the controllers of a simulation. The cells of the scene that contain them may be shared with other simulations. Hence each simulation
+//! restores its own values before it is used.
 
 use std::cell::RefCell;
 
-/// Output of each controller over time [time]; only changes are stored.
+/// Output of each controller as a function of time, stored as (time, output) at each change [time].
 #[derive(Debug, Clone, Default)]
 pub(super) struct Commands(RefCell<Vec<Vec<(f64, f64)>>>);
 
@@ -23,7 +23,7 @@ impl Commands {
         spoken.checked_sub(1).map_or(0.0, |last| own[last].1)
     }
 
-    /// Records an output from a time on. Later outputs are dropped, because they were computed before a rewind.
+    /// Records the output from a time on. Outputs for later times are dropped, because they were computed before a rewind.
     pub(super) fn record(&self, controller: usize, time: f64, command: f64) {
         let mut all = self.0.borrow_mut();
         let Some(own) = all.get_mut(controller) else { return };

@@ -1,4 +1,4 @@
-//! Companion runs: the scene and the functions of a simulation from its start, on another mesh or with other steps.
+//! Companion runs. They repeat a simulation from its start, with its scene and functions, but on another mesh or with other steps.
 
 use std::rc::Rc;
 
@@ -22,16 +22,16 @@ pub enum RunStart {
     Scene,
     /// Equilibrium.
     Equilibrium(EquilibriumHandle),
-    /// Saved simulation, whose start is not stored.
+    /// Saved simulation. Its start is not stored.
     Loaded,
 }
 
-/// Discretisation of a companion run, relative to that of the simulation.
+/// Discretisation of a companion run, in comparison with the simulation.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Companion {
-    /// Number of spans.
+    /// Ratio of the numbers of spans.
     pub span_ratio: f64,
-    /// Step size; a whole power of two.
+    /// Ratio of the step sizes, which is an integer power of two.
     pub step_ratio: f64,
 }
 
@@ -39,7 +39,7 @@ const NO_FILES: &str = "companion runs repeat the functions of a simulation and 
     files; write them after the run";
 
 impl SimulationHandle {
-    /// Starts a simulation of a scene on a mesh with another number of spans, which is not reported.
+    /// Starts a simulation of a scene on a mesh with another number of spans. It is not added to the report.
     pub fn start_refined(
         scene: &SceneHandle,
         span_ratio: f64,
@@ -54,7 +54,7 @@ impl SimulationHandle {
         Ok(handle)
     }
 
-    /// Runs to a time. What the functions of the simulation print is dropped, and their checks do not count.
+    /// Runs to a time. Output that the functions of the simulation print is discarded, and their checks do not count.
     pub fn run_silently(&self, end: f64, context: &Context) -> Result<(), ScriptError> {
         let checks = context.with_checks(|checks| checks.clone());
         let ran = context.without_output_or_files(NO_FILES, || self.run_to(context, end));
@@ -86,7 +86,7 @@ impl SimulationHandle {
         Ok(scene.with_span_ratio(companion.span_ratio)?)
     }
 
-    /// Settings of a companion run. The tolerance of adaptive steps follows the step size.
+    /// Settings of a companion run. For adaptive steps, the tolerance is changed according to the ratio of step sizes.
     pub fn companion_settings(&self, companion: Companion) -> SimulationSettings {
         let settings = *self.simulation().settings();
         let dt = match settings.dt {
@@ -101,10 +101,10 @@ impl SimulationHandle {
         SimulationSettings { dt, ..settings }
     }
 
-    /// Runs a companion to the present time of this simulation. Its functions are called again; what they print is dropped.
+    /// Runs a companion to the present time of this simulation. Script functions are called again; what they print is discarded.
     ///
     /// # Errors
-    /// Fails if the companion cannot be started, does not reach the time, or a function depends on its earlier calls.
+    /// Fails if the companion cannot be started or does not reach the time, or if the result of a function depends on its earlier calls.
     pub fn run_companion(
         &self,
         companion: Companion,
@@ -135,14 +135,14 @@ impl SimulationHandle {
         let captured = CapturedVariables::of(self)?;
         let ran =
             handle.evaluate_columns().and_then(|()| handle.run_silently(self.time(), context));
-        // The outputs of controllers are shared with this simulation.
+        // The companion has changed the outputs of controllers, which it shares with this simulation. They are restored here.
         self.with_simulation_mut(|_| ());
         captured.expect_unchanged()?;
         ran.map(|()| handle)
     }
 }
 
-/// Variables that the functions of a simulation have captured, with their values before a companion run.
+/// Values of the variables that the functions of a simulation have captured, stored before a companion run.
 struct CapturedVariables(Vec<CapturedVariable>);
 
 struct CapturedVariable {
@@ -176,7 +176,8 @@ impl CapturedVariables {
         Ok(Self(values))
     }
 
-    /// Restores the variables. Fails if a function has changed one, because a companion run would need its value at the start of the simulation.
+    /// Restores the variables. Fails if a function has changed a variable, because a companion run would need its value from the start of the
+    /// simulation.
     fn expect_unchanged(self) -> Result<(), ScriptError> {
         let mut changed = None;
         for CapturedVariable { role, mut shared, value } in self.0 {

@@ -1,4 +1,4 @@
-//! Temporary replacement of a simulation by a copy at an earlier state. All handles then refer to the copy.
+//! Temporary replacement of a simulation by a copy in an earlier state. Meanwhile all handles refer to the copy.
 
 use std::cell::{Ref, RefCell};
 use std::rc::Rc;
@@ -9,17 +9,17 @@ use crate::script::messages::error::ScriptError;
 use crate::script::state::context::Context;
 use crate::simulation::Simulation;
 
-/// Replacement of a simulation by a copy. The original is restored on drop.
+/// Replacement of a simulation by a copy. The original is put back when this object is dropped.
 pub struct Revisit {
     handle: SimulationHandle,
-    /// The original; while the original is in place, the copy.
+    /// The original simulation. If the original is in use, it is the copy.
     original: RefCell<Simulation>,
     events: Events<Rc<StoredFunction>>,
     is_ending_told: bool,
 }
 
 impl Revisit {
-    /// Replaces a simulation by a copy at the present time.
+    /// Replaces a simulation by a copy of its present state.
     ///
     /// # Errors
     /// Fails if the scene cannot be built again.
@@ -28,7 +28,7 @@ impl Revisit {
         Ok(Self::with(handle, copy))
     }
 
-    /// Replaces a simulation by a copy at the start, to repeat the run.
+    /// Replaces a simulation by a copy of its initial state, so that the run can be repeated.
     ///
     /// # Errors
     /// Fails if the scene cannot be built again.
@@ -52,12 +52,12 @@ impl Revisit {
         self.original.borrow()
     }
 
-    /// Step count and time of the copy.
+    /// Number of steps and time of the copy.
     pub fn place(&self) -> (usize, f64) {
         (self.handle.simulation().counts().steps, self.handle.time())
     }
 
-    /// Restores a stored state in the copy. Returns false if the state is not stored.
+    /// Restores a stored state in the copy. Returns false if this state is not stored.
     ///
     /// # Errors
     /// Fails if the scene cannot be built again.
@@ -65,10 +65,10 @@ impl Revisit {
         Ok(self.handle.0.simulation.borrow_mut().revisit(&self.original(), steps)?)
     }
 
-    /// Advances the copy to a row of the original's history. Returns true if energies and momenta are equal.
+    /// Advances the copy to a row in the history of the original. Returns true if energies and momenta are equal.
     ///
     /// # Errors
-    /// Fails if a step fails that did not fail before, or the run is stopped.
+    /// Fails if a step fails that did not fail in the original run, or if the run is stopped.
     pub fn run_again(&self, row: usize, context: &Context) -> Result<bool, ScriptError> {
         loop {
             self.handle.command()?;
@@ -86,7 +86,7 @@ impl Revisit {
 impl Drop for Revisit {
     fn drop(&mut self) {
         self.handle.0.simulation.swap(&self.original);
-        // The expression may have advanced the copy and called scheduled functions.
+        // The expression may have advanced the copy and called scheduled functions, so these are reset.
         self.handle.0.events.replace(self.events.clone());
         self.handle.0.is_ending_told.set(self.is_ending_told);
     }

@@ -1,4 +1,4 @@
-//! Columns filled by script functions.
+//! Columns, controllers and release conditions, which script functions evaluate between steps.
 
 use std::cell::{Cell, RefCell};
 use std::collections::BTreeMap;
@@ -20,12 +20,12 @@ use crate::simulation::{Simulation, StepSize};
 
 pub(super) struct ColumnReader {
     functions: Vec<Rc<StoredFunction>>,
-    /// Step count at the last evaluation of the columns.
+    /// Number of steps at the last evaluation of the columns.
     evaluated_at: Cell<Option<usize>>,
     controllers: Vec<Rc<Controller>>,
-    /// Outputs of sampled controllers by sample number. Outputs up to the present are kept in a rewind.
+    /// Outputs of sampled controllers, by number of the sample. Those up to the present time are kept in a rewind.
     commands: RefCell<Vec<BTreeMap<u64, f64>>>,
-    /// Outputs of all controllers over time.
+    /// Outputs of all controllers as functions of time.
     outputs: Commands,
     conditions: Vec<Condition>,
     is_looking: Cell<bool>,
@@ -66,14 +66,14 @@ impl ColumnReader {
         }
     }
 
-    /// Restores the outputs of the controllers of this simulation before a time, because another simulation may have changed the shared cells.
+    /// Sets the outputs of the controllers to the values of this simulation before a time. Another simulation may have changed the shared cells.
     fn recall(&self, time: f64) {
         for (number, controller) in self.controllers.iter().enumerate() {
             controller.value.set(self.outputs.before(number, time));
         }
     }
 
-    /// Rejects an advance or rewind of the simulation by a function that may only read it.
+    /// Rejects a call that would advance or rewind the simulation, if it is made by a function that may only read it.
     pub fn expect_idle(&self) -> Result<(), ScriptError> {
         match self.is_looking.get() {
             false => Ok(()),
@@ -86,7 +86,7 @@ impl ColumnReader {
 }
 
 impl SimulationHandle {
-    /// Calls a function that needs temporary write access to the simulation in the current variant.
+    /// Calls a function that needs write access to the simulation for a short time, in the variant of the present call.
     pub fn with_simulation_mut<T>(&self, look: impl FnOnce(&mut Simulation) -> T) -> T {
         let run = &mut *self.0.simulation.borrow_mut();
         self.0.sensing.recall(run.time());
@@ -98,10 +98,10 @@ impl SimulationHandle {
         look(run)
     }
 
-    /// Evaluates the functions of the columns for the last row, unless they were evaluated.
+    /// Evaluates the functions of the columns for the last row, unless this has been done.
     ///
     /// # Errors
-    /// Errors of the functions; also fails if a function does not return a number.
+    /// Errors of the functions, or an error if a function does not return a number.
     pub fn evaluate_columns(&self) -> Result<(), ScriptError> {
         let ColumnReader { functions, evaluated_at, is_looking, .. } = &self.0.sensing;
         let steps = self.simulation().counts().steps;
@@ -125,10 +125,10 @@ impl SimulationHandle {
         Ok(())
     }
 
-    /// Releases elements whose condition is met, before the next step.
+    /// Executes releases whose condition is met, before the next step.
     ///
     /// # Errors
-    /// Errors of the functions; also fails if a function does not return a boolean.
+    /// Errors of the functions, or an error if a function does not return a boolean.
     fn release_due(&self) -> Result<(), ScriptError> {
         let ColumnReader { conditions, is_looking, .. } = &self.0.sensing;
         for Condition { function, release } in conditions {
@@ -158,7 +158,7 @@ impl SimulationHandle {
     /// Evaluates release conditions and controllers for the next step or half step.
     ///
     /// # Errors
-    /// Errors of the functions; also fails if a function does not return a finite number.
+    /// Errors of the functions, or an error if a function does not return a finite number.
     pub(super) fn command(&self) -> Result<(), ScriptError> {
         if !self.simulation().is_paused_in_step() {
             self.release_due()?;
@@ -171,12 +171,12 @@ impl SimulationHandle {
             };
             sensing.outputs.record(number, time, value);
         }
-        // All outputs take effect together, so that every controller reads the previous outputs of the others.
+        // All outputs change at the same time, so that every controller reads the previous outputs of the others.
         sensing.recall(time.next_up());
         Ok(())
     }
 
-    /// Output of a sampled controller. It is computed at the time of a sample, and constant in between; zero before the first output.
+    /// Output of a sampled controller. It is computed at the times of samples, and constant between them. It is zero before the first output.
     fn sampled_command(
         &self,
         number: usize,
@@ -236,7 +236,8 @@ impl SimulationHandle {
         !controllers.is_empty() || conditions.iter().any(waits)
     }
 
-    /// Runs to a time. The run pauses at recorded steps if functions fill columns, and before every step if functions control the simulation.
+    /// Runs to a time. If functions fill columns, the run pauses at recorded steps. If functions control the simulation, it pauses before every
+    /// step.
     pub(super) fn run_with_callbacks(
         &self,
         context: &Context,
@@ -252,7 +253,7 @@ impl SimulationHandle {
         self.restore_after_error(stepped)
     }
 
-    /// Restores the start of the step after an error or interruption.
+    /// After an error or interruption, restores the start of the step.
     fn restore_after_error(&self, ran: Result<(), ScriptError>) -> Result<(), ScriptError> {
         ran.inspect_err(|_| self.0.simulation.borrow_mut().restore_step_start())
     }
@@ -261,7 +262,7 @@ impl SimulationHandle {
         let steps = self.simulation().counts().steps;
         loop {
             self.command()?;
-            // The number of substeps is not known in advance, so the step is always completed.
+            // The number of substeps is not known in advance. Therefore the step is always completed.
             let mut watch = ProgressMonitor::new(context, f64::NEG_INFINITY);
             watch.pauses = self.varies_steps() && self.is_controlled();
             let stepped = self.0.simulation.borrow_mut().step(&mut watch);

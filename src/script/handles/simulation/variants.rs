@@ -1,4 +1,4 @@
-//! Access to a simulation in the current variant of its parameters.
+//! Access to a simulation in the variant of the present call.
 
 use std::cell::Ref;
 
@@ -28,7 +28,7 @@ impl SimulationHandle {
         })
     }
 
-    /// Reads the rows of the history between two times, in the variant of the current call.
+    /// Calls a function with the rows of the history between two times, in the variant of the present call.
     pub fn read_history<T>(&self, times: (f64, f64), read: impl FnOnce(&History) -> T) -> T {
         let run = self.0.simulation.borrow();
         let beside = Self::present_side(&run);
@@ -47,7 +47,7 @@ impl SimulationHandle {
         self.0.simulation.borrow()
     }
 
-    /// Parameter and side of the perturbed variant of the current call; `None` in variant 0.
+    /// Parameter that the variant of the present call perturbs, and the sign of the perturbation; `None` in variant 0.
     pub(super) fn present_side(run: &Simulation) -> Option<(usize, PerturbedSide)> {
         let (parameter, is_plus) = ParameterSet::side_of_variant(present()?.variant)?;
         run.parameters().next()?;

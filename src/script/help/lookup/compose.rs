@@ -14,10 +14,10 @@ use crate::script::diagnose::foreign_names;
 use crate::script::library::{DocBlock, pages};
 use crate::script::messages::numbers::format_number;
 
-/// Help page on `name`, or the overview for an empty name.
+/// Help page for `name`, or the overview if the name is empty.
 ///
 /// # Errors
-/// Fails if there is no help on this name; the error contains suggestions.
+/// Fails if there is no help for this name. The error contains suggestions.
 pub fn page(catalog: &Catalog, name: &str) -> Result<HelpPage, UnknownTopic> {
     if name.trim().is_empty() {
         return Ok(overview(catalog));

@@ -1,4 +1,4 @@
-//! Lookup of help subjects. A name may refer to several subjects.
+//! Search for help subjects. A name may refer to several subjects.
 
 use std::collections::BTreeSet;
 
@@ -21,16 +21,16 @@ pub enum HelpSubject {
     Option(&'static FunctionBinding, &'static Parameter),
     /// A domain.
     Table(&'static BindingTable),
-    /// Functions of Rhai for one kind of value.
+    /// Functions of Rhai for one type of value.
     BuiltIns(&'static BuiltInTable),
     Module(&'static ModulePage),
     ModuleFunction(&'static ModuleFunction),
 }
 
-/// All subjects of `name`, the most likely first.
+/// All subjects that `name` may refer to, the most likely one first.
 ///
-/// For `simulation.run_to` the subject is the method of that type. If the prefix is not a type, as in `sim.run_to`, the methods of all types are
-/// returned.
+/// `simulation.run_to` refers to the method of the type `simulation`. If the text before the dot is not a type, as in `sim.run_to`, the methods of
+/// all types are returned.
 pub fn find(catalog: &Catalog, name: &str) -> Vec<HelpSubject> {
     let name = name.trim();
     let name = name.strip_suffix("()").filter(|name| !name.is_empty()).unwrap_or(name);
@@ -41,7 +41,7 @@ pub fn find(catalog: &Catalog, name: &str) -> Vec<HelpSubject> {
     if let Some(page) = page_of(&format!("std/{name}")) {
         return vec![HelpSubject::Module(page)];
     }
-    // `viewer` finds the domain `viewers`.
+    // For example, `viewer` refers to the domain `viewers`.
     let singular = |table: &&'static BindingTable| table.name.strip_suffix('s') == Some(name);
     if let Some(table) = catalog.tables().find(singular) {
         return vec![HelpSubject::Table(table)];
@@ -54,7 +54,7 @@ pub fn find(catalog: &Catalog, name: &str) -> Vec<HelpSubject> {
     if of_owner.is_empty() { members } else { of_owner }
 }
 
-/// All names with help, sorted, for completion and suggestions.
+/// All names with help, in alphabetical order, for completion and suggestions.
 pub fn names(catalog: &Catalog) -> BTreeSet<&'static str> {
     let mut names = BTreeSet::new();
     for table in catalog.tables() {
@@ -136,7 +136,7 @@ fn is_member(subject: HelpSubject) -> bool {
     matches!(subject, HelpSubject::Row(..) | HelpSubject::BuiltIn(_))
 }
 
-/// Returns true for methods and properties of the type. Functions belong to no type, because they can follow any value.
+/// Returns true if the subject is a method or property of the type. Functions belong to no type, because they can follow a value of any type.
 fn belongs_to(subject: HelpSubject, owner: &str) -> bool {
     match subject {
         HelpSubject::Row(_, row) => match row.form {

@@ -1,4 +1,4 @@
-//! Help pages as data, and their rendering as plain or coloured text.
+//! Help pages as data, and their conversion to plain or coloured text.
 
 use crate::output::{columns, columns_of};
 
@@ -16,14 +16,14 @@ pub struct HelpPage {
 pub enum HelpSection {
     /// An empty line.
     Gap,
-    /// Wrapped text: the first line starts at `indent`, the others at `hang`.
+    /// Text to be wrapped. The first line starts at `indent`, the following lines at `hang`.
     Words {
         indent: usize,
         /// Indentation of further lines.
         hang: usize,
         spans: Vec<StyledText>,
     },
-    /// A script. Long lines are broken where this does not change the meaning.
+    /// Script. Long lines are broken at places where this does not change the meaning.
     Code(String),
 }
 
@@ -36,9 +36,9 @@ pub struct StyledText {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum HelpStyle {
     Plain,
-    /// Heading or name: bold.
+    /// Heading or name, shown in bold.
     Name,
-    /// Dimension or remark: dim.
+    /// Dimension or remark, shown dim.
     Remark,
 }
 
@@ -65,13 +65,13 @@ impl HelpPage {
         self.words(0, vec![StyledText::name(text)]);
     }
 
-    /// Appends wrapped text with a hanging indent.
+    /// Appends wrapped text whose first line and further lines may have different indentation.
     pub fn words(&mut self, indent: usize, spans: Vec<StyledText>) {
         self.parts.push(HelpSection::Words { indent, hang: indent + 4, spans });
     }
 
     pub fn paragraph(&mut self, text: &str) {
-        // Backquotes mark code in Markdown. They are removed for terminals.
+        // Backquotes mark code in Markdown. They are removed in a terminal.
         let spans = vec![StyledText::plain(text.replace('`', ""))];
         self.parts.push(HelpSection::Words { indent: 0, hang: 0, spans });
     }
@@ -80,12 +80,12 @@ impl HelpPage {
         self.parts.push(HelpSection::Code(script.into()));
     }
 
-    /// Page as plain text, with lines of at most `width` columns where they can be broken.
+    /// Page as plain text. Lines have at most `width` columns if they can be broken.
     pub fn plain(&self, width: usize) -> String {
         self.draw(width, |_, word| word.to_owned())
     }
 
-    /// Page as text with ANSI sequences, with lines of at most `width` columns.
+    /// Page as text with ANSI sequences. Lines have at most `width` columns if they can be broken.
     pub fn ansi(&self, width: usize) -> String {
         self.draw(width, |style, word| match style {
             HelpStyle::Plain => word.to_owned(),
@@ -142,7 +142,7 @@ fn wrap(
     text.push('\n');
 }
 
-/// Splits spans into words. Consecutive spans are joined unless there is a blank between them.
+/// Splits spans into words. Two consecutive spans are joined if there is no blank between them.
 fn words(spans: &[StyledText]) -> Vec<Vec<StyledText>> {
     let mut words = vec![Vec::new()];
     for span in spans {
@@ -161,7 +161,8 @@ fn words(spans: &[StyledText]) -> Vec<Vec<StyledText>> {
     words
 }
 
-/// Breaks a line of a script at `width`, at a blank outside strings after a comma, semicolon, brace, && or ||. A line with a comment is not broken.
+/// Breaks a line of a script at `width`. Possible places are blanks outside strings after a comma, semicolon, brace, && or ||. A line with a
+/// comment is not broken.
 pub(super) fn wrapped_code(line: &str, width: usize) -> Vec<String> {
     let mut pieces = Vec::new();
     let mut rest = line.to_owned();
@@ -175,7 +176,7 @@ pub(super) fn wrapped_code(line: &str, width: usize) -> Vec<String> {
     pieces
 }
 
-/// Byte index of the last possible break within `width` characters.
+/// Byte index of the last place within `width` characters at which the line can be broken.
 fn last_break(line: &str, width: usize) -> Option<usize> {
     let mut quote = None;
     let mut previous = ' ';

@@ -1,4 +1,4 @@
-//! Help on bindings: signature, parameters, example.
+//! Help for bindings: signature, parameters, example.
 
 use super::page::{HelpPage, StyledText};
 use crate::script::bindings::built_in::BuiltIn;
@@ -58,7 +58,7 @@ pub fn see(page: &mut HelpPage, names: &[&str]) {
     }
 }
 
-/// Appends the description of a parameter or key, and of the keys of its option map.
+/// Appends the description of a parameter or key. If it is an option map, its keys are described too.
 pub fn parameter(page: &mut HelpPage, parameter: &Parameter, indent: usize) {
     let mut spans = vec![StyledText::name(parameter.name), StyledText::plain(": ")];
     spans.extend(expectation(parameter));
@@ -94,7 +94,7 @@ pub fn presence(presence: Presence) -> String {
     }
 }
 
-/// Option maps that a kind allows.
+/// Option maps that are allowed by a type.
 pub fn maps(kind: &Kind) -> Vec<&'static [Parameter]> {
     match kind {
         Kind::Options(keys) => vec![*keys],

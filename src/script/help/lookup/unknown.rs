@@ -1,4 +1,4 @@
-//! Names without help, and suggestions.
+//! Names for which there is no help, with suggestions.
 
 use std::fmt;
 
@@ -12,7 +12,7 @@ const MOST_MENTIONS: usize = 8;
 #[derive(Clone, Debug, PartialEq)]
 pub struct UnknownTopic {
     pub name: String,
-    /// Most similar name with help, if one is similar enough.
+    /// Most similar name with help; `None` if no name is similar enough.
     pub meant: Option<&'static str>,
     /// Names with help that contain the word.
     pub related: Vec<&'static str>,
@@ -25,7 +25,7 @@ impl UnknownTopic {
     pub fn new(catalog: &Catalog, name: &str) -> Self {
         let known = names(catalog);
         let related = related(name, known.iter().copied());
-        // A word that occurs in other names is not misspelt.
+        // A word that is part of other names is not misspelt.
         let meant = if related.is_empty() { nearest(name, known) } else { None };
         Self { name: name.to_owned(), meant, related, mentions: mentions(catalog, name) }
     }
@@ -58,7 +58,7 @@ impl fmt::Display for UnknownTopic {
 
 fn mentions(catalog: &Catalog, word: &str) -> Vec<&'static str> {
     let word = word.trim().to_lowercase();
-    // Shorter words would be found in nearly all texts.
+    // Shorter words occur in nearly all texts.
     if word.chars().count() < 3 {
         return Vec::new();
     }

@@ -1,4 +1,4 @@
-//! Pictures of history columns over time, and of the drift of invariants.
+//! Pictures of history columns as functions of time, and of the drift of invariants.
 
 use rhai::Dynamic;
 

@@ -1,4 +1,4 @@
-//! Pictures of motion, and their options, for files and the prompt.
+//! Pictures of motion, with their options, for files and for the prompt.
 
 use rhai::{Dynamic, Map};
 
@@ -67,7 +67,8 @@ pub fn plot_motion(call: &mut Call) -> Result<Dynamic, ScriptError> {
     }
 }
 
-/// Picture as text for a terminal, with options typed at the prompt. It shows only the present configuration unless other times are requested.
+/// Picture as text for a terminal, with options that were typed at the prompt. It shows only the present configuration unless other times are
+/// requested.
 ///
 /// # Errors
 /// Fails if an option is unknown or invalid, or the interval is empty.

@@ -1,4 +1,4 @@
-//! Common options of charts.
+//! Options that charts have in common.
 
 use rhai::{Array, Dynamic};
 
@@ -36,7 +36,7 @@ pub const SYMBOLS: Parameter = boolean("symbols")
 
 const DIGITS: usize = 6;
 
-/// Error of an option of a call or of a command at the prompt.
+/// Error of an option, in a script call or in a command at the prompt.
 pub struct OptionError {
     key: String,
     message: String,
@@ -131,7 +131,8 @@ pub fn labels(options: &Options, count: usize) -> Result<Option<Vec<String>>, Op
     labels.map(Some).ok_or_else(|| wrong(message(), "for example labels: [\"first\", \"second\"]"))
 }
 
-/// Curves from an argument: an array of numbers is one curve, an array of arrays several. Values that are not finite become gaps.
+/// Curves from an argument. An array of numbers is one curve, and an array of arrays contains several curves. Values that are not finite become
+/// gaps.
 pub fn curves(call: &Call, name: &str, at: usize) -> Result<Vec<Vec<f64>>, ScriptError> {
     let given = call.array(name)?;
     let is_many = !given.is_empty() && given.iter().all(Dynamic::is_array);

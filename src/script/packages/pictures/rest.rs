@@ -158,7 +158,7 @@ fn plot_modes(call: &mut Call) -> Result<Dynamic, ScriptError> {
     };
     let at_rest = draw(modes.points());
     let size = modes.size() * options.number("amplitude")?;
-    // One polyline for all beams and bodies, with gaps in between.
+    // All beams and bodies form one polyline, with gaps between them.
     let gap = (f64::NAN, f64::NAN);
     let lines = at_rest.lines.iter().chain(&at_rest.bodies);
     let at_rest: Vec<(f64, f64)> =

@@ -1,4 +1,4 @@
-//! Subjects of pictures and files: simulations, histories, stations.
+//! Simulations, histories and stations that are shown in pictures and written to files.
 
 use rhai::{Array, Dynamic};
 
@@ -47,7 +47,7 @@ pub fn simulations(call: &Call) -> Result<Vec<SimulationHandle>, ScriptError> {
     things(call, as_simulation)
 }
 
-/// Non-empty histories of the argument.
+/// Histories in the argument. Fails if one of them is empty.
 pub fn histories(call: &Call) -> Result<Vec<HistoryHandle>, ScriptError> {
     let histories = things(call, as_history)?;
     match histories.iter().find(|of| of.read(|rows| rows.samples().is_empty())) {
@@ -56,7 +56,7 @@ pub fn histories(call: &Call) -> Result<Vec<HistoryHandle>, ScriptError> {
     }
 }
 
-/// Histories of the argument, restricted to those with rows between the ends of runs.
+/// Histories in the argument. Fails if one of them is empty or has rows only at the ends of runs.
 pub fn histories_over_time(call: &Call) -> Result<Vec<HistoryHandle>, ScriptError> {
     let histories = histories(call)?;
     histories.iter().try_for_each(|history| expect_rows_between(call, &history.of))?;
@@ -77,7 +77,7 @@ pub fn plain(point: &Vec2) -> (f64, f64) {
     (point.x, point.y)
 }
 
-/// Stations in an array; `at` is its position in the call.
+/// Stations in an array. `at` is the position of the array in the call.
 pub fn stations(
     call: &Call,
     array: &Array,

@@ -7,7 +7,7 @@ use crate::joints::{EndAction, Slider, StartVelocities, TrackBeam, TrackDirectio
 use crate::script::bindings::kind::Details;
 use crate::system::{BeamDefinition, Scene};
 
-/// Summary of a scene: its objects by kind.
+/// Summary of a scene: its objects by type.
 pub fn of_scene(scene: &Scene) -> Details {
     let beam = |beam: &BeamDefinition| format!("{} ({})", beam.name, number(beam.axis.length()));
     let loads: Vec<String> = scene.loads().map(|load| load.name.clone()).collect();
@@ -66,7 +66,7 @@ pub fn of_beam(scene: &Scene, index: usize) -> Details {
     lines.into_iter().flatten().collect()
 }
 
-/// Summary of a rigid body: undeformed position, inertia, and points in the body frame.
+/// Summary of a rigid body: initial position, inertia, and points in the body frame.
 pub fn of_rigid_body(scene: &Scene, index: usize) -> Details {
     let body = &scene.rigid_bodies[index];
     let centre = Station::on_rigid_body(index, 0);
@@ -86,7 +86,7 @@ pub fn of_rigid_body(scene: &Scene, index: usize) -> Details {
     lines.into_iter().flatten().collect()
 }
 
-/// Summary of a station: undeformed position.
+/// Summary of a station: initial position.
 pub fn of_station(scene: &Scene, station: &Station) -> Details {
     let along = match station.body {
         BodyIndex::Beam(beam) => {
@@ -117,7 +117,7 @@ pub fn of_section(section: &Section) -> Details {
     properties.into_iter().map(|(label, value)| line(label, number(value))).chain(speeds).collect()
 }
 
-/// Description of the beam or track of a slider, and its start as a fraction of the length.
+/// Description of the beam or track of a slider, and the place at which the slider starts, as a fraction of the length.
 pub fn guide_of(scene: &Scene, slider: &Slider) -> (String, f64) {
     let Slider { master, arc_length, track, .. } = *slider;
     match track {
@@ -170,11 +170,13 @@ pub fn of_slider(scene: &Scene, index: usize) -> Details {
         StartVelocities::Check => "must be compatible with the beam",
         StartVelocities::Project => "are projected to the beam",
     };
-    vec![
+    let friction = (slider.friction > 0.0).then(|| line("friction", number(slider.friction)));
+    let lines = vec![
         line("slides", scene.describe(&slider.slave)),
         line("on", format!("{}, from {} of its length", guide.0, number(guide.1))),
         line("rule", slider.rule.entry().name),
         line("at the ends", ends),
         line("start velocities", velocities),
-    ]
+    ];
+    lines.into_iter().chain(friction).collect()
 }

@@ -1,4 +1,4 @@
-//! Quantities that colour beams in the viewer, from recorded configurations or from full states.
+//! Quantities by which the viewer colours beams, computed from recorded configurations or from complete states.
 
 use super::FrameSelection;
 use crate::geometry::Vec2;
@@ -13,9 +13,9 @@ struct FieldKind {
 }
 
 enum FieldSource {
-    /// Configurations before and after a frame: speed of the axis [length/time].
+    /// Speed of the axis, computed from the configurations before and after a frame [length/time].
     AdjacentFrames,
-    /// Configuration of a frame: a function of the axis, and its dimension.
+    /// Function of the axis in the configuration of a frame, and the dimension of its value.
     Axis(fn(&AxisStation, &[Vec2]) -> f64, &'static str),
     State,
 }
@@ -24,8 +24,8 @@ const fn kind(name: &'static str, source: FieldSource) -> FieldKind {
     FieldKind { name, source }
 }
 
-/// All fields, in the order of [`FIELDS`]. The stretch is the relative elongation of the axis [-]; the curvature is its change from the undeformed
-/// axis [1/length].
+/// All fields, in the order of [`FIELDS`]. The stretch is the relative elongation of the axis [-]. The curvature is the change of the axis
+/// curvature since the start [1/length].
 const KINDS: [FieldKind; 7] = [
     kind("speed", FieldSource::AdjacentFrames),
     kind("M", FieldSource::State),
@@ -46,7 +46,7 @@ pub struct FieldReader {
 }
 
 impl FieldReader {
-    /// Creates storage for the named fields in this number of frames; `None` if no field needs states.
+    /// Creates storage for the named fields in this number of frames. `None` if none of the fields needs states.
     ///
     /// # Errors
     /// Fails if an axis has a point without a tangent.
@@ -73,7 +73,7 @@ impl FieldReader {
         Ok(Some(Self { beams: meshes.map(places).collect::<Result<_, SystemError>>()?, taken }))
     }
 
-    /// Stores the values of a frame from its state.
+    /// Computes the values of a frame from a state and stores them.
     pub fn store_frame(&mut self, frame: usize, state: &Simulation) {
         for places in &self.beams {
             let samples = state.sample_along(places);

@@ -1,4 +1,4 @@
-//! Reading and writing of files, counted against the limits of the run.
+//! Reading and writing of files, which count towards the limits of the run.
 
 use std::io::{self, Write};
 use std::path::PathBuf;
@@ -8,10 +8,10 @@ use crate::script::messages::error::ScriptError;
 use crate::script::state::files::WrittenFile;
 use crate::script::state::settings::RunMode;
 
-/// Memory per byte of a file, for the content and its parsed form.
+/// Memory needed for each byte of a file, which includes the content and its parsed form.
 const TIMES_ITS_LENGTH: u64 = 4;
 
-/// A file whose written bytes are counted, up to the limit. Writing fails as soon as the run must end.
+/// File whose written bytes are counted. Writing fails as soon as the run must end.
 struct CountedFile<'c> {
     file: &'c mut dyn Write,
     context: &'c Context,
@@ -33,20 +33,20 @@ impl Write for CountedFile<'_> {
 }
 
 impl Context {
-    /// Writes a file in the output folder. An existing file that was not written by this program is kept under another name, and a message tells the
-    /// user.
+    /// Writes a file in the output folder. If a file with this name exists and was not written by this program, it is kept under another name, and
+    /// the user gets a message.
     ///
-    /// # Errors
+    /// Fails if the file cannot be written or a limit of the run is exceeded.
     /// Fails if it cannot be written, or a limit of the run is exceeded.
     pub fn write_file(&self, name: &str, content: &[u8]) -> Result<PathBuf, ScriptError> {
         self.account_for(content)?;
         self.output().write(name, content).map(|written| self.report_kept(written))
     }
 
-    /// Writes a file in the output folder piece by piece and counts the bytes. An existing file is kept as in [`Self::write_file`].
+    /// Writes a file in the output folder piece by piece, and counts the bytes. An existing file is kept as described for [`Self::write_file`].
     ///
     /// # Errors
-    /// Fails if it cannot be written, or a limit of the run is exceeded.
+    /// Fails if the file cannot be written or a limit of the run is exceeded.
     pub fn write_file_by(
         &self,
         name: &str,
@@ -55,25 +55,25 @@ impl Context {
         self.account_for(&[])?;
         let written =
             self.output().write_by(name, |file| write(&mut CountedFile { file, context: self }));
-        // A run that must end has refused the write.
+        // A run that must end has refused to write. Its reason is reported.
         self.proceed()?;
         Ok(self.report_kept(written?))
     }
 
-    /// Writes a file that the script may [read](Self::read_file) again, also in a dry run. An existing file is kept as in
+    /// Writes a file that the script may [read](Self::read_file) later, also in a dry run. An existing file is kept as described for
     /// [`Self::write_file`].
     ///
-    /// # Errors
+    /// Fails if the file cannot be written or a limit of the run is exceeded.
     /// Fails if it cannot be written, or a limit of the run is exceeded.
     pub fn write_to_read(&self, name: &str, content: Vec<u8>) -> Result<PathBuf, ScriptError> {
         self.account_for(&content)?;
         self.output().write_to_read(name, content).map(|written| self.report_kept(written))
     }
 
-    /// Reads a file of the output folder or of the script's folder, up to the memory limit.
+    /// Reads a file in the output folder or in the folder of the script. Its size must be within the memory limit.
     ///
     /// # Errors
-    /// Fails if the file does not exist, is too long, or is not a regular file.
+    /// Fails if the file does not exist, is too large, or is not a regular file.
     pub fn read_file(&self, name: &str) -> Result<Vec<u8>, ScriptError> {
         let room = self.meter().limits().memory.map(|bytes| bytes / TIMES_ITS_LENGTH);
         self.output().read(name, room)
@@ -100,7 +100,7 @@ impl Context {
         written.path
     }
 
-    /// Writes a rescue file of a run that was stopped, if the limit on written bytes allows it.
+    /// Writes a rescue file of a run that was stopped, if the limit of written bytes allows it.
     pub(super) fn write_remains(&self, name: &str, content: &[u8]) -> Result<PathBuf, ScriptError> {
         let bytes = content.len() as u64;
         if self.mode() == RunMode::Run && bytes > self.meter().rescue_budget() {

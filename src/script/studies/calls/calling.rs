@@ -11,9 +11,9 @@ const LONGEST_REASON: usize = 300;
 
 pub enum CallOutcome {
     Returned(Dynamic),
-    /// The function threw an error, took too long, or a check failed, for this reason.
+    /// Reason of a failure: the function threw an error, it took too long, or a check failed.
     Failed(String),
-    /// The script seems to be wrong, for this reason.
+    /// Reason for which the script seems to be wrong.
     Wrong(String),
 }
 

@@ -18,7 +18,7 @@ const NO_FILES: &str = "a run of a study cannot write files: return the data as 
 pub enum FunctionResult {
     Numbers(Vec<f64>),
     Failed(String),
-    /// The script seems to be wrong, for this reason.
+    /// Reason for which the script seems to be wrong.
     Wrong(String),
 }
 

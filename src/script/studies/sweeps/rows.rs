@@ -11,9 +11,9 @@ use crate::script::studies::calls::calling::CallOutcome;
 pub enum RowOutcome {
     /// Names and numbers of the returned map.
     Computed(Arc<[String]>, Vec<f64>),
-    /// The function threw an error, or returned a value that is not a number, for this reason.
+    /// Reason of a failure: the function threw an error, or returned a value that is not a number.
     Failed(String),
-    /// The script seems to be wrong, for this reason.
+    /// Reason for which the script seems to be wrong.
     Wrong(String),
 }
 

@@ -1,10 +1,10 @@
-//! Shares of the degrees of freedom in the coordinates of an elongation, from the basis functions at its terminals.
+//! Coefficients that express the coordinates of an elongation by the degrees of freedom: the basis functions at its terminals.
 
 use super::{Elongation, ElongationEnd};
 use crate::linalg::BandRows;
 use crate::system::bodies::Body;
 
-/// Share of a degree of freedom in a coordinate: the value of its basis function at the terminal [-].
+/// Coefficient of a degree of freedom in a coordinate: the value of its basis function at the terminal [-].
 #[derive(Debug, Clone, Copy)]
 pub struct CoordinateShare {
     pub degree: usize,
@@ -13,7 +13,7 @@ pub struct CoordinateShare {
 }
 
 impl Elongation {
-    /// Finds the degrees of freedom of the coordinates in the current numbering.
+    /// Finds the degrees of freedom that move the terminals, in the current numbering.
     pub(super) fn locate(&mut self, bodies: &[Body]) {
         let components = self.components();
         let Self { terminals, shares, .. } = self;
@@ -38,7 +38,7 @@ impl Elongation {
         combine(&self.shares, values, &mut self.movements);
     }
 
-    /// Product of a slope and a correction of the increments: a first-order change of `q` [length, rad].
+    /// Product of a slope and a correction of the increments, that is, a first-order change of `q` [length, rad].
     pub fn along(&mut self, slope: &[f64], correction: &[f64]) -> f64 {
         let Self { shares, corrected, .. } = self;
         combine(shares, correction, corrected);
@@ -55,7 +55,7 @@ impl Elongation {
         }
     }
 
-    /// Adds the derivative of a force with respect to the coordinates, row by row, restricted to unknowns.
+    /// Adds the derivative of a force with respect to the coordinates, given row by row, to the rows and columns of the unknowns.
     pub fn scatter_tangent(&self, derivative: &[f64], unknowns: usize, rows: &mut BandRows<'_>) {
         let known = || self.shares.iter().filter(|share| share.degree < unknowns);
         let width = self.secant.len();
@@ -69,7 +69,7 @@ impl Elongation {
     }
 }
 
-/// Coordinates for values of the unknowns; supported degrees of freedom contribute nothing.
+/// Computes the coordinates from values of the unknowns. Supported degrees of freedom contribute nothing.
 fn combine(shares: &[CoordinateShare], values: &[f64], coordinates: &mut [f64]) {
     coordinates.fill(0.0);
     for CoordinateShare { degree, coordinate, share } in shares {

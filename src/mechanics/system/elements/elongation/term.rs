@@ -1,17 +1,18 @@
-//! Terms of an elongation in an iterate: one segment of a path, or the relative rotation of two sections.
+//! Terms of an elongation in an iterate: the length of one segment of a path, or the relative rotation of two sections.
 
 use crate::beams::RotationIncrement;
 use crate::elementary::atan;
 use crate::geometry::Vec2;
 
-/// Difference of two rotation increments below which they are treated as equal, with an error of second order [rad].
+/// Difference of two rotation increments below which the mean derivative between them replaces the difference quotient. The error is of second
+/// order [rad].
 const SAME_TURN: f64 = 1e-5;
 
 pub(super) struct ElongationTerm {
     pub(super) change: f64,
     pub(super) secant: Vec2,
     pub(super) slope: Vec2,
-    /// Factor in `∂e/∂d₁ = (I - e⊗s) · inverse` [1/length].
+    /// Factor in `∂e/∂d₁ = (I - e⊗s) · inverse`, with the secant `e` and the end direction `s` [1/length].
     inverse: f64,
 }
 
@@ -24,7 +25,8 @@ impl ElongationTerm {
         let both = before + after;
         let mean = direction(start + end, both);
         let slope = direction(end, after);
-        // Methods that take forces at the end of a step use increments of the angle itself.
+        // In methods with forces at the end of a step, rotation increments are increments of the angle, and the direction of the force is that at
+        // the end.
         let (secant, inverse) = match rotations {
             RotationIncrement::TangentScaled => (mean, both),
             RotationIncrement::Angle => (slope, after),
@@ -39,7 +41,7 @@ impl ElongationTerm {
     }
 }
 
-/// `r = (Δθ_b - Δθ_a)/(Δω_b - Δω_a)` with its derivatives by `Δω_a` and `Δω_b`.
+/// Ratio `r = (Δθ_b - Δθ_a)/(Δω_b - Δω_a)`, with its derivatives with respect to `Δω_a` and `Δω_b`.
 pub(super) struct RelativeTurn {
     pub(super) ratio: f64,
     pub(super) derivatives: [f64; 2],
@@ -52,7 +54,7 @@ impl RelativeTurn {
         }
         let (difference, mean) = (b - a, 0.5 * (a + b));
         if difference.abs() < SAME_TURN {
-            // The mean of dθ/dω between both increments is approximated at their midpoint.
+            // The mean of dθ/dω between both increments is approximated by its value in the middle.
             let (rate, slope) = rotations.rates(mean);
             return Self { ratio: rate, derivatives: [0.5 * slope; 2] };
         }

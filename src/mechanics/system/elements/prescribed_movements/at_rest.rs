@@ -1,4 +1,4 @@
-//! Static prescribed positions at a time, applied together with the loads of an equilibrium.
+//! Prescribed positions in statics. They are applied together with the loads of an equilibrium.
 
 use std::borrow::Cow;
 
@@ -13,7 +13,7 @@ impl PrescribedMovements {
     /// Evaluates the prescribed positions at a time. Static solutions apply them together with their loads.
     ///
     /// # Errors
-    /// Name of the drive whose function has no finite value, and the reason.
+    /// Returns the name of the drive whose function has no finite value, and the reason.
     pub fn evaluate_after(&mut self, time: f64) -> Result<(), (String, LoadError)> {
         for (movement, present) in self.movements.iter().zip(&mut self.present) {
             if let PrescribedMotion::Position(schedule) = &movement.motion {
@@ -25,11 +25,12 @@ impl PrescribedMovements {
         Ok(())
     }
 
-    /// First drive whose position under a fraction of the load differs from its function just after a time: its name and both positions.
+    /// Finds the first drive whose position under a fraction of the load differs from its function just after a time. Returns its name and both
+    /// positions.
     pub fn first_displaced_drive(&self, load_factor: f64, time: f64) -> Option<(&str, [f64; 2])> {
         self.movements.iter().zip(&self.present).find_map(|(movement, present)| {
             let PrescribedMotion::Position(schedule) = &movement.motion else { return None };
-            // Functions without a value are rejected earlier, when the scene is built or the position is applied.
+            // A function without a value has been rejected earlier: when the scene was built, or when the position was applied.
             let (rests, wanted) =
                 (load_factor * present.goal, schedule.value(time, LimitSide::After).ok()?);
             let size = larger(wanted.abs(), rests.abs());
@@ -43,7 +44,7 @@ impl PrescribedMovements {
         self.present.iter().any(|present| present.goal != 0.0)
     }
 
-    /// Static increments of the unknowns, with the increments of the prescribed degrees of freedom under a fraction of the load appended.
+    /// Appends the increments of the prescribed degrees of freedom, under a fraction of the load, to the static increments of the unknowns.
     pub fn at_rest<'m>(&self, movements: &'m [f64], load_factor: f64) -> Cow<'m, [f64]> {
         if self.movements.is_empty() {
             return Cow::Borrowed(movements);
@@ -54,7 +55,7 @@ impl PrescribedMovements {
         Cow::Owned(all)
     }
 
-    /// Accepts the prescribed positions under a fraction of the load.
+    /// Records that the prescribed positions under a fraction of the load have been applied.
     pub fn accept_positions(&mut self, load_factor: f64) {
         for present in &mut self.present {
             present.placed = load_factor * present.goal;

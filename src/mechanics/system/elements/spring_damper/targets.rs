@@ -1,4 +1,4 @@
-//! Target forces of a spring and a damper in a configuration.
+//! Forces that the laws of a spring and a damper require in a configuration (target forces).
 
 use super::SpringDamper;
 use crate::integrators::Stage;
@@ -14,7 +14,8 @@ impl SpringDamper {
         self.law.as_ref().map_or(0.0, |law| law.force(self.elongation.grown()))
     }
 
-    /// Returns true if the force is zero in a segment of the law. A release does not change the result, so that the state keeps its size.
+    /// Returns true if the force is zero in a segment of the law. The result does not change when the spring is released, so the size of the saved
+    /// state is constant.
     pub(super) fn may_be_slack(&self) -> bool {
         let law = self.released.as_ref().map_or(&self.law, |(law, _)| law);
         law.as_ref().is_some_and(SpringLaw::may_be_slack)
@@ -24,7 +25,7 @@ impl SpringDamper {
         self.restoring_after(stage, self.elongation.change)
     }
 
-    /// Target force of the spring after its elongation has changed by `change` [length, rad] in the step.
+    /// Force and stiffness by the law of the spring, if its elongation changes by `change` in the step [length, rad].
     fn restoring_after(&self, stage: Stage, change: f64) -> ForceTarget {
         let Some(law) = &self.law else { return ForceTarget::default() };
         let q = self.elongation.grown();
@@ -40,8 +41,8 @@ impl SpringDamper {
             }
             Stage::DampedMidpoint(chi) => {
                 let mean = law.mean(q, change);
-                // A law with negative slope would gain the energy that one with positive slope loses. A single component would rotate the damped
-                // direction.
+                // Numerical damping needs a positive slope; with a negative slope it would add energy. It is not applied to single components of a
+                // vector, because that would rotate the direction of the damping force.
                 let late = match law {
                     _ if self.elongation.is_component() => 0.0,
                     SpringLaw::Linear { stiffness, .. } => 0.5 * chi * stiffness.max(0.0),
@@ -52,16 +53,16 @@ impl SpringDamper {
         }
     }
 
-    /// Target force of the spring for a linearisation. After several iterations, the linearisation point is the intersection of the law with the line
-    /// of the impedance of the loaded system. At a corner of a stiff law, Newton's method would otherwise alternate between segments. The
-    /// intersection is unique if the law is increasing.
+    /// Target force of the spring for a linearisation. After several iterations, the point of linearisation is the intersection of the law with a
+    /// straight line that represents the impedance of the rest of the system. Otherwise Newton's method would alternate between segments at a
+    /// corner of a stiff law. The intersection is unique if the law is increasing.
     pub(super) fn spring_target(&mut self, stage: Stage) -> ForceTarget {
         let (asked, change) = (self.restoring(stage), self.elongation.change);
         let impedance = self.spring.impedance(change);
         let Some(impedance) = impedance.filter(|_| self.rises) else { return asked };
         let force = self.spring.force;
         let above = |at: f64, of: ForceTarget| of.force - force + impedance * (at - change);
-        // An increasing law intersects the line no later than a law of zero slope.
+        // A law of zero slope would intersect the line at `reach`. An increasing law intersects it between `change` and `reach`.
         let reach = change - above(change, asked) / impedance;
         let (mut low, mut high) = (change.min(reach), change.max(reach));
         let (mut at, mut met) = (change, asked);
@@ -112,11 +113,11 @@ impl SpringDamper {
         }
     }
 
-    /// Extrapolation factor of the rates beyond the middle of the step, in units of the difference between two steps; `None` if the force does not
-    /// depend on rates.
+    /// Factor for extrapolating the rate beyond the middle of the step. It multiplies the difference between the rates of this step and the last
+    /// one. `None` if the force does not depend on rates.
     ///
-    /// A method with forces at both ends of the step balances forces at the time `at.weight` within the step. The rate at that time is extrapolated
-    /// from the middles of this step and the last one.
+    /// A method with forces at both ends of the step balances forces at the fraction `at.weight` of the step. The rate at that time is extrapolated
+    /// from the rates at the middle of this step and of the last one.
     fn lateness(&self, at: TrialState<'_>) -> Option<f64> {
         match at.stage {
             Stage::Start => None,

@@ -1,4 +1,4 @@
-//! Statics of a slider: contact between two equilibria, stops, and stiffness.
+//! Statics of a slider: contact equations for the displacement from one equilibrium to the next, contact with stops, and stiffness.
 
 use super::passing::{AtRest, Passing};
 use super::{SliderContact, is_tensile};
