@@ -80,6 +80,7 @@ impl State {
             slave_movement: vector(0),
             unknowns,
             kink,
+            friction: None,
             length: self.length,
         };
         f(&contact, &passage)

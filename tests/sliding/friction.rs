@@ -99,7 +99,7 @@ fn place(simulation: &Simulation) -> f64 {
 
 fn assert_invariants(label: &str, simulation: &Simulation, tolerance: f64) {
     for (name, invariant) in Invariant::ALL {
-        let drift = simulation.history().drift(*invariant);
+        let drift = simulation.history().drift(invariant);
         assert!(drift < tolerance, "{label}: {name} drifts by {drift:e}");
     }
 }
