@@ -22,7 +22,7 @@ pub enum SimulationError {
     Derivative(#[from] DerivativeError),
     /// Sensor of a mean force, recorded with a method that does not provide mean forces.
     #[error(
-        "'{sensor}' is a mean force over a step, which the method {method} does not provide; record the instantaneous force, or use energy_momentum"
+        "'{sensor}' is a mean force over a step, which the method {method} does not provide; record the present force, or use energy_momentum"
     )]
     NoMeanForces { sensor: String, method: &'static str },
     /// Slider with friction in a simulation with a method that does not support it.

@@ -10,6 +10,7 @@ mod queries;
 mod scene;
 mod sliders;
 mod state;
+mod step_mean;
 
 pub use elements::{
     Along, Anchor, Branch, DampingLaw, Drag, Dragged, Drive, DriveKind, DriveState, Element,

@@ -48,7 +48,8 @@ fn simulation_hint(error: &SimulationError) -> Option<String> {
             "give `sample` the period of the controller, between dt/100 and 10 dt".into()
         }
         SimulationError::NoMeanForces { sensor, .. } => {
-            format!("record \"{}\"", sensor.replace(".mean_", "."))
+            let (joint, quantity) = sensor.rsplit_once('.').unwrap_or_default();
+            format!("record \"{joint}.present_{quantity}\"")
         }
         SimulationError::StartMismatch { .. } => {
             "find the equilibrium under the full loads, load_factor: 1, at a time at which the \

@@ -290,7 +290,7 @@ impl Mechanism for System {
         self.bodies.advance(self.step.rotations);
         let arms = ArmRule { rotations: self.step.rotations, fraction: 0.5 };
         self.links.advance(&self.bodies, arms, increments);
-        self.sliders.advance(constraints, self.step.interval.ending());
+        self.sliders.advance(constraints, self.step.interval);
         self.motion.advance(&self.step, increments, rates);
         self.links.write_forces(&mut self.motion.rates);
     }

@@ -44,7 +44,7 @@ impl System {
 
     /// Mean force of a slider on its master over the last step [force].
     ///
-    /// It is zero after a release. Before the first step it is zero unless the run started with a loaded kink.
+    /// Before the first step it is the present force; zero after a release.
     pub fn contact_force(&self, slider: usize) -> Vec2 {
         self.slider(slider).contact_force()
     }

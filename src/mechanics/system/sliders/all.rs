@@ -247,8 +247,8 @@ impl Sliders {
         self.iter_mut().for_each(|slider| slider.evaluate_end(bodies, increments, unknowns));
     }
 
-    pub fn advance(&mut self, unknowns: &[f64], ending: IntervalEnd) {
-        self.iter_mut().for_each(|slider| slider.advance(unknowns, ending));
+    pub fn advance(&mut self, unknowns: &[f64], interval: Interval) {
+        self.iter_mut().for_each(|slider| slider.advance(unknowns, interval));
     }
 
     /// Largest distance of a slave from the contact point of its master [length].

@@ -9,6 +9,7 @@ use crate::joints::{
 };
 use crate::linalg::Border;
 use crate::system::bodies::Body;
+use crate::system::step_mean::StepMean;
 
 mod at_rest;
 mod friction;
@@ -47,6 +48,8 @@ pub struct SliderContact {
     pub parameter: f64,
     /// Contact unknowns of the last step: force, couple and sliding increment.
     pub unknowns: ContactUnknowns,
+    /// Contact force on the master [force].
+    mean_force: StepMean<Vec2>,
     /// Largest number of spans of its master passed in a step [-].
     pub most_spans: f64,
     /// Largest ratio of step length to impact duration at a bounce [-].
@@ -66,8 +69,11 @@ pub struct SliderContact {
     /// Path of length zero at the start of the step.
     start_path: ContactPath,
     path: ContactPath,
-    /// Control points of the master in the window of the path, relative to the slave, at the start of the step.
+    /// Control points of the master in the window of the path, relative to the slave, at the start of the step. Their number is zero if they are to be
+    /// read again.
     before: Vec<Vec2>,
+    /// Index of the first of them.
+    before_first: usize,
     movements: Vec<Vec2>,
     units: [Unit; CONTACT_UNKNOWNS],
     /// Scale of rounding errors: length of the master plus path of the slave in the iterate [length].
@@ -123,6 +129,7 @@ impl SliderContact {
             is_pulled: false,
             parameter,
             unknowns: ContactUnknowns::zeros(),
+            mean_force: StepMean::default(),
             most_spans: 0.0,
             steps_per_impact: 0.0,
             length: rail.length() / (last - first),
@@ -137,6 +144,7 @@ impl SliderContact {
             start_path: passage.clone(),
             path: passage,
             before: Vec::with_capacity(functions),
+            before_first: 0,
             movements: Vec::with_capacity(functions),
             units: [Unit::Force; CONTACT_UNKNOWNS],
             chord: 1.0,
@@ -162,6 +170,7 @@ impl SliderContact {
     /// Moves the slider to a parameter of its master.
     fn set_parameter(&mut self, parameter: f64) {
         self.parameter = parameter;
+        self.before.clear();
         self.start_path.set_interval(parameter, parameter);
         self.kinked_axis.iter_mut().for_each(|axis| axis.accept_end(&self.start_path));
     }
@@ -193,13 +202,23 @@ impl SliderContact {
         self.state = SliderState::Released;
         self.lost_energy += std::mem::take(&mut self.stop_energy);
         self.unknowns = ContactUnknowns::zeros();
+        self.mean_force = StepMean::default();
         // At an end of the master the kink has no energy.
         self.kinked_axis.iter_mut().for_each(KinkedAxis::straighten);
     }
 
     /// Contact force on the master as the mean of the last step [force].
     pub fn contact_force(&self) -> Vec2 {
-        self.unknowns.force
+        self.mean_force.value
+    }
+
+    /// Sets the mean contact force of a step of zero length [force].
+    pub fn start_mean_force(&mut self, force: Vec2) {
+        self.mean_force = StepMean::at_start(force);
+    }
+
+    pub fn end_step(&mut self) {
+        self.mean_force.end_step();
     }
 
     /// Contact force on the master at the present time as far as the state determines it: with a kink that follows the force, otherwise the mean of
@@ -250,6 +269,7 @@ impl SliderContact {
     }
 
     pub fn begin_step(&mut self, bodies: &[Body], rates: &[f64], interval: Interval) {
+        self.before.clear();
         if self.kinked_axis.is_some() {
             let rate = self.rate(bodies, rates);
             self.kinked_axis.iter_mut().for_each(|axis| axis.begin_step(interval.duration(), rate));
@@ -286,14 +306,17 @@ impl SliderContact {
     ) -> Contact<'_> {
         let Connection { master, slave: (body, point), .. } = self.connection;
         let (slave, master) = (&bodies[body], &bodies[master]);
-        let (origin, cut_off) = slave.precise_point(point);
         let window = self.path.first()..self.path.first() + self.path.end().len();
-        self.before.clear();
-        let positions = &master.dynamics.control_points()[window.clone()];
-        let precise = positions.iter().zip(&master.dynamics.remainders()[window.clone()]);
-        self.before.extend(
-            precise.map(|(position, remainder)| (position - origin) + (remainder - cut_off)),
-        );
+        if (self.before_first, self.before.len()) != (window.start, window.len()) {
+            let (origin, cut_off) = slave.precise_point(point);
+            let positions = &master.dynamics.control_points()[window.clone()];
+            let precise = positions.iter().zip(&master.dynamics.remainders()[window.clone()]);
+            self.before.clear();
+            self.before.extend(
+                precise.map(|(position, remainder)| (position - origin) + (remainder - cut_off)),
+            );
+            self.before_first = window.start;
+        }
         self.movements.clear();
         self.movements.extend(window.clone().map(|at| master.vector_at(at, increments)));
         let slave_moved = slave.vector_at(point, increments);
@@ -397,8 +420,9 @@ impl SliderContact {
         self.kink_at_end = law.kink_at_end(&self.evaluate(bodies, increments, unknowns));
     }
 
-    pub fn advance(&mut self, unknowns: &[f64], ending: IntervalEnd) {
+    pub fn advance(&mut self, unknowns: &[f64], interval: Interval) {
         self.unknowns = self.read(unknowns);
+        self.mean_force.add(self.unknowns.force, interval.duration());
         let before = self.parameter;
         let passed = self.path.spans_between(before, before + self.unknowns.increment);
         self.most_spans = self.most_spans.max(passed);
@@ -410,7 +434,7 @@ impl SliderContact {
             false => axis.advance(mean, kink),
         });
         self.count_friction_step();
-        if ending == IntervalEnd::Step {
+        if interval.ending() == IntervalEnd::Step {
             self.stop_may_pull = false;
         }
     }
