@@ -107,9 +107,15 @@ impl System {
         if self.sliders.is_empty() && !has_drives && self.exchanged.impulses.is_none() {
             return;
         }
-        let Ok(now) = self.instant() else { return };
+        let Ok(mut now) = self.instant() else { return };
+        if self.start_overloaded_slips(&now) {
+            let Ok(with_slip) = self.instant() else { return };
+            now = with_slip;
+        }
         for at in 0..self.sliders.len() {
+            let along = self.sliders[at].along(&self.bodies);
             self.sliders[at].start_mean_force(now.contact(at));
+            self.sliders[at].start_friction_force(now.contact(at).dot(&along));
         }
         self.supports.prescribed_mut().start_reactions(now.reactions().residual());
         if let Some(impulses) = &mut self.exchanged.impulses {
