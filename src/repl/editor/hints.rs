@@ -218,7 +218,7 @@ mod tests {
         assert_eq!(shown("scene.start(#{ "), "dt, integrator, name, notes, record, snapshots");
         assert_eq!(
             shown("scene.start(#{ dt: "),
-            "dt: a positive number or a step control [time]; step size, or adaptive(#{ tolerance: 1e-4 })"
+            "dt: a positive number or a step control [time]; step size, or adaptive(#{ tolerance: 1e-4 }); default: adaptive steps with the tolerance 1e-3"
         );
         assert_eq!(shown("scene.start(#{ dt: 0.1, in"), "tegrator:");
     }
