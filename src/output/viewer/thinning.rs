@@ -1,8 +1,9 @@
-//! Selection of the rows of a long history that a chart needs. Extreme values are kept.
+//! Selection of the rows of a long history that are needed for a chart. Extreme values are kept.
 
 const MOST_ROWS: usize = 3000;
 
-/// Indices of the rows to be kept: all rows, or in each piece the first row and the rows with the extreme values of every column.
+/// Indices of the rows that are kept. If there are many rows, these are, in each piece, the first row and the rows with the extreme values of every
+/// column.
 pub fn rows_to_keep(rows: usize, columns: &[&[f64]]) -> Vec<usize> {
     if rows <= MOST_ROWS {
         return (0..rows).collect();
