@@ -232,7 +232,7 @@ impl FittedText {
         1.25 * self.size
     }
 
-    /// Height, including some white space below. It is zero if there is no text.
+    /// Height of the text, including some white space below it. It is zero if there is no text.
     fn height(&self, paper: f64) -> f64 {
         match self.lines.len() {
             0 => 0.0,

@@ -170,7 +170,8 @@ impl Dashpots {
         self.resolution = RateResolution::default();
     }
 
-    /// Calls `give` with the present dashpot forces on control points. Returns the largest force and the mismatch.
+    /// Calls `give` with the forces of the dashpots on control points in the present iterate. Returns the largest force, and the largest mismatch
+    /// between a dashpot force and its damping law.
     pub fn add_forces(
         &mut self,
         at: RateCollocation,

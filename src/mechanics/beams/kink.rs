@@ -99,7 +99,7 @@ struct SplineString {
     degree: usize,
     products: PositiveBand,
     factors: PositiveFactors,
-    /// Coefficients of the strains of the string under a constant force: the solution of `M a = 1`.
+    /// Solution of `M a = 1`. It contains the coefficients of the strains of the string under a constant force.
     stretched: Vec<f64>,
     inverse: PositiveBand,
 }

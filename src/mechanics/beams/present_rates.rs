@@ -59,8 +59,8 @@ pub(super) struct RateResolution {
 }
 
 impl RateResolution {
-    /// Place of the start of a step of a duration [time] between the middle of the previous step (0) and the middle of this step (1). `None` without
-    /// a previous step.
+    /// Position of the start of a step on the time axis, on which the middle of the previous step is 0 and the middle of this step is 1. `duration`
+    /// is the length of this step [time]. Returns `None` if there is no previous step.
     pub(super) fn fraction(&self, duration: f64) -> Option<f64> {
         let between = duration + self.before;
         // A substep of the fourth-order method runs backwards in time. The middles of two substeps may then coincide, so that there is no

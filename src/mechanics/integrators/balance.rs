@@ -69,7 +69,7 @@ impl StepBalance<'_> {
         self.mechanism.worst(part, residual)
     }
 
-    /// Factor `ι/Δt²` of the inertia.
+    /// Factor of the inertia in the balance of the step, `ι/Δt²`.
     fn inertia(&self) -> f64 {
         self.rule.inertia / square(self.duration)
     }

@@ -3,7 +3,7 @@
 use super::block::{Block, MOST_DELAYED, UNTOUCHED};
 use super::{BlockLayout, reverse_cuthill_mckee};
 
-/// Largest ratio of the work of the elimination to the work for the band without blocks, for which the order of the band is kept.
+/// Largest ratio of the work of the elimination to the work for the same band without blocks. Up to this ratio, the order of the band is kept.
 const LARGEST_WORK: usize = 4;
 
 /// Order of the unknowns of a band that are not eliminated in blocks, including delayed unknowns, and the resulting profile of the matrix.
@@ -84,7 +84,7 @@ impl Arrangement {
         of_band.enumerate().for_each(|(next, position)| *position = next);
     }
 
-    /// Uses an order of the band that has a small bandwidth, including the couplings by blocks.
+    /// Replaces the order by one with a small bandwidth. It takes the couplings of unknowns by blocks into account.
     fn use_level_order(&mut self, blocks: &[Block]) {
         self.use_natural_order();
         let position = |&at: &usize| Some(self.position[at]).filter(|&place| place != UNTOUCHED);

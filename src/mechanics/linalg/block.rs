@@ -9,13 +9,14 @@
 
 use super::{BandedMatrix, BorderUnit, LinearError};
 
-/// Number of unknowns of a block outside the band: those of a sliding contact.
+/// Number of unknowns of a block outside the band. It equals the number of unknowns of a sliding contact.
 pub(super) const BLOCK: usize = 5;
 
 /// Largest number of delayed unknowns of a block.
 pub(super) const MOST_DELAYED: usize = 2;
 
-/// Largest contribution of a pivot to a diagonal entry of the band, as a multiple of the largest diagonal entry at the touched unknowns.
+/// Largest contribution of the elimination of a pivot to a diagonal entry of the band, as a multiple of the largest diagonal entry at the touched
+/// unknowns
 const LARGEST_FILL: f64 = 100.0;
 
 /// Index for an unknown of the band that a block does not touch.

@@ -75,8 +75,8 @@ pub struct Elongation {
     corrected: Vec<f64>,
     /// Change `Δq` in the step [length, rad].
     pub change: f64,
-    /// Change in the iterate whose force was accepted last, and the further change that this force implies. It replaces the change computed from
-    /// increments, whose rounding error would store energy in a stiff spring [length, rad].
+    /// Change of the elongation in the iterate whose force was accepted last, and the further change that this force implies [length, rad]. It is
+    /// more accurate than the change computed from the increments, whose rounding error would store energy in a stiff spring.
     settled: (f64, f64),
     /// Secant `g` with `Σ g u = Δq`. For methods with forces at the end of a step it is the derivative of `q` at the end [-].
     pub secant: Vec<f64>,

@@ -51,7 +51,7 @@ struct PresentMotion {
     impact_momentum: f64,
     /// Static position or angle under the full load [length, rad].
     goal: f64,
-    /// Part of the displacement to `goal` that has already been applied [length, rad].
+    /// Displacement that has already been applied on the way to `goal` [length, rad].
     placed: f64,
     /// `M v̄` of the control point in the step being accepted, with the mean rates `v̄` [mass·length/time].
     momentum: Vec2,

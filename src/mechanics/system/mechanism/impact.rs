@@ -19,7 +19,8 @@ pub(super) type ImpactDirection = (usize, Vec2);
 /// Directions of contact impulses, and the deformations that take part in the impact.
 pub(super) type ImpactSelection<'a> = (&'a [ImpactDirection], Deformation);
 
-/// Ratio of the velocity response with selected deformations to the response with all deformations, below which a direction counts as rigid.
+/// Two velocity responses to an impulse are compared: with the deformations that take part, and with all deformations. If their ratio is below this
+/// value, the direction of the impulse counts as rigid.
 pub(super) const GIVES: f64 = 1e-9;
 
 /// Forces of a unit impulse in one direction, and the velocities that it causes.
@@ -128,7 +129,8 @@ impl ImpactProblem {
         self.before.iter().enumerate().map(half_way).collect()
     }
 
-    /// Values by which the velocities miss the laws without contact impulses [length/time]. The laws belong to the last directions of the problem.
+    /// Values by which the velocities would violate the given laws if no contact impulse acted [length/time]. The laws apply to the last directions
+    /// of the impact problem.
     pub(super) fn lacks(&self, laws: &[ImpactLaw]) -> Vec<f64> {
         let first = self.before.len() - laws.len();
         let lack =
@@ -188,8 +190,8 @@ impl System {
         if missed.iter().all(|missed| missed.abs() <= negligible) {
             return;
         }
-        // The impulse that starts the motion acts before the start time and is therefore not accumulated. A singular matrix is ignored here,
-        // because the first step reports it.
+        // This impulse acts before the start time, so it is not added to the accumulated impulses. A singular matrix is ignored here, because the
+        // first step reports it.
         let before = std::mem::take(&mut self.exchanged);
         let struck = self.apply_transverse_impact();
         self.exchanged = before;

@@ -28,13 +28,14 @@ pub struct ExchangeLedger {
 
 /// Impulses on all control points, with preallocated buffers.
 pub struct Impulses {
-    /// Separate degrees of freedom of every control point. During an evaluation, they are exchanged with the degrees of freedom of the model.
+    /// Degrees of freedom that are numbered separately for every control point, even if joints tie control points. For an evaluation, they
+    /// temporarily replace the degrees of freedom of the model.
     numbers: Vec<DegreesOfFreedom>,
-    /// Force unknowns of rigid links, numbered after all separate degrees of freedom. During an evaluation, they are exchanged with the numbers of
+    /// Force unknowns of rigid links, numbered after all separate degrees of freedom. For an evaluation, they temporarily replace the numbers in
     /// the model.
     links: Vec<[usize; 2]>,
-    /// `None` for each inclined roller, whose force is summed separately. During an evaluation, the list is exchanged with the force unknowns of
-    /// the model.
+    /// List with `None` for each inclined roller, because the forces of rollers are summed separately. For an evaluation, it temporarily replaces
+    /// the force unknowns in the model.
     rollers: Vec<Option<usize>>,
     values: Vec<f64>,
     /// Residual of the balance, with additional space for contact equations.

@@ -156,9 +156,11 @@ impl System {
         self.sliders[limit.slider].along_contact(&self.bodies) * -limit.end.outward()
     }
 
-    /// Computes one impact of all sliders that arrive at ends of masters and at seams at the present time, for steps of length `dt` [time]. Stops
-    /// have the law `0 ≤ P ⟂ w⁺ + e w⁻ ≥ 0`, also those that hold sliders. Corners of seams rotate velocities. All other contacts are constraints.
-    /// Afterwards, sliders that pass a seam are on its other side.
+    /// Computes the impact of all sliders that arrive at ends of masters and at seams at the present time, for steps of length `dt` [time].
+    ///
+    /// All stops have the law `0 ≤ P ⟂ w⁺ + e w⁻ ≥ 0` with the impulse `P`, the coefficient of restitution `e`, and the relative velocities `w⁻`
+    /// before and `w⁺` after the impact. This includes stops at which sliders are held. A corner at a seam rotates the velocity of the slider. All
+    /// other contacts are constraints. Afterwards, a slider that passes a seam is on its other side.
     ///
     /// # Errors
     /// Fails if the impulses are not determined.
