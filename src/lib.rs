@@ -1,4 +1,4 @@
-//! withy: planar dynamics of flexible beams, and its scripting language
+//! withy: planar dynamics of flexible beams, and its scripting language.
 //!
 //! The program consists of the following layers. A layer uses only layers to its right:
 //!

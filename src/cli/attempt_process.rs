@@ -30,7 +30,7 @@ const INTERVAL: Duration = Duration::from_millis(5);
 const START: Duration = Duration::from_secs(2);
 /// Maximum length of the message in a verdict [characters]. It ensures that the line of the verdict fits into the buffer of the pipe.
 const LONGEST_MESSAGE: usize = 4000;
-/// Maximum size of a verdict [bytes]
+/// Maximum size of a verdict [bytes].
 const LONGEST_VERDICT: u64 = 1 << 20;
 
 pub(super) struct JudgeLimits<'a> {
@@ -245,7 +245,7 @@ fn confine(limits: &Limits) -> nix::Result<()> {
 
 #[cfg(unix)]
 const FILES_OPEN: u64 = 64;
-/// Address space reserved for the program itself [bytes]
+/// Address space reserved for the program itself [bytes].
 #[cfg(unix)]
 const CODE: u64 = 1 << 30;
 

@@ -16,7 +16,7 @@ use crate::script::help::lookup::{self, WIDTH};
 use crate::script::help::reference::reference;
 use crate::script::packages::language;
 
-/// Maximum size of an existing file that may be recognised as a definition file and replaced [bytes]
+/// Maximum size of an existing file that may be recognised as a definition file and replaced [bytes].
 const LARGEST_DEFINITION: u64 = 1 << 24;
 
 pub fn docs(options: &DocsOptions) -> Exit {

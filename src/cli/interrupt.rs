@@ -11,13 +11,13 @@ use super::tui::terminal;
 use crate::repl::editor::typed_ahead;
 use crate::script::state::limits::INTERRUPT_HEARD;
 
-/// Time in which a run must react to Ctrl-C
+/// Time in which a run must react to Ctrl-C.
 const REACTION_TIME: Duration = Duration::from_millis(900);
 
-/// Time for a run that has reacted to Ctrl-C to save its results
+/// Time for a run that has reacted to Ctrl-C to save its results.
 const TO_WRITE: Duration = Duration::from_secs(20);
 
-/// What is lost if Ctrl-C ends the program
+/// What is lost if Ctrl-C ends the program.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum InterruptLoss {
     /// A run. The program ends after a grace period, or at the second Ctrl-C.

@@ -34,7 +34,7 @@ pub struct LimitOptions {
     max_files: Option<u64>,
 }
 
-/// Default limits of written output and files for an attempt that is graded
+/// Default limits of written output and files for an attempt that is graded.
 const MEGABYTES_OF_AN_ATTEMPT: u64 = 100;
 const FILES_OF_AN_ATTEMPT: u64 = 100;
 

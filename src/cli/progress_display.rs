@@ -34,7 +34,7 @@ struct ProgressDisplay {
 }
 
 const PARTS: u64 = 1000;
-/// Duration of a run after which its bar appears
+/// Duration of a run after which its bar appears.
 const SHORTEST_SHOWN: Duration = Duration::from_millis(300);
 
 impl ProgressDisplay {

@@ -1,4 +1,4 @@
-//! `withy run`, `withy study` and `withy check`
+//! `withy run`, `withy study` and `withy check`.
 
 use std::io::{IsTerminal, sink, stderr, stdout};
 use std::path::Path;
@@ -24,7 +24,7 @@ use crate::script::state::settings::{
     ErrorEstimation, JournalPreference, RunMode, RunSettings, StudyPreferences,
 };
 
-/// Maximum size of an existing file that may be recognised as a report and replaced [bytes]
+/// Maximum size of an existing file that may be recognised as a report and replaced [bytes].
 const LARGEST_REPORT: u64 = 1 << 28;
 
 pub fn run(options: &RunOptions) -> Exit {

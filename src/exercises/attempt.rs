@@ -7,7 +7,7 @@ use crate::sandbox_fs::Folder;
 use crate::script::diagnose::Diagnostic;
 use crate::script::source::program::Program;
 
-/// Maximum size of the file of an attempt [bytes]
+/// Maximum size of the file of an attempt [bytes].
 pub const LARGEST: u64 = 1 << 20;
 
 /// Reads an attempt from a file in the given folder.

@@ -5,7 +5,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 use serde::{Deserialize, Serialize};
 
-/// Maximum length of the captured output [bytes]
+/// Maximum length of the captured output [bytes].
 const MOST: usize = 1 << 14;
 
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]

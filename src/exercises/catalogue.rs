@@ -7,13 +7,13 @@ use crate::script::messages::suggest::nearest;
 /// A series of exercises on one subject.
 #[derive(Debug, PartialEq, Eq)]
 pub struct ExerciseTrack {
-    /// Name of the track, which is also the name of its folder
+    /// Name of the track, which is also the name of its folder.
     pub name: &'static str,
     /// Title of the track.
     pub title: &'static str,
 }
 
-/// All tracks, in the order in which they are offered
+/// All tracks, in the order in which they are offered.
 pub const TRACKS: &[ExerciseTrack] = &[
     ExerciseTrack { name: "beams", title: "Beams and sections" },
     ExerciseTrack { name: "splines", title: "Splines and knot vectors" },

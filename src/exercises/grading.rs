@@ -57,7 +57,7 @@ pub struct Graded {
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct StudentReport {
     pub student: String,
-    /// Marks of all exercises, in the order of the catalogue
+    /// Marks of all exercises, in the order of the catalogue.
     pub graded: Vec<Graded>,
 }
 
@@ -78,7 +78,7 @@ impl StudentReport {
     }
 }
 
-/// What must be done to find the mark of an attempt
+/// What must be done to find the mark of an attempt.
 pub enum GradingTask {
     /// Nothing: the mark and its message are known without judging.
     Known(Mark, String),

@@ -10,16 +10,16 @@
 /// Parsed header of a judge's script.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Judge {
-    /// Variables of the attempt that the judge uses
+    /// Variables of the attempt that the judge uses.
     pub needs: Vec<Need>,
-    /// Hints, from vague to explicit
+    /// Hints, from vague to explicit.
     pub hints: Vec<String>,
 }
 
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Need {
     pub name: String,
-    /// Type of the variable, named as in messages and in the help
+    /// Type of the variable, named as in messages and in the help.
     pub of: String,
 }
 

@@ -19,10 +19,10 @@ use crate::script::packages::language;
 use crate::script::source::program::Program;
 use crate::script::state::settings::RunSettings;
 
-/// Default time limit, which applies to the attempt and to its judge separately
+/// Default time limit, which applies to the attempt and to its judge separately.
 pub const DEFAULT_TIME_LIMIT: Duration = Duration::from_secs(20);
 
-/// Result of judging an attempt
+/// Result of judging an attempt.
 #[derive(Debug)]
 pub enum AttemptVerdict {
     /// All checks of the judge passed.

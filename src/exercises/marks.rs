@@ -13,12 +13,12 @@ use super::grading::Mark;
 use super::submissions::Submission;
 use crate::sandbox_fs::Folder;
 
-/// Maximum size of the file [bytes]
+/// Maximum size of the file [bytes].
 const LARGEST: u64 = 1 << 30;
 
 const HEAD: &str = "{\"student\":";
 
-/// Marks of earlier runs, by student and exercise
+/// Marks of earlier runs, by student and exercise.
 #[derive(Debug, Default)]
 pub struct KnownMarks(BTreeMap<StudentExercise, KnownMark>);
 

@@ -11,7 +11,7 @@ use super::exercise::Exercise;
 use crate::output::write_atomic;
 use crate::sandbox_fs::read_text;
 
-/// Maximum size of the progress file [bytes]
+/// Maximum size of the progress file [bytes].
 const LARGEST: u64 = 1 << 20;
 
 /// Name of the progress file. A folder that contains this file is the folder of a student.

@@ -6,9 +6,9 @@ use super::captured_output::CapturedOutput;
 use super::judging::AttemptVerdict;
 use crate::script::diagnose::{Diagnostic, Location};
 
-/// Maximum length of a message [characters]
+/// Maximum length of a message [characters].
 const LONGEST: usize = 4000;
-/// Maximum length of an excerpt of a source line, and maximum length of the part of the excerpt before the error [characters]
+/// Maximum length of an excerpt of a source line, and maximum length of the part of the excerpt before the error [characters].
 const EXCERPT: (usize, usize) = (400, 150);
 
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -39,9 +39,9 @@ pub struct AttemptError {
 pub struct ScriptPosition {
     pub file: String,
     pub line: usize,
-    /// Text of the source line, or an excerpt of it around the location
+    /// Text of the source line, or an excerpt of it around the location.
     pub text: String,
-    /// Index of the first character of the location in `text`, counted from 0
+    /// Index of the first character of the location in `text`, counted from 0.
     pub at: usize,
     pub length: usize,
 }

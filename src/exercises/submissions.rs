@@ -1,4 +1,4 @@
-//! Folders of a class with the attempts of its students
+//! Folders of a class with the attempts of its students.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -10,7 +10,7 @@ use super::workbook;
 
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Submission {
-    /// Name of the student, which is the name of the folder
+    /// Name of the student, which is the name of the folder.
     pub student: String,
     pub folder: PathBuf,
 }

@@ -2,14 +2,14 @@
 
 use super::exercise::Exercise;
 
-/// First words of the paragraph that tells the student what to do
+/// First words of the paragraph that tells the student what to do.
 pub const TO_DO: &str = "To do:";
 
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Paragraph {
-    /// Text that may be wrapped
+    /// Text that may be wrapped.
     Words(String),
-    /// Preformatted lines, for example a formula or a table
+    /// Preformatted lines, for example a formula or a table.
     Set(Vec<String>),
 }
 

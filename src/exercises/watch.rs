@@ -13,7 +13,7 @@ use crate::sandbox_fs::read_file;
 
 pub const INTERVAL: Duration = Duration::from_millis(200);
 
-/// Contents of all attempts of a student at the last check
+/// Contents of all attempts of a student at the last check.
 pub struct Watcher<'a> {
     workbook: &'a Workbook,
     files: Vec<Seen>,

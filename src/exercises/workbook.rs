@@ -1,4 +1,4 @@
-//! Folder of a student with the start files, the attempts and the progress file
+//! Folder of a student with the start files, the attempts and the progress file.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -19,7 +19,7 @@ pub struct Workbook {
     folder: PathBuf,
 }
 
-/// A hint, or the solution if all hints were given
+/// A hint, or the solution if all hints were given.
 #[derive(Debug, PartialEq, Eq)]
 pub enum Advice {
     Hint {
@@ -27,7 +27,7 @@ pub enum Advice {
         number: usize,
         count: usize,
     },
-    /// The solution, because all hints were given
+    /// The solution, because all hints were given.
     Solution(&'static str),
 }
 

@@ -1,4 +1,4 @@
-//! Constrained minimisation that uses derivatives of the objective and the constraints
+//! Constrained minimisation that uses derivatives of the objective and the constraints.
 
 use std::cell::RefCell;
 
@@ -13,7 +13,7 @@ const RESTARTS: usize = 4;
 /// Step size at which SLSQP stops, as a fraction of the tolerance. It can be small, because convergence is fast near the solution.
 const SHORTER: f64 = 0.1;
 
-/// Objective and constraints of a design, with their derivatives with respect to all parameters
+/// Objective and constraints of a design, with their derivatives with respect to all parameters.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SlopedRating {
     pub rating: Rating,
@@ -21,7 +21,7 @@ pub struct SlopedRating {
     pub constraints: Vec<Vec<f64>>,
 }
 
-/// Objective and constraints with derivatives, or the reason why derivatives are missing
+/// Objective and constraints with derivatives, or the reason why derivatives are missing.
 pub type SlopesOfRating = Result<SlopedRating, String>;
 
 /// Evaluates a design; `None` if the run fails.
@@ -34,7 +34,7 @@ struct Descent<'d, 'f, E> {
     rate_with_slopes: &'d mut RateWithSlopes<'f, E>,
     rate: &'d mut Rate<'f, E>,
     best: Option<(Vec<f64>, Rating)>,
-    /// Design that was evaluated last, in scaled parameters
+    /// Design that was evaluated last, in scaled parameters.
     last: Option<(Vec<f64>, SlopedRating)>,
     worst: f64,
     runs: usize,

@@ -6,21 +6,21 @@ use cobyla::{RhoBeg, StopTols, minimize};
 
 use super::SearchRange;
 
-/// First step, as a fraction of the size of the parameters
+/// First step, as a fraction of the size of the parameters.
 const FIRST_STEP: f64 = 0.1;
 /// Largest violation for which a constraint counts as met. Constraints are scaled to order one.
 const MET: f64 = 1e-6;
 /// Distance from zero, as a multiple of the size of a parameter, at which the search of an unbounded parameter ends. A parameter that comes near
 /// this distance counts as diverged.
 const FARTHEST: f64 = 1e15;
-/// Added to the worst objective so far to obtain the objective of a design whose run fails
+/// Added to the worst objective so far to obtain the objective of a design whose run fails.
 pub(super) const PENALTY: f64 = 10.0;
 
 #[derive(Clone, Debug, PartialEq)]
 pub struct Design {
     pub ranges: Vec<SearchRange>,
     pub constraints: usize,
-    /// Tolerance of the parameters, as a fraction of their sizes
+    /// Tolerance of the parameters, as a fraction of their sizes.
     pub tolerance: f64,
     pub most_runs: usize,
 }
@@ -37,7 +37,7 @@ pub struct Designed {
     pub parameters: Vec<f64>,
     pub rating: Rating,
     pub is_feasible: bool,
-    /// True if the search converged within the allowed number of runs and no parameter diverged
+    /// True if the search converged within the allowed number of runs and no parameter diverged.
     pub is_settled: bool,
     /// Index of the unbounded parameter that diverged, because the objective decreases without limit along it; `None` if no parameter diverged.
     pub runaway: Option<usize>,

@@ -1,4 +1,4 @@
-//! Derivatives of the results of runs by finite differences
+//! Derivatives of the results of runs by finite differences.
 
 use nalgebra::{DMatrix, DVector};
 

@@ -1,17 +1,17 @@
-//! Uncertainty of the parameters of a fit
+//! Uncertainty of the parameters of a fit.
 
 use nalgebra::DMatrix;
 
 use super::student_quantile;
 
-/// Uncertainty of the parameters of a fit, computed from the scatter of the residuals
+/// Uncertainty of the parameters of a fit, computed from the scatter of the residuals.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Estimate {
-    /// Standard deviation of a weighted residual: the square root of the ratio of the sum of squares to the degrees of freedom
+    /// Standard deviation of a weighted residual: the square root of the ratio of the sum of squares to the degrees of freedom.
     pub deviation: f64,
-    /// Degrees of freedom: number of residuals minus number of free parameters
+    /// Degrees of freedom: number of residuals minus number of free parameters.
     pub freedom: usize,
-    /// Covariance matrix of the parameters, as a list of its rows
+    /// Covariance matrix of the parameters, as a list of its rows.
     pub covariance: Vec<Vec<f64>>,
 }
 

@@ -11,7 +11,7 @@ pub struct CountedEvaluator<'a, 'e, E> {
     slopes: &'a mut Slopes<'e, E>,
     ranges: &'a [SearchRange],
     pub runs: usize,
-    /// Number of calls that returned derivatives
+    /// Number of calls that returned derivatives.
     pub gradient_runs: usize,
     /// Reason why derivatives are computed by finite differences and no longer requested from the function; `None` while they are requested.
     pub differences: Option<String>,

@@ -3,13 +3,13 @@
 
 use super::SearchRange;
 
-/// Largest perturbation of a parameter in the check, as a fraction of the size of the parameter
+/// Largest perturbation of a parameter in the check, as a fraction of the size of the parameter.
 const DISTANCE: f64 = 1e-4;
 
 /// Relative tolerance of the check. It is far above the error of the finite differences and far below the error of wrong derivatives.
 const OFF: f64 = 0.02;
 
-/// Deviation that is ignored because of rounding, as a fraction of the values
+/// Deviation that is ignored because of rounding, as a fraction of the values.
 const ROUNDING: f64 = 1e-7;
 
 pub const REJECTED_DERIVATIVES: &str =

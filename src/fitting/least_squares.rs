@@ -8,9 +8,9 @@ use super::{Estimate, Evaluate, RELATIVE_STEP, SearchRange, Slopes};
 const MOST_ITERATIONS: usize = 30;
 /// Maximum number of steps with updated derivatives, before the derivatives are computed again. The number of parameters is added to it.
 const MORE_STEPS: usize = 6;
-/// Change of a parameter, as a fraction of its size, below which the search has converged
+/// Change of a parameter, as a fraction of its size, below which the search has converged.
 const SETTLED: f64 = 1e-7;
-/// Largest change of a parameter, as a fraction of its size, for which the derivatives still count as accurate
+/// Largest change of a parameter, as a fraction of its size, for which the derivatives still count as accurate.
 const NEAR: f64 = 0.02;
 /// Cosine of the angle between the residuals and a column of the Jacobian. If all these cosines are smaller than this value, the search has
 /// converged.
@@ -18,15 +18,15 @@ const ORTHOGONAL: f64 = 1e-7;
 /// Smallest predicted reduction of the sum of squares, as a fraction of the sum, for which the search continues. With a smaller reduction,
 /// parameters change by less than `1e-3 √(n - p)` of their standard errors, for `n` residuals and `p` parameters.
 const NOTHING: f64 = 1e-6;
-/// Sum of squares, as a fraction of its initial value, below which it is due to rounding
+/// Sum of squares, as a fraction of its initial value, below which it is due to rounding.
 const ROUNDING: f64 = 1e-26;
-/// Initial, smallest and largest damping
+/// Initial, smallest and largest damping.
 const DAMPING: (f64, f64, f64) = (1e-3, 1e-14, 1e12);
 
 #[derive(Clone, Debug, PartialEq)]
 pub struct LeastSquares {
     pub ranges: Vec<SearchRange>,
-    /// Perturbation for finite differences, as a fraction of the size of a parameter
+    /// Perturbation for finite differences, as a fraction of the size of a parameter.
     pub relative_step: f64,
 }
 

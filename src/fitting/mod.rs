@@ -30,10 +30,10 @@ pub use range::SearchRange;
 pub use root::{RootError, root};
 pub use student::student_quantile;
 
-/// Values of a function at a point, or the reason why they could not be computed
+/// Values of a function at a point, or the reason why they could not be computed.
 pub type Evaluation = Result<Vec<f64>, String>;
 
-/// Each value with its derivatives with respect to all parameters, or the reason why derivatives are missing
+/// Each value with its derivatives with respect to all parameters, or the reason why derivatives are missing.
 pub type Sloped = Result<Vec<(f64, Vec<f64>)>, String>;
 
 /// A function that may return derivatives. An error ends the whole search.

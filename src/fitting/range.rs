@@ -1,4 +1,4 @@
-//! Start value and bounds of a parameter in a search
+//! Start value and bounds of a parameter in a search.
 
 /// Start value and bounds of a parameter. A bound may be infinite.
 #[derive(Clone, Copy, Debug, PartialEq)]

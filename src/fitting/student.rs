@@ -1,4 +1,4 @@
-//! Student's t distribution
+//! Student's t distribution.
 
 use crate::elementary::{exp, ln, power};
 

@@ -1,16 +1,16 @@
-//! Probability distributions of parameters
+//! Probability distributions of parameters.
 
 use super::normal_quantile;
 use crate::elementary::{exp, ln};
 
 #[derive(Clone, Debug, PartialEq)]
 pub enum Distribution {
-    /// Uniform distribution between `from` and `to`
+    /// Uniform distribution between `from` and `to`.
     Uniform {
         from: f64,
         to: f64,
     },
-    /// Distribution whose logarithm is uniform between the positive numbers `from` and `to`
+    /// Distribution whose logarithm is uniform between the positive numbers `from` and `to`.
     LogUniform {
         from: f64,
         to: f64,
@@ -21,7 +21,7 @@ pub enum Distribution {
     },
     LogNormal {
         median: f64,
-        /// Standard deviation of the natural logarithm of the parameter
+        /// Standard deviation of the natural logarithm of the parameter.
         deviation: f64,
     },
     Triangular {

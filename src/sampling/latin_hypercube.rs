@@ -1,4 +1,4 @@
-//! Latin hypercube sampling
+//! Latin hypercube sampling.
 
 use super::Random;
 

@@ -1,4 +1,4 @@
-//! Random sampling of parameters: distributions, sets of points, and sensitivity indices
+//! Random sampling of parameters: distributions, sets of points, and sensitivity indices.
 //!
 //! ```text
 //! latin_hypercube, sobol, saltelli → random

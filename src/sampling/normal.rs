@@ -1,8 +1,8 @@
-//! Normal distribution
+//! Normal distribution.
 
 use crate::elementary::ln;
 
-/// Distance of the probability from 1/2 up to which the central fit is used
+/// Distance of the probability from 1/2 up to which the central fit is used.
 const CENTRE: f64 = 0.425;
 
 fn polynomial(coefficients: [f64; 8], x: f64) -> f64 {
@@ -107,7 +107,7 @@ mod tests {
     use super::*;
 
     /// Values of published tables (Abramowitz and Stegun, section 26.5), and the values that Wichura gives as a check for the probabilities 0.25,
-    /// 0.001 and 1e-20
+    /// 0.001 and 1e-20.
     #[test]
     fn values_are_those_of_tables() {
         for (probability, expected) in [

@@ -1,4 +1,4 @@
-//! Random number generator
+//! Random number generator.
 
 use rand_chacha::ChaCha12Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
@@ -7,7 +7,7 @@ use rand_chacha::rand_core::{Rng, SeedableRng};
 /// equal numbers on every machine.
 pub struct Random(ChaCha12Rng);
 
-/// Number of random bits of a uniform number, which is the precision of a double
+/// Number of random bits of a uniform number, which is the precision of a double.
 const BITS: u32 = 53;
 
 impl Random {

@@ -1,4 +1,4 @@
-//! Sampling for Sobol' indices
+//! Sampling for Sobol' indices.
 
 use super::sobol;
 

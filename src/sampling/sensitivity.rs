@@ -1,9 +1,9 @@
-//! Sobol' indices: fractions of the variance of a result that are due to each parameter
+//! Sobol' indices: fractions of the variance of a result that are due to each parameter.
 
 /// Minimum number of blocks or points for an estimate. The uncertainty of the estimate is about the inverse of the square root of this number.
 const FEWEST: usize = 30;
 
-/// Sobol' indices of one parameter
+/// Sobol' indices of one parameter.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct VarianceShare {
     /// First-order index (main effect). If the result is averaged over all other parameters, it still varies with this parameter. The index is the
@@ -103,7 +103,7 @@ mod tests {
     use crate::elementary::{power, sin};
     use std::f64::consts::PI;
 
-    /// Function of T. Ishigami and T. Homma (1990) with a = 7 and b = 0.1, on the cube from -π to π
+    /// Function of T. Ishigami and T. Homma (1990) with a = 7 and b = 0.1, on the cube from -π to π.
     fn ishigami(x: &[f64]) -> f64 {
         let [a, b, c] = [0, 1, 2].map(|at: usize| (2.0 * x[at] - 1.0) * PI);
         sin(a) + 7.0 * sin(b) * sin(b) + 0.1 * power(c, 4.0) * sin(a)

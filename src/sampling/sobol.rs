@@ -1,4 +1,4 @@
-//! Sobol' sequences, whose points fill the unit cube more evenly than random points
+//! Sobol' sequences, whose points fill the unit cube more evenly than random points.
 
 use super::Random;
 
@@ -109,7 +109,7 @@ mod tests {
             .collect()
     }
 
-    /// Points that the program of Joe and Kuo gives in three dimensions
+    /// Points that the program of Joe and Kuo gives in three dimensions.
     #[test]
     fn points_are_those_of_joe_and_kuo() {
         assert_eq!(plain(6, 0), [0.0, 0.5, 0.75, 0.25, 0.375, 0.875]);

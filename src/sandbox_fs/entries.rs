@@ -10,7 +10,7 @@ use super::folder::{Folder, is_plain};
 #[derive(Debug)]
 pub struct FolderEntry {
     pub name: OsString,
-    /// Length of the file [bytes]
+    /// Length of the file [bytes].
     pub length: u64,
     /// Time of the last change; `None` if the system does not provide it.
     pub changed: Option<SystemTime>,

@@ -10,7 +10,7 @@ use std::time::Duration;
 use super::folder::Folder;
 use super::reading;
 
-/// Maximum number of names that are tried for a temporary file
+/// Maximum number of names that are tried for a temporary file.
 pub(super) const TRIES: usize = 100;
 
 /// Age after which an unlocked temporary file counts as abandoned. A younger file may belong to a process that has created it but not yet locked

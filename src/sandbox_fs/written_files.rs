@@ -11,13 +11,13 @@ use super::Folder;
 const FILE: &str = ".withy-written";
 /// Maximum size of the record [bytes]. If the record is larger, it is not read; all files then count as files of others and are not replaced.
 const LARGEST: u64 = 16 << 20;
-/// Number of bytes that are read at a time to compute a checksum
+/// Number of bytes that are read at a time to compute a checksum.
 const PIECE: usize = 1 << 16;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct FileChecksum {
     pub checksum: u32,
-    /// Length of the file [bytes]
+    /// Length of the file [bytes].
     pub length: u64,
 }
 

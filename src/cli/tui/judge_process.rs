@@ -20,9 +20,9 @@ use crate::script::messages::stop::Stop;
 use crate::script::state::limits::Limits;
 use crate::script::state::settings::{RunMode, RunSettings};
 
-/// Time that the process may take beyond its time limits before it is killed
+/// Time that the process may take beyond its time limits before it is killed.
 const SLACK: Duration = Duration::from_secs(12);
-/// Maximum size of the report [bytes]
+/// Maximum size of the report [bytes].
 const LONGEST: u64 = 1 << 20;
 
 /// A process that judges one attempt. It is killed when this value is dropped.

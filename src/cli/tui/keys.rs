@@ -15,7 +15,7 @@ pub enum Key {
     Enter,
     Escape,
     Interrupt,
-    /// Ctrl-Z, which suspends the program
+    /// Ctrl-Z, which suspends the program.
     Suspend,
     Other,
 }

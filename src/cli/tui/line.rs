@@ -7,7 +7,7 @@ use textwrap::{Options, WordSplitter};
 
 use crate::output::{Colours, columns_of, printable_line};
 
-/// ANSI codes that style a piece of a line
+/// ANSI codes that style a piece of a line.
 pub type LineStyle = Cow<'static, str>;
 
 pub const PLAIN: LineStyle = Cow::Borrowed("");

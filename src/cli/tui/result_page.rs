@@ -8,7 +8,7 @@ use crate::exercises::report::{AttemptError, AttemptOutcome, AttemptReport, Scri
 use crate::output::columns_of;
 
 const PRINTED: usize = 12;
-/// Duration after which a run is shown as running [s]
+/// Duration after which a run is shown as running [s].
 const SHORTEST_SHOWN: u64 = 1;
 
 pub fn outcome(state: &TuiState, columns: usize) -> Vec<ScreenLine> {

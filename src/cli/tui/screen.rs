@@ -39,7 +39,7 @@ impl PageLayout {
     }
 }
 
-/// Maximum width of text, because wider text is harder to read [columns]
+/// Maximum width of text, because wider text is harder to read [columns].
 const WIDEST: usize = 100;
 
 /// Returns the lines that show the state on a screen of the given size. `solution` contains the lines of the model solution.

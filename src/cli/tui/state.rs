@@ -11,20 +11,20 @@ use crate::exercises::report::{AttemptOutcome, AttemptReport};
 #[derive(Clone, Debug)]
 pub struct TuiState {
     pub exercise: &'static Exercise,
-    /// Path of the exercise file, as the user would type it
+    /// Path of the exercise file, as the user would type it.
     pub file: String,
     pub progress: StudentProgress,
     pub last: Option<AttemptReport>,
-    /// Seconds since the current run started; `None` if nothing is running
+    /// Seconds since the current run started; `None` if nothing is running.
     pub running: Option<u64>,
     pub runs: usize,
     pub hints: usize,
     pub page: ScreenPage,
     pub top: ScrollPosition,
     pub notice: Option<String>,
-    /// Question that waits for a confirmation by pressing the same key again
+    /// Question that waits for a confirmation by pressing the same key again.
     pub confirmation: Option<Confirmation>,
-    /// Exercise number that the user is typing in the list; 0 if none
+    /// Exercise number that the user is typing in the list; 0 if none.
     pub typed: usize,
 }
 
@@ -51,9 +51,9 @@ pub enum TaskSection {
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Confirmation {
-    /// Leaving an exercise that has not been passed
+    /// Leaving an exercise that has not been passed.
     Skip,
-    /// Showing the solution after all hints were given
+    /// Showing the solution after all hints were given.
     Solution,
 }
 
@@ -70,7 +70,7 @@ pub enum KeyAction {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct ScrollWindow {
     pub top: usize,
-    /// Largest possible value of `top`, at which the end of the page is visible
+    /// Largest possible value of `top`, at which the end of the page is visible.
     pub last: usize,
     pub rows: usize,
 }

@@ -17,10 +17,10 @@ use super::keys::{Key, key};
 use super::line::ScreenLine;
 use crate::output::{Colours, TerminalStyle};
 
-/// Size that is assumed if the terminal does not report one [columns, rows]
+/// Size that is assumed if the terminal does not report one [columns, rows].
 const USUAL: (u16, u16) = (80, 24);
 
-/// True while the terminal is in raw mode
+/// True while the terminal is in raw mode.
 static HELD: AtomicBool = AtomicBool::new(false);
 
 pub fn is_there() -> bool {

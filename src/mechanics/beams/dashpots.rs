@@ -165,7 +165,7 @@ impl Dashpots {
         }
     }
 
-    /// Forgets the rates of the last steps, after a jump of the rates.
+    /// Discards the rates of the last steps. It is called after a jump of the rates.
     pub(crate) fn clear_rate_history(&mut self) {
         self.resolution = RateResolution::default();
     }
@@ -191,8 +191,8 @@ impl Dashpots {
         summary
     }
 
-    /// Calls `give` with the dashpot forces on control points, mismatches condensed out. Calls `tangent` with the first control point of each span
-    /// and the derivatives of the forces of the span, row by row.
+    /// Calls `give` with the dashpot forces on control points. The mismatches of the dashpot forces are condensed out. Calls `tangent` with the
+    /// first control point of each span and the derivatives of the forces of the span, row by row.
     pub fn add_linearised_forces(
         &mut self,
         at: RateCollocation,

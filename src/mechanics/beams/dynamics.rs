@@ -79,8 +79,8 @@ pub trait BodyDynamics: Send + Sync {
         forces: &mut [Movement],
     ) -> ForceSummary;
 
-    /// Adds `weight` times the internal forces, strain mismatches condensed out. Calls the sink of each part with `weight` times their derivatives,
-    /// span by span.
+    /// Adds `weight` times the internal forces, in which the strain mismatches are condensed out. Calls the sink of each part with `weight` times
+    /// the derivatives of these forces, span by span.
     ///
     /// A span across the cut between two parts is given to the sinks of both parts. The part after the cut receives it before its own spans, the
     /// part before the cut after its own spans. Each sink must use only the rows of the control points of its part.

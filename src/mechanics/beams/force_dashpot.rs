@@ -39,7 +39,7 @@ pub(super) struct ForceDashpot {
 #[derive(Debug, Clone, Copy)]
 struct DashpotKinematics {
     end_rotation: Rotation,
-    /// Vector `Γ1 + e1` at the end of the step.
+    /// Vector `Γ1 + e1` at the end of the step: strain plus the first unit vector.
     end_stretch: Vec2,
     /// Strain change `ΔΓ` in the step.
     change: Vec2,
@@ -94,8 +94,8 @@ impl ForceDashpot {
         self.last_rate + (self.last_rate - self.rate_before) * late
     }
 
-    /// Mismatch of the axial and shear rates in the last accepted step. `share` is the place of the start of that step between the middle of the
-    /// step before (0) and its own middle (1).
+    /// Returns the mismatch of the axial and shear rates in the last accepted step. `share` is the position of the start of that step on the time
+    /// axis, on which the middle of the step before it is 0 and its own middle is 1.
     pub(super) fn last_rate_mismatch(&self, share: f64) -> [RateMismatch; 2] {
         let of = |axis: usize| {
             let means = [self.rate_before[axis], self.last_rate[axis]];

@@ -57,7 +57,7 @@ struct StrainKinematics<T> {
     inverse_q: T,
 }
 
-/// Weighted section force `w n` and moment `w gτ × n`, to be distributed to the control points.
+/// Section force `w n` and moment `w gτ × n`, multiplied by the quadrature weight `w`. They are distributed to the control points.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Resultant {
     force: Pair<Lanes>,
@@ -68,9 +68,9 @@ pub(super) struct Resultant {
 #[derive(Debug, Clone, Copy)]
 pub(super) struct ForceTangent<const N: usize> {
     rows: [[Lanes; 3]; 3],
-    /// Factors `w N_a'`.
+    /// Factors `w N_a'`, with the quadrature weight `w` and the derivatives of the basis functions.
     weighted_slope: [Lanes; N],
-    /// Factors `-w N_a`.
+    /// Factors `-w N_a`, with the quadrature weight `w` and the basis functions.
     weighted_shape: [Lanes; N],
 }
 

@@ -130,7 +130,7 @@ impl SplineString {
         (first, (first..(cut + reach).min(size)).map(entry).collect())
     }
 
-    /// Entry `Σ_j (M⁻¹)_ij r_j` of the response to a load.
+    /// Returns the entry `row` of the response `M⁻¹ r` to a load `r`.
     fn response(&self, row: usize, (first, load): &(usize, Vec<f64>)) -> f64 {
         (*first..).zip(load).map(|(at, r)| self.inverse.get(row, at) * r).sum()
     }

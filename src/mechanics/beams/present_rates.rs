@@ -42,8 +42,8 @@ impl RateMismatch {
 /// Factor by which the weight of earlier steps decreases in each step.
 const KEPT: f64 = 0.8;
 
-/// Largest deviation of resolved rates at the ends of steps, as a fraction of their change in a step. Vibrations with `ω h < 2` have smaller
-/// deviations.
+/// Largest deviation of the rates at the ends of steps that counts as resolved, as a fraction of the change of the rates in a step. Vibrations with
+/// the frequency `ω` have smaller deviations if `ω h < 2`, where `h` is the step length.
 const MOST_OFF: f64 = 0.5;
 
 /// Measure of how well the recent steps resolve the dashpot rates.

@@ -45,7 +45,8 @@ pub(super) fn fill<const WIDTH: usize>(
     }
 }
 
-/// Values at `xi` of the functions of one degree more, computed from the `lower` functions and the ends of their supports.
+/// Returns the values of the basis functions at `xi` whose degree is higher by one than that of the functions `lower`. `supports` contains the ends
+/// of the supports of `lower`.
 #[inline(always)]
 fn raise<const WIDTH: usize>(
     lower: &[f64; WIDTH],

@@ -20,7 +20,7 @@ pub struct ContactPath {
     /// Data that all copies for the same beam share.
     line: Arc<PathSupport>,
     interval: PathInterval,
-    /// Functions at the start of the path in its first span. They are cached for consecutive paths with the same start.
+    /// Basis functions at the start of the path, on the first span of the path. They are kept for later paths with the same start.
     departing: Option<(f64, usize, FunctionRow)>,
     first: usize,
     length: usize,

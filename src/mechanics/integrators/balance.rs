@@ -115,7 +115,7 @@ impl Equations for StepBalance<'_> {
 #[derive(Debug, Clone)]
 pub(super) struct StepSolver {
     newton: Newton,
-    /// Increments `Δt v0` of a motion with constant velocity.
+    /// Increments that a motion with constant velocity would have, `Δt v0`.
     free_increments: Vec<f64>,
     unknowns: Vec<f64>,
     increments: Vec<f64>,
@@ -124,7 +124,7 @@ pub(super) struct StepSolver {
     rates: Vec<f64>,
     residual: Vec<f64>,
     balanced: Vec<(Stage, f64)>,
-    /// True if the integrator balances the change of momentum.
+    /// True if the integrator balances changes of momentum and not accelerations.
     balances_rates: bool,
 }
 
@@ -201,7 +201,7 @@ impl StepSolver {
         self.unknowns.copy_from_slice(solution);
     }
 
-    /// Solves the balance of the step by a callback. The callback receives the Newton solver, the equations, their unknowns and their residual.
+    /// Solves the balance of the step by the function `way`. It receives the Newton solver, the equations, their unknowns and their residual.
     pub(super) fn solve_by(
         &mut self,
         mechanism: &mut dyn Mechanism,

@@ -30,9 +30,9 @@ pub struct GeneralizedAlpha {
 
 #[derive(Debug, Clone, Copy)]
 struct Weights {
-    /// Coefficient `αm`.
+    /// Coefficient `αm`: weight of the accelerations at the start of the step.
     inertia_before: f64,
-    /// Coefficient `αf`.
+    /// Coefficient `αf`: weight of the forces at the start of the step.
     forces_before: f64,
     gamma: f64,
     beta: f64,

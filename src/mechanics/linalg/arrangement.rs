@@ -15,7 +15,7 @@ pub(super) struct Arrangement {
     layout: BlockLayout,
     /// Place of each unknown of the band in this order; `UNTOUCHED` if it is eliminated in a block.
     pub(super) position: Vec<usize>,
-    /// For each unknown of the band, the end of the run of consecutive places that contains it.
+    /// For each unknown of the band, the end of the sequence of consecutive places to which its place belongs.
     pub(super) run_ends: Vec<usize>,
     /// First place of the delayed unknowns of each block; `UNTOUCHED` if the block delays none.
     pub(super) delayed: Vec<usize>,

@@ -16,7 +16,7 @@ pub(super) const BLOCK: usize = 5;
 pub(super) const MOST_DELAYED: usize = 2;
 
 /// Largest contribution of the elimination of a pivot to a diagonal entry of the band, as a multiple of the largest diagonal entry at the touched
-/// unknowns
+/// unknowns.
 const LARGEST_FILL: f64 = 100.0;
 
 /// Index for an unknown of the band that a block does not touch.
@@ -123,7 +123,8 @@ impl Block {
         self.candidates() + self.touched.len()
     }
 
-    /// Scale of a row of the Schur complement. It gives the equations of delayed unknowns the magnitude of the equations of the band.
+    /// Returns the factor by which a row of the Schur complement is multiplied. It gives the equations of delayed unknowns the same magnitude as
+    /// the equations of the band.
     pub(super) fn scale(&self, left: usize) -> f64 {
         if left < self.delayed() { self.row_factors[self.pivots + left] } else { 1.0 }
     }

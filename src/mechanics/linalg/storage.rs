@@ -31,8 +31,8 @@ pub(super) struct Storage {
 pub(super) struct ActiveRows<'a> {
     /// Number of rows, without the identity rows.
     pub(super) size: usize,
-    /// Number of columns to be eliminated: all columns, or a multiple of the panel width. In the second case, as many rows follow as a column can
-    /// reach.
+    /// Number of columns to be eliminated: all columns, or a multiple of the panel width. If not all columns are eliminated, the rows that the last
+    /// column can reach are present too.
     pub(super) columns: usize,
     pub(super) reach: usize,
     pub(super) rows: &'a mut [f64],

@@ -36,7 +36,7 @@ impl Balance<'_> {
 pub(super) struct UnderLoad<'a> {
     pub(super) balance: Balance<'a>,
     pub(super) factor: f64,
-    /// Rate `σ` [1/time²].
+    /// Factor `σ` of the viscous damping in the equations; zero for an equilibrium [1/time²].
     pub(super) rate: f64,
 }
 
@@ -75,9 +75,8 @@ impl Equations for UnderLoad<'_> {
     }
 }
 
-/// Equations `F(u) - λ P(u) = 0` and `t·u = Δs`. The load factor `λ` is the last unknown. The second equation, the distance of a plane, determines
+/// Equations `F(u) - λ P(u) = 0` and `t·u = Δs`. The load factor `λ` is the last unknown. The second equation, which describes a plane, determines
 /// it.
-/// second equation, which describes a plane.
 pub(super) struct AlongPath<'a> {
     pub(super) balance: Balance<'a>,
     /// Normal `t` of the plane in the metric of the path. Contact unknowns, which follow the degrees of freedom, have no weight in it.

@@ -16,8 +16,8 @@ pub(super) struct Pencil {
     pub(super) inertia: SymmetricSparse,
     pub(super) elastic: Elastic,
     pub(super) order: StaticOrder,
-    /// Estimate of a squared frequency [1/time²]: of the lowest bending mode, or without beams of the lowest vibration of a chain of the softest
-    /// springs.
+    /// Estimate of a squared frequency [1/time²]. With beams, it is that of the lowest bending mode. Without beams, it is that of the lowest
+    /// vibration of a chain of the softest springs.
     pub(super) scale: f64,
     /// Number of degrees of freedom with mass, which is the number of modes with a finite frequency.
     pub(super) finite: usize,

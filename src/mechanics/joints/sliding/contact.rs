@@ -150,7 +150,8 @@ impl Contact<'_> {
         self.unknowns.force.dot(&self.end_point().by_end) * outward
     }
 
-    /// Sum `Σ ∂D_i/∂ξ1 x_i1` at the end of the step [length]. For a path of zero length it is half the second derivative.
+    /// Sum `Σ ∂D_i/∂ξ1 x_i1` at the end of the step, with the divided differences `D_i` of the basis functions [length]. For a path of zero length
+    /// it is half the second derivative of the axis.
     pub(super) fn end_bend(&self) -> Vec2 {
         self.sum(self.path.change(), 1.0)
     }

@@ -42,10 +42,10 @@ const MODES: [usize; 3] = [4, 8, 16];
 
 const RECENT_STEPS: usize = 200;
 
-/// Change of the step length from one step to the next, as a fraction of the length, that counts as an alternation
+/// Change of the step length from one step to the next, as a fraction of the length, that counts as an alternation.
 const ALTERNATION: f64 = 0.1;
 
-/// Number of alternations of the step length among the recent steps from which a warning is given
+/// Number of alternations of the step length among the recent steps from which a warning is given.
 const MOST_TURNS: usize = 20;
 
 /// Number of adaptive steps above which a warning about their number is given if the other conditions hold.

@@ -5,7 +5,7 @@ use crate::joints::{Component, Partner, Releasable};
 use crate::system::SystemError;
 use crate::system::scene::{Scene, Ties};
 
-/// Number of the class of all components that are fixed to the ground
+/// Number of the class of all components that are fixed to the ground.
 pub const GROUND: usize = 0;
 
 /// Classes of components tied by joints, particles and rigid bodies. Components are numbered from one in the order of the bodies.

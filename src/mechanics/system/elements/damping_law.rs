@@ -14,7 +14,7 @@ const ROUNDING: f64 = 1e-12;
 /// Damping force as a function of the rate `q̇` of an elongation. It is zero at zero rate and opposes the motion otherwise.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub enum DampingLaw {
-    /// `c q̇` with `c` ≥ 0 [force·time/length; for torsion force·length·time/rad].
+    /// Linear law `c q̇` with the coefficient `c` ≥ 0 [force·time/length; for torsion force·length·time/rad].
     Linear(f64),
     /// Piecewise linear function of the rate, from a table or a sampled function.
     Curve(SpringLaw),

@@ -65,11 +65,11 @@ enum Measure {
 pub struct Elongation {
     measure: Measure,
     terminals: Vec<ElongationEnd>,
-    /// Coefficients that express the coordinates by the degrees of freedom, in the numbering of the last call of `locate`.
+    /// Coefficients that express the coordinates by the degrees of freedom. They use the numbering given in the last call of `locate`.
     shares: Vec<CoordinateShare>,
-    /// Value in the scene as built on its meshes [length, rad].
+    /// Elongation in the scene as built on its meshes [length, rad].
     initial: f64,
-    /// Growth since the scene was built, up to the start of the step [length, rad].
+    /// Growth of the elongation from the building of the scene to the start of the step [length, rad].
     growth: Coordinate,
     movements: Vec<f64>,
     corrected: Vec<f64>,
@@ -78,11 +78,13 @@ pub struct Elongation {
     /// Change of the elongation in the iterate whose force was accepted last, and the further change that this force implies [length, rad]. It is
     /// more accurate than the change computed from the increments, whose rounding error would store energy in a stiff spring.
     settled: (f64, f64),
-    /// Secant `g` with `Σ g u = Δq`. For methods with forces at the end of a step it is the derivative of `q` at the end [-].
+    /// Secant `g`, which gives the elongation change as `Δq = Σ g u`. For methods with forces at the end of a step it is the derivative of the
+    /// elongation `q` at the end [-].
     pub secant: Vec<f64>,
     /// Derivative `∂Δq/∂u` with respect to the coordinates [-].
     pub slope: Vec<f64>,
-    /// Derivative `∂g/∂u` of the secant, row by row, in the iterate in which it was evaluated last [1/length, 1/rad].
+    /// Derivative `∂g/∂u` of the secant with respect to the coordinates, row by row, in the iterate in which it was last evaluated [1/length,
+    /// 1/rad].
     pub secant_slope: Vec<f64>,
     /// Force direction at the time given to [`balance`](Self::balance), minus the secant [-].
     pub lag: Vec<f64>,
@@ -142,22 +144,23 @@ impl Elongation {
         matches!(self.measure, Measure::Angle)
     }
 
-    /// Value of `q` at the start of the step [length, rad].
+    /// Elongation at the start of the step [length, rad].
     pub fn value(&self) -> f64 {
         self.initial + self.growth.value
     }
 
-    /// Value of `q` in the scene as built on its meshes [length, rad].
+    /// Elongation in the scene as built on its meshes [length, rad].
     pub fn drawn(&self) -> f64 {
         self.initial
     }
 
-    /// Growth of `q` since the scene was built, with compensated rounding [length, rad].
+    /// Growth of the elongation since the scene was built, with compensated rounding [length, rad].
     pub fn grown(&self) -> Coordinate {
         self.growth
     }
 
-    /// Largest term in the sum for `q` in an iterate, which sets the rounding error of `q` [length, rad].
+    /// Magnitude of the largest term in the sum for the elongation of an iterate, which determines the rounding error of the elongation [length,
+    /// rad].
     pub fn extent(&self) -> f64 {
         let after = (self.value() + self.change).abs();
         match self.measure {

@@ -93,7 +93,7 @@ impl ImpactLaw {
 pub(super) struct ImpactProblem {
     directions: Vec<ImpactDirection>,
     responses: Vec<ImpulseResponse>,
-    /// `G M⁻¹ Gᵀ`, one row per contact direction [1/mass].
+    /// Velocity changes `G M⁻¹ Gᵀ` in all contact directions due to a unit impulse in each of them, one row per direction [1/mass].
     pub(super) response: Vec<Vec<f64>>,
     /// Relative velocities `w⁻` before the impact [length/time].
     before: Vec<f64>,
@@ -267,8 +267,8 @@ impl System {
         directions.iter().map(answer).collect()
     }
 
-    /// Velocity responses to unit impulses with the given deformations. In a direction in which these leave both partners rigid, all deformations
-    /// are used.
+    /// Computes the velocity responses to unit impulses if the given deformations take part. If both bodies respond rigidly to an impulse
+    /// direction, all deformations take part for this direction.
     ///
     /// # Errors
     /// Fails if the matrix is singular.

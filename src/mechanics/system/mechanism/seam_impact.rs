@@ -69,7 +69,7 @@ pub(super) struct SeamCrossings {
 }
 
 impl SeamCrossings {
-    /// Corners between the section directions; empty if none has an angle.
+    /// Corners at which the section direction changes; empty if it changes at none of the seams.
     pub(super) fn corners_of_sections(&self) -> &[SeamCorner] {
         if self.sections.iter().all(SeamCorner::is_straight) { &[] } else { &self.sections }
     }
@@ -251,7 +251,8 @@ pub(super) fn deflect_at_corners(
     Ok(last.filter(|_| !strikes).map(|impulses| encounter.with_works(impulses)))
 }
 
-/// Response `W` of each slider at a corner to its own impulse. The contacts that keep slaves on masters respond at the same time.
+/// Returns the velocity response `W` of each slider at a corner to its own impulse. The response includes the reactions of the contacts that keep
+/// slaves on their masters.
 fn own_responses(
     encounter: &ImpactProblem,
     corners: &[SeamCorner],
@@ -295,7 +296,7 @@ impl TurnSearch {
         Self { own: *own, required_angle, angle: required_angle, before: None }
     }
 
-    /// Factors of `P` and `J W P` in the equations of the corner.
+    /// Returns the factors of `P` and `J W P` in the equations of the corner, where `P` is the impulse.
     fn row(&self) -> (f64, f64) {
         let (sine, cosine) = sin_cos(0.5 * self.angle);
         match self.own.is_one_way() {

@@ -189,8 +189,8 @@ impl System {
             self.apply_impulses(&hits, corners, [Deformation::Resolved(RIGID * dt), at_stops])?;
         }
         if !arriving.plastic.is_empty() {
-            // This impact acted on a body with suppressed deformations. At the end of the body, a velocity due to rounding may remain, which is
-            // removed here.
+            // In this impact, some deformations of the struck body were suppressed. Rounding may have left a velocity at its end, which is removed
+            // here.
             let hits = self.impulse_directions(|_, limit| {
                 arriving.plastic.contains(&limit).then_some(ImpactLaw::Ends)
             });
@@ -200,8 +200,8 @@ impl System {
         self.pass_seams(&passages)
     }
 
-    /// Applies simultaneous impulses. Corners rotate the velocities of sliders that pass them; all other contacts follow their impact laws. For
-    /// impulses that hold sliders at a stop, all deformations take part.
+    /// Applies impulses at several contacts at once. Corners rotate the velocities of the sliders that pass them, and all other contacts follow
+    /// their impact laws. All deformations take part in the impulses that hold sliders at a stop.
     fn apply_impulses(
         &mut self,
         hits: &[ImpactContact],
@@ -267,10 +267,11 @@ impl System {
         Ok(())
     }
 
-    /// Gives the energy stored in stops to the sliders that leave. Their speeds are proportional to the square roots of their stored energies.
+    /// Returns the energy stored in stops to the sliders that leave them. The speeds of the sliders are proportional to the square roots of their
+    /// stored energies.
     ///
-    /// The impulses are linear in a common factor `s` of these speeds as long as the set of active contacts is the same. The returned energy is
-    /// then quadratic in `s`.
+    /// While the set of active contacts is the same, the impulses are proportional to the common factor of these speeds, and the returned energy to
+    /// its square.
     fn return_stop_energy(&mut self) -> Result<(), LinearError> {
         let hits = self.impulse_directions(|model, limit| {
             let slider = &model.sliders[limit.slider];
