@@ -50,7 +50,8 @@ impl Relaxation {
 /// in the previous step.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RateCollocation {
-    /// Fraction `s` of the step at which directions are taken: `(1-s)(x0, Λ0) + s (x1, Λ1)` [-].
+    /// Fraction `s` of the step at which directions are taken [-]. Position and rotation are interpolated linearly between the start and the end of
+    /// the step.
     pub fraction: f64,
     /// Factor of the change `Δq` in the step [1/time].
     pub by_change: f64,
@@ -69,7 +70,8 @@ pub(super) struct Functions {
 }
 
 impl Functions {
-    /// Interpolates increments of the control points of the span. Returns `(Δx', Δω, Δω')` at the point.
+    /// Interpolates increments of the control points of the span. Returns, at the point, the increment of the derivative of the axis, the rotation
+    /// increment, and its derivative.
     pub(super) fn interpolate(&self, moved: &[Movement]) -> (Vec2, f64, f64) {
         let (mut gradient, mut rotation, mut bend) = (Vec2::zeros(), 0.0, 0.0);
         for ((shape, slope), [x, y, omega]) in self.shape.iter().zip(&self.slope).zip(moved) {

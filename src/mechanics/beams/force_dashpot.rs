@@ -245,7 +245,8 @@ impl ForceDashpot {
         self.rotation.to_section(gradient - perpendicular(self.gradient) * spin)
     }
 
-    /// Strain rates at the start of the step. As selected, they are computed from the present rates or extrapolated from the last two steps.
+    /// Returns the strain rates at the start of the step. For each component, `selected` determines whether the present rate is used, or a rate
+    /// extrapolated from the last two steps.
     fn selected_rates(&self, selected: DashpotRates<'_>) -> Vec2 {
         let (present, carried) =
             (self.rate(selected.present), self.carried(selected.extrapolation));
@@ -256,7 +257,8 @@ impl ForceDashpot {
         )
     }
 
-    /// Force in space at the start of the step [force], and its contribution `w x' × n` to the moment [force·length].
+    /// Returns the force of the dashpot in space at the start of the step [force], and its contribution to the moment [force·length]. The
+    /// contribution is `w x' × n`, with the quadrature weight `w` and the derivative `x'` of the axis.
     pub(super) fn transmitted(&self, rates: DashpotRates<'_>) -> (Vec2, f64) {
         let force = self.rotation.to_space(self.damping.component_mul(&self.selected_rates(rates)));
         (force, self.functions.weight * cross(self.gradient, force))

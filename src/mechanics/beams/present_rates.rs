@@ -25,8 +25,9 @@ pub(super) struct RateMismatch {
 }
 
 impl RateMismatch {
-    /// Mismatch of a rate with the given damping [force·time; energy/time]. `start` is the rate at the start of a step; the following values are
-    /// the means of the previous step and of this one. `fraction` is the place of the start between the middles of both steps.
+    /// Mismatch of a rate with the given damping [force·time; energy/time]. `start` is the rate at the start of a step, `before` and `now` are the
+    /// mean rates of the previous step and of this step. `fraction` is the position of the start of the step on the time axis, on which the middles
+    /// of these steps are 0 and 1.
     pub(super) fn of(damping: f64, start: f64, [before, now]: [f64; 2], fraction: f64) -> Self {
         let (change, off) = (now - before, start - before);
         let off = off - fraction * change;

@@ -6,7 +6,8 @@ use crate::elementary::square;
 use crate::linalg::BorderedMatrix;
 use crate::newton::{Equations, Newton, NewtonError, NewtonReport, ResidualNorms, Tolerance};
 
-/// Largest rotation increment `Δω`, which is mean rate times step. For larger increments the direction of rotation is ambiguous.
+/// Largest rotation increment `Δω`, which is the mean angular velocity times the step length. For larger increments the direction of rotation is
+/// ambiguous.
 const LARGEST_INCREMENT: f64 = std::f64::consts::PI;
 
 /// Smallest chord of the path of a slider in the mean configuration, as a fraction of the length of the path. If a rotation of about π folds the

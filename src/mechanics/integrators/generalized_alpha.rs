@@ -24,7 +24,7 @@ use crate::newton::{NewtonReport, Tolerance};
 pub struct GeneralizedAlpha {
     solver: StepSolver,
     weights: Weights,
-    /// Accelerations `a`: before the solution of a step those at its start, afterwards those at its end.
+    /// Accelerations in the state. Before a step is solved, they belong to its start; afterwards, they belong to its end.
     accelerations: Vec<f64>,
 }
 
@@ -47,7 +47,7 @@ impl Weights {
         Self { inertia_before, forces_before, gamma, beta }
     }
 
-    /// Coefficient `½/β - 1` of `a0` in `a1`.
+    /// Coefficient `½/β - 1` of the acceleration at the start of a step in the formula for the acceleration at its end.
     fn carried(&self) -> f64 {
         0.5 / self.beta - 1.0
     }

@@ -14,10 +14,10 @@ pub enum Stage {
     ///
     /// The internal forces then do exactly the work by which the strain energy changes (Stander & Stein 1996; Simo, Tarnow & Doblaré 1995).
     Midpoint,
-    /// Middle of the step as for [`Midpoint`](Self::Midpoint), but the section forces are those of the mean strain plus `χ/2` times the change of
-    /// strain. The value is `χ`.
+    /// Middle of the step as for [`Midpoint`](Self::Midpoint), but the section forces belong to a later strain: the mean strain plus `χ/2` times
+    /// the change of the strain in the step. The contained value is `χ`.
     ///
-    /// The internal forces then do additional work of `χ/2` times the integral of `ΔΓ·C ΔΓ + EI Δκ²`.
+    /// The internal forces then do additional work, which is `χ/2` times the integral of `ΔΓ·C ΔΓ + EI Δκ²`.
     DampedMidpoint(f64),
     /// End of the step. Loads are replaced by a linear function of time that has the same mean over the step and the same change in the step. Their
     /// value is the value of this function at the end.
