@@ -62,7 +62,8 @@ fn raise<const WIDTH: usize>(
     higher
 }
 
-/// Derivatives of one order more of the functions of degree `q`, computed from the derivatives of the functions of degree `q - 1`.
+/// Computes the derivatives of one order of the splines of degree `q`, from the derivatives of the next lower order of the splines of degree `q -
+/// 1`.
 #[inline(always)]
 fn differentiate<const WIDTH: usize>(
     lower: &[f64; WIDTH],

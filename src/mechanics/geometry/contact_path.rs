@@ -312,8 +312,8 @@ impl PathInterval {
     }
 }
 
-/// For each span, the number of breaks at or before its start at which derivatives jump. At such a break, at most one function is nonzero on both
-/// sides.
+/// For each span, counts the breaks at or before its start at which first derivatives of the basis jump. At such a break, at most one function is
+/// nonzero on both sides.
 fn kinks(spans: &[Span], degree: usize) -> Vec<usize> {
     let jumps = spans.windows(2).map(|pair| usize::from(pair[1].first - pair[0].first >= degree));
     std::iter::once(0)

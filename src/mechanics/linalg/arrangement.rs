@@ -112,7 +112,7 @@ impl Arrangement {
         for block in blocks.iter().filter(delaying) {
             self.delayed_after[last(block, &self.position)] += MOST_DELAYED;
         }
-        // Converts the numbers of delayed unknowns to the places at which they start.
+        // Replaces the number of delayed unknowns after each place by the place at which they start.
         let mut shift = 0;
         for (place, behind) in self.delayed_after.iter_mut().enumerate() {
             shift += std::mem::replace(behind, place + 1 + shift);

@@ -293,8 +293,8 @@ impl Block {
         rows.map(move |row| &row[first..]).enumerate()
     }
 
-    /// Eliminates a right-hand side. `own` contains its entries for the own unknowns and the block, in the order of pivots. `subtract` receives the
-    /// contributions to the entries of touched unknowns.
+    /// Applies the elimination to a right-hand side. `own` contains the entries that belong to the own unknowns and to the block, in the order of
+    /// the pivots. `subtract` receives the contributions to the entries of touched unknowns.
     pub(super) fn substitute(&self, own: &mut [f64], mut subtract: impl FnMut(usize, f64)) {
         let rows = self.front.chunks_exact(self.size());
         for (at, row) in rows.enumerate() {

@@ -51,8 +51,8 @@ const MOST_TURNS: usize = 20;
 /// Number of adaptive steps above which a warning about their number is given if the other conditions hold.
 const MANY_STEPS: usize = 5000;
 
-/// Ratio of the step size that the motion of the scene needs to the mean step size. If it is larger, the steps follow a vibration whose amplitude
-/// is below a thousandth of the length of the scene, and are shorter than necessary.
+/// Ratio of the step size that the motion of the scene needs to the mean step size, above which a warning is given. The steps then follow a
+/// vibration whose amplitude is below a thousandth of the length of the scene.
 const MUCH_SHORTER: f64 = 50.0;
 
 /// Largest number of sliders with a description of their resolution.

@@ -22,7 +22,7 @@ impl SpeedLaw {
         (self.linear + self.quadratic * speed.abs()) * speed
     }
 
-    /// Power `F s`, computed only from the force `F = c s + k |s| s`, so that it is never negative.
+    /// Power `F s` at the speed `s`. It is computed only from the force `F = c s + k |s| s`, so that it is never negative.
     fn power(&self, force: f64) -> f64 {
         let force = force.abs();
         if force == 0.0 {

@@ -179,8 +179,8 @@ impl Elongation {
         MOST_ROUNDING * f64::EPSILON * moved
     }
 
-    /// Stores `missing` as part of the elongation change of the last iterate if it is within the rounding error of the increments. Returns true if
-    /// so.
+    /// Stores `missing` as a part of the elongation change of the last iterate, if it is within the rounding error of the increments. Returns true
+    /// if it was stored.
     pub fn absorb_rounding(&mut self, missing: f64) -> bool {
         let is_rounding = missing.abs() <= self.rounding();
         self.settled = (self.change, if is_rounding { missing } else { 0.0 });
@@ -214,8 +214,8 @@ impl Elongation {
         self.compare(collocation.rotations);
     }
 
-    /// Evaluates the lag in the last iterate: the direction at the fraction `share` of the step, minus the secant. The lag is zero if `share` is
-    /// `None`. It is also zero for angles, whose force directions are constant.
+    /// Evaluates the lag of the last iterate: the force direction at the fraction `share` of the step, minus the secant. The lag is zero if `share`
+    /// is `None`. It is also zero for angles, because their force directions are constant.
     pub fn balance(&mut self, share: Option<f64>) {
         let Self { measure, movements: moved, lag, lag_slope: lag_bend, .. } = self;
         [&mut *lag, lag_bend].into_iter().for_each(|all| all.fill(0.0));
@@ -243,7 +243,7 @@ impl Elongation {
         }
     }
 
-    /// Rate of `q` at the start of the step, computed from the rates of all control points.
+    /// Rate of the elongation at the start of the step, computed from the rates of all control points.
     pub fn rate(&self, rates: &[Vec<Movement>]) -> f64 {
         let mut sum = 0.0;
         for (place, coordinates) in self.moving() {
@@ -256,7 +256,7 @@ impl Elongation {
         sum
     }
 
-    /// Rate of `q` at the end of the last step, computed from the rates of the unknowns at that time.
+    /// Rate of the elongation at the end of the last step, computed from the rates of the unknowns at that time.
     pub fn rate_at_last_end(&self, bodies: &[Body], rates: &[f64]) -> f64 {
         self.moving().fold(0.0, |sum, (place, coordinates)| {
             let [x, y, spin] = bodies[place.body].at(place, rates);

@@ -47,7 +47,7 @@ struct PresentMotion {
     check: Option<ScheduleCheck>,
     /// Reaction in the last step, averaged over the step; moments are conjugate to the angle [force, force·length].
     reaction: f64,
-    /// `M Δv` of the step being accepted [force·time, force·length·time].
+    /// Product `M Δv` of the inertia and the rate change of the step being accepted [force·time, force·length·time].
     impact_momentum: f64,
     /// Static position or angle under the full load [length, rad].
     goal: f64,
@@ -82,7 +82,7 @@ pub struct DriveState<'a> {
     pub moment: f64,
 }
 
-/// `Δω/Δθ` for a rotation increment. It converts moments conjugate to increments into moments conjugate to angles.
+/// Ratio `Δω/Δθ` of a rotation increment to its angle. It converts a moment conjugate to the increment into a moment conjugate to the angle.
 fn per_angle(increment: f64, rotations: RotationIncrement) -> f64 {
     let angle = rotations.angle(increment);
     if angle == 0.0 { 1.0 } else { increment / angle }

@@ -73,15 +73,15 @@ pub struct RigidLink {
 }
 
 struct Iterated {
-    /// Arm `a0` at the start of the step. The arm `a1` at its end is in `end`, the arm of the force in `force_arm` [length].
+    /// Arm `a0` at the start of the step [length]. The next fields contain the arm at the end of the step, and the arm at which the force acts.
     start: Vec2,
     end: Vec2,
     force_arm: Vec2,
-    /// Force `λ` [force].
+    /// Constraint force `λ` on the body [force].
     force: Vec2,
     /// Derivative of the force with respect to its unknown.
     fraction: f64,
-    /// `dΔθ/dΔω` [-].
+    /// Derivative `dΔθ/dΔω` of the rotation angle with respect to the rotation increment [-].
     rate: f64,
     increment: f64,
 }

@@ -25,11 +25,11 @@ pub(super) const GIVES: f64 = 1e-9;
 
 /// Forces of a unit impulse in one direction, and the velocities that it causes.
 pub(super) struct ImpulseResponse {
-    /// `Gᵀ` at all degrees of freedom, including the impulses of section forces.
+    /// Generalised forces `Gᵀ` of the impulse at all degrees of freedom, including the impulses of section forces.
     pub(super) forces: Vec<f64>,
-    /// `M⁻¹ Gᵀ` at the unknowns.
+    /// Velocity changes `M⁻¹ Gᵀ` of the unknowns.
     pub(super) rates: Vec<f64>,
-    /// Nonzero entries of `Gᵀ`.
+    /// Indices of the nonzero entries of `forces`.
     touched: Vec<usize>,
     /// Impulses of section forces; empty if no strain resists the impulse.
     transmitted: Vec<f64>,
@@ -78,7 +78,7 @@ impl ImpactLaw {
         }
     }
 
-    /// Value by which the velocity misses the law without an impulse, for the velocity `w` before the impact [length/time].
+    /// Value by which the velocity would violate the law if no impulse acted [length/time]. `w` is the velocity before the impact.
     fn deficit(self, w: f64) -> f64 {
         match self {
             Self::Ends | Self::Held => w,
@@ -296,8 +296,8 @@ impl System {
         Ok(directions.iter().map(&mut answer).collect())
     }
 
-    /// Impact problem for the given directions. The velocity violation `w` of each rigid link changes by `links · w`. For `links = -2` the
-    /// violation is reversed, and the links do no work.
+    /// Creates the impact problem for the given directions. The velocity violation `w` of each rigid link changes by `links · w`. With `links =
+    /// -2`, the impact reverses the violation, and the links do no work.
     pub(super) fn impact_problem(
         &mut self,
         met: &[ImpactSelection<'_>],

@@ -316,8 +316,8 @@ impl System {
         Ok(())
     }
 
-    /// Directions [-] of all contact impulses: along masters for held sliders and sliders with an impact law at a limit, and across masters for the
-    /// same sliders and for all sliders on masters without a kink.
+    /// Returns the directions of all contact impulses with their laws [-]. For a slider that is held or has an impact law at a limit, they are the
+    /// directions along and across the master. For any other slider on a master without a kink, it is the direction across the master.
     fn impulse_directions(
         &self,
         law: impl Fn(&Self, MasterLimit) -> Option<ImpactLaw>,
