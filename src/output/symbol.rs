@@ -22,7 +22,7 @@ const ROOM: f64 = 20.0;
 pub enum Symbol {
     /// A support that fixes the position.
     Hinge,
-    /// A support that fixes position and angle. Its direction is that of the beam, pointing away from the support.
+    /// A support that fixes position and angle. Its direction is the direction of the beam, pointing away from the support.
     Clamp,
     /// A support that fixes the component of the position along its direction. The direction points away from the ground.
     Roller,

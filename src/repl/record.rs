@@ -59,7 +59,8 @@ impl SessionRecord {
             let (time, steps) = (was.handle.time(), was.handle.simulation().counts().steps);
             if steps != was.steps {
                 let method = if time > was.time { "run_to" } else { "rewind" };
-                // While the script repeats the movement, it may call the script function that failed, and this may fail again.
+                // When the saved script repeats the movement, it may call the script function that has failed here, and this call may fail again.
+                // Hence the error is caught.
                 let call = format!("{}.{method}({});", was.name, format_number(time));
                 self.entries
                     .push(RecordedInput::Moved(format!("try {{ {call} }} catch {{ }}").into()));

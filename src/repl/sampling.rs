@@ -75,7 +75,7 @@ impl Sampling {
 }
 
 impl Figures {
-    /// Relative standard error of the median. It is computed for a normal distribution with the same quartiles.
+    /// Relative standard error of the median. It is the error for a normal distribution that has the same quartiles as the measured durations.
     fn error(&self) -> f64 {
         let (low, high) = self.quartiles;
         let deviation = (high - low).as_secs_f64() / 1.349;

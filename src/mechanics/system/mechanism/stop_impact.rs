@@ -77,8 +77,8 @@ impl System {
         limits.filter(arrives).collect()
     }
 
-    /// Returns true if the velocity of a slider at an end points beyond the end. The velocity is that of the deformations that take part in an
-    /// impact with steps of length `dt` [time].
+    /// Returns true if the velocity of a slider at an end points beyond the end. Only deformations that take part in an impact with steps of length
+    /// `dt` contribute to this velocity [time].
     ///
     /// # Errors
     /// Fails if the impulse is not determined.

@@ -1,4 +1,4 @@
-//! Rules for each domain: how calls are evaluated whose arguments depend on parameters.
+//! Rules for calls whose arguments depend on parameters. For each domain, a rule determines how such calls are evaluated.
 
 use crate::script::bindings::table::{BindingTable, CallSyntax, FunctionBinding};
 
