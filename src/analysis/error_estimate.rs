@@ -56,21 +56,44 @@ impl ErrorVerdict {
 }
 
 /// Estimated error of a quantity by one of the discretisations, time or space.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct DirectionError {
-    /// Error at the present time, in the dimension of the quantity.
-    pub present: f64,
-    /// Largest error of the run, in the dimension of the quantity.
-    pub largest: f64,
+#[derive(Debug, Clone, PartialEq)]
+pub struct DiscretisationError {
+    /// Errors at times of the run [time, dimension of the quantity].
+    pub over_time: Vec<(f64, f64)>,
     /// Observed order; `None` if the runs agree to rounding or do not converge.
     pub order: Option<f64>,
     /// Reliability.
     pub verdict: ErrorVerdict,
 }
 
+impl DiscretisationError {
+    /// Error at the present time, in the dimension of the quantity.
+    pub fn present(&self) -> f64 {
+        self.over_time.last().map_or(0.0, |(_, error)| *error)
+    }
+
+    /// Largest error of the run, in the dimension of the quantity.
+    pub fn largest(&self) -> f64 {
+        largest(&self.over_time)
+    }
+
+    /// Error at a time, interpolated linearly. Before the first and after the last known time it is the nearest known error.
+    pub fn at(&self, time: f64) -> f64 {
+        let after = self.over_time.partition_point(|(other, _)| *other < time);
+        match (after.checked_sub(1).map(|before| self.over_time[before]), self.over_time.get(after))
+        {
+            (Some((start, before)), Some((end, error))) => {
+                before + (error - before) * (time - start) / (end - start)
+            }
+            (Some((_, error)), None) | (None, Some(&(_, error))) => error,
+            (None, None) => 0.0,
+        }
+    }
+}
+
 /// A quantity on three levels of refinement, from fine to coarse. The third level may be missing.
 #[derive(Debug, Clone, Copy)]
-pub struct Levels<'a> {
+pub struct RefinementLevels<'a> {
     /// Step or mesh sizes, from fine to coarse.
     pub sizes: [f64; 3],
     /// Trace of each level.
@@ -83,39 +106,34 @@ pub struct Levels<'a> {
     pub scale: f64,
 }
 
-impl Levels<'_> {
+impl RefinementLevels<'_> {
     /// Estimated error; `None` if the two finest levels have no common times.
-    pub fn error(&self) -> Option<DirectionError> {
+    pub fn error(&self) -> Option<DiscretisationError> {
         let [fine, middle, coarse] = self.traces;
         let middle = middle?;
         let near = fine?.distances(middle);
         let far = coarse.map(|coarse| middle.distances(coarse)).unwrap_or_default();
-        let present = near.last()?.1;
-        let largest = near.iter().map(|(_, distance)| *distance).fold(0.0, f64::max);
-        if largest <= ROUNDING * self.scale {
-            let verdict = ErrorVerdict::Exact;
-            return Some(DirectionError { present, largest, order: None, verdict });
+        near.last()?;
+        let farthest = largest(&near);
+        let scaled = |factor: f64, order, verdict| {
+            let over_time = near.iter().map(|(time, distance)| (*time, factor * distance));
+            Some(DiscretisationError { over_time: over_time.collect(), order, verdict })
+        };
+        if farthest <= ROUNDING * self.scale {
+            return scaled(1.0, None, ErrorVerdict::Exact);
         }
         let order = self.observed_order(root_mean_square(&near), root_mean_square(&far));
         let factor = order.map_or(1.0, |order| self.factor(order));
-        let is_small = factor * largest < TOO_LARGE * self.scale;
+        let is_small = factor * farthest < TOO_LARGE * self.scale;
         if order.is_some_and(|order| self.is_converging(order)) && is_small {
-            let verdict = ErrorVerdict::Converged;
-            let (present, largest) = (factor * present, factor * largest);
-            return Some(DirectionError { present, largest, order, verdict });
+            return scaled(factor, order, ErrorVerdict::Converged);
         }
         let verdict = match self.last_convergence(&near, &far) {
             Some(until) => ErrorVerdict::Chaotic { until },
             None => ErrorVerdict::PreAsymptotic,
         };
         // Where the order means nothing, the distance itself is the lower bound.
-        let factor = factor.max(1.0);
-        Some(DirectionError {
-            present: factor * present,
-            largest: factor * largest,
-            order,
-            verdict,
-        })
+        scaled(factor.max(1.0), order, verdict)
     }
 
     /// Error of the level in units of the distance of the two finest levels.
@@ -169,6 +187,10 @@ impl Levels<'_> {
     }
 }
 
+fn largest(errors: &[(f64, f64)]) -> f64 {
+    errors.iter().map(|(_, error)| *error).fold(0.0, f64::max)
+}
+
 fn root_mean_square(distances: &[(f64, f64)]) -> f64 {
     let squares = distances.iter().map(|(_, distance)| distance * distance).sum::<f64>();
     (squares / distances.len() as f64).sqrt()
@@ -187,10 +209,14 @@ mod tests {
         Trace::of_values(times, values)
     }
 
-    fn estimate(sizes: [f64; 3], level: usize, value: impl Fn(f64, f64) -> f64) -> DirectionError {
+    fn estimate(
+        sizes: [f64; 3],
+        level: usize,
+        value: impl Fn(f64, f64) -> f64,
+    ) -> DiscretisationError {
         let traces = sizes.map(|size| sampled(size, |time| value(time, size)));
         let traces = traces.each_ref().map(Some);
-        Levels { sizes, traces, level, order: Some(2.0), scale: 1.0 }.error().unwrap()
+        RefinementLevels { sizes, traces, level, order: Some(2.0), scale: 1.0 }.error().unwrap()
     }
 
     #[test]
@@ -200,8 +226,8 @@ mod tests {
             assert_eq!(error.verdict, ErrorVerdict::Converged);
             assert!((error.order.unwrap() - 2.0).abs() < 0.02, "{error:?}");
             let exact = 64e-6 * size * size;
-            assert!((error.largest / exact - 1.0).abs() < 0.02, "{level} {error:?}");
-            assert!((error.present / exact - 1.0).abs() < 0.02);
+            assert!((error.largest() / exact - 1.0).abs() < 0.02, "{level} {error:?}");
+            assert!((error.present() / exact - 1.0).abs() < 0.02);
         }
         let uneven = estimate([1.0, 2.0, 8.0], 0, |time, h| 1e-6 * time * h * h);
         assert!((uneven.order.unwrap() - 2.0).abs() < 0.02, "{uneven:?}");
@@ -210,11 +236,20 @@ mod tests {
     #[test]
     fn equal_runs_are_exact_and_runs_without_order_are_not_converged() {
         let exact = estimate(SIZES, 0, |time, _| time);
-        assert_eq!((exact.verdict, exact.order, exact.largest), (ErrorVerdict::Exact, None, 0.0));
+        assert_eq!((exact.verdict, exact.order, exact.largest()), (ErrorVerdict::Exact, None, 0.0));
         let lost = estimate(SIZES, 0, |time, h| (0.1 * time * h).sin());
         assert_eq!(lost.verdict, ErrorVerdict::PreAsymptotic);
         let first_order = estimate(SIZES, 0, |time, h| 1e-4 * time * h);
         assert_eq!(first_order.verdict, ErrorVerdict::PreAsymptotic);
+    }
+
+    #[test]
+    fn errors_between_known_times_are_interpolated() {
+        let error = estimate(SIZES, 0, |time, h| 1e-6 * time * h * h);
+        assert!((error.at(20.0) / 20e-6 - 1.0).abs() < 0.02, "{}", error.at(20.0));
+        assert!((error.at(20.1) / error.at(20.0) - 1.005).abs() < 1e-9);
+        assert_eq!(error.at(1e3), error.present());
+        assert_eq!(error.at(-1.0), 0.0);
     }
 
     #[test]
@@ -231,9 +266,10 @@ mod tests {
     fn without_a_third_level_the_distance_is_a_lower_bound() {
         let traces = [1.0, 2.0].map(|size| sampled(size, |time| 1e-6 * time * size * size));
         let traces = [Some(&traces[0]), Some(&traces[1]), None];
-        let levels = Levels { sizes: SIZES, traces, level: 0, order: Some(2.0), scale: 1.0 };
+        let levels =
+            RefinementLevels { sizes: SIZES, traces, level: 0, order: Some(2.0), scale: 1.0 };
         let error = levels.error().unwrap();
         assert_eq!((error.verdict, error.order), (ErrorVerdict::PreAsymptotic, None));
-        assert!((error.largest / (3.0 * 64e-6) - 1.0).abs() < 1e-12);
+        assert!((error.largest() / (3.0 * 64e-6) - 1.0).abs() < 1e-12);
     }
 }

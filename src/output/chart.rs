@@ -190,6 +190,15 @@ impl LineChart {
         self
     }
 
+    /// Adds thin lines above and below a series, at the given distances from its points.
+    pub fn add_band(&mut self, index: usize, distances: &[f64]) {
+        for sign in [1.0, -1.0] {
+            let points = self.series[index].points.iter().zip(distances);
+            let edge = points.map(|((x, y), distance)| (*x, y + sign * distance)).collect();
+            self.series.push(Series::new("", edge).ink(SeriesColour::OfSeries(index)).thin());
+        }
+    }
+
     pub fn caption(mut self, words: impl Into<String>) -> Self {
         self.captions.push(words.into());
         self

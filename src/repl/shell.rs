@@ -368,16 +368,22 @@ impl Shell {
 
     /// Shows the result of a method of the simulation used last.
     pub fn show_latest_result(&mut self, call: &str) -> CommandOutcome {
-        match self.name_of_latest() {
-            Ok(name) => {
-                let reply = self.session.evaluate_preview(&format!("{name}.{call}"));
-                self.print_reply(reply)
-            }
+        match self.preview_latest(call) {
+            Ok(reply) => self.print_reply(reply),
             Err(refusal) => self.report_error(&refusal),
         }
     }
 
-    /// End time of the next step of the simulation used last. `None` if it has reached `end`.
+    /// Evaluates a method of the simulation used last, without effects on the session.
+    ///
+    /// # Errors
+    /// Fails if there is no simulation.
+    pub fn preview_latest(&mut self, call: &str) -> Result<Reply, Diagnostic> {
+        let name = self.name_of_latest()?;
+        Ok(self.session.evaluate_preview(&format!("{name}.{call}")))
+    }
+
+    /// End time of the next step of the simulation used last; `None` if the simulation has reached `end`.
     pub fn next_stop(&self, end: f64) -> Option<f64> {
         let latest = self.latest()?;
         let simulation = latest.simulation();

@@ -143,6 +143,7 @@ pub fn carriage(mesh: &Mesh, rule: SlidingRule) -> Scene {
             rule,
             ends: EndAction::Bounce,
             restitution: 1.0,
+            friction: 0.0,
             velocities: StartVelocities::Check,
         };
         scene.add_slider(slider).unwrap();

@@ -81,6 +81,7 @@ pub fn bead(mesh: &Mesh) -> Scene {
         rule: SlidingRule::Conserving,
         ends: EndAction::Stop,
         restitution: 1.0,
+        friction: 0.0,
         velocities: StartVelocities::Check,
     };
     scene.add_slider(slider).unwrap();

@@ -36,6 +36,7 @@ pub fn slider(slave: Station, master: usize, arc_length: f64, rule: SlidingRule)
         rule,
         ends: EndAction::Stop,
         restitution: 1.0,
+        friction: 0.0,
         velocities: StartVelocities::Check,
     }
 }

@@ -24,9 +24,11 @@ fn mesh() -> Mesh {
 
 /// Records the means of all joints.
 fn listening(mut scene: Scene) -> Scene {
-    let names = scene.sensor_names();
-    let of_steps = names.iter().filter(|name| name.contains(".mean_"));
-    of_steps.for_each(|name| scene.record(name).unwrap());
+    for joint in scene.joint_names() {
+        ["force", "fx", "fy", "moment"]
+            .iter()
+            .for_each(|quantity| scene.record(&format!("{joint}.{quantity}")).unwrap());
+    }
     scene
 }
 
@@ -105,6 +107,10 @@ fn mean_reactions_and_loads_change_the_momenta() {
             let mut simulation = Simulation::start(scene, settings(entry.method, 0.02)).unwrap();
             let places = held.iter().chain([&tip]);
             let places: Vec<_> = places.map(|place| simulation.place(place).unwrap()).collect();
+            // Before the first step, means are the present forces.
+            let now = simulation.instant().unwrap();
+            let model = simulation.model();
+            assert_eq!(&model.mean_reactions().unwrap(), now.reactions(), "{label}");
             for step in 0..40 {
                 let before: Vec<Vec2> =
                     places.iter().map(|place| simulation.model().position(place)).collect();
@@ -115,6 +121,11 @@ fn mean_reactions_and_loads_change_the_momenta() {
                 let model = simulation.model();
                 let given = model.mean_reactions().unwrap();
                 let (mut force, mut moment, mut size) = (Vec2::zeros(), 0.0, 1.0);
+                // The drive holds the first place alone.
+                for drive in model.drives() {
+                    let (by, _) = model.reaction(&given, &places[0]).unwrap();
+                    assert!((drive.force - by).norm() < 1e-9 * (1.0 + by.norm()), "{label}");
+                }
                 for (place, before) in places.iter().zip(before) {
                     let middle = (before + model.position(place)) * 0.5;
                     let (by, turning) = model.reaction(&given, place).unwrap_or((PUSH, 0.0));

@@ -162,6 +162,7 @@ fn ring(stiffness: f64, mass: f64, speed: f64) -> Scene {
         rule: SlidingRule::Conserving,
         ends: EndAction::Contact,
         restitution: 1.0,
+        friction: 0.0,
         velocities: StartVelocities::Check,
     };
     scene.add_slider(slider).unwrap();

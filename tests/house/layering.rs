@@ -214,10 +214,11 @@ const ROOMS: &[(&str, &[&str])] = &[
     ("mechanism", &["state", "links", "sliders", "elements", "bodies", "errors"]),
     ("state", &[]),
     ("links", &["bodies"]),
-    ("sliders", &["bodies", "errors"]),
+    ("sliders", &["bodies", "errors", "step_mean"]),
     ("scene", &["elements", "errors"]),
-    ("elements", &["bodies", "errors"]),
+    ("elements", &["bodies", "errors", "step_mean"]),
     ("bodies", &[]),
+    ("step_mean", &[]),
     ("errors", &[]),
 ];
 

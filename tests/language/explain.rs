@@ -55,6 +55,7 @@ fn with_bead() -> Scene {
         rule: SlidingRule::Conserving,
         ends: EndAction::Stop,
         restitution: 1.0,
+        friction: 0.0,
         velocities: StartVelocities::Check,
     };
     scene.add_slider(slider).unwrap();

@@ -312,7 +312,7 @@ fn nothing_that_a_terminal_obeys_is_printed_or_told() {
     }
 }
 
-const NOT_ESTIMATED: &str = "estimated error: not estimated; --error estimates it\n";
+const NOT_ESTIMATED: &str = "estimated error: not estimated; use --error to estimate it\n";
 
 const SPINNING: &str = "let scene = new_scene(\"spin\");\n\
     let s = section(#{ EA: 1e4, GA: 1e4, EI: 100, rho_A: 1, rho_I: 10 });\n\

@@ -7,6 +7,7 @@ mod blows;
 mod consistency;
 mod ends;
 mod forces;
+mod friction;
 mod impact_law;
 mod invariants;
 mod kink_starts;

@@ -2,14 +2,18 @@
 #![allow(clippy::unwrap_used)]
 
 use crate::common::rails::{bead, clamped_rail, rail};
+use crate::common::scenes::{add_beam, end_of, line, start_of};
 use crate::common::{at, run, settings, sliding_scenes};
-use withy::beams::Mesh;
-use withy::geometry::Vec2;
+use nalgebra::Rotation2;
+use withy::beams::{Mesh, Section};
+use withy::geometry::{Vec2, perpendicular};
 use withy::integrators::Method;
-use withy::joints::{EndAction, Releasable, Release, SlidingRule, Trigger};
+use withy::joints::{EndAction, Releasable, Release, SlidingRule, StartVelocities, Trigger};
 use withy::loads::{LoadFrame, LoadKind, Schedule};
 use withy::simulation::{ArrivalKind, Invariant, Simulation};
-use withy::system::{Scene, SliderState};
+use withy::system::{
+    Anchor, Origin, Scene, SliderState, Spring, SpringKind, SpringLaw, StartMotion,
+};
 
 const METHODS: [Method; 2] = [Method::EnergyMomentum, Method::FourthOrder];
 
@@ -229,5 +233,66 @@ fn what_leans_loses_and_leaves_goes_on_bit_for_bit_from_files_and_after_going_ba
             }
             assert!(first.model().state() == *last, "{method:?}, dt = {dt}, after going back");
         }
+    }
+}
+
+/// A soft beam on springs, at whose end two beads come to rest again and again, turned about the origin.
+fn resting_beads(angle: f64) -> Scene {
+    let turned = |point: Vec2| Rotation2::new(angle) * point;
+    let mut scene = Scene::new("resting beads");
+    let (start, along) = (at(0.245, 0.0), Rotation2::new(-0.258) * at(1.71, 0.0));
+    let section = Section {
+        axial_stiffness: 40_500.0,
+        shear_stiffness: 20_300.0,
+        bending_stiffness: 0.447,
+        mass_per_length: 3.9,
+        rotary_inertia: 0.039,
+    };
+    let axis = line(turned(start), turned(start + along));
+    let beam = add_beam(&mut scene, axis, &Mesh::bspline(4, 3, 2).unwrap(), section);
+    let (drift, spin, centre) = (at(-0.444, 0.378), 0.304, start + along * 0.5);
+    scene.beams[beam].motion =
+        StartMotion { velocity: turned(drift), spin, centre: Some(turned(centre)) };
+    let spring = |scene: &mut Scene, kind, stiffness, damping: f64| {
+        let law = Some(SpringLaw::Linear { stiffness, natural: 0.0 });
+        let name = scene.free_name("spring");
+        let (origin, damping) = (Origin::AsBuilt, damping.into());
+        scene.add_spring(Spring { name, kind, law, origin, damping }).unwrap();
+    };
+    let [begin, end] = [start_of(&mut scene, beam), end_of(&mut scene, beam)].map(Anchor::Station);
+    let ground = |point: Vec2| Anchor::Ground(turned(point));
+    for (place, stiffness, damping) in [(at(1.34, -1.2), 80.9, 0.5), (at(-1.49, -2.68), 1.2, 0.0)] {
+        let kind = SpringKind::Length(vec![ground(start + place), end]);
+        spring(&mut scene, kind, stiffness, damping);
+    }
+    spring(&mut scene, SpringKind::Torsion([ground(start), begin]), 1.79, 0.0);
+    for (part, mass, speed) in [(0.402, 0.143, 3.84), (0.308, 2.1, 3.37)] {
+        let place = start + along * part;
+        let velocity = drift + perpendicular(place - centre) * spin + along.normalize() * speed;
+        let slider = bead(&mut scene, part, mass, turned(velocity), EndAction::Bounce);
+        scene.sliders[slider].restitution = 0.0;
+        scene.sliders[slider].velocities = StartVelocities::Project;
+    }
+    let bead = Anchor::Station(scene.sliders[0].slave);
+    let place = start + along * 0.402 + at(0.3, -1.0);
+    spring(&mut scene, SpringKind::Length(vec![ground(place), bead]), 2.25, 0.0);
+    scene
+}
+
+#[test]
+fn turned_scenes_decide_alike_when_a_bead_at_rest_leaves_a_stop() {
+    let run = |angle: f64| simulated(resting_beads(angle), Method::FourthOrder, 0.00813, 0.5);
+    let own = run(0.0);
+    for angle in [0.4, 1.1, 2.3, 4.7] {
+        let other = run(angle);
+        assert_eq!(own.arrivals().len(), other.arrivals().len(), "{angle}");
+        let points = |simulation: &Simulation| {
+            simulation.model().control_points().flatten().copied().collect::<Vec<Vec2>>()
+        };
+        let pairs = points(&own).into_iter().zip(points(&other));
+        let off = pairs.map(|(one, other)| (Rotation2::new(angle) * one - other).norm());
+        let off = off.fold(0.0, f64::max);
+        println!("turned by {angle}: off by {off:.1e}, {} arrivals", own.arrivals().len());
+        assert!(off < 1e-10, "{angle}: {off:e}");
     }
 }

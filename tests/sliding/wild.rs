@@ -16,8 +16,8 @@ const SEEDS: u64 = 1140;
 const IN_SHORT: u64 = 60;
 
 /// Most arrivals of a scene, and most solves of steps, tries to find arrivals and failures among them.
-const MOST_ARRIVALS: usize = 10_000;
-const MOST_SOLVES: usize = 200_000;
+const MOST_ARRIVALS: usize = 5000;
+const MOST_SOLVES: usize = 100_000;
 
 /// What may be said of a scene that no step takes further.
 const WORDS: [&str; 4] = [
@@ -98,8 +98,8 @@ fn wild_scenes_end_or_say_why() {
 
 #[test]
 fn steps_that_keep_a_tolerance_keep_kinks_where_there_is_no_other_step() {
-    // Without that no step takes this scene beyond t = 0.285.
-    let (mut scene, method) = scene(0);
+    // Without that no step takes this scene beyond t = 0.946.
+    let (mut scene, method) = scene(32);
     scene.sliders.iter_mut().for_each(|slider| slider.rule = SlidingRule::Kinked);
     let settings = SimulationSettings {
         dt: StepSize::Adaptive(StepControl::to(1e-3)),
@@ -107,6 +107,7 @@ fn steps_that_keep_a_tolerance_keep_kinks_where_there_is_no_other_step() {
     };
     let mut simulation = Simulation::start(scene, settings).unwrap();
     run(&mut simulation, END).unwrap();
+    assert!(simulation.counts().retries > 0);
     let history = simulation.history();
     for invariant in
         [Invariant::Energy, Invariant::Momentum, Invariant::AngularMomentum, Invariant::Gap]

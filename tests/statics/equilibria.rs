@@ -441,6 +441,42 @@ fn what_is_not_held_or_not_loaded_or_slides_is_told() {
 }
 
 #[test]
+fn a_search_stops_within_an_iteration() {
+    let load = |mut scene: Scene| {
+        let end = scenes::end_of(&mut scene, 0);
+        with_force(scene, end, at(3.0, 20.0))
+    };
+    let clamped = load(clamped(straight(), &smooth(4), section(1e4, 1e4)));
+    let mut hanging = Scene::new("hanging");
+    scenes::add_beam(&mut hanging, straight(), &smooth(4), section(1e4, 1e4));
+    let start = scenes::start_of(&mut hanging, 0);
+    hanging.join(JointKind::Hinge, start, Partner::Ground).unwrap();
+    let arc = Control::ArcLength(ArcLength { longest: 1.0, points: 3 });
+    for (scene, control) in
+        [(&clamped, Control::Load), (&clamped, arc), (&load(hanging), Control::Load)]
+    {
+        let loading = Loading { steps: 1, control, ..Loading::default() };
+        // The search is stopped at each call in turn, until it ends before.
+        for stop in 1.. {
+            let mut calls = 0;
+            let found = Equilibrium::find(scene.clone(), loading, &mut |_| {
+                calls += 1;
+                calls < stop
+            });
+            if let Err(StaticsError::Interrupted { .. }) = found {
+                assert!(calls <= stop + 1, "{control:?}: {calls} {stop}");
+                continue;
+            }
+            let iterations: usize =
+                found.unwrap().path().points().iter().map(|point| point.iterations).sum();
+            println!("{control:?}: {iterations} iterations, {calls} calls");
+            assert!(calls > iterations, "{control:?}: {iterations} {calls}");
+            break;
+        }
+    }
+}
+
+#[test]
 fn a_simulation_that_starts_at_rest_stays_there_and_swings_when_let_go() {
     let mut scene = clamped(straight(), &smooth(8), section(1e4, 1e4));
     let station = scenes::end_of(&mut scene, 0);

@@ -96,8 +96,7 @@ impl Basis {
         }
     }
 
-    /// Same functions as in [`evaluate_in`](Self::evaluate_in) with first and second derivatives, for the degree `WIDTH - 1`. The largest width can
-    /// be used for any degree.
+    /// Functions of degree `WIDTH - 1` as in [`evaluate_in`](Self::evaluate_in), up to third derivatives. The largest width serves any degree.
     #[inline]
     pub(super) fn evaluate_low<const WIDTH: usize>(
         &self,

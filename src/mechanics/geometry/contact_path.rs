@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use super::piecewise::FunctionOnPath;
-use super::values::FunctionRow;
+use super::values::{FunctionRow, LOW_ORDERS, LowDerivatives};
 use super::{Basis, GaussRule, MAX_DEGREE, PiecewisePolynomial, Span};
 
 /// Basis functions `B_i` along a path from the parameter ξ₀ to ξ₁. The path belongs to a point that slides along `Σ B_i(ξ) x_i` during a time step.
@@ -105,13 +105,12 @@ impl ContactPath {
         self.first = self.line.spans[low].first;
         self.length = self.line.spans[high].first + self.line.basis.degree() + 1 - self.first;
         if finite {
-            self.fill(0.0);
-            // Compile-time constants for the common degrees.
+            // The common degrees are compile-time constants.
             match self.line.basis.degree() {
-                1 => self.add_values::<2>(interval),
-                2 => self.add_values::<3>(interval),
-                3 => self.add_values::<4>(interval),
-                _ => self.add_values::<{ MAX_DEGREE + 1 }>(interval),
+                1 => self.set_values::<2>(interval),
+                2 => self.set_values::<3>(interval),
+                3 => self.set_values::<4>(interval),
+                _ => self.set_values::<{ MAX_DEGREE + 1 }>(interval),
             }
         } else {
             self.fill(f64::NAN);
@@ -168,6 +167,9 @@ impl ContactPath {
     /// The derivative of the polynomial may jump only where derivatives of the basis jump.
     pub fn along(&self, function: &PiecewisePolynomial) -> FunctionOnPath {
         let interval = self.interval;
+        if interval.departure == interval.arrival {
+            return function.between(interval.departure, interval.from, interval.to);
+        }
         let [start, ..] = function.in_span(interval.departure, interval.from);
         let [end, slope, _] = function.in_span(interval.arrival, interval.to);
         let (mut difference, mut change) = (0.0, 0.0);
@@ -227,30 +229,61 @@ impl ContactPath {
         self.numbers[..QUANTITIES * self.length].fill(value);
     }
 
-    fn add_values<const WIDTH: usize>(&mut self, interval: PathInterval) {
-        self.add_ends::<WIDTH>(interval);
-        self.add_quotients::<WIDTH>(interval);
+    fn set_values<const WIDTH: usize>(&mut self, interval: PathInterval) {
+        let PathSupport { basis, spans, .. } = &*self.line;
+        let departure = &spans[interval.departure];
+        let is_known = |(from, span, _): &(f64, usize, FunctionRow)| {
+            (*from, *span) == (interval.from, interval.departure)
+        };
+        if !self.departing.as_ref().is_some_and(is_known) {
+            let own = basis.evaluate_low::<WIDTH>(departure, interval.from);
+            let mut values = FunctionRow::default();
+            values[..=basis.degree()].copy_from_slice(own.values());
+            self.departing = Some((interval.from, interval.departure, values));
+        }
+        let end = basis.evaluate_low::<WIDTH>(&spans[interval.arrival], interval.to);
+        let (first, degree) = (departure.first, basis.degree());
+        if interval.departure == interval.arrival && degree <= LOW_ORDERS {
+            self.set_in_span(interval, &end);
+        } else {
+            self.fill(0.0);
+            self.add_ends(first, &end);
+            self.add_quotients::<WIDTH>(interval);
+        }
     }
 
-    fn add_ends<const WIDTH: usize>(&mut self, interval: PathInterval) {
-        let PathSupport { basis, spans, .. } = &*self.line;
+    /// Sets all rows for a path in one span. The integrals of [`add_quotients`](Self::add_quotients) follow from the derivatives at its end: with
+    /// `h = Δξ`
+    ///
+    /// ```text
+    /// D = B' - h/2 B'' + h²/6 B'''        ∂D/∂ξ1 = ½ B'' - h/6 B'''
+    /// ```
+    fn set_in_span<const WIDTH: usize>(
+        &mut self,
+        interval: PathInterval,
+        at_end: &LowDerivatives<WIDTH>,
+    ) {
+        let Some((.., at_start)) = &self.departing else { return };
+        let [start, end, mean, slope, difference, change] = rows(&mut self.numbers, self.length);
+        let h = interval.to - interval.from;
+        for at in 0..at_end.values().len() {
+            let [value, first, second, third] = at_end.of_function(at);
+            let third = h * (1.0 / 6.0) * third;
+            (start[at], end[at]) = (at_start[at], value);
+            mean[at] = 0.5 * at_start[at] + 0.5 * value;
+            slope[at] = first;
+            difference[at] = first - h * (0.5 * second - third);
+            change[at] = 0.5 * second - third;
+        }
+    }
+
+    fn add_ends<const WIDTH: usize>(&mut self, first: usize, at_end: &LowDerivatives<WIDTH>) {
+        let Some((.., at_start)) = &self.departing else { return };
         let [start, end, mean, slope, ..] = rows(&mut self.numbers, self.length);
-        let departure = &spans[interval.departure];
-        let values = match &self.departing {
-            Some((from, span, values)) if (*from, *span) == (interval.from, interval.departure) => {
-                values
-            }
-            _ => {
-                let own = basis.evaluate_low::<WIDTH>(departure, interval.from);
-                let mut values = FunctionRow::default();
-                values[..=basis.degree()].copy_from_slice(own.values());
-                &self.departing.insert((interval.from, interval.departure, values)).2
-            }
-        };
-        add(start, departure.first - self.first, 1.0, &values[..=basis.degree()]);
-        let values = basis.evaluate_low::<WIDTH>(&spans[interval.arrival], interval.to);
-        add(end, values.first - self.first, 1.0, values.values());
-        add(slope, values.first - self.first, 1.0, values.slopes());
+        let at_start = &at_start[..at_end.values().len()];
+        add(start, first - self.first, 1.0, at_start);
+        add(end, at_end.first - self.first, 1.0, at_end.values());
+        add(slope, at_end.first - self.first, 1.0, at_end.slopes());
         add(mean, 0, 0.5, start);
         add(mean, 0, 0.5, end);
     }

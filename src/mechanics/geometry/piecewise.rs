@@ -78,7 +78,29 @@ impl PiecewisePolynomial {
         middles.map(|(span, (middle, _))| self.in_span(span, *middle)[0]).fold(0.0, larger)
     }
 
-    /// Value and first and second derivative of the polynomial of a span with respect to ξ. `xi` may be outside the span.
+    /// Values along a path whose ends belong to one span: Horner's scheme at both ends, of the polynomial `f` and of its quotients `f[·, ξ1]` and
+    /// `f[·, ξ1, ξ1]`.
+    #[inline]
+    pub(super) fn between(&self, span: usize, from: f64, to: f64) -> FunctionOnPath {
+        let (middle, half) = self.spans[span];
+        let [t0, t1] = [from, to].map(|xi| (xi - middle) / half);
+        let own = &self.coefficients[span * self.count..][..self.count];
+        let mut on = FunctionOnPath::default();
+        for c in own.iter().rev() {
+            on.change = on.change * t0 + on.slope;
+            on.difference = on.difference * t0 + on.end;
+            on.slope = on.slope * t1 + on.end;
+            on.end = on.end * t1 + c;
+            on.start = on.start * t0 + c;
+        }
+        let inverse = 1.0 / half;
+        on.slope *= inverse;
+        on.difference *= inverse;
+        on.change *= inverse * inverse;
+        on
+    }
+
+    /// Value, first and second derivative with respect to ξ of the polynomial of a span, also outside the span.
     #[inline]
     pub(crate) fn in_span(&self, span: usize, xi: f64) -> [f64; 3] {
         let (middle, half) = self.spans[span];
@@ -95,6 +117,21 @@ impl PiecewisePolynomial {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// `f[a, b] = a² + ab + b²` and `f[a, b, b] = a + 2b` for `f = ξ³`.
+    #[test]
+    fn quotients_in_a_span_are_exact_for_paths_of_any_length() {
+        let span = Span { first: 0, start: 1.0, end: 3.0 };
+        let function = PiecewisePolynomial::new(&[span], &[vec![8.0, 12.0, 6.0, 1.0]]);
+        for (a, b) in [(1.5, 2.5), (2.5, 1.5), (2.0, 2.0), (2.0, 2.0 + 1e-13), (3.0, 3.5)] {
+            let on = function.between(0, a, b);
+            let found = [on.start, on.end, on.slope, on.difference, on.change];
+            let exact = [a * a * a, b * b * b, 3.0 * b * b, a * a + a * b + b * b, a + 2.0 * b];
+            for (found, exact) in found.iter().zip(exact) {
+                assert!((found - exact).abs() < 1e-14 * exact, "{a} {b}: {found} {exact}");
+            }
+        }
+    }
 
     #[test]
     fn polynomials_are_those_of_their_spans() {

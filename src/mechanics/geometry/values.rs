@@ -59,17 +59,20 @@ impl BasisValues {
     }
 }
 
-/// Basis functions of a degree below `WIDTH` that are nonzero at a parameter, with first and second derivatives.
+/// Largest order of the derivatives in [`LowDerivatives`].
+pub(super) const LOW_ORDERS: usize = 3;
+
+/// Nonzero basis functions of a degree below `WIDTH` at one parameter, with derivatives up to [`LOW_ORDERS`].
 #[derive(Debug, Clone, Copy)]
 pub(super) struct LowDerivatives<const WIDTH: usize> {
     pub first: usize,
     degree: usize,
-    rows: [[f64; WIDTH]; 3],
+    rows: [[f64; WIDTH]; LOW_ORDERS + 1],
 }
 
 impl<const WIDTH: usize> LowDerivatives<WIDTH> {
     pub fn zeros(first: usize, degree: usize) -> Self {
-        Self { first, degree, rows: [[0.0; WIDTH]; 3] }
+        Self { first, degree, rows: [[0.0; WIDTH]; LOW_ORDERS + 1] }
     }
 
     pub fn rows_mut(&mut self) -> &mut [[f64; WIDTH]] {
@@ -77,15 +80,24 @@ impl<const WIDTH: usize> LowDerivatives<WIDTH> {
     }
 
     pub fn values(&self) -> &[f64] {
-        &self.rows[0][..=self.degree]
+        self.derivatives(0)
     }
 
     pub fn slopes(&self) -> &[f64] {
-        &self.rows[1][..=self.degree]
+        self.derivatives(1)
     }
 
     pub fn bends(&self) -> &[f64] {
-        &self.rows[2][..=self.degree]
+        self.derivatives(2)
+    }
+
+    fn derivatives(&self, order: usize) -> &[f64] {
+        &self.rows[order][..=self.degree]
+    }
+
+    /// Value and derivatives of one function.
+    pub fn of_function(&self, at: usize) -> [f64; LOW_ORDERS + 1] {
+        self.rows.map(|row| row[at])
     }
 }
 

@@ -10,8 +10,9 @@ pub use joint::{Component, Components, Joint, JointKind, Partner};
 pub use release::{Releasable, Release, Trigger};
 pub use slider::{EndAction, Slider, StartVelocities};
 pub use sliding::{
-    AtStop, CONTACT_UNKNOWNS, Conserving, Contact, ContactUnknowns, Equation, Exact, Frozen,
-    HeldSlider, Kink, KinkMotion, KinkState, Kinked, PathVector, Relaxed, Released, Resting,
-    RuleClaims, RuleEntry, SLIDING_RULES, SlidingLaw, SlidingRule, Unit,
+    AtStop, CONTACT_UNKNOWNS, Conserving, Contact, ContactUnknowns, Equation, Exact, Friction,
+    FrictionForces, FrictionMode, Frozen, HeldSlider, Kink, KinkMotion, KinkState, Kinked,
+    PathVector, Relaxed, Released, Resting, RuleClaims, RuleEntry, SLIDING_RULES, SlidingLaw,
+    SlidingRule, Unit,
 };
 pub use track::{Track, TrackBeam, TrackDirection, TrackEnd};

@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 use super::SlidingRule;
 use crate::beams::Station;
 
-/// Point that stays on the axis of a beam and slides along it without friction.
+/// Point that stays on the axis of a beam and slides along it, with or without friction.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Slider {
     /// Name in messages and columns.
@@ -24,6 +24,8 @@ pub struct Slider {
     pub ends: EndAction,
     /// Coefficient of restitution at the ends, from 0 to 1 [-].
     pub restitution: f64,
+    /// Coefficient of friction along the master [-].
+    pub friction: f64,
     /// Treatment of velocities of the slave across the master at the start.
     pub velocities: StartVelocities,
 }
@@ -40,8 +42,14 @@ impl Slider {
             rule: SlidingRule::default(),
             ends: EndAction::default(),
             restitution: 1.0,
+            friction: 0.0,
             velocities: StartVelocities::default(),
         }
+    }
+
+    /// Returns true if the slider loses energy at its ends or by friction.
+    pub fn dissipates(&self) -> bool {
+        self.restitution < 1.0 || self.friction > 0.0
     }
 }
 

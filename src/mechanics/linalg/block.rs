@@ -7,10 +7,15 @@
 //! them to the band (for example the contact force of a supported slave). These unknowns are *delayed*: they are inserted into the band after the
 //! touched unknowns.
 
+use pulp::{Simd, WithSimd};
+
 use super::{BandedMatrix, BorderUnit, LinearError};
 
 /// Number of unknowns of a block outside the band. It equals the number of unknowns of a sliding contact.
 pub(super) const BLOCK: usize = 5;
+
+/// Vector length.
+const LANES: usize = 4;
 
 /// Largest number of delayed unknowns of a block.
 pub(super) const MOST_DELAYED: usize = 2;
@@ -22,20 +27,50 @@ const LARGEST_FILL: f64 = 100.0;
 /// Index for an unknown of the band that a block does not touch.
 pub(super) const UNTOUCHED: usize = usize::MAX;
 
+/// Elimination of all blocks of a border of a band. Fails with the index of the block and the error of the block.
+pub(super) struct BlockElimination<'a> {
+    pub(super) blocks: &'a mut [Block],
+    pub(super) band: &'a BandedMatrix,
+    /// Buffer of `UNTOUCHED` entries, which are restored.
+    pub(super) places: &'a mut [usize],
+}
+
+impl WithSimd for BlockElimination<'_> {
+    type Output = Result<(), (usize, LinearError)>;
+
+    /// The loops are compiled for the vector instructions of the processor.
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _simd: S) -> Self::Output {
+        let Self { blocks, band, places } = self;
+        for (index, block) in blocks.iter_mut().enumerate() {
+            block.eliminate(band, places).map_err(|error| (index, error))?;
+        }
+        Ok(())
+    }
+}
+
+/// Row of `B` and column of `C` of an unknown of the band.
+#[derive(Debug, Clone)]
+struct Coupling {
+    at: usize,
+    in_columns: [f64; BLOCK],
+    in_rows: [f64; BLOCK],
+}
+
 #[derive(Debug, Clone)]
 pub(super) struct Block {
     /// Unknowns of the band that only this block couples with others. They are eliminated with the block.
     pub(super) own: Vec<usize>,
-    /// Entries of the part `B` of the bordered matrix: row of the band, column of the block. `rows` contains the part `C` (row of the block, column
-    /// of the band), `corner` the part `D`.
-    columns: Vec<(usize, usize, f64)>,
-    rows: Vec<(usize, usize, f64)>,
+    /// Couplings with unknowns of the band, which may repeat.
+    couplings: Vec<Coupling>,
     corner: [[f64; BLOCK]; BLOCK],
     /// Unknowns of the band that the block touches, except its own unknowns.
     pub(super) touched: Vec<usize>,
     /// Rows of the dense matrix, in the order: own unknowns, unknowns of the block, touched unknowns. After elimination it contains the factors and
     /// the Schur complement.
     front: Vec<f64>,
+    /// Buffer: the vectors of a pivot row, with zeros up to the pivot.
+    pivot_row: Vec<[f64; LANES]>,
     row_at: Vec<usize>,
     column_at: Vec<usize>,
     pub(super) pivots: usize,
@@ -53,11 +88,11 @@ impl Block {
         let touched = entries / BLOCK;
         let size = own.len() + BLOCK;
         Self {
-            columns: Vec::with_capacity(entries),
-            rows: Vec::with_capacity(entries),
+            couplings: Vec::with_capacity(touched),
             corner: [[0.0; BLOCK]; BLOCK],
             touched: Vec::with_capacity(touched),
-            front: Vec::with_capacity((size + touched) * (size + touched)),
+            front: Vec::with_capacity((size + touched) * (size + touched).next_multiple_of(LANES)),
+            pivot_row: Vec::with_capacity((size + touched).div_ceil(LANES)),
             row_at: Vec::with_capacity(size),
             column_at: Vec::with_capacity(size),
             pivots: 0,
@@ -70,17 +105,29 @@ impl Block {
     }
 
     pub(super) fn clear(&mut self) {
-        self.columns.clear();
-        self.rows.clear();
+        self.couplings.clear();
         self.corner = [[0.0; BLOCK]; BLOCK];
     }
 
     pub(super) fn add_to_column(&mut self, row: usize, column: usize, value: f64) {
-        self.columns.push((row, column, value));
+        let mut in_columns = [0.0; BLOCK];
+        in_columns[column] = value;
+        self.add_couplings(row, &in_columns, &[0.0; BLOCK]);
     }
 
     pub(super) fn add_to_row(&mut self, row: usize, column: usize, value: f64) {
-        self.rows.push((row, column, value));
+        let mut in_rows = [0.0; BLOCK];
+        in_rows[row] = value;
+        self.add_couplings(column, &[0.0; BLOCK], &in_rows);
+    }
+
+    pub(super) fn add_couplings(
+        &mut self,
+        at: usize,
+        in_columns: &[f64; BLOCK],
+        in_rows: &[f64; BLOCK],
+    ) {
+        self.couplings.push(Coupling { at, in_columns: *in_columns, in_rows: *in_rows });
     }
 
     pub(super) fn add_to_corner(&mut self, row: usize, column: usize, value: f64) {
@@ -92,13 +139,13 @@ impl Block {
     }
 
     pub(super) fn in_column(&self, row: usize, column: usize) -> f64 {
-        let here = |entry: &&(usize, usize, f64)| (entry.0, entry.1) == (row, column);
-        self.columns.iter().filter(here).map(|(.., value)| value).sum()
+        let here = self.couplings.iter().filter(|coupling| coupling.at == row);
+        here.map(|coupling| coupling.in_columns[column]).sum()
     }
 
     pub(super) fn in_row(&self, row: usize, column: usize) -> f64 {
-        let here = |entry: &&(usize, usize, f64)| (entry.0, entry.1) == (row, column);
-        self.rows.iter().filter(here).map(|(.., value)| value).sum()
+        let here = self.couplings.iter().filter(|coupling| coupling.at == column);
+        here.map(|coupling| coupling.in_rows[row]).sum()
     }
 
     pub(super) fn in_corner(&self, row: usize, column: usize) -> f64 {
@@ -123,6 +170,11 @@ impl Block {
         self.candidates() + self.touched.len()
     }
 
+    /// Length of a row of the dense matrix, in whole vectors. The entries after the last column are zero.
+    fn stride(&self) -> usize {
+        self.size().next_multiple_of(LANES)
+    }
+
     /// Returns the factor by which a row of the Schur complement is multiplied. It gives the equations of delayed unknowns the same magnitude as
     /// the equations of the band.
     pub(super) fn scale(&self, left: usize) -> f64 {
@@ -132,12 +184,9 @@ impl Block {
     /// Eliminates the own unknowns and the unknowns of the block. `places` is a buffer whose entries are all `UNTOUCHED`, also on return.
     ///
     /// # Errors
-    /// Fails if there is no pivot. The error contains the index of the unknown in the block.
-    pub(super) fn eliminate(
-        &mut self,
-        band: &BandedMatrix,
-        places: &mut [usize],
-    ) -> Result<(), LinearError> {
+    /// Fails if there is no pivot; the error contains the index in the block.
+    #[inline(always)]
+    fn eliminate(&mut self, band: &BandedMatrix, places: &mut [usize]) -> Result<(), LinearError> {
         self.gather(band, places);
         let largest = self.touched.iter().map(|&at| band.get(at, at).abs()).fold(0.0, f64::max);
         self.stiffness = if largest > 0.0 { largest } else { 1.0 };
@@ -168,34 +217,35 @@ impl Block {
     }
 
     /// Finds the touched unknowns and fills the dense matrix.
+    #[inline(always)]
     fn gather(&mut self, band: &BandedMatrix, places: &mut [usize]) {
         let (own, candidates) = (self.own.len(), self.candidates());
         for (place, &at) in self.own.iter().enumerate() {
             places[at] = place;
         }
         self.touched.clear();
-        let of_band = self.columns.iter().map(|entry| entry.0);
-        for at in of_band.chain(self.rows.iter().map(|entry| entry.1)) {
+        for at in self.couplings.iter().map(|coupling| coupling.at) {
             if places[at] == UNTOUCHED {
                 places[at] = candidates + self.touched.len();
                 self.touched.push(at);
             }
         }
-        let size = self.size();
+        let (size, stride) = (self.size(), self.stride());
         self.front.clear();
-        self.front.resize(size * size, 0.0);
-        for &(row, column, value) in &self.columns {
-            self.front[places[row] * size + own + column] += value;
-        }
-        for &(row, column, value) in &self.rows {
-            self.front[(own + row) * size + places[column]] += value;
+        self.front.resize(size * stride, 0.0);
+        for Coupling { at, in_columns, in_rows } in &self.couplings {
+            let place = places[*at];
+            let row = &mut self.front[place * stride + own..][..BLOCK];
+            row.iter_mut().zip(in_columns).for_each(|(entry, value)| *entry += value);
+            let column = self.front[own * stride + place..].iter_mut().step_by(stride);
+            column.zip(in_rows).for_each(|(entry, value)| *entry += value);
         }
         for (row, values) in self.corner.iter().enumerate() {
-            self.front[(own + row) * size + own..][..BLOCK].copy_from_slice(values);
+            self.front[(own + row) * stride + own..][..BLOCK].copy_from_slice(values);
         }
         for (row, &at) in self.own.iter().enumerate() {
             for (column, &other) in self.own.iter().enumerate() {
-                self.front[row * size + column] += band.get(at, other);
+                self.front[row * stride + column] += band.get(at, other);
             }
         }
         self.own.iter().chain(&self.touched).for_each(|&at| places[at] = UNTOUCHED);
@@ -220,67 +270,83 @@ impl Block {
 
     /// Row, column and magnitude of the largest scaled entry that may become a pivot, starting at index `first`. The magnitude is NaN if an entry
     /// is NaN.
+    #[inline(always)]
     fn largest_from(&self, first: usize) -> (usize, usize, f64) {
-        let (size, candidates) = (self.size(), self.candidates());
-        let mut found = (first, first, 0.0);
-        for row in first..candidates {
-            let entries = &self.front[row * size..][first..candidates];
-            let of_row = self.row_factors[row];
-            for ((column, entry), factor) in
-                (first..).zip(entries).zip(&self.column_factors[first..])
-            {
-                let magnitude = entry.abs() * of_row * factor;
-                if magnitude > found.2 || magnitude.is_nan() {
-                    found = (row, column, magnitude);
-                }
+        let (stride, candidates) = (self.stride(), self.candidates());
+        let factors = &self.column_factors[first..candidates];
+        let mut found = (first, 0.0);
+        let mut sum = 0.0;
+        for (row, of_row) in (first..candidates).zip(&self.row_factors[first..]) {
+            let entries = &self.front[row * stride..][first..candidates];
+            let scaled = entries.iter().zip(factors).map(|(entry, factor)| entry.abs() * factor);
+            let (mut largest, mut of_entries) = (0.0, 0.0);
+            for magnitude in scaled {
+                largest = if magnitude > largest { magnitude } else { largest };
+                of_entries += magnitude;
             }
-            if found.2.is_nan() {
-                break;
+            // A sum is not finite if an entry is not.
+            sum += of_entries;
+            if largest * of_row > found.1 {
+                found = (row, largest * of_row);
             }
         }
-        found
+        if !f64::is_finite(sum) {
+            return (first, first, f64::NAN);
+        }
+        let (row, magnitude) = found;
+        let entries = self.front[row * stride..][first..candidates].iter().zip(factors);
+        let is_it = |(entry, factor): (&f64, &f64)| {
+            entry.abs() * factor * self.row_factors[row] == magnitude
+        };
+        let column = entries.map(is_it).position(|is_it| is_it).unwrap_or(0);
+        (row, first + column, magnitude)
     }
 
     fn fill(&self, row: usize, column: usize) -> f64 {
-        let (size, candidates) = (self.size(), self.candidates());
-        let of_row = self.front[row * size..][candidates..size].iter();
+        let (size, stride, candidates) = (self.size(), self.stride(), self.candidates());
+        let of_row = self.front[row * stride..][candidates..size].iter();
         let of_row = of_row.zip(&self.column_factors[candidates..]);
         let of_row = of_row.map(|(entry, factor)| entry.abs() * factor).fold(0.0, f64::max);
         let of_column = (candidates..size)
-            .map(|touched| self.front[touched * size + column].abs() * self.row_factors[touched]);
+            .map(|touched| self.front[touched * stride + column].abs() * self.row_factors[touched]);
         of_row * self.row_factors[row] * of_column.fold(0.0, f64::max) * self.column_factors[column]
     }
 
     fn exchange(&mut self, at: usize, row: usize, column: usize) {
-        let size = self.size();
+        let stride = self.stride();
         if row != at {
-            let (before, behind) = self.front.split_at_mut(row * size);
-            before[at * size..][..size].swap_with_slice(&mut behind[..size]);
+            let (before, behind) = self.front.split_at_mut(row * stride);
+            before[at * stride..][..stride].swap_with_slice(&mut behind[..stride]);
             self.row_at.swap(at, row);
             self.row_factors.swap(at, row);
         }
         if column != at {
-            self.front.chunks_exact_mut(size).for_each(|row| row.swap(at, column));
+            self.front.chunks_exact_mut(stride).for_each(|row| row.swap(at, column));
             self.column_at.swap(at, column);
             self.column_factors.swap(at, column);
         }
     }
 
+    #[inline(always)]
     fn eliminate_one(&mut self, at: usize) {
-        let size = self.size();
-        let (above, below) = self.front.split_at_mut((at + 1) * size);
-        let row = &mut above[at * size + at..];
-        let inverse = 1.0 / row[0];
-        row[0] = inverse;
-        for other in below.chunks_exact_mut(size) {
-            let other = &mut other[at..];
-            if other[0] == 0.0 {
-                continue;
-            }
-            let multiplier = other[0] * inverse;
-            other[0] = multiplier;
-            for (entry, above) in other[1..].iter_mut().zip(&row[1..]) {
-                *entry -= multiplier * above;
+        let (stride, first) = (self.stride(), (at + 1) / LANES);
+        let (above, below) = self.front.split_at_mut((at + 1) * stride);
+        let row = &mut above[at * stride..];
+        let inverse = 1.0 / row[at];
+        row[at] = inverse;
+        self.pivot_row.clear();
+        self.pivot_row.extend_from_slice(&row.as_chunks().0[first..]);
+        if let Some(head) = self.pivot_row.first_mut() {
+            head[..(at + 1) % LANES].fill(0.0);
+        }
+        for other in below.chunks_exact_mut(stride).filter(|other| other[at] != 0.0) {
+            let multiplier = other[at] * inverse;
+            other[at] = multiplier;
+            let (others, _) = other.as_chunks_mut::<LANES>();
+            for (entries, above) in others[first..].iter_mut().zip(&self.pivot_row) {
+                for (entry, above) in entries.iter_mut().zip(above) {
+                    *entry -= multiplier * above;
+                }
             }
         }
     }
@@ -288,15 +354,15 @@ impl Block {
     /// Rows of the Schur complement with their indices. First come the rows of delayed unknowns, which are eliminated in the band, then the rows of
     /// the touched unknowns of the band.
     pub(super) fn schur_complement(&self) -> impl Iterator<Item = (usize, &[f64])> {
-        let (size, first) = (self.size(), self.pivots);
-        let rows = self.front.chunks_exact(size).skip(first);
+        let (size, stride, first) = (self.size(), self.stride(), self.pivots);
+        let rows = self.front.chunks_exact(stride).map(move |row| &row[..size]).skip(first);
         rows.map(move |row| &row[first..]).enumerate()
     }
 
     /// Applies the elimination to a right-hand side. `own` contains the entries that belong to the own unknowns and to the block, in the order of
     /// the pivots. `subtract` receives the contributions to the entries of touched unknowns.
     pub(super) fn substitute(&self, own: &mut [f64], mut subtract: impl FnMut(usize, f64)) {
-        let rows = self.front.chunks_exact(self.size());
+        let rows = self.front.chunks_exact(self.stride());
         for (at, row) in rows.enumerate() {
             let count = at.min(self.pivots);
             let sum = row[..count].iter().zip(&*own).fold(0.0, |sum, (l, y)| sum + l * y);
@@ -309,9 +375,9 @@ impl Block {
 
     /// Solves for the eliminated unknowns, which are first in `all`. The delayed and touched unknowns after them are known.
     pub(super) fn back_substitute(&self, all: &mut [f64]) {
-        let size = self.size();
+        let (size, stride) = (self.size(), self.stride());
         for at in (0..self.pivots).rev() {
-            let row = &self.front[at * size + at..][..size - at];
+            let row = &self.front[at * stride + at..][..size - at];
             let known = row[1..].iter().zip(&all[at + 1..]);
             let rest = known.fold(all[at], |rest, (entry, x)| rest - entry * x);
             all[at] = rest * row[0];

@@ -3,6 +3,7 @@
 //! If the border has few unknowns, it is stored as dense columns, which do not change the band. If it consists of many blocks, each of which
 //! touches few unknowns of the band, the blocks are eliminated separately. The work is then proportional to the number of blocks.
 
+use super::block::BLOCK;
 use super::full_border::FullLu;
 use super::joint_elimination::{JointElimination, JointLu};
 use super::local_border::LocalLu;
@@ -118,7 +119,31 @@ impl Border {
         }
     }
 
-    /// Adds `value` to the corner `D`, at the given row and column of the border. In a border of blocks, both must belong to the same block.
+    /// Adds the couplings of an unknown of the band with consecutive unknowns of the border from `first` on: its row of `B` and its column of `C`. In
+    /// a border of blocks, they must be those of one block.
+    pub(crate) fn add_couplings(
+        &mut self,
+        at: usize,
+        first: usize,
+        in_columns: &[f64; BLOCK],
+        in_rows: &[f64; BLOCK],
+    ) {
+        match self {
+            Self::Local(border) => border.block_mut(first).0.add_couplings(at, in_columns, in_rows),
+            Self::Full(border) => {
+                for (index, (column, row)) in (first..).zip(in_columns.iter().zip(in_rows)) {
+                    if *column != 0.0 {
+                        border.add_to_column(at, index, *column);
+                    }
+                    if *row != 0.0 {
+                        border.add_to_row(index, at, *row);
+                    }
+                }
+            }
+        }
+    }
+
+    /// Adds `value` to the corner `D`, at a row and a column of the border. In a border of blocks, both must belong to the same block.
     pub fn add_to_corner(&mut self, border_row: usize, border_column: usize, value: f64) {
         match self {
             Self::Full(border) => border.add_to_corner(border_row, border_column, value),

@@ -11,8 +11,10 @@
 
 use std::sync::Arc;
 
+use pulp::Arch;
+
 use super::arrangement::Arrangement;
-use super::block::{BLOCK, Block, UNTOUCHED};
+use super::block::{BLOCK, Block, BlockElimination, UNTOUCHED};
 use super::profile::{ProfileLu, ProfileMatrix};
 use super::{BandedMatrix, LinearError};
 
@@ -104,10 +106,10 @@ impl LocalBorder {
     /// Eliminates the blocks, then the band with their Schur complements.
     pub(super) fn factorise(&mut self, band: &BandedMatrix) -> Result<LocalLu<'_>, LinearError> {
         let size = band.size() + self.width();
-        for (index, block) in self.blocks.iter_mut().enumerate() {
-            let unknown = band.size() + BLOCK * index;
-            block.eliminate(band, &mut self.places).map_err(|error| error.at(unknown, size))?;
-        }
+        let Self { blocks, places, .. } = self;
+        Arch::new()
+            .dispatch(BlockElimination { blocks, band, places })
+            .map_err(|(index, error)| error.at(band.size() + BLOCK * index, size))?;
         self.arrangement.fit(&self.blocks);
         self.matrix.remake(&self.arrangement.ends, band.half_bandwidth());
         self.copy(band);

@@ -65,4 +65,9 @@ pub trait Equations {
 
     /// Computes the residual at `u` with the present internal unknowns, and returns its norms.
     fn imbalance(&mut self, u: &[f64], residual: &mut [f64]) -> ResidualNorms;
+
+    /// Called before every iteration. Returns false to stop the solution.
+    fn goes_on(&mut self) -> bool {
+        true
+    }
 }

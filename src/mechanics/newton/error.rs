@@ -24,6 +24,11 @@ pub enum NewtonError {
         /// Residual norms after each iteration.
         history: Vec<ResidualNorms>,
     },
+    #[error("interrupted after {} Newton iterations", history.len())]
+    Interrupted {
+        /// Residual norms after each iteration.
+        history: Vec<ResidualNorms>,
+    },
 }
 
 impl NewtonError {
@@ -37,6 +42,7 @@ impl NewtonError {
         match self {
             Self::NotConverged { history }
             | Self::NotFinite { history }
+            | Self::Interrupted { history }
             | Self::Linear { history, .. } => history,
         }
     }

@@ -124,7 +124,7 @@ impl Newton {
     /// `residual` may be longer than the unknowns. Its additional entries are reactions, which are not required to be zero.
     ///
     /// # Errors
-    /// Fails if the iteration limit is reached, the tangent is singular, or a number is not finite.
+    /// Fails if the iteration limit is reached, the tangent is singular, a number is not finite, or the equations stop the solution.
     pub fn solve(
         &mut self,
         equations: &mut impl Equations,
@@ -148,6 +148,9 @@ impl Newton {
         self.history.clear();
         let mut corrections = 0;
         while self.history.len() < self.tolerance.iterations {
+            if !equations.goes_on() {
+                return Err(NewtonError::Interrupted { history: self.history.clone() });
+            }
             self.tangent.clear();
             residual.fill(0.0);
             equations.linearise(u, residual, &mut self.tangent);

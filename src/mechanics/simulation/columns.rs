@@ -59,6 +59,9 @@ const OF_SLIDER: [(&str, &str); 5] = [
     ("force_y", "force"),
 ];
 
+/// Column of each slider with friction.
+const FRICTION: (&str, &str) = ("friction", "force");
+
 /// Column of the energy stored in springs.
 const STORED: &str = "stored";
 
@@ -68,7 +71,8 @@ const DISSIPATED: &str = "dissipated";
 pub(super) fn extra_columns(scene: &Scene) -> Vec<ExtraColumn> {
     let of_slider = |slider: &Slider| {
         let name = slider.name.clone();
-        OF_SLIDER.map(move |(quantity, dimension)| ExtraColumn {
+        let friction = (slider.friction > 0.0).then_some(FRICTION);
+        OF_SLIDER.into_iter().chain(friction).map(move |(quantity, dimension)| ExtraColumn {
             name: format!("{name}.{quantity}"),
             dimension,
         })
@@ -135,7 +139,7 @@ pub(super) fn is_step_mean(scene: &Scene, method: Method, column: &str) -> bool 
     let is_of = |name: &str, quantity: &str| {
         column.strip_prefix(name).is_some_and(|rest| rest.strip_prefix('.') == Some(quantity))
     };
-    let forces = OF_SLIDER.iter().filter(|(_, dimension)| *dimension == "force");
+    let forces = OF_SLIDER.iter().chain([&FRICTION]).filter(|(_, dimension)| *dimension == "force");
     let mut of_slider = forces.flat_map(|(quantity, _)| {
         scene.sliders.iter().map(move |slider| (&slider.name, *quantity))
     });
@@ -162,7 +166,8 @@ pub(super) fn extra_values(model: &System) -> impl Iterator<Item = f64> {
     let of_sliders = (0..model.slider_names().count()).flat_map(|slider| {
         let force = model.contact_force(slider);
         let (position, speed) = (model.slider_position(slider), model.slider_speed(slider));
-        [position, speed, force.norm(), force.x, force.y]
+        let all = [position, speed, force.norm(), force.x, force.y];
+        all.into_iter().chain(model.friction_force(slider))
     });
     let sum = |of: fn(&SpringState) -> f64| model.springs().map(|spring| of(&spring)).sum::<f64>();
     let stores = model.springs().next().is_some();

@@ -22,9 +22,14 @@ pub enum SimulationError {
     Derivative(#[from] DerivativeError),
     /// Sensor of a mean force, recorded with a method that does not provide mean forces.
     #[error(
-        "'{sensor}' is a mean force over a step, which the method {method} does not provide; record the instantaneous force, or use energy_momentum"
+        "'{sensor}' is a mean force over a step, which the method {method} does not provide; record the present force, or use energy_momentum"
     )]
     NoMeanForces { sensor: String, method: &'static str },
+    /// Slider with friction in a simulation with a method that does not support it.
+    #[error(
+        "slider '{slider}' has friction, which the method {method} does not support; use the method energy_momentum"
+    )]
+    FrictionMethod { slider: String, method: &'static str },
     #[error(
         "a controller with a sampling period of {period:e} would be sampled more than {most} times in a step of dt = {dt:e}"
     )]
@@ -98,12 +103,12 @@ pub enum SimulationError {
         conditions: String,
     },
     #[error(
-        "slider '{slider}' reaches the {end} of its beam shortly after t = {}, but no step that ends there converges, down to dt/{divisions} (dt = {}); use a smaller dt or a finer mesh{conditions}", rounded(*time), step_size(*dt)
+        "slider '{slider}' {event} shortly after t = {}, but no step that ends there converges, down to dt/{divisions} (dt = {}); use a smaller dt or a finer mesh{conditions}", rounded(*time), step_size(*dt)
     )]
     EventLocation {
         slider: String,
-        /// End of the master of the slider: `start` or `end`.
-        end: &'static str,
+        /// Event in words, such as `reaches the end of its beam`.
+        event: String,
         /// End of the last successful step [time].
         time: f64,
         /// Size of the failed step of the time grid [time].

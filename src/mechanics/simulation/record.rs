@@ -38,6 +38,7 @@ impl RunRecord {
         if record.reader.need_mean_forces() {
             model.sum_up_impulses();
         }
+        model.start_means();
         record.store_row(model, StepTaken::default());
         Ok(record)
     }

@@ -128,6 +128,11 @@ impl Simulation {
     ) -> Result<Self, SimulationError> {
         settings.dt.check()?;
         settings.method.check()?;
+        let with_friction = scene.sliders.iter().find(|slider| slider.friction > 0.0);
+        if let Some(slider) = with_friction.filter(|_| settings.method != Method::EnergyMomentum) {
+            let (slider, method) = (slider.name.clone(), settings.method.entry().name);
+            return Err(SimulationError::FrictionMethod { slider, method });
+        }
         model.divide(cores());
         let integrator = settings.method.build(&mut model, settings.tolerance);
         let breaks = scene.schedules().flat_map(|(_, schedule)| schedule.breaks());

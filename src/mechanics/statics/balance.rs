@@ -11,6 +11,8 @@ pub(super) struct Balance<'a> {
     pub(super) model: &'a mut System,
     /// Length that converts moments to forces, for loads that consist of moments only.
     pub(super) length: f64,
+    /// Returns false to stop the solution.
+    pub(super) goes_on: &'a mut dyn FnMut() -> bool,
 }
 
 impl Balance<'_> {
@@ -73,12 +75,16 @@ impl Equations for UnderLoad<'_> {
         self.add_internal_forces(u, residual);
         self.balance.imbalance(u, self.factor, residual)
     }
+
+    fn goes_on(&mut self) -> bool {
+        (self.balance.goes_on)()
+    }
 }
 
 /// Equations `F(u) - λ P(u) = 0` and `t·u = Δs`. The load factor `λ` is the last unknown. The second equation, which describes a plane, determines
 /// it.
-pub(super) struct AlongPath<'a> {
-    pub(super) balance: Balance<'a>,
+pub(super) struct AlongPath<'a, 'b> {
+    pub(super) balance: &'a mut Balance<'b>,
     /// Normal `t` of the plane in the metric of the path. Contact unknowns, which follow the degrees of freedom, have no weight in it.
     pub(super) normal: &'a [f64],
     /// Distance `Δs` of the plane from the last equilibrium, in the metric of the path.
@@ -87,7 +93,7 @@ pub(super) struct AlongPath<'a> {
     pub(super) forces: &'a mut [f64],
 }
 
-impl AlongPath<'_> {
+impl AlongPath<'_, '_> {
     fn distance_from_plane(&self, movements: &[f64]) -> f64 {
         let projection: f64 = self.normal.iter().zip(movements).map(|(t, u)| t * u).sum();
         projection - self.distance
@@ -99,7 +105,7 @@ impl AlongPath<'_> {
     }
 }
 
-impl Equations for AlongPath<'_> {
+impl Equations for AlongPath<'_, '_> {
     fn linearise(&mut self, unknowns: &[f64], residual: &mut [f64], tangent: &mut BorderedMatrix) {
         let (moved, factor) = unknowns.split_at(self.normal.len());
         let model = &mut *self.balance.model;
@@ -140,5 +146,9 @@ impl Equations for AlongPath<'_> {
             constraint: larger(imbalance.constraint, beyond.abs() / self.distance),
             ..imbalance
         }
+    }
+
+    fn goes_on(&mut self) -> bool {
+        (self.balance.goes_on)()
     }
 }

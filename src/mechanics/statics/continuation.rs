@@ -50,6 +50,8 @@ pub(super) struct Continuation<'s> {
     pub(super) unknowns: Vec<f64>,
     residual: Vec<f64>,
     heading: PathDirection,
+    /// Called with the last load factor before every step and every iteration. Returns false to stop the search.
+    goes_on: &'s mut dyn FnMut(f64) -> bool,
 }
 
 struct PathDirection {
@@ -68,7 +70,12 @@ impl PathDirection {
 }
 
 impl<'s> Continuation<'s> {
-    pub(super) fn new(scene: &'s Scene, mut model: System, loading: Loading) -> Self {
+    pub(super) fn new(
+        scene: &'s Scene,
+        mut model: System,
+        loading: Loading,
+        goes_on: &'s mut dyn FnMut(f64) -> bool,
+    ) -> Self {
         let all = model.unknowns() + model.constraint_shape().width;
         let mut path = EquilibriumPath::default();
         path.push(point(&mut model, 0.0, 0.0, 0));
@@ -83,35 +90,27 @@ impl<'s> Continuation<'s> {
             unknowns: vec![0.0; all],
             residual: vec![0.0; model.degrees_of_freedom()],
             heading: PathDirection { movements: vec![0.0; all], unstable_directions: 0 },
+            goes_on,
             model,
             path,
         }
     }
 
-    pub(super) fn load_up(
-        &mut self,
-        hold: InitialSupport,
-        goes_on: &mut dyn FnMut(f64) -> bool,
-    ) -> Result<(), StaticsError> {
+    pub(super) fn load_up(&mut self, hold: InitialSupport) -> Result<(), StaticsError> {
         let Loading { factor, steps, .. } = self.loading;
-        self.begin(factor * (1.0 / steps as f64), hold, goes_on)?;
+        self.begin(factor * (1.0 / steps as f64), hold)?;
         for step in 2..=steps {
-            // In the last step the factor is exactly the requested one.
-            self.solve_for_factor(factor * (step as f64 / steps as f64), MOST_HALVINGS, goes_on)?;
+            // In the last step this is exactly the requested load factor.
+            self.solve_for_factor(factor * (step as f64 / steps as f64), MOST_HALVINGS)?;
         }
         Ok(())
     }
 
-    fn begin(
-        &mut self,
-        factor: f64,
-        hold: InitialSupport,
-        goes_on: &mut dyn FnMut(f64) -> bool,
-    ) -> Result<(), StaticsError> {
+    fn begin(&mut self, factor: f64, hold: InitialSupport) -> Result<(), StaticsError> {
         match hold {
-            InitialSupport::Itself => self.solve_for_factor(factor, MOST_HALVINGS, goes_on),
+            InitialSupport::Itself => self.solve_for_factor(factor, MOST_HALVINGS),
             InitialSupport::Loads(movements) => {
-                self.find_equilibrium(factor, movements, goes_on)?;
+                self.find_equilibrium(factor, movements)?;
                 self.heading.unstable_directions = self.unstable_directions();
                 Ok(())
             }
@@ -122,44 +121,40 @@ impl<'s> Continuation<'s> {
         &mut self,
         arc: ArcLength,
         hold: InitialSupport,
-        goes_on: &mut dyn FnMut(f64) -> bool,
     ) -> Result<(), StaticsError> {
         let Loading { factor: goal, steps, .. } = self.loading;
-        self.begin(goal / steps as f64, hold, goes_on)?;
+        self.begin(goal / steps as f64, hold)?;
         if hold != InitialSupport::Itself && steps > 1 {
-            // If only loads restrain the scene, the path starts at this equilibrium and a second one gives its direction.
-            self.solve_for_factor(goal * (2.0 / steps as f64), MOST_HALVINGS, goes_on)?;
+            // If only loads restrain the scene, the path starts from this equilibrium.
+            self.solve_for_factor(goal * (2.0 / steps as f64), MOST_HALVINGS)?;
         }
         let mut trial = PathStep::new(&self.model, &self.loading);
         let mut distance = norm(&self.metric, &self.unknowns).min(arc.longest);
         if distance == 0.0 {
-            // If loads act only on supports, the displacement is zero and the path has no direction.
-            return self.solve_for_factor(goal, MOST_HALVINGS, goes_on);
+            // If loads act on supports only, the displacement is zero and there is no path.
+            return self.solve_for_factor(goal, MOST_HALVINGS);
         }
         while self.path.load_factor() != goal && self.path.points().len() < arc.points {
             trial.set_direction(&self.metric, &self.unknowns);
-            distance = self.advance(&mut trial, distance, goes_on)?.min(arc.longest);
+            distance = self.advance(&mut trial, distance)?.min(arc.longest);
         }
         Ok(())
     }
 
-    /// Takes a step of the given length along the path, or a fraction of it. Returns the length of the next step.
-    fn advance(
-        &mut self,
-        trial: &mut PathStep,
-        mut distance: f64,
-        goes_on: &mut dyn FnMut(f64) -> bool,
-    ) -> Result<f64, StaticsError> {
+    /// Takes a step of a distance along the path, or a fraction of it. Returns the distance of the next step.
+    fn advance(&mut self, trial: &mut PathStep, mut distance: f64) -> Result<f64, StaticsError> {
         let (from, goal) = (self.path.load_factor(), self.loading.factor);
         let mut miss = StepFailure::FarSolution;
         for _ in 0..=MOST_HALVINGS {
-            self.query_monitor(goes_on)?;
-            match trial.find(&mut self.model, self.length, from, distance, self.scene) {
+            self.query_monitor()?;
+            let goes_on = &mut || (self.goes_on)(from);
+            let balance = Balance { model: &mut self.model, length: self.length, goes_on };
+            match trial.find(balance, from, distance, self.scene) {
                 Ok(_) if norm(&self.metric, trial.movements()) > FAR * distance => {
                     miss = StepFailure::FarSolution
                 }
                 Ok(_) if (from < goal) != (trial.factor() < goal) => {
-                    return self.solve_for_factor(goal, MOST_HALVINGS, goes_on).map(|()| distance);
+                    return self.solve_for_factor(goal, MOST_HALVINGS).map(|()| distance);
                 }
                 Ok(iterations) => {
                     if let Some(farthest) =
@@ -180,6 +175,7 @@ impl<'s> Continuation<'s> {
             self.restore_last();
             distance *= 0.5;
         }
+        self.query_monitor()?;
         Err(self.path_lost_error(miss))
     }
 
@@ -193,14 +189,9 @@ impl<'s> Continuation<'s> {
         is_beyond.then_some(vertex.distance - last.distance)
     }
 
-    /// Solves for a load factor. The step is halved if no equilibrium is found, or if the equilibrium does not continue the path.
-    fn solve_for_factor(
-        &mut self,
-        factor: f64,
-        halvings: u32,
-        goes_on: &mut dyn FnMut(f64) -> bool,
-    ) -> Result<(), StaticsError> {
-        self.query_monitor(goes_on)?;
+    /// Solves for a load factor. The step is halved if no equilibrium is found or the equilibrium does not continue the path.
+    fn solve_for_factor(&mut self, factor: f64, halvings: u32) -> Result<(), StaticsError> {
+        self.query_monitor()?;
         let from = self.path.load_factor();
         match self.find(factor) {
             Ok(iterations) => {
@@ -210,11 +201,14 @@ impl<'s> Continuation<'s> {
                 }
                 self.undo_step();
             }
-            Err(error) if halvings == 0 => return Err(self.path_lost_error(error)),
+            Err(error) if halvings == 0 => {
+                self.query_monitor()?;
+                return Err(self.path_lost_error(error));
+            }
             Err(_) => (),
         }
-        self.solve_for_factor(0.5 * (from + factor), halvings - 1, goes_on)?;
-        self.solve_for_factor(factor, halvings - 1, goes_on)
+        self.solve_for_factor(0.5 * (from + factor), halvings - 1)?;
+        self.solve_for_factor(factor, halvings - 1)
     }
 
     /// Returns true if the last point continues the path, or if the step cannot be halved further. With arc-length control the path may turn and
@@ -268,11 +262,12 @@ impl<'s> Continuation<'s> {
     ///
     /// The solution is repeated whenever a stop starts to hold a slider or releases it.
     pub(super) fn balance_from(&mut self, factor: f64, rate: f64) -> Result<usize, StepFailure> {
-        let mut iterations = 0;
+        let (reached, mut iterations) = (self.path.load_factor(), 0);
         for _ in 0..=self.scene.most_settlings() {
             self.model.predict_unchanged(&mut self.unknowns);
             self.model.begin_movement();
-            let balance = Balance { model: &mut self.model, length: self.length };
+            let goes_on = &mut || (self.goes_on)(reached);
+            let balance = Balance { model: &mut self.model, length: self.length, goes_on };
             let mut equations = UnderLoad { balance, factor, rate };
             let report =
                 self.newton.solve(&mut equations, &mut self.unknowns, &mut self.residual)?;
@@ -338,12 +333,9 @@ impl<'s> Continuation<'s> {
         self.restore_last();
     }
 
-    pub(super) fn query_monitor(
-        &self,
-        goes_on: &mut dyn FnMut(f64) -> bool,
-    ) -> Result<(), StaticsError> {
+    pub(super) fn query_monitor(&mut self) -> Result<(), StaticsError> {
         let reached = self.path.load_factor();
-        if goes_on(reached) { Ok(()) } else { Err(StaticsError::Interrupted { reached }) }
+        if (self.goes_on)(reached) { Ok(()) } else { Err(StaticsError::Interrupted { reached }) }
     }
 
     pub(super) fn path_lost_error(&self, reason: StepFailure) -> StaticsError {

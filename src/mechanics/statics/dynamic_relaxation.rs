@@ -40,13 +40,12 @@ impl Continuation<'_> {
         &mut self,
         factor: f64,
         movements: usize,
-        goes_on: &mut dyn FnMut(f64) -> bool,
     ) -> Result<(), StaticsError> {
-        let mut rate = self.first_rate(factor, goes_on)?;
+        let mut rate = self.first_rate(factor)?;
         let (mut travelled, mut iterations, mut leaves, mut miss) =
             (0.0, 0, 0, StepFailure::FarSolution);
         for _ in 0..MOST_PASSES {
-            self.query_monitor(goes_on)?;
+            self.query_monitor()?;
             let before = self.model.state();
             match self.balance_from(factor, rate) {
                 Ok(work) if self.distance_moved() <= FAR => {
@@ -87,20 +86,17 @@ impl Continuation<'_> {
             }
         }
         self.restore_last();
+        self.query_monitor()?;
         let (scene, reason) = (self.scene.name.clone(), Box::new(miss));
         Err(StaticsError::Unrestrained { scene, movements, reason })
     }
 
-    /// Damping rate for which the first pass reduces the energy and displaces the scene only a little [1/time²].
-    fn first_rate(
-        &mut self,
-        factor: f64,
-        goes_on: &mut dyn FnMut(f64) -> bool,
-    ) -> Result<f64, StaticsError> {
+    /// Rate [1/time²] for which the first pass reduces the energy and displaces the scene by a small distance.
+    fn first_rate(&mut self, factor: f64) -> Result<f64, StaticsError> {
         let bending = self.model.slowest_bending();
         let mut rate = bending.unwrap_or_else(|| self.acceleration_by_size(factor) / NEAR);
         for _ in 0..MOST_FIRST_PASSES {
-            self.query_monitor(goes_on)?;
+            self.query_monitor()?;
             let found = self.balance_from(factor, rate);
             let is_near = found.is_ok() && self.distance_moved() <= FAR;
             self.restore_last();

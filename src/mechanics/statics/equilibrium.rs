@@ -38,7 +38,7 @@ pub struct Equilibrium {
 }
 
 impl Equilibrium {
-    /// Finds the equilibrium of a scene. `goes_on` is called with the load factor after every step; if it returns false, the search stops.
+    /// Finds the equilibrium of a scene. `goes_on` is called with the load factor of the last equilibrium before every step and every iteration.
     ///
     /// # Errors
     /// Fails if the scene cannot be built, a load has no value, no load acts, no equilibrium is found, or the search is stopped.
@@ -47,14 +47,14 @@ impl Equilibrium {
         loading: Loading,
         goes_on: &mut dyn FnMut(f64) -> bool,
     ) -> Result<Self, StaticsError> {
-        let model = prepare(&scene, &loading)?;
-        let movements = loose_movements(&at_rest(&of_equal_stiffness(&scene))?);
+        let model = prepare(&scene, &loading, goes_on)?;
+        let movements = loose_movements(&at_rest(&of_equal_stiffness(&scene), goes_on)?);
         let hold =
             if movements > 0 { InitialSupport::Loads(movements) } else { InitialSupport::Itself };
-        let mut tracer = Continuation::new(&scene, model, loading);
+        let mut tracer = Continuation::new(&scene, model, loading, goes_on);
         match loading.control {
-            Control::Load => tracer.load_up(hold, goes_on)?,
-            Control::ArcLength(arc) => tracer.trace_path(arc, hold, goes_on)?,
+            Control::Load => tracer.load_up(hold)?,
+            Control::ArcLength(arc) => tracer.trace_path(arc, hold)?,
         }
         let Continuation { model, path, .. } = tracer;
         Ok(Self { scene, loading, model, path })
@@ -65,8 +65,10 @@ impl Equilibrium {
     /// # Errors
     /// Errors of [`find`](Self::find) that occur before the solution.
     pub fn dry_run(scene: Scene, loading: Loading) -> Result<Self, StaticsError> {
-        let model = prepare(&scene, &loading)?;
-        let Continuation { model, mut path, .. } = Continuation::new(&scene, model, loading);
+        let goes_on = &mut |_| true;
+        let model = prepare(&scene, &loading, goes_on)?;
+        let Continuation { model, mut path, .. } =
+            Continuation::new(&scene, model, loading, goes_on);
         path.append_dry_point(loading.factor);
         Ok(Self { scene, loading, model, path })
     }
@@ -96,7 +98,7 @@ impl Equilibrium {
     /// # Errors
     /// Fails in the same cases as [`find`](Self::find).
     pub fn along_path<T>(&self, look: impl Fn(&System) -> T) -> Result<Vec<T>, StaticsError> {
-        let mut model = at_rest(&self.scene)?;
+        let mut model = at_rest(&self.scene, &mut |_| true)?;
         let at = |point: &PathPoint| {
             model.restore(&point.state);
             look(&model)
@@ -186,11 +188,14 @@ fn of_equal_stiffness(scene: &Scene) -> Scene {
     equal
 }
 
-/// Model of a scene with zero start velocities. The start velocities of the scene might contradict its sliders.
-fn at_rest(scene: &Scene) -> Result<System, SystemError> {
+/// Model of a scene with zero start velocities, because start velocities may be incompatible with sliders.
+fn at_rest(scene: &Scene, goes_on: &mut dyn FnMut(f64) -> bool) -> Result<System, StaticsError> {
     let mut still = scene.clone();
     still.sliders.iter_mut().for_each(|slider| slider.velocities = StartVelocities::Project);
-    System::assemble(&still)
+    System::assemble_while(&still, &mut || goes_on(0.0)).map_err(|error| match error {
+        SystemError::Interrupted { .. } => StaticsError::Interrupted { reached: 0.0 },
+        error => error.into(),
+    })
 }
 
 fn check_needs_no_time(scene: &Scene) -> Result<(), StaticsError> {
@@ -206,11 +211,15 @@ fn check_needs_no_time(scene: &Scene) -> Result<(), StaticsError> {
     }
 }
 
-/// Model in the initial configuration, with the loads at the time of the loading.
-fn prepare(scene: &Scene, loading: &Loading) -> Result<System, StaticsError> {
+/// Model at its start, with the loads at the time of the loading.
+fn prepare(
+    scene: &Scene,
+    loading: &Loading,
+    goes_on: &mut dyn FnMut(f64) -> bool,
+) -> Result<System, StaticsError> {
     loading.check()?;
     check_needs_no_time(scene)?;
-    let mut model = at_rest(scene)?;
+    let mut model = at_rest(scene, goes_on)?;
     model
         .evaluate_loads_at(loading.time)
         .map_err(|(load, source)| StaticsError::Load { load, source })?;

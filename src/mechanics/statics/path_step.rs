@@ -40,8 +40,7 @@ impl PathStep {
     /// of the path.
     pub(super) fn find(
         &mut self,
-        model: &mut System,
-        length: f64,
+        mut balance: Balance<'_>,
         from: f64,
         distance: f64,
         scene: &Scene,
@@ -49,16 +48,15 @@ impl PathStep {
         let mut iterations = 0;
         for _ in 0..=scene.most_settlings() {
             let last = self.normal.len();
-            model.predict_unchanged(&mut self.unknowns[..last]);
+            balance.model.predict_unchanged(&mut self.unknowns[..last]);
             self.unknowns[last] = from;
-            model.begin_movement();
-            let balance = Balance { model, length };
-            let mut equations =
-                AlongPath { balance, normal: &self.normal, distance, forces: &mut self.forces };
+            balance.model.begin_movement();
+            let (normal, forces) = (&self.normal, &mut self.forces);
+            let mut equations = AlongPath { balance: &mut balance, normal, distance, forces };
             let report =
                 self.newton.solve(&mut equations, &mut self.unknowns, &mut self.residual)?;
             iterations += report.iterations;
-            if !update_stop_contacts(model, scene, self.movements(), self.factor())? {
+            if !update_stop_contacts(balance.model, scene, self.movements(), self.factor())? {
                 return Ok(iterations);
             }
         }

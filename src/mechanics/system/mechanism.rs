@@ -3,6 +3,7 @@
 mod acceleration;
 mod energies;
 mod failure_source;
+mod friction;
 mod impact;
 mod impulses;
 mod inertia;
@@ -36,7 +37,7 @@ use impulses::ExchangeLedger;
 use super::bodies::Bodies;
 use super::elements::{Elements, InternalForce, Supports, WorkAndImpulse};
 use super::links::Links;
-use super::sliders::{MasterLimit, SliderContact, Sliders};
+use super::sliders::{MasterLimit, SliderContact, SliderEvent, Sliders};
 use super::state::{MotionState, Resolution, StepMeasures, Unknowns};
 use crate::loads::LoadError;
 
@@ -179,9 +180,9 @@ impl System {
         self.elements.evaluate_after(time)
     }
 
-    /// Makes the next step end when a slider reaches the given limit; `None` for a regular step.
-    pub(crate) fn set_target_limit(&mut self, limit: Option<MasterLimit>) {
-        self.sliders.set_target_limit(limit);
+    /// Makes the next step end at an event of a slider; `None` for a regular step.
+    pub(crate) fn set_target(&mut self, event: Option<SliderEvent>) {
+        self.sliders.set_target(event);
     }
 
     /// Releases a slider from its master.
@@ -198,9 +199,11 @@ impl System {
         self.motion.accelerations.mark_unknown();
     }
 
-    /// Returns true if the present velocity of a slider at a limit points beyond the limit.
+    /// Returns true if the present velocity of a slider at a limit is directed beyond the limit. The velocity of a slider that has just left a stop
+    /// is zero, and its sign due to rounding decides nothing.
     pub(crate) fn leads_beyond(&self, limit: MasterLimit) -> bool {
-        let rate = self.sliders[limit.slider].rate(&self.bodies, &self.motion.rates);
-        rate * limit.end.outward() > 0.0
+        let slider = &self.sliders[limit.slider];
+        let rate = slider.rate(&self.bodies, &self.motion.rates);
+        rate * limit.end.outward() > 0.0 && slider.stop_left_at != self.motion.time
     }
 }

@@ -10,6 +10,7 @@ mod queries;
 mod scene;
 mod sliders;
 mod state;
+mod step_mean;
 
 pub use elements::{
     Along, Anchor, Branch, DampingLaw, Drag, Dragged, Drive, DriveKind, DriveState, Element,
@@ -33,5 +34,5 @@ pub use scene::{
     BeamDefinition, ParticleDefinition, Quantity, RigidBodyDefinition, Scene, Sensor, SensorSource,
     StartMotion, StationVelocity, Value,
 };
-pub use sliders::{AxialImpact, MasterEnd, MasterLimit, SliderState};
+pub use sliders::{AxialImpact, MasterEnd, MasterLimit, SliderEvent, SliderState};
 pub use state::{Resolution, UnknownKind};

@@ -2,7 +2,7 @@
 
 use rhai::{Dynamic, Map};
 
-use crate::output::{Cell, Colours, Glyphs, TerminalStyle, TextTable, columns, cut};
+use crate::output::{Cell, Colours, Glyphs, TerminalStyle, TextTable, columns, cut, scientific};
 use crate::repl::session::Reply;
 use crate::repl::shell::{CommandOutcome, ReplyTarget, Shell, no_simulation};
 use crate::script::diagnose::Diagnostic;
@@ -15,6 +15,7 @@ use crate::script::presentation::along::SectionForceProfile;
 use crate::script::presentation::plots;
 use crate::script::presentation::present::present_in_a_line;
 use crate::script::presentation::quantities::{BeamQuantity, NAMES};
+use crate::script::studies::error_estimate::{ErrorEstimate, QuantityError};
 use crate::simulation::Simulation;
 
 /// Maximum and minimum width of a value in the list of variables.
@@ -80,8 +81,50 @@ pub fn invariants(shell: &mut Shell, _: &str) -> CommandOutcome {
     shell.show_latest_result("invariants()")
 }
 
-pub fn error_estimate(shell: &mut Shell, _: &str) -> CommandOutcome {
-    shell.show_latest_result("error_estimate()")
+/// Shows the estimated errors of the last simulation: those of all quantities in a table, or those of the named columns in a chart.
+pub fn error_estimate(shell: &mut Shell, operand: &str) -> CommandOutcome {
+    let words = operand.split([',', ' ']).map(|name| name.trim_matches('"').to_owned());
+    let columns: Vec<String> = words.filter(|name| !name.is_empty()).collect();
+    if columns.is_empty() {
+        return shell.show_latest_result("error_estimate()");
+    }
+    let Some(latest) = shell.latest() else { return shell.report_error(&no_simulation()) };
+    if let Err(error) = plots::expect_columns(latest.simulation().history(), &columns) {
+        return shell.report_native_error(error);
+    }
+    let estimate = match shell.preview_latest("error_estimate()") {
+        Ok(Reply::Value(value)) if value.is::<ErrorEstimate>() => value.cast::<ErrorEstimate>(),
+        Ok(reply) => return shell.print_reply(reply),
+        Err(refusal) => return shell.report_error(&refusal),
+    };
+    draw(shell, |simulation, screen| {
+        let history = simulation.history();
+        match screen {
+            ReplyTarget::Pipe => {
+                let line = |name: &String| {
+                    let of_rows = estimate.of_rows(name, history)?;
+                    let [present, largest] = [
+                        of_rows.last().copied().unwrap_or_default(),
+                        of_rows.iter().copied().fold(0.0, f64::max),
+                    ]
+                    .map(|error| scientific(error, 2));
+                    let summary = plots::column_summary(history, name)?;
+                    let verdict = estimate.of(name).map(QuantityError::verdict).unwrap_or_default();
+                    Ok(format!(
+                        "{summary}; estimated error {present}, largest {largest}, {verdict}"
+                    ))
+                };
+                Ok(columns.iter().map(line).collect::<Result<Vec<_>, ScriptError>>()?.join("\n"))
+            }
+            ReplyTarget::Terminal(style) => {
+                let mut chart = plots::history_lines(history, &columns);
+                for (index, name) in columns.iter().enumerate() {
+                    chart.add_band(index, &estimate.of_rows(name, history)?);
+                }
+                Ok(chart.text(&style))
+            }
+        }
+    })
 }
 
 pub fn view(shell: &mut Shell, operand: &str) -> CommandOutcome {

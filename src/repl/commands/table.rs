@@ -84,10 +84,10 @@ pub const COMMANDS: &[Command] = &[
     },
     Command {
         name: ":error",
-        operand: CommandOperand::Nothing,
-        placeholder: "",
+        operand: CommandOperand::Curves,
+        placeholder: "[COLUMNS]",
         summary: "estimates the errors of the last simulation in time and space",
-        doc: "The run is repeated with larger steps and on other meshes, as sim.error_estimate() does.",
+        doc: "The run is repeated with larger steps and on other meshes, as sim.error_estimate() does. The errors of columns, such as `:error kinetic`, are drawn as thin lines above and below their values.",
         body: inspection::error_estimate,
     },
     Command {

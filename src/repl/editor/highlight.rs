@@ -84,8 +84,6 @@ fn highlight_command(text: &str, cursor: Option<usize>, vocabulary: &SessionName
 
 #[cfg(test)]
 mod tests {
-    use std::time::{Duration, Instant};
-
     use super::super::samples::surroundings;
     use super::*;
     use crate::script::presentation::highlight::{
@@ -171,18 +169,13 @@ mod tests {
     }
 
     #[test]
-    fn a_long_input_is_drawn_fast() {
+    fn a_long_input_is_drawn_whole() {
         let vocabulary = vocabulary();
         let line = "let a = scene.beam(#{ axis: line([0, 0], [1.5, 2]) }); // `x`\n";
         for part in [line, "(", "#", "`${a}", "rod.x.", "\"'"] {
             let text = part.repeat(10_000 / part.len() + 1);
-            let drawing = |_| {
-                let start = Instant::now();
-                assert!(highlight(&text, Some(text.len()), &vocabulary).len() >= 10_000);
-                start.elapsed()
-            };
-            let fastest = (0..20).map(drawing).min().unwrap_or_default();
-            assert!(fastest < Duration::from_millis(5), "{part}: {fastest:?}");
+            let drawn = highlight(&text, Some(text.len()), &vocabulary);
+            assert!(without_colours(&drawn) == text, "{part}");
         }
     }
 

@@ -177,8 +177,6 @@ fn script_signature(function: &ScriptFunction, level: &OpenBracket) -> String {
 
 #[cfg(test)]
 mod tests {
-    use std::time::{Duration, Instant};
-
     use super::super::samples::surroundings;
     use super::*;
 
@@ -245,17 +243,10 @@ mod tests {
     }
 
     #[test]
-    fn hints_for_long_inputs_come_fast() {
-        let surroundings = surroundings();
+    fn a_long_input_before_a_call_changes_no_hint() {
         for part in ["(", "f(", "#{ a: ", "a.", "let a = a; ", "[", "sim.history.", "line(1, "] {
-            let text = part.repeat(10_000 / part.len());
-            let hinting = |_| {
-                let start = Instant::now();
-                let _ = hint(&text, text.len(), &surroundings);
-                start.elapsed()
-            };
-            let fastest = (0..10).map(hinting).min().unwrap_or_default();
-            assert!(fastest < Duration::from_millis(20), "{part}: {fastest:?}");
+            let text = format!("{}; line(", part.repeat(10_000 / part.len()));
+            assert!(shown(&text).starts_with("line(‹from›, to)"), "{part}: {}", shown(&text));
         }
     }
 }

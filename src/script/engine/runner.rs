@@ -152,7 +152,7 @@ fn estimated_errors(
         ErrorEstimation::Auto if elapsed < BRIEF && !has_limit => {
             format!("#{{ max_time: {:?} }}", elapsed.as_secs_f64().max(0.01))
         }
-        _ => return vec!["estimated error: not estimated; --error estimates it".to_owned()],
+        _ => return vec!["estimated error: not estimated; use --error to estimate it".to_owned()],
     };
     let mut lines = Vec::new();
     for simulation in ran.iter().take(MOST_ESTIMATES) {

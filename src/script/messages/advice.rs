@@ -48,7 +48,8 @@ fn simulation_hint(error: &SimulationError) -> Option<String> {
             "give `sample` the period of the controller, between dt/100 and 10 dt".into()
         }
         SimulationError::NoMeanForces { sensor, .. } => {
-            format!("record \"{}\"", sensor.replace(".mean_", "."))
+            let (joint, quantity) = sensor.rsplit_once('.').unwrap_or_default();
+            format!("record \"{joint}.present_{quantity}\"")
         }
         SimulationError::StartMismatch { .. } => {
             "find the equilibrium under the full loads, load_factor: 1, at a time at which the \
@@ -83,6 +84,7 @@ fn simulation_hint(error: &SimulationError) -> Option<String> {
         SimulationError::Method(_)
         | SimulationError::StepSize(_)
         | SimulationError::EventLocation { .. }
+        | SimulationError::FrictionMethod { .. }
         | SimulationError::Interrupted { .. } => return None,
     })
 }
@@ -202,7 +204,7 @@ fn slider_hint(error: &SliderError) -> Option<String> {
             give the slider the option velocities: \"project\", which uses the nearest \
             compatible velocities"
         }
-        SliderError::RuleOfOneBeam { .. } => "use conserving()",
+        SliderError::RuleOfOneBeam { .. } | SliderError::FrictionRule { .. } => "use conserving()",
         _ => return None,
     };
     Some(advice.into())

@@ -169,7 +169,7 @@ pub const TABLE: BindingTable = BindingTable {
         .doc("See scene.damped_modes for accuracy and restrictions.")
         .example("let rest = scene.equilibrium();\ncheck_close(rest.damped_modes(1)[0].angular_frequency, rest.modes(1).angular_frequencies[0], 1e-6);")
         .with_related(&["modes"]),
-        method(EQUILIBRIUM, "start", &[options("options", START)], |call| {
+        method(EQUILIBRIUM, "start", &[options("options", START).optional()], |call| {
             let handle = call.receiver::<EquilibriumHandle>()?;
             let from = RunStart::Equilibrium(handle.clone());
             begin(call, handle.scene().clone(), from, |settings| {
@@ -312,9 +312,12 @@ fn find(call: &mut Call) -> Result<Dynamic, ScriptError> {
         RunMode::Run => {
             let name = description.name.clone();
             context.progress().begin(&name, 0.0, loading.factor);
+            let mut last = None;
             let found = Equilibrium::find(description, loading, &mut |reached| {
-                context.progress().report_time(reached);
-                context.meter().count_step();
+                if last.replace(reached) != Some(reached) {
+                    context.progress().report_time(reached);
+                    context.meter().count_step();
+                }
                 context.meter().allows_a_step() && !context.is_stopped()
             });
             context.progress().end();
@@ -332,6 +335,13 @@ fn find(call: &mut Call) -> Result<Dynamic, ScriptError> {
     if context.mode() == RunMode::Run && is_unstable(&rest) {
         let name = &rest.scene().name;
         context.print_message(&format!("note: the equilibrium of '{name}' is not stable"));
+    }
+    let with_friction = rest.scene().sliders.iter().find(|slider| slider.friction > 0.0);
+    if let Some(slider) = with_friction {
+        let (scene, slider) = (&rest.scene().name, &slider.name);
+        context.print_message(&format!(
+            "note: the equilibrium of '{scene}' does not include the friction of slider '{slider}'"
+        ));
     }
     let path = rest.path();
     if path.load_factor() != loading.factor {

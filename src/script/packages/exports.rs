@@ -2,6 +2,8 @@
 
 use rhai::Dynamic;
 
+use super::error_estimates::{ERROR, wanted_estimate};
+use super::pictures::subjects::as_history;
 use super::recording::{Missing, expect_near, report_diverged_rerun};
 use super::simulations::{SIMULATION, SPINNING};
 use super::sweeps::SWEEP_TABLE;
@@ -49,15 +51,16 @@ pub const TABLE: BindingTable = BindingTable {
             )
             .example("sim.run_to(2);\nwrite_vtk(sim, \"spin.pvd\", #{ every: 0.5 });\nwrite_vtk(sim, \"shape.pvd\", #{ frames: 3, fields: \"shape\" });")
             .with_related(&["write_npz", "plot_motion", "save"]),
-        function("write_npz", &[ARRAYED, NPZ_FILE], write_npz)
+        function("write_npz", &[ARRAYED, NPZ_FILE, options("options", NPZ).optional()], write_npz)
             .summary("Writes all recorded data as arrays for NumPy.")
             .doc(
                 "`t` holds the times of the configurations; `points.NAME` the control points \
                 (or nodes) of a beam, by time, point and coordinate, or the positions of a \
                 particle, by time and coordinate; `history.COLUMN` each column of the history, \
                 whose times are `history.t`. For the table of a sweep there is an array for \
-                each numeric parameter and result, with NaN in failed rows. All numbers are \
-                doubles with full accuracy.",
+                each numeric parameter and result, with NaN in failed rows. With `error: true`, \
+                `error.NAME` holds the estimated errors of a station or column at `history.t`. \
+                All numbers are doubles with full accuracy.",
             )
             .example("sim.run_to(1);\nwrite_npz(sim, \"spin.npz\");")
             .with_related(&["write_vtk", "write_states", "write_csv"]),
@@ -67,7 +70,8 @@ pub const TABLE: BindingTable = BindingTable {
             .doc(
                 "For a simulation or a history all columns are written; for an array of maps a \
                 row for each map and a column for each key, in alphabetical order, empty where \
-                the key is missing. All digits are kept. A text that begins with = + - or @ gets an apostrophe, so that \
+                the key is missing. With `error: true`, the estimated errors of each column of a \
+                simulation or history follow it in a column NAME.error. All digits are kept. A text that begins with = + - or @ gets an apostrophe, so that \
                 spreadsheets do not evaluate it. write_history adds a comment on the \
                 simulation and units in the column names.",
             )
@@ -116,9 +120,13 @@ const FRAMES: &[Parameter] = &[
         )
         .optional(),
 ];
-const HEADER: &[Parameter] = &[boolean("units")
-    .doc("true to write the dimensions of the columns in the second line")
-    .optional()];
+const HEADER: &[Parameter] = &[
+    boolean("units")
+        .doc("true to write the dimensions of the columns in the second line")
+        .optional(),
+    ERROR,
+];
+const NPZ: &[Parameter] = &[ERROR];
 
 const MISSING: Missing =
     Missing { what: "velocities, angles and section forces", instead: "fields: \"shape\"" };
@@ -272,9 +280,22 @@ fn frames(
 
 fn write_npz(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let file = named(call, ".npz")?;
+    let options = call.options_or_defaults("options")?;
     let archive = match call.get_if::<SweepTable>("of") {
-        Some(sweep) => sweep.archive(),
-        None => archive(&call.get::<SimulationHandle>("of")?.simulation()),
+        Some(sweep) => {
+            expect_no_errors(call, &options)?;
+            sweep.archive()
+        }
+        None => {
+            let of = call.get::<SimulationHandle>("of")?;
+            let estimate = wanted_estimate(call, &options, &of)?;
+            let simulation = of.simulation();
+            let mut archive = archive(&simulation);
+            if let Some(estimate) = estimate {
+                estimate.add_arrays(&mut archive, simulation.history());
+            }
+            archive
+        }
     };
     let bytes = archive.to_bytes()?;
     call.context().write_file(&file, &bytes)?;
@@ -283,11 +304,31 @@ fn write_npz(call: &mut Call) -> Result<Dynamic, ScriptError> {
 
 fn write_csv(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let file = named(call, ".csv")?;
-    let has_units = call.options_or_defaults("options")?.boolean("units").unwrap_or(false);
+    let options = call.options_or_defaults("options")?;
+    let has_units = options.boolean("units").unwrap_or(false);
     let heading = if has_units { TableHeading::NamesAndUnits } else { TableHeading::Names };
-    let table = table(call)?;
+    let mut table = table(call)?;
+    match as_history(&call.value("of")?) {
+        Some(history) => {
+            if let Some(estimate) = wanted_estimate(call, &options, &history.of)? {
+                history.read(|rows| estimate.add_columns(&mut table, rows));
+            }
+        }
+        None => expect_no_errors(call, &options)?,
+    }
     call.context().write_file_by(&file, |file| table.write_csv(heading, file))?;
     Ok(Dynamic::UNIT)
+}
+
+/// Refuses the option `error` for a table that no simulation has written.
+fn expect_no_errors(call: &Call, options: &Options) -> Result<(), ScriptError> {
+    if !options.boolean(ERROR.name).unwrap_or(false) {
+        return Ok(());
+    }
+    Err(call
+        .error("only the errors of a simulation or its history can be estimated")
+        .hint("give the simulation, or leave out `error`")
+        .at(CallPart::Key(ERROR.name.into())))
 }
 
 #[cfg(feature = "parquet")]

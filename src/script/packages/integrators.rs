@@ -55,9 +55,9 @@ pub const TABLE: BindingTable = BindingTable {
                 energy and both momenta to rounding at any step size.")
             .doc(
                 "Fourth order where loads and motion are smooth. A step costs as much as seven, \
-                one of them backwards in time; this is efficient for small errors. Contact \
-                forces of sliders and forces of springs and drives are those of the last \
-                substep; mean forces, work and dissipation those of the whole step. A motion \
+                one of them backwards in time; this is efficient for small errors. Forces \
+                of springs and loads are those of the last substep; all other forces, work and \
+                dissipation are those of the whole step. A motion \
                 that decays at a rate near 3.557/dt grows in the backward substep; this is \
                 reported. The substeps are chosen so that slow loads do not excite vibrations \
                 much faster than a step. A composition as in McLachlan, SIAM J. Sci. Comput. \

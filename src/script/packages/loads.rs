@@ -57,7 +57,7 @@ pub const TABLE: BindingTable = BindingTable {
                  scene.force(rod.middle, [0, 1], |t, q| -q.velocity(rod.middle).y, #{ sample: 0.1, delay: 0.02 });\n\
                  let sim = scene.start(#{ dt: 0.05 });\nsim.run_to(1);\n\
                  check(sim.history.last(\"work.brake\") < 0);")
-        .with_related(&["moment", "line_load", "hold_for"]),
+        .with_related(&["moment", "line_load", "hold_for", "contact_force", "joint_force"]),
         method(SCENE, "moment", &[AT, number("moment").unit("force·length"), WHEN, NAMED], |call| {
             let (station, scene) = here(call, "station")?;
             let kind = LoadKind::Moment { station, moment: call.number("moment")? };

@@ -10,6 +10,7 @@ mod derivatives;
 mod drag;
 mod drives;
 mod equilibria;
+mod error_estimates;
 mod explaining;
 mod exports;
 mod fits;
@@ -28,7 +29,6 @@ mod precision_studies;
 mod reading_options;
 mod recording;
 mod releases;
-mod run_errors;
 mod samples;
 mod saving;
 mod scenes;
@@ -81,7 +81,7 @@ pub const TABLES: &[&BindingTable] = &[
     &simulations::TABLE,
     &derivatives::TABLE,
     &notes::TABLE,
-    &run_errors::TABLE,
+    &error_estimates::TABLE,
     &recording::TABLE,
     &sensors::TABLE,
     &time_travel::TABLE,

@@ -47,13 +47,15 @@ pub const TABLE: BindingTable = BindingTable {
             .with_related(&["plot", "plot_history", "plot_along", "plot_field"]),
         function("plot_history", &[RECORDED, COLUMNS, FILE, options("options", HISTORY_OPTIONS).optional()], plot_history)
             .summary("Plots columns of the history over time.")
-            .doc("Each of several histories must have the named columns. Use `plot` for other \
+            .doc("Each of several histories must have the named columns. With `error: true`, thin \
+                lines show the values plus and minus their estimated errors. Use `plot` for other \
                 numbers.")
             .example(
                 "sim.run_to(2);\nplot_history(sim, [\"kinetic\", \"strain\", \"energy\"], \"energy.svg\");\n\
                  plot_history(sim, [\"strain\"], \"strain.svg\", #{ average: true, title: \"Strain energy\" });\n\
                  let other = scene.start(#{ name: \"trapezoidal\", dt: 0.1, integrator: trapezoidal() });\nother.run_to(2);\n\
-                 plot_history([sim, other], [\"strain\"], \"two.svg\", #{ axes: \"shared\", x_limits: [0, 1] });",
+                 plot_history([sim, other], [\"strain\"], \"two.svg\", #{ axes: \"shared\", x_limits: [0, 1] });\n\
+                 plot_history(sim, [\"strain\"], \"band.svg\", #{ error: true });",
             )
             .with_related(&["plot", "plot_drift", "plot_along", "column", "averaged"]),
         function("plot_drift", &[RECORDED, FILE], plot_drift)

@@ -47,7 +47,7 @@ pub const TABLE: BindingTable = BindingTable {
                       let sim = scene.start(#{ dt: 0.01 });\nsim.run_to(0.5);\n\
                       check(sim.releases[0].t == 0.25 && sim.releases.len == 2);\n\
                       check(sim.history.drift(\"energy\") < 1e-10);")
-            .with_related(&["joint_force", "hinge", "releases"]),
+            .with_related(&["present_joint_force", "hinge", "releases"]),
         property(SIMULATION, "releases", releases)
             .returns(Returns::array_of(&ValueKind::Map).with_remark(" #{ t, name }"))
             .summary("Releases made so far by scene.release, with their times.")

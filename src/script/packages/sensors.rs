@@ -36,12 +36,22 @@ pub const TABLE: BindingTable = BindingTable {
         Rigid bodies: x to ay, angle and spin, of the centre of mass and of points: hub.x, \
         hub.pin.y. Whole beams, particles and bodies: energy, kinetic, strain, axial, shear, \
         bending, potential. Joints, numbered by kind in the order of creation (hinge1, hinge2, \
-        clamp1, rigid1): force, fx, fy, moment, on the first station, and mean_force, mean_fx, \
-        mean_fy, mean_moment as means of the last step. Sliders: present_force, \
-        present_force_x, present_force_y, on the beam. Section forces, accelerations and \
-        forces are present values computed from the equations of motion, of second order. They \
-        alternate where a stiff beam vibrates from step to step; sim.history.averaged(column) \
-        removes this. Scenes without sensors have no extra cost.",
+        clamp1, rigid1): force, fx, fy, moment, on the first station, and present_force, \
+        present_fx, present_fy, present_moment. Sliders: present_force, present_force_x, \
+        present_force_y, on the beam. Scenes without sensors have no extra cost. \
+        Forces are means of the last step unless their name begins with present_: contact_force \
+        and the columns NAME.force of sliders, springs, drives and loads; joint_force, \
+        reaction and the columns force, fx, fy, moment of joints. The mean times the step size \
+        is the impulse of the step; it belongs to the middle of the step, to second order. \
+        With fourth_order() and with adaptive steps it covers all substeps. In the first row \
+        it is the present force. Exceptions: forces of springs are those at the end of the \
+        step with trapezoidal() and generalized_alpha(); forces of springs and loads are those \
+        of the last substep with fourth_order() and adaptive steps; contact forces with generalized_alpha() are those \
+        that the method balances; impulses of impacts are part of the forces of joints and \
+        supports, not of sliders. \
+        Section forces, accelerations and forces with present_ are present values computed \
+        from the equations of motion, with the order of the motion. They alternate where a \
+        stiff beam vibrates from step to step; sim.history.averaged(column) removes this.",
     types: &[],
     setup: HANGING,
     constants: &[],
@@ -118,6 +128,40 @@ pub const TABLE: BindingTable = BindingTable {
         method(SIMULATION, "reaction", &[AT], |call| {
             let (handle, station) = (call.receiver::<SimulationHandle>()?, call.get::<StationHandle>("station")?);
             let place = station.place_in(&handle)?;
+            let given = mean_reactions(call, &handle)?;
+            let reaction = handle.simulation().model().reaction(&given, &place);
+            reaction.map(force_and_moment).ok_or_else(|| holds_nothing(call, &station))
+        })
+        .returns(Returns::MAP)
+        .summary("Returns the mean reaction of the support at a station over the last step: force, a \
+            vector, and moment.")
+        .doc(MEAN)
+        .example(
+            "scene.record(\"hinge1.force\");\nlet sim = scene.start(#{ dt: 0.01 });\nsim.run_to(1);\nlet momentum = sim.history.column(\"momentum_y\");\n\
+             let change = (momentum[100] - momentum[99]) / 0.01;\n\
+             check_close(sim.reaction(rod.start).force.y - 2 * 9.81, change, 1e-9);",
+        )
+        .with_related(&["present_reaction", "joint_force", "section_forces", "record"]),
+        method(SIMULATION, "joint_force", &[WHICH], |call| {
+            let (handle, joint) = (call.receiver::<SimulationHandle>()?, joint_index(call)?);
+            let given = mean_reactions(call, &handle)?;
+            let simulation = handle.simulation();
+            let joint = simulation.model().transmission(simulation.scene(), joint)?;
+            Ok(force_and_moment(joint.read(&given)))
+        })
+        .returns(Returns::MAP)
+        .summary("Returns the mean force and moment of a joint on its first station over the last \
+            step: force, a vector, and moment.")
+        .doc(MEAN)
+        .example(
+            "scene.record(\"hinge1.fy\");\nlet sim = scene.start(#{ dt: 0.01 });\nsim.run_to(1);\n\
+             let given = sim.joint_force(\"hinge1\").force;\n\
+             check(given.y == sim.history.last(\"hinge1.fy\"));",
+        )
+        .with_related(&["present_joint_force", "reaction", "record"]),
+        method(SIMULATION, "present_reaction", &[AT], |call| {
+            let (handle, station) = (call.receiver::<SimulationHandle>()?, call.get::<StationHandle>("station")?);
+            let place = station.place_in(&handle)?;
             let reaction = handle.with_simulation_mut(|simulation| {
                 let now = simulation.instant()?;
                 Ok::<_, SystemError>(simulation.model().reaction(now.reactions(), &place))
@@ -133,52 +177,18 @@ pub const TABLE: BindingTable = BindingTable {
             rates. The mean sum of the forces of loads, gravity and supports over a step is \
             the change of the columns impulse_x and impulse_y divided by the step size.",
         )
-        .example("let sim = scene.start(#{ dt: 0.01 });\nsim.run_to(1);\nlet given = sim.reaction(rod.start);\ncheck(norm(given.force) > 1 && given.moment == 0);")
-        .with_related(&["mean_reaction", "joint_force", "section_forces", "record"]),
-        method(SIMULATION, "joint_force", &[WHICH], joint_force)
+        .example("let sim = scene.start(#{ dt: 0.01 });\nsim.run_to(1);\nlet given = sim.present_reaction(rod.start);\ncheck(norm(given.force) > 1 && given.moment == 0);")
+        .with_related(&["reaction", "present_joint_force", "section_forces", "record"]),
+        method(SIMULATION, "present_joint_force", &[WHICH], present_joint_force)
             .returns(Returns::MAP)
             .summary("Returns the present force and moment of a joint on its first station: force, a \
                 vector, and moment.")
             .doc("Computed from the equations of motion; second order in the step size, as for \
-                `reaction`. A joint with the ground is a support. The joint is given by the \
+                `present_reaction`. A joint with the ground is a support. The joint is given by the \
                 return value of scene.hinge or by its name, the kind and its number. A \
                 released joint has zero force.")
-            .example("let sim = scene.start(#{ dt: 0.01 });\ncheck(sim.joint_force(\"hinge1\").force == sim.reaction(rod.start).force);")
-            .with_related(&["mean_joint_force", "reaction"]),
-        method(SIMULATION, "mean_reaction", &[AT], |call| {
-            let (handle, station) = (call.receiver::<SimulationHandle>()?, call.get::<StationHandle>("station")?);
-            let place = station.place_in(&handle)?;
-            let given = mean_reactions(call, &handle)?;
-            let reaction = handle.simulation().model().reaction(&given, &place);
-            reaction.map(force_and_moment).ok_or_else(|| holds_nothing(call, &station))
-        })
-        .returns(Returns::MAP)
-        .summary("Returns the mean reaction of the support at a station over the last step: force, a \
-            vector, and moment.")
-        .doc(MEAN)
-        .example(
-            "scene.record(\"hinge1.mean_force\");\nlet sim = scene.start(#{ dt: 0.01 });\nsim.run_to(1);\nlet momentum = sim.history.column(\"momentum_y\");\n\
-             let change = (momentum[100] - momentum[99]) / 0.01;\n\
-             check_close(sim.mean_reaction(rod.start).force.y - 2 * 9.81, change, 1e-9);",
-        )
-        .with_related(&["reaction", "mean_joint_force", "record"]),
-        method(SIMULATION, "mean_joint_force", &[WHICH], |call| {
-            let (handle, joint) = (call.receiver::<SimulationHandle>()?, joint_index(call)?);
-            let given = mean_reactions(call, &handle)?;
-            let simulation = handle.simulation();
-            let joint = simulation.model().transmission(simulation.scene(), joint)?;
-            Ok(force_and_moment(joint.read(&given)))
-        })
-        .returns(Returns::MAP)
-        .summary("Returns the mean force and moment of a joint on its first station over the last \
-            step: force, a vector, and moment.")
-        .doc(MEAN)
-        .example(
-            "scene.record(\"hinge1.mean_fy\");\nlet sim = scene.start(#{ dt: 0.01 });\nsim.run_to(1);\n\
-             let given = sim.mean_joint_force(\"hinge1\").force;\n\
-             check(given.y == sim.history.last(\"hinge1.mean_fy\"));",
-        )
-        .with_related(&["joint_force", "mean_reaction", "record"]),
+            .example("let sim = scene.start(#{ dt: 0.01 });\ncheck(sim.present_joint_force(\"hinge1\").force == sim.present_reaction(rod.start).force);")
+            .with_related(&["joint_force", "present_reaction"]),
         method(SIMULATION, "present_contact_force", &[object("slider", SLIDER)], |call| {
             let handle = call.receiver::<SimulationHandle>()?;
             let slider = call.get::<SliderHandle>("slider")?.on(&handle)?;
@@ -197,7 +207,7 @@ pub const TABLE: BindingTable = BindingTable {
             "let bead = scene.slider(scene.particle([1, 0], 0.5), rod, #{ at: 0.5 });\nlet sim = scene.start(#{ dt: 0.001 });\nsim.run_to(0.1);\n\
              print(sim.present_contact_force(bead));",
         )
-        .with_related(&["contact_force", "joint_force"]),
+        .with_related(&["contact_force", "present_joint_force"]),
         method(SIMULATION, "acceleration", &[AT], |call| {
             let (handle, station) = (call.receiver::<SimulationHandle>()?, call.get::<StationHandle>("station")?);
             let place = station.place_in(&handle)?;
@@ -257,14 +267,16 @@ const HANGING: &str = "let scene = new_scene(\"example\");\n\
     scene.hinge(rod.start);\n\
     scene.gravity([0, -9.81]);";
 
-const MEAN: &str = "Means are computed only if one of the columns mean_force, mean_fx, mean_fy, mean_moment is \
-    recorded, as in scene.record(\"hinge1.mean_force\"), and then for all joints and supports. \
+const MEAN: &str = "Means are computed only if one of the columns force, fx, fy, moment of a joint is \
+    recorded, as in scene.record(\"hinge1.force\"), and then for all joints and supports; \
+    otherwise use the present force. \
     Together with loads, gravity and drives they are the change of the momentum over the step; \
     their moments about a point, with each force at the midpoint of its path, are the change \
     of the angular momentum. This holds to rounding with energy_momentum() and \
     energy_decaying(), and for the momentum also with fourth_order() and trapezoidal(). The \
     means belong to the middle of the step, to second order, and include the impulses of \
-    bouncing sliders. Zero before the first step. Not available with generalized_alpha().";
+    bouncing sliders. Before the first step they are the present forces. Not available with \
+    generalized_alpha().";
 
 const AT: Parameter = object("station", STATION);
 const WHICH: Parameter = either("joint", &[Kind::Object(JOINT), Kind::Text]);
@@ -301,7 +313,7 @@ fn record(call: &mut Call) -> Result<Dynamic, ScriptError> {
     Ok(Dynamic::UNIT)
 }
 
-fn joint_force(call: &mut Call) -> Result<Dynamic, ScriptError> {
+fn present_joint_force(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let (handle, joint) = (call.receiver::<SimulationHandle>()?, joint_index(call)?);
     let (now, joint) = handle.with_simulation_mut(|simulation| {
         let joint = simulation.model().transmission(simulation.scene(), joint)?;
@@ -329,8 +341,10 @@ fn mean_reactions(call: &Call, handle: &SimulationHandle) -> Result<Reactions, S
     handle.simulation().model().mean_reactions().ok_or_else(|| {
         let names = handle.simulation().scene().joint_names();
         let joint = names.first().map_or("hinge1", String::as_str);
-        call.error("mean forces of joints and supports were not recorded")
-            .hint(format!("write scene.record(\"{joint}.mean_force\") before scene.start(…)"))
+        call.error("mean forces of joints and supports were not recorded").hint(format!(
+            "write scene.record(\"{joint}.force\") before scene.start(…), or ask for the present \
+                 force by present_joint_force or present_reaction"
+        ))
     })
 }
 

@@ -29,7 +29,9 @@ use crate::script::handles::simulation::{RunStart, RunTarget, SimulationHandle};
 use crate::script::handles::station::StationHandle;
 use crate::script::handles::step_size::step_size;
 use crate::script::messages::error::ScriptError;
-use crate::simulation::{Invariant, Recording, Simulation, SimulationError, SimulationSettings};
+use crate::simulation::{
+    Invariant, Recording, Simulation, SimulationError, SimulationSettings, StepControl,
+};
 use crate::system::Measures;
 
 pub const TABLE: BindingTable = BindingTable {
@@ -40,12 +42,15 @@ pub const TABLE: BindingTable = BindingTable {
     setup: SPINNING,
     constants: &[],
     rows: &[
-        method(SCENE, "start", &[options("options", START)], start)
+        method(SCENE, "start", &[options("options", START).optional()], start)
             .returns(Returns::object(SIMULATION))
             .summary("Creates a simulation of the scene at its initial state, t = 0.")
             .doc("Later changes of the scene do not affect the simulation; call start again for \
-                a new one.")
-            .example("let again = scene.start(#{ integrator: trapezoidal(), dt: 0.05 });\nprint(again);")
+                a new one. Without `dt`, the steps adapt to a tolerance of 1e-3 of the size of \
+                the scene for each step; the error of a whole run is estimated by \
+                sim.error_estimate().")
+            .example("let again = scene.start(#{ integrator: trapezoidal(), dt: 0.05 });\nprint(again);\n\
+                      print(scene.start());")
             .with_related(&["energy_momentum", "trapezoidal", "every", "step", "run_to", "back"]),
         method(SIMULATION, "step", &[integer("count").non_negative().or(Presence::Integer(1))], |call| {
             call.receiver::<SimulationHandle>()?.advance(call, &RunTarget::Steps(call.count("count")?))?;
@@ -175,7 +180,8 @@ const AT: Parameter = object("station", STATION);
 pub(super) const START: &[Parameter] = &[
     either("dt", &[Kind::Number(NumberRange::Positive), Kind::Object(STEP_CONTROL)])
         .unit("time")
-        .doc("step size, or adaptive(#{ tolerance: 1e-4 })"),
+        .doc("step size, or adaptive(#{ tolerance: 1e-4 }); default: adaptive steps with the tolerance 1e-3")
+        .optional(),
     object("integrator", INTEGRATOR).doc("integrator; default: energy_momentum()").optional(),
     name("name").doc("name in the report; default: the name of the scene").optional(),
     object("record", RECORDING)
@@ -192,6 +198,9 @@ pub(super) const START: &[Parameter] = &[
         .doc("notes on unresolved steps: printed when a run ends, or only kept in sim.notes")
         .or(Presence::Text("print")),
 ];
+
+/// Tolerance of the adaptive steps that a simulation takes without `dt`, relative to the size of the scene.
+const DEFAULT_TOLERANCE: f64 = 1e-3;
 
 #[derive(Clone)]
 struct Invariants {
@@ -273,12 +282,15 @@ pub(super) fn begin(
     from: RunStart,
     start: impl FnOnce(SimulationSettings) -> Result<Simulation, SimulationError>,
 ) -> Result<Dynamic, ScriptError> {
-    let options = call.options("options")?;
+    let options = call.options_or_defaults("options")?;
     let settings = SimulationSettings {
         method: options.get_if::<Method>("integrator").unwrap_or_default(),
-        dt: step_size(&options.value("dt")?).ok_or_else(|| {
-            ScriptError::internal_error("a step size is neither a number nor adaptive")
-        })?,
+        dt: match options.has("dt") {
+            false => StepControl::to(DEFAULT_TOLERANCE).into(),
+            true => step_size(&options.value("dt")?).ok_or_else(|| {
+                ScriptError::internal_error("a step size is neither a number nor adaptive")
+            })?,
+        },
         tolerance: Tolerance::default(),
     };
     let started = start(settings);

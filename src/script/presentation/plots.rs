@@ -21,19 +21,30 @@ pub fn history_chart(
     columns: &[String],
     style: &TerminalStyle,
 ) -> Result<String, ScriptError> {
+    expect_columns(history, columns)?;
+    Ok(history_lines(history, columns).text(style))
+}
+
+/// Checks the names of columns of a history.
+///
+/// # Errors
+/// Fails if no column is named or a column is unknown. The error lists the columns.
+pub fn expect_columns(history: &History, columns: &[String]) -> Result<(), ScriptError> {
     if columns.is_empty() {
         let hint = format!("columns: {}", column_names(history));
         return Err(ScriptError::new("no column is given").hint(hint));
     }
-    for name in columns {
-        expect_column(history, name)?;
-    }
+    columns.iter().try_for_each(|name| expect_column(history, name).map(|_| ()))
+}
+
+/// Chart of history columns over time for a terminal, with the columns in the title.
+pub fn history_lines(history: &History, columns: &[String]) -> LineChart {
     let title = columns.iter().map(|name| series_name(name)).collect::<Vec<_>>().join(", ");
     let label = match dimension_of(history, columns) {
         "" | "-" => String::new(),
         dimension => format!("[{dimension}]"),
     };
-    Ok(line_chart(title, history, columns, History::column).y_label(label).text(style))
+    line_chart(title, history, columns, History::column).y_label(label)
 }
 
 /// Chart of the drift of energy and momenta on a logarithmic axis, as text for a terminal.

@@ -1,6 +1,6 @@
 //! Contact of a slider in a step: path along the master, and forces on slave and master.
 
-use super::{Equation, Unit};
+use super::{Equation, Friction, Unit};
 use crate::geometry::{ContactPath, FunctionOnPath, Vec2};
 
 /// Number of unknowns of a contact: `λ` and `η` with two components each, and `Δξ`.
@@ -106,6 +106,8 @@ pub struct Contact<'a> {
     pub unknowns: ContactUnknowns,
     /// Kink of the axis of the master under the contact force; `None` for sliding laws without a kink.
     pub kink: Option<Kink>,
+    /// Friction along the master; `None` without friction.
+    pub friction: Option<Friction<'a>>,
     /// Length of the master divided by its parameter range. The equations are scaled by it [length].
     pub length: f64,
 }

@@ -8,6 +8,7 @@ mod contact;
 mod dual;
 mod equation;
 mod exact;
+mod friction;
 mod frozen;
 mod held;
 mod kink_on_path;
@@ -24,6 +25,7 @@ pub use contact::{
 };
 pub use equation::{Equation, Unit};
 pub use exact::Exact;
+pub use friction::{Friction, FrictionForces, FrictionMode};
 pub use frozen::Frozen;
 pub use held::HeldSlider;
 pub use kinked::Kinked;

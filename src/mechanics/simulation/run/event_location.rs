@@ -8,7 +8,7 @@ use crate::joints::EndAction;
 use crate::newton::NewtonReport;
 use crate::simulation::first_step::shortest_wave_time;
 use crate::simulation::{Arrival, ArrivalKind, SimulationError, StepSize};
-use crate::system::{Arriving, MasterEnd, MasterLimit, SliderState};
+use crate::system::{Arriving, MasterEnd, MasterLimit, SliderEvent, SliderState};
 
 /// Largest number of attempts to find the time of an arrival. A few are usual.
 const MOST_TRIES: usize = 60;
@@ -35,6 +35,10 @@ pub(super) struct EventStep {
 
 enum Event {
     Arrival(MasterLimit),
+    /// A slider with friction begins to stick.
+    SlipEnd(usize),
+    /// A slider with friction begins to slip.
+    SlipStart(usize),
     /// A slider would jump past a limit, so the step ends just before it.
     JustBefore,
     /// Sliders leave stops because of tensile stop forces.
@@ -102,7 +106,7 @@ impl Simulation {
         overshoot: Overshoot,
     ) -> Result<EventStep, StepError> {
         let landing = self.search(interval, overshoot);
-        self.model.set_target_limit(None);
+        self.model.set_target(None);
         landing
     }
 
@@ -111,18 +115,29 @@ impl Simulation {
         let mut tries = 0..MOST_TRIES;
         // One pass for each slider that arrives before the current target.
         loop {
-            let limit = MasterLimit::of(overshoot.limit);
-            if let SliderState::Held(_) = self.model.slider_state(limit.slider) {
-                return Ok(EventStep { step: None, event: Event::StopRelease });
-            }
-            self.model.set_target_limit(Some(limit));
-            let mut bracket = match self.bracket_arrival(cut, limit, overshoot.distance)? {
+            let target = SliderEvent::of(overshoot.limit);
+            self.model.set_target(Some(target));
+            let bracket = match target {
+                SliderEvent::Limit(limit) if self.is_held(limit) => {
+                    return Ok(EventStep { step: None, event: Event::StopRelease });
+                }
+                SliderEvent::Limit(limit) => {
+                    self.bracket_arrival(cut, limit, overshoot.distance)?
+                }
+                SliderEvent::SlipEnd(slider) => {
+                    self.bracket_slip_end(cut, slider, overshoot.distance)
+                }
+                SliderEvent::SlipStart(slider) => {
+                    return Ok(EventStep { step: None, event: Event::SlipStart(slider) });
+                }
+            };
+            let mut bracket = match bracket {
                 ArrivalEstimate::Between(bracket) => bracket,
                 ArrivalEstimate::Located(landing) => return Ok(landing),
             };
             loop {
                 if bracket.is_converged() {
-                    self.model.set_target_limit(None);
+                    self.model.set_target(None);
                     let short = Interval::lasting(interval.start, bracket.before.0);
                     let report = self.stepper.integrator.step(&mut self.model, short)?;
                     return Ok(EventStep { step: Some((short, report)), event: Event::JustBefore });
@@ -134,12 +149,17 @@ impl Simulation {
                 cut = Interval::lasting(interval.start, duration);
                 overshoot = match self.attempt(cut)? {
                     Ok(report) => {
-                        let event = Event::Arrival(limit);
+                        let event = match target {
+                            SliderEvent::Limit(limit) => Event::Arrival(limit),
+                            SliderEvent::SlipEnd(slider) | SliderEvent::SlipStart(slider) => {
+                                Event::SlipEnd(slider)
+                            }
+                        };
                         return Ok(EventStep { step: Some((cut, report)), event });
                     }
                     Err(overshoot) => overshoot,
                 };
-                if overshoot.limit != limit.number() {
+                if overshoot.limit != target.number() {
                     break;
                 }
                 bracket.narrow(duration, overshoot.distance);
@@ -157,6 +177,7 @@ impl Simulation {
         let mut after = (interval.duration(), distance);
         let left = self.model.distance_to(limit);
         let at_once = EventStep { step: None, event: Event::Arrival(limit) };
+        let number = SliderEvent::Limit(limit).number();
         let is_near = self.model.leads_beyond(limit) && left <= NEAR;
         if is_near && (!self.model.is_at(limit) || self.has_impact(limit)) {
             return Ok(ArrivalEstimate::Located(at_once));
@@ -179,7 +200,7 @@ impl Simulation {
                         event,
                     }));
                 }
-                Err(overshoot) if overshoot.limit != limit.number() => {}
+                Err(overshoot) if overshoot.limit != number => {}
                 Err(Overshoot { distance, .. }) if distance < 0.0 => {
                     return Ok(ArrivalEstimate::Between(TimeBracket::new(
                         (duration, distance),
@@ -190,6 +211,24 @@ impl Simulation {
             }
         }
         Ok(ArrivalEstimate::Located(at_once))
+    }
+
+    /// Brackets the end of the slip of a slider with friction, given a step that ends after it.
+    fn bracket_slip_end(&self, interval: Interval, slider: usize, beyond: f64) -> ArrivalEstimate {
+        let speed = self.model.slip_speed(slider);
+        match speed > 0.0 {
+            true => ArrivalEstimate::Between(TimeBracket::new(
+                (0.0, -speed),
+                (interval.duration(), beyond),
+            )),
+            false => {
+                ArrivalEstimate::Located(EventStep { step: None, event: Event::SlipEnd(slider) })
+            }
+        }
+    }
+
+    fn is_held(&self, limit: MasterLimit) -> bool {
+        matches!(self.model.slider_state(limit.slider), SliderState::Held(_))
     }
 
     /// Attempts a step. A step that misses its target is counted but not accepted.
@@ -219,7 +258,12 @@ impl Simulation {
             Event::JustBefore => return Ok(()),
             Event::StopRelease => {
                 self.model.leave_tensile_stops()?;
-                return Ok(self.model.restart_kinks_at_ends()?);
+                return self.restart_kinks();
+            }
+            Event::SlipEnd(slider) => return Ok(self.model.end_slip(slider)?),
+            Event::SlipStart(slider) => {
+                self.model.start_slip(slider);
+                return Ok(());
             }
         };
         let dt = self.dt();
@@ -267,12 +311,22 @@ impl Simulation {
             for arrival in &mut arrivals {
                 arrival.impulse = self.model.impulse_of(arrival.limit.slider);
             }
-            self.model.restart_kinks_at_ends()?;
+            self.restart_kinks()?;
         }
         // The arrival that ends the run is listed last.
         arrivals.sort_by_key(|arrival| arrival.kind == ArrivalKind::Stopped);
         self.progress.arrivals.extend(arrivals);
         Ok(())
+    }
+
+    /// Starts kinks at ends with the present contact forces. If the previous impact was less than a step ago, they stay unloaded, because the forces
+    /// between such impacts belong to vibrations that the steps do not resolve.
+    fn restart_kinks(&mut self) -> Result<(), SimulationError> {
+        let last = self.progress.arrivals.last();
+        if last.is_some_and(|last| self.time() - last.time < self.dt()) {
+            return Ok(());
+        }
+        Ok(self.model.restart_kinks_at_ends()?)
     }
 
     /// Returns true if a slider at a limit stays at its stop instead of bouncing. This is the case for repeated impacts within few steps, for an

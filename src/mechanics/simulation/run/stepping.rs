@@ -6,7 +6,7 @@ use crate::integrators::{Interval, StepError};
 use crate::newton::NewtonReport;
 use crate::simulation::step_retry::StepRetry;
 use crate::simulation::{Monitor, SimulationError};
-use crate::system::MasterLimit;
+use crate::system::SliderEvent;
 
 #[derive(PartialEq, Eq)]
 pub(super) enum IntervalProgress {
@@ -51,7 +51,9 @@ impl Simulation {
             let mut stepped = self.step_or_freeze_kinks(interval);
             if let Err(StepError::Overshoot { overshoot, iterations, .. }) = stepped {
                 self.progress.count_try(iterations);
-                self.disable_derivatives("a slider reaches an end of its beam or leaves a stop");
+                self.disable_derivatives(
+                    "a slider reaches an end of its beam, leaves a stop, or begins to slip or stick",
+                );
                 match self.locate_arrival(interval, overshoot) {
                     Ok(landing) => {
                         self.model.unfreeze_kinks();
@@ -78,6 +80,9 @@ impl Simulation {
                 Ok(report) => {
                     self.count_step(interval, report, halving.retries);
                     halving.succeed();
+                    if self.model.has_friction() {
+                        self.model.end_reversed_slips()?;
+                    }
                     self.clock.retry = halving.remaining();
                     self.store_present();
                 }
@@ -146,12 +151,16 @@ impl Simulation {
     fn no_step(&self, dt: f64, divisions: u64, source: StepError) -> SimulationError {
         let (time, plight) = (self.time(), self.plight());
         if let StepError::Overshoot { overshoot, .. } = &source {
-            let limit = MasterLimit::of(overshoot.limit);
-            let slider = self.scene.sliders[limit.slider].name.clone();
-            let end = limit.end.name();
+            let (slider, event) = match SliderEvent::of(overshoot.limit) {
+                SliderEvent::Limit(limit) => {
+                    (limit.slider, format!("reaches the {} of its beam", limit.end.name()))
+                }
+                SliderEvent::SlipEnd(slider) => (slider, "begins to stick".to_owned()),
+                SliderEvent::SlipStart(slider) => (slider, "begins to slip".to_owned()),
+            };
             return SimulationError::EventLocation {
-                slider,
-                end,
+                slider: self.scene.sliders[slider].name.clone(),
+                event,
                 time,
                 dt,
                 divisions,

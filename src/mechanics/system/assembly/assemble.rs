@@ -45,9 +45,7 @@ impl System {
         scene: &Scene,
         goes_on: &mut dyn FnMut() -> bool,
     ) -> Result<Self, SystemError> {
-        let mut model = Self::as_drawn(scene, goes_on)?;
-        query(scene, goes_on)?;
-        model.project_start_velocities(scene)?;
+        let mut model = Self::with_start_velocities(scene, goes_on)?;
         model.begin();
         Ok(model)
     }
@@ -60,11 +58,20 @@ impl System {
         scene: &Scene,
         goes_on: &mut dyn FnMut() -> bool,
     ) -> Result<Self, SystemError> {
+        let mut model = Self::with_start_velocities(scene, goes_on)?;
+        model.start_kinks()?;
+        model.begin();
+        Ok(model)
+    }
+
+    fn with_start_velocities(
+        scene: &Scene,
+        goes_on: &mut dyn FnMut() -> bool,
+    ) -> Result<Self, SystemError> {
         let mut model = Self::as_drawn(scene, goes_on)?;
         query(scene, goes_on)?;
         model.project_start_velocities(scene)?;
-        model.start_kinks()?;
-        model.begin();
+        model.choose_friction_modes();
         Ok(model)
     }
 

@@ -21,6 +21,7 @@ use crate::integrators::{Interval, PrescribedKinematics};
 use crate::joints::Component;
 use crate::loads::{LoadError, MotionAtStart, PrescribedMotion};
 use crate::system::bodies::Body;
+use crate::system::step_mean::StepMean;
 
 /// Supported degree of freedom with a prescribed motion.
 pub struct PrescribedMovement {
@@ -45,8 +46,8 @@ struct PresentMotion {
     step_curvature: MotionCurvature,
     /// Check for rates that change within a step; `None` for rates with exact means.
     check: Option<ScheduleCheck>,
-    /// Reaction in the last step, averaged over the step; moments are conjugate to the angle [force, force·length].
-    reaction: f64,
+    /// Reaction; moments are conjugate to the angle [force, force·length].
+    reaction: StepMean<f64>,
     /// Product `M Δv` of the inertia and the rate change of the step being accepted [force·time, force·length·time].
     impact_momentum: f64,
     /// Static position or angle under the full load [length, rad].
@@ -204,7 +205,7 @@ impl PrescribedMovements {
             let own = own.filter(|(movement, _)| movement.drive == index);
             let (mut force, mut moment) = (Vec2::zeros(), 0.0);
             for (movement, present) in own {
-                let (by, turning) = movement.support.reaction(present.reaction);
+                let (by, turning) = movement.support.reaction(present.reaction.value);
                 (force, moment) = (force + by, moment + turning);
             }
             let Driven { name, prescribed, work } = drive;
@@ -345,13 +346,14 @@ impl PrescribedMovements {
                 (cross(middle, force) + moment) * duration + cross(aside, present.momentum);
             sum += WorkAndImpulse::of(work, force * duration, angular);
             self.drives[movement.drive].work += work;
-            present.reaction = match component {
+            let conjugate = match component {
                 Component::Rotation => {
                     let inertia = present.impact_momentum / duration;
                     (reaction - inertia) * per_angle(moved, rotations) + inertia
                 }
                 _ => reaction,
             };
+            present.reaction.add(conjugate, duration);
             if present.step_curvature.size() > present.curvature.size() {
                 present.curvature = present.step_curvature;
             }
@@ -361,8 +363,18 @@ impl PrescribedMovements {
         sum
     }
 
-    /// Impulse and work of the drives in an impact. `rates` are the means of the rates before and after the impact; the work is the reaction
-    /// impulse times this mean.
+    /// Sets the reactions of a step of zero length to a residual of all degrees of freedom [force, force·length].
+    pub fn start_reactions(&mut self, residual: &[f64]) {
+        for (present, reaction) in self.present.iter_mut().zip(&residual[self.first..]) {
+            present.reaction = StepMean::at_start(*reaction);
+        }
+    }
+
+    pub fn end_step(&mut self) {
+        self.present.iter_mut().for_each(|present| present.reaction.end_step());
+    }
+
+    /// Impulse and work of the drives in an impact. The work is the reaction impulse times the mean of the rates before and after the impact.
     pub fn impact_exchange(
         &mut self,
         bodies: &[Body],
@@ -384,8 +396,9 @@ impl PrescribedMovements {
 
     pub fn save(&self, state: &mut Vec<f64>) {
         state.extend(
-            self.present.iter().flat_map(|now| [now.acceleration, now.reaction, now.placed]),
+            self.present.iter().flat_map(|now| [now.acceleration, now.reaction.value, now.placed]),
         );
+        state.extend(self.present.iter().map(|now| now.reaction.covered));
         let bends = self.present.iter().map(|now| now.curvature);
         state.extend(bends.flat_map(|MotionCurvature { time, rates }| [time, rates[0], rates[1]]));
         self.present.iter().flat_map(|now| &now.check).for_each(|check| check.save(state));
@@ -394,9 +407,10 @@ impl PrescribedMovements {
 
     pub fn restore(&mut self, next: &mut dyn FnMut() -> f64) {
         for present in &mut self.present {
-            (present.acceleration, present.reaction) = (next(), next());
+            (present.acceleration, present.reaction.value) = (next(), next());
             present.placed = next();
         }
+        self.present.iter_mut().for_each(|present| present.reaction.covered = next());
         for present in &mut self.present {
             present.curvature = MotionCurvature { time: next(), rates: [next(), next()] };
         }

@@ -97,6 +97,16 @@ pub enum SliderError {
         /// Rejected coefficient [-].
         restitution: f64,
     },
+    #[error("slider '{slider}': friction is {friction}, but must be zero or more")]
+    Friction {
+        slider: String,
+        /// Rejected coefficient [-].
+        friction: f64,
+    },
+    #[error(
+        "slider '{slider}': friction is available with the conserving rule only, not with the {rule} rule"
+    )]
+    FrictionRule { slider: String, rule: &'static str },
     #[error(
         "slider '{slider}': at the start its point moves across its beam with a velocity of {}", rounded(*speed)
     )]

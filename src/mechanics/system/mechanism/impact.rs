@@ -220,6 +220,7 @@ impl System {
         };
         let Ok(impulses) = encounter.impulses(&laws) else { return false };
         self.apply(encounter, &impulses.values);
+        self.choose_friction_modes();
         true
     }
 

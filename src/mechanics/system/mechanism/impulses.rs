@@ -16,7 +16,7 @@ use crate::integrators::{Inertia, Solution, Stage};
 use crate::system::bodies::DegreesOfFreedom;
 use crate::system::elements::WorkAndImpulse;
 use crate::system::links::InclinedRoller;
-use crate::system::sliders::InStep;
+use crate::system::sliders::{InStep, SliderContact};
 
 /// Work and impulse that a model exchanges with its surroundings, and impulses of joints and supports on each control point.
 #[derive(Default)]
@@ -43,9 +43,8 @@ pub struct Impulses {
     /// Impulses since the end of the last step by control point, followed by the impulses of the multipliers of inclined rollers [force·time,
     /// force·length·time].
     present: Vec<f64>,
-    last: Vec<f64>,
-    /// Duration of the last step [time].
-    duration: f64,
+    /// Means of the last step, in the same order; before the first one the present forces [force, force·length].
+    means: Vec<f64>,
 }
 
 impl Impulses {
@@ -60,13 +59,11 @@ impl Impulses {
     }
 
     fn save(&self, numbers: &mut Vec<f64>) {
-        numbers.extend(self.last.iter().chain(&self.present));
-        numbers.push(self.duration);
+        numbers.extend(self.means.iter().chain(&self.present));
     }
 
     fn restore(&mut self, next: &mut dyn FnMut() -> f64) {
-        self.last.iter_mut().chain(&mut self.present).for_each(|impulse| *impulse = next());
-        self.duration = next();
+        self.means.iter_mut().chain(&mut self.present).for_each(|number| *number = next());
     }
 }
 
@@ -100,27 +97,48 @@ impl System {
             values: vec![0.0; all],
             residual: vec![0.0; all + self.sliders.border().width],
             present: vec![0.0; movements + self.links.all_rollers().len()],
-            last: vec![0.0; movements + self.links.all_rollers().len()],
-            duration: 0.0,
+            means: vec![0.0; movements + self.links.all_rollers().len()],
         }));
     }
 
-    /// Ends a step of a duration [time]. Later impulses belong to the next step.
-    pub(crate) fn end_step(&mut self, duration: f64) {
-        let Some(impulses) = &mut self.exchanged.impulses else { return };
-        let Impulses { present, last, .. } = &mut **impulses;
-        std::mem::swap(present, last);
-        present.fill(0.0);
-        impulses.duration = duration;
+    /// Sets all mean forces to the present ones, which are the means of a step of zero length. If these are unknown, for example because a load has no
+    /// value, the first step reports the reason.
+    pub(crate) fn start_means(&mut self) {
+        let has_drives = self.supports.prescribed().count() > 0;
+        if self.sliders.is_empty() && !has_drives && self.exchanged.impulses.is_none() {
+            return;
+        }
+        let Ok(now) = self.instant() else { return };
+        for at in 0..self.sliders.len() {
+            self.sliders[at].start_mean_force(now.contact(at));
+        }
+        self.supports.prescribed_mut().start_reactions(now.reactions().residual());
+        if let Some(impulses) = &mut self.exchanged.impulses {
+            let multiplier =
+                |roller: &InclinedRoller| roller.unknown.map_or(0.0, |at| now.accelerations()[at]);
+            let across = self.links.all_rollers().iter().map(multiplier);
+            let forces = now.reactions().on_nodes().chain(across);
+            impulses.means.iter_mut().zip(forces).for_each(|(mean, force)| *mean = force);
+        }
     }
 
-    /// Mean forces of joints and supports in the last step, including impacts; zero before the first step. `None` if not
+    /// Ends a step of a duration [time]. Later substeps and impulses belong to the next one.
+    pub(crate) fn end_step(&mut self, duration: f64) {
+        self.sliders.iter_mut().for_each(SliderContact::end_step);
+        self.supports.prescribed_mut().end_step();
+        if let Some(impulses) = &mut self.exchanged.impulses {
+            let Impulses { present, means, .. } = &mut **impulses;
+            let weight = 1.0 / duration;
+            means.iter_mut().zip(&*present).for_each(|(mean, impulse)| *mean = weight * impulse);
+            present.fill(0.0);
+        }
+    }
+
+    /// Mean forces of joints and supports in the last step, including impacts; before the first step the present forces. `None` if not
     /// [enabled](Self::sum_up_impulses).
     pub fn mean_reactions(&self) -> Option<Reactions> {
-        let Impulses { last, duration, .. } = &**self.exchanged.impulses.as_ref()?;
-        let weight = if *duration == 0.0 { 0.0 } else { 1.0 / duration };
-        let mean: Vec<f64> = last.iter().map(|impulse| weight * impulse).collect();
-        let (left, across) = mean.split_at(mean.len() - self.links.all_rollers().len());
+        let Impulses { means, .. } = &**self.exchanged.impulses.as_ref()?;
+        let (left, across) = means.split_at(means.len() - self.links.all_rollers().len());
         Some(self.reactions_from_residuals(left, across))
     }
 

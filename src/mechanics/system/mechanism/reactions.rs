@@ -22,6 +22,16 @@ impl Reactions {
         self.nodes[body][point]
     }
 
+    /// Residual at each degree of freedom: the support forces [force, force·length].
+    pub(super) fn residual(&self) -> &[f64] {
+        &self.residual
+    }
+
+    /// Forces of joints and supports on all control points, body by body [force, force·length].
+    pub(super) fn on_nodes(&self) -> impl Iterator<Item = f64> {
+        self.nodes.iter().flatten().flatten().copied()
+    }
+
     /// Force of an inclined roller [force].
     pub(crate) fn by_roller(&self, roller: usize) -> Vec2 {
         self.roller_forces[roller]

@@ -245,6 +245,9 @@ impl Mechanism for System {
     }
 
     fn begin_step(&mut self, interval: Interval, stages: &[Stage]) -> Result<(), StepError> {
+        if self.has_friction() {
+            self.measure_inertia_across();
+        }
         let Self { bodies, elements, links, sliders, supports, motion, step, unknowns, .. } = self;
         let refused =
             |(load, error)| StepError::Load { interval, load, source: ExternalError::new(error) };
@@ -287,7 +290,7 @@ impl Mechanism for System {
         self.bodies.advance(self.step.rotations);
         let arms = ArmRule { rotations: self.step.rotations, fraction: 0.5 };
         self.links.advance(&self.bodies, arms, increments);
-        self.sliders.advance(constraints, self.step.interval.ending());
+        self.sliders.advance(constraints, self.step.interval);
         self.motion.advance(&self.step, increments, rates);
         self.links.write_forces(&mut self.motion.rates);
     }

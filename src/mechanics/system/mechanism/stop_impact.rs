@@ -168,6 +168,7 @@ impl System {
         self.sliders.iter_mut().for_each(|slider| slider.impulse = Vec2::zeros());
         let met = self.solve_simultaneous_impacts(arriving, dt);
         met.map_err(|_| self.sliders.overdetermined())?;
+        self.choose_friction_modes();
         self.leave_tensile_stops()
     }
 

@@ -44,7 +44,7 @@ impl System {
 
     /// Mean force of a slider on its master over the last step [force].
     ///
-    /// It is zero after a release. Before the first step it is zero unless the run started with a loaded kink.
+    /// Before the first step it is the present force; zero after a release.
     pub fn contact_force(&self, slider: usize) -> Vec2 {
         self.slider(slider).contact_force()
     }
@@ -53,6 +53,12 @@ impl System {
     /// [force].
     pub fn kink_force(&self, slider: usize) -> Vec2 {
         self.slider(slider).force_of_state()
+    }
+
+    /// Friction force of a slider on its master as the mean over the last step, positive towards the end of the master [force]; `None` without
+    /// friction.
+    pub fn friction_force(&self, slider: usize) -> Option<f64> {
+        self.slider(slider).friction_force()
     }
 
     /// Position of a slider along its master or track as drawn, from 0 at the start to 1 at the end [-]. On closed tracks whole rounds are counted.
@@ -69,6 +75,11 @@ impl System {
     /// and zero for a slider that is held or released.
     pub fn slider_speed(&self, slider: usize) -> f64 {
         self.slider(slider).speed(self.bodies(), self.rates())
+    }
+
+    /// Speed of the slip of a slider with friction at the start of the last attempted step [length/time].
+    pub(crate) fn slip_speed(&self, slider: usize) -> f64 {
+        self.slider(slider).slip_speed()
     }
 
     /// Distance of a slider from a limit, as a fraction of the parameter range of its master [-].

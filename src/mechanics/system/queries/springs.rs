@@ -81,11 +81,11 @@ impl System {
         all.filter(|(_, energy)| *energy > 0.0).max_by(|a, b| a.1.total_cmp(&b.1))
     }
 
-    /// Energies dissipated since the start by elements other than springs and dampers, in the order of the scene: material damping, drag, impacts
-    /// of sliders with restitution below 1 [energy].
+    /// Dissipated energies of other elements since the start, in the order of the scene: material damping, drag, impacts of sliders with restitution
+    /// below 1, and friction [energy].
     pub(crate) fn dissipations(&self) -> impl Iterator<Item = f64> {
         let others = self.elements().resistances().filter(|other| other.stretched().is_none());
-        let losing = self.sliders().iter().filter(|slider| slider.restitution < 1.0);
+        let losing = self.sliders().iter().filter(|slider| slider.dissipates());
         others.map(InternalForce::dissipated).chain(losing.map(|slider| slider.lost_energy))
     }
 }

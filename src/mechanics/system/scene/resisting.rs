@@ -26,9 +26,9 @@ impl Scene {
         own.chain(self.dissipative_sliders().map(|slider| slider.name.as_str()))
     }
 
-    /// Sliders that lose energy in impacts.
+    /// Sliders that lose energy in impacts or by friction.
     pub(crate) fn dissipative_sliders(&self) -> impl Iterator<Item = &Slider> + Clone {
-        self.sliders.iter().filter(|slider| slider.restitution < 1.0)
+        self.sliders.iter().filter(|slider| slider.dissipates())
     }
 
     /// Names of drag elements with a wind.

@@ -118,16 +118,16 @@ const OF_PARTICLES: usize = 7;
 
 const OF_POINTS: usize = 9;
 
-/// Quantities of joints: the force on the first station, as an instantaneous value and averaged over the last step.
+/// Quantities of joints: the force on the first station, averaged over the last step and instantaneous.
 pub const OF_JOINTS: &[Quantity] = &[
-    quantity("force", "force", Value::Force),
-    quantity("fx", "force", Value::ForceX),
-    quantity("fy", "force", Value::ForceY),
-    quantity("moment", "force·length", Value::Couple),
-    quantity("mean_force", "force", Value::MeanForce),
-    quantity("mean_fx", "force", Value::MeanForceX),
-    quantity("mean_fy", "force", Value::MeanForceY),
-    quantity("mean_moment", "force·length", Value::MeanCouple),
+    quantity("force", "force", Value::MeanForce),
+    quantity("fx", "force", Value::MeanForceX),
+    quantity("fy", "force", Value::MeanForceY),
+    quantity("moment", "force·length", Value::MeanCouple),
+    quantity("present_force", "force", Value::Force),
+    quantity("present_fx", "force", Value::ForceX),
+    quantity("present_fy", "force", Value::ForceY),
+    quantity("present_moment", "force·length", Value::Couple),
 ];
 
 /// Quantities of sliders in addition to those that every history contains: the instantaneous force on the master.

@@ -68,6 +68,14 @@ impl Scene {
             let (slider, restitution) = (slider.name.clone(), slider.restitution);
             return Err(SliderError::Restitution { slider, restitution }.into());
         }
+        if !(slider.friction >= 0.0 && slider.friction.is_finite()) {
+            let (slider, friction) = (slider.name.clone(), slider.friction);
+            return Err(SliderError::Friction { slider, friction }.into());
+        }
+        if slider.friction > 0.0 && slider.rule != SlidingRule::Conserving {
+            let (rule, slider) = (slider.rule.entry().name, slider.name.clone());
+            return Err(SliderError::FrictionRule { slider, rule }.into());
+        }
         let is_same = |other: &Slider| {
             let is_on = self.masters(other).iter().any(|master| masters.contains(master));
             is_on && same_place(&other.slave, &slider.slave, self)

@@ -3,7 +3,8 @@
 use std::ops::{Deref, DerefMut};
 
 use super::master_curve::END_TOLERANCE;
-use super::{MasterEnd, MasterLimit, Passing, SliderContact, SliderState};
+use super::slider_contact::FrictionTransition;
+use super::{MasterEnd, MasterLimit, Passing, SliderContact, SliderEvent, SliderState};
 use crate::beams::SpanStiffness;
 use crate::geometry::{Vec2, larger};
 use crate::integrators::{Interval, IntervalEnd, Overshoot};
@@ -17,8 +18,8 @@ use crate::system::errors::{SliderError, SystemError};
 pub struct Sliders {
     all: Vec<SliderContact>,
     blocks: Option<BlockLayout>,
-    /// Limit at which the next step has to end.
-    target_limit: Option<MasterLimit>,
+    /// Event at which the next step has to end.
+    target: Option<SliderEvent>,
 }
 
 impl Deref for Sliders {
@@ -37,7 +38,7 @@ impl DerefMut for Sliders {
 
 impl Sliders {
     pub fn new(all: Vec<SliderContact>, blocks: Option<BlockLayout>) -> Self {
-        Self { all, blocks, target_limit: None }
+        Self { all, blocks, target: None }
     }
 
     pub fn renumber(&mut self, blocks: Option<BlockLayout>) {
@@ -48,9 +49,9 @@ impl Sliders {
         self.blocks.as_ref()
     }
 
-    /// Makes steps end at a limit; `None` for regular steps.
-    pub fn set_target_limit(&mut self, limit: Option<MasterLimit>) {
-        self.target_limit = limit;
+    /// Makes steps end at an event; `None` for regular steps.
+    pub fn set_target(&mut self, event: Option<SliderEvent>) {
+        self.target = event;
     }
 
     /// Number of contact unknowns, and the largest number of entries of their equations.
@@ -178,20 +179,25 @@ impl Sliders {
     /// Checks that a step with these unknowns may be accepted. Tensile stop forces are recorded.
     ///
     /// # Errors
-    /// Fails if a slider passes an end of its master, if it misses the limit at which the step has to end, or if a stop force becomes tensile.
+    /// Fails if a slider passes an end of its master, if it misses the event at which the step has to end, if a stop force becomes tensile, or if a
+    /// slider with friction begins to slip or to stick.
     pub fn check(&mut self, unknowns: &[f64], ending: IntervalEnd) -> Result<(), Overshoot> {
         let mut furthest: Option<Overshoot> = None;
-        let aim = self.target_limit.filter(|_| ending == IntervalEnd::Step);
+        let aim = self.target.filter(|_| ending == IntervalEnd::Step);
         let limits = (0..self.len()).flat_map(MasterLimit::both);
         for limit in limits.filter(|limit| self[limit.slider].is_sliding()) {
             let distance = self[limit.slider].overshoot(unknowns, limit.end);
-            let overshoot = Overshoot { limit: limit.number(), distance };
-            if aim == Some(limit) && distance.abs() > END_TOLERANCE {
+            let event = SliderEvent::Limit(limit);
+            let overshoot = Overshoot { limit: event.number(), distance };
+            if aim == Some(event) && distance.abs() > END_TOLERANCE {
                 return Err(overshoot);
             }
             if distance > END_TOLERANCE && furthest.is_none_or(|other| distance > other.distance) {
                 furthest = Some(overshoot);
             }
+        }
+        if let Some(overshoot) = self.friction_overshoot(unknowns, aim) {
+            return Err(furthest.unwrap_or(overshoot));
         }
         self.iter_mut().for_each(|slider| slider.record_tension(ending));
         let pulled = self.iter().position(|slider| slider.is_pulled);
@@ -199,8 +205,36 @@ impl Sliders {
             SliderState::Held(end) => Some(MasterLimit { slider, end }),
             SliderState::Sliding | SliderState::Released => None,
         });
-        let leaves = leaves.map(|limit| Overshoot { limit: limit.number(), distance: 0.0 });
+        let leaves = leaves
+            .map(|limit| Overshoot { limit: SliderEvent::Limit(limit).number(), distance: 0.0 });
         furthest.or(leaves).map_or(Ok(()), Err)
+    }
+
+    /// Transition of a slider with friction in the attempted step, or the distance from the end of slip at which it has to end. The end of slip comes
+    /// before the start of slip.
+    fn friction_overshoot(&self, unknowns: &[f64], aim: Option<SliderEvent>) -> Option<Overshoot> {
+        let mut starts = None;
+        for (index, slider) in self.iter().enumerate() {
+            let event = SliderEvent::SlipEnd(index);
+            let (limit, is_aim) = (event.number(), aim == Some(event));
+            if is_aim {
+                if let Some(distance) = slider.missed_slip_end() {
+                    return Some(Overshoot { limit, distance });
+                }
+                continue;
+            }
+            match slider.friction_transition(unknowns) {
+                Some(FrictionTransition::SlipEnds(distance)) => {
+                    return Some(Overshoot { limit, distance });
+                }
+                Some(FrictionTransition::SlipStarts) => {
+                    let limit = SliderEvent::SlipStart(index).number();
+                    starts = starts.or(Some(Overshoot { limit, distance: 0.0 }));
+                }
+                None => {}
+            }
+        }
+        starts
     }
 
     /// Shortest chord of the path of a slider, relative to the path [-].
@@ -213,8 +247,8 @@ impl Sliders {
         self.iter_mut().for_each(|slider| slider.evaluate_end(bodies, increments, unknowns));
     }
 
-    pub fn advance(&mut self, unknowns: &[f64], ending: IntervalEnd) {
-        self.iter_mut().for_each(|slider| slider.advance(unknowns, ending));
+    pub fn advance(&mut self, unknowns: &[f64], interval: Interval) {
+        self.iter_mut().for_each(|slider| slider.advance(unknowns, interval));
     }
 
     /// Largest distance of a slave from the contact point of its master [length].

@@ -65,51 +65,43 @@ impl Connection {
         movements: usize,
         border: &mut Border,
     ) {
-        let [force_x, force_y, couple_x, couple_y, way] =
-            std::array::from_fn(|unknown| CONTACT_UNKNOWNS * self.index + unknown);
-        let (body, point) = self.slave;
-        let [x, y, _] = bodies[body].degrees_of_freedom[point];
-        let of_master = &bodies[self.master].degrees_of_freedom[contact.first()..];
-        let mut column = |at: usize, unknown: usize, slope: f64| {
-            if at < movements {
-                border.add_to_column(at, unknown, slope);
-            }
-        };
-        column(x, force_x, 1.0);
-        column(y, force_y, 1.0);
-        for (&[x, y, _], slopes) in of_master.iter().zip(master_force_slopes) {
-            let (by_force, by_couple, by_way) = slopes;
-            column(x, force_x, -by_force);
-            column(y, force_y, -by_force);
-            column(x, couple_x, -by_couple);
-            column(y, couple_y, -by_couple);
-            column(x, way, -by_way.x);
-            column(y, way, -by_way.y);
-        }
+        let first = CONTACT_UNKNOWNS * self.index;
         for (row, equation) in self.places().zip(equations) {
             let of_row = match equation.unit {
                 Unit::Length => BorderUnit::Length(1.0),
                 Unit::Force => BorderUnit::Force,
             };
-            let is_way = row == way;
+            let is_way = row + 1 == first + CONTACT_UNKNOWNS;
             let unknown =
                 if is_way { BorderUnit::Length(contact.length) } else { BorderUnit::Force };
             border.set_units(row, of_row, unknown);
             for (unknown, slope) in self.places().zip(equation.by_unknowns.to_array()) {
                 border.add_to_corner(row, unknown, slope);
             }
-            let mut entry = |at: usize, slope: f64| {
-                if at < movements && slope != 0.0 {
-                    border.add_to_row(row, at, slope);
-                }
-            };
-            entry(x, equation.by_slave.x);
-            entry(y, equation.by_slave.y);
-            for (&[x, y, _], weights) in of_master.iter().zip(contact.weights()) {
-                let slope = equation.by_master(weights);
-                entry(x, slope.x);
-                entry(y, slope.y);
+        }
+        let mut add = |[x, y, _]: [usize; 3],
+                       forces: [[f64; CONTACT_UNKNOWNS]; 2],
+                       by: [Vec2; CONTACT_UNKNOWNS]| {
+            let [along_x, along_y] = forces;
+            if x < movements {
+                border.add_couplings(x, first, &along_x, &by.map(|slope| slope.x));
             }
+            if y < movements {
+                border.add_couplings(y, first, &along_y, &by.map(|slope| slope.y));
+            }
+        };
+        let (body, point) = self.slave;
+        let of_slave = [[1.0, 0.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0, 0.0]];
+        let by_slave = std::array::from_fn(|row| equations[row].by_slave);
+        add(bodies[body].degrees_of_freedom[point], of_slave, by_slave);
+        let of_master = bodies[self.master].degrees_of_freedom[contact.first()..].iter();
+        let slopes = master_force_slopes.zip(contact.weights());
+        for (degrees, ((by_force, by_couple, by_way), weights)) in of_master.zip(slopes) {
+            let forces = [
+                [-by_force, 0.0, -by_couple, 0.0, -by_way.x],
+                [0.0, -by_force, 0.0, -by_couple, -by_way.y],
+            ];
+            add(*degrees, forces, std::array::from_fn(|row| equations[row].by_master(weights)));
         }
     }
 }

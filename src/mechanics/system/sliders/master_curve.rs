@@ -76,15 +76,37 @@ impl MasterLimit {
     pub(in crate::system) fn both(slider: usize) -> [Self; 2] {
         [MasterEnd::Start, MasterEnd::End].map(|end| Self { slider, end })
     }
+}
 
-    /// Index of this limit among the limits of all sliders.
+/// Event of a slider at which a step has to end.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum SliderEvent {
+    /// The slider reaches a limit.
+    Limit(MasterLimit),
+    /// The slip of this slider with friction ends.
+    SlipEnd(usize),
+    /// The slip of this slider with friction starts.
+    SlipStart(usize),
+}
+
+impl SliderEvent {
+    /// Number of this event among the events of all sliders.
     pub fn number(self) -> usize {
-        2 * self.slider + self.end as usize
+        match self {
+            Self::Limit(MasterLimit { slider, end }) => 4 * slider + end as usize,
+            Self::SlipEnd(slider) => 4 * slider + 2,
+            Self::SlipStart(slider) => 4 * slider + 3,
+        }
     }
 
-    /// Limit with this index among the limits of all sliders.
+    /// Event with this number.
     pub fn of(number: usize) -> Self {
-        Self::both(number / 2)[number % 2]
+        let slider = number / 4;
+        match number % 4 {
+            2 => Self::SlipEnd(slider),
+            3 => Self::SlipStart(slider),
+            end => Self::Limit(MasterLimit::both(slider)[end]),
+        }
     }
 }
 
@@ -164,10 +186,13 @@ mod tests {
     use super::*;
 
     #[test]
-    fn limits_are_numbered_in_their_order() {
-        let limits: Vec<MasterLimit> = (0..3).flat_map(MasterLimit::both).collect();
-        for (number, limit) in limits.into_iter().enumerate() {
-            assert_eq!((limit.number(), MasterLimit::of(number)), (number, limit));
+    fn events_are_numbered_by_slider() {
+        for slider in 0..3 {
+            let [start, end] = MasterLimit::both(slider).map(SliderEvent::Limit);
+            let events = [start, end, SliderEvent::SlipEnd(slider), SliderEvent::SlipStart(slider)];
+            for (number, event) in (4 * slider..).zip(events) {
+                assert_eq!((event.number(), SliderEvent::of(number)), (number, event));
+            }
         }
     }
 }

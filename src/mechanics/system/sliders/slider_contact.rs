@@ -9,8 +9,10 @@ use crate::joints::{
 };
 use crate::linalg::Border;
 use crate::system::bodies::Body;
+use crate::system::step_mean::StepMean;
 
 mod at_rest;
+mod friction;
 mod kinematics;
 mod passing;
 mod place;
@@ -18,6 +20,7 @@ mod saved;
 mod seams;
 mod stops;
 
+pub use friction::{FrictionTransition, SliderFriction};
 pub use passing::{AtRest, InStep, Passing};
 
 #[derive(Debug, Clone)]
@@ -31,7 +34,7 @@ pub struct SliderContact {
     pub state: SliderState,
     /// Energy stored in the stop that holds the slider [energy].
     pub stop_energy: f64,
-    /// Energy lost in impacts at stops so far [energy].
+    /// Energy lost in impacts at stops and by friction so far [energy].
     pub lost_energy: f64,
     /// Impulse on the master in the last impact [mass·length/time].
     pub impulse: Vec2,
@@ -45,10 +48,14 @@ pub struct SliderContact {
     pub parameter: f64,
     /// Contact unknowns of the last step: force, couple and sliding increment.
     pub unknowns: ContactUnknowns,
+    /// Contact force on the master [force].
+    mean_force: StepMean<Vec2>,
     /// Largest number of spans of its master passed in a step [-].
     pub most_spans: f64,
     /// Largest ratio of step length to impact duration at a bounce [-].
     pub steps_per_impact: f64,
+    /// Friction along the master; `None` without friction.
+    pub friction: Option<Box<SliderFriction>>,
     master: MasterCurve,
     /// Path along the track; `None` for a slider on a single beam.
     track: Option<Box<TrackPath>>,
@@ -62,8 +69,11 @@ pub struct SliderContact {
     /// Path of length zero at the start of the step.
     start_path: ContactPath,
     path: ContactPath,
-    /// Control points of the master in the window of the path, relative to the slave, at the start of the step.
+    /// Control points of the master in the window of the path, relative to the slave, at the start of the step. Their number is zero if they are to be
+    /// read again.
     before: Vec<Vec2>,
+    /// Index of the first of them.
+    before_first: usize,
     movements: Vec<Vec2>,
     units: [Unit; CONTACT_UNKNOWNS],
     /// Scale of rounding errors: length of the master plus path of the slave in the iterate [length].
@@ -119,10 +129,13 @@ impl SliderContact {
             is_pulled: false,
             parameter,
             unknowns: ContactUnknowns::zeros(),
+            mean_force: StepMean::default(),
             most_spans: 0.0,
             steps_per_impact: 0.0,
             length: rail.length() / (last - first),
             size: rail.length(),
+            friction: (slider.friction > 0.0)
+                .then(|| Box::new(SliderFriction::new(slider.friction))),
             master: rail,
             track: None,
             bars,
@@ -131,6 +144,7 @@ impl SliderContact {
             start_path: passage.clone(),
             path: passage,
             before: Vec::with_capacity(functions),
+            before_first: 0,
             movements: Vec::with_capacity(functions),
             units: [Unit::Force; CONTACT_UNKNOWNS],
             chord: 1.0,
@@ -156,6 +170,7 @@ impl SliderContact {
     /// Moves the slider to a parameter of its master.
     fn set_parameter(&mut self, parameter: f64) {
         self.parameter = parameter;
+        self.before.clear();
         self.start_path.set_interval(parameter, parameter);
         self.kinked_axis.iter_mut().for_each(|axis| axis.accept_end(&self.start_path));
     }
@@ -174,6 +189,11 @@ impl SliderContact {
         std::mem::replace(&mut self.kinked_axis, axis)
     }
 
+    /// Returns true if the slider loses energy at its ends or by friction.
+    pub fn dissipates(&self) -> bool {
+        self.restitution < 1.0 || self.friction.is_some()
+    }
+
     pub fn is_sliding(&self) -> bool {
         self.state == SliderState::Sliding
     }
@@ -182,13 +202,23 @@ impl SliderContact {
         self.state = SliderState::Released;
         self.lost_energy += std::mem::take(&mut self.stop_energy);
         self.unknowns = ContactUnknowns::zeros();
+        self.mean_force = StepMean::default();
         // At an end of the master the kink has no energy.
         self.kinked_axis.iter_mut().for_each(KinkedAxis::straighten);
     }
 
     /// Contact force on the master as the mean of the last step [force].
     pub fn contact_force(&self) -> Vec2 {
-        self.unknowns.force
+        self.mean_force.value
+    }
+
+    /// Sets the mean contact force of a step of zero length [force].
+    pub fn start_mean_force(&mut self, force: Vec2) {
+        self.mean_force = StepMean::at_start(force);
+    }
+
+    pub fn end_step(&mut self) {
+        self.mean_force.end_step();
     }
 
     /// Contact force on the master at the present time as far as the state determines it: with a kink that follows the force, otherwise the mean of
@@ -239,10 +269,12 @@ impl SliderContact {
     }
 
     pub fn begin_step(&mut self, bodies: &[Body], rates: &[f64], interval: Interval) {
+        self.before.clear();
         if self.kinked_axis.is_some() {
             let rate = self.rate(bodies, rates);
             self.kinked_axis.iter_mut().for_each(|axis| axis.begin_step(interval.duration(), rate));
         }
+        self.begin_friction(bodies, rates, interval);
     }
 
     pub fn predict(
@@ -274,18 +306,24 @@ impl SliderContact {
     ) -> Contact<'_> {
         let Connection { master, slave: (body, point), .. } = self.connection;
         let (slave, master) = (&bodies[body], &bodies[master]);
-        let (origin, cut_off) = slave.precise_point(point);
         let window = self.path.first()..self.path.first() + self.path.end().len();
-        self.before.clear();
-        let positions = &master.dynamics.control_points()[window.clone()];
-        let precise = positions.iter().zip(&master.dynamics.remainders()[window.clone()]);
-        self.before.extend(
-            precise.map(|(position, remainder)| (position - origin) + (remainder - cut_off)),
-        );
+        if (self.before_first, self.before.len()) != (window.start, window.len()) {
+            let (origin, cut_off) = slave.precise_point(point);
+            let positions = &master.dynamics.control_points()[window.clone()];
+            let precise = positions.iter().zip(&master.dynamics.remainders()[window.clone()]);
+            self.before.clear();
+            self.before.extend(
+                precise.map(|(position, remainder)| (position - origin) + (remainder - cut_off)),
+            );
+            self.before_first = window.start;
+        }
         self.movements.clear();
-        self.movements.extend(window.map(|at| master.vector_at(at, increments)));
+        self.movements.extend(window.clone().map(|at| master.vector_at(at, increments)));
         let slave_moved = slave.vector_at(point, increments);
-        let Self { path: passage, before, movements: moved, length, kinked_axis, .. } = self;
+        let is_sliding = self.is_sliding();
+        let Self { path: passage, before, movements: moved, length, kinked_axis, friction, .. } =
+            self;
+        let friction = friction.as_deref().filter(|_| is_sliding);
         let kink = kinked_axis.as_ref().map(|axis| axis.along(passage));
         Contact {
             path: passage,
@@ -293,6 +331,7 @@ impl SliderContact {
             slave_movement: slave_moved,
             unknowns,
             kink,
+            friction: friction.and_then(|friction| friction.in_step(window)),
             length: *length,
         }
     }
@@ -312,6 +351,7 @@ impl SliderContact {
         let values = equations.map(|(value, _)| value);
         connection.add_values(bodies, &contact, P::forces(&contact), values, movements, out);
         let (pressing, chord) = (contact.unknowns.force, P::chord(&contact));
+        let friction = contact.friction.as_ref().map(|friction| contact.friction_forces(friction));
         let force = pressing.norm();
         let push = match state {
             // With an infinite tensile force, the stop releases the slider at once.
@@ -322,6 +362,7 @@ impl SliderContact {
         (self.size, self.chord) = (contact.length + contact.slave_movement.norm(), chord);
         self.units = equations.map(|(_, unit)| unit);
         (self.push, self.contact_force) = (push, force);
+        self.record_friction(friction);
         self.push_beyond = self.seam_push(bodies, increments, pressing);
         force
     }
@@ -365,6 +406,13 @@ impl SliderContact {
 
     /// Evaluates the contact at the end of an accepted step. The bodies must not be moved yet.
     pub fn evaluate_end(&mut self, bodies: &[Body], increments: &[f64], unknowns: &[f64]) {
+        if self.active_friction().is_some() {
+            let contact = self.evaluate(bodies, increments, unknowns);
+            let increment = contact.unknowns.increment;
+            let forces = contact.friction.as_ref().map(|of| contact.friction_forces(of));
+            self.record_friction(forces);
+            self.dissipate(increment);
+        }
         if self.kinked_axis.is_none() {
             return;
         }
@@ -372,8 +420,9 @@ impl SliderContact {
         self.kink_at_end = law.kink_at_end(&self.evaluate(bodies, increments, unknowns));
     }
 
-    pub fn advance(&mut self, unknowns: &[f64], ending: IntervalEnd) {
+    pub fn advance(&mut self, unknowns: &[f64], interval: Interval) {
         self.unknowns = self.read(unknowns);
+        self.mean_force.add(self.unknowns.force, interval.duration());
         let before = self.parameter;
         let passed = self.path.spans_between(before, before + self.unknowns.increment);
         self.most_spans = self.most_spans.max(passed);
@@ -384,7 +433,8 @@ impl SliderContact {
             true => axis.accept_frozen_jump(kink),
             false => axis.advance(mean, kink),
         });
-        if ending == IntervalEnd::Step {
+        self.count_friction_step();
+        if interval.ending() == IntervalEnd::Step {
             self.stop_may_pull = false;
         }
     }

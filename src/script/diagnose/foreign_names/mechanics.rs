@@ -42,10 +42,11 @@ pub const WORDS: &[ForeignName] = &[
     ),
     entry(
         &["friction", "coulomb", "stick-slip", "stiction", "frictionless", "brake"],
-        "friction of sliders, joints and contacts is not supported yet; a damper with \
+        "scene.slider(station, beam, #{ friction: 0.3 }) slides with Coulomb friction; friction of \
+        other joints is not supported yet, but a damper with \
         #{ damping: |rate| 5 * tanh(rate / 0.01), rates: [-1, 1] } between two stations \
         approximates dry friction along their distance",
-        &["damper", "slider"],
+        &["slider", "damper"],
     ),
     entry(
         &["plasticity", "plastic", "yielding", "creep", "fatigue", "fracture", "hysteresis"],
@@ -159,6 +160,19 @@ pub const WORDS: &[ForeignName] = &[
         ],
         "scene.modes(4) computes frequencies and shapes of small vibrations",
         &["modes", "angular_frequencies"],
+    ),
+    entry(
+        &[
+            "accuracy",
+            "discretisation error",
+            "discretization error",
+            "richardson",
+            "extrapolation",
+            "grid convergence",
+        ],
+        "sim.error_estimate() estimates the errors of a run in time and in space; scene.solve \
+        refines a run until they meet a tolerance",
+        &["error_estimate", "solve", "study_convergence"],
     ),
     entry(
         &["static", "statics", "at rest", "balance"],

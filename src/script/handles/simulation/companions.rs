@@ -42,7 +42,8 @@ impl SimulationHandle {
     /// Starts a simulation of a scene on a mesh with another number of spans. It is not added to the report.
     pub fn start_refined(
         scene: &SceneHandle,
-        (span_ratio, settings): (f64, SimulationSettings),
+        span_ratio: f64,
+        settings: SimulationSettings,
         name: String,
     ) -> Result<Self, ScriptError> {
         let description = scene.scene().borrow().with_span_ratio(span_ratio)?;
@@ -53,9 +54,12 @@ impl SimulationHandle {
         Ok(handle)
     }
 
-    /// Runs to a time. Output that the functions of the simulation print is discarded.
+    /// Runs to a time. Output that the functions of the simulation print is discarded, and their checks do not count.
     pub fn run_silently(&self, end: f64, context: &Context) -> Result<(), ScriptError> {
-        context.without_output_or_files(NO_FILES, || self.run_to(context, end))
+        let checks = context.with_checks(|checks| checks.clone());
+        let ran = context.without_output_or_files(NO_FILES, || self.run_to(context, end));
+        context.with_checks(|counted| *counted = checks);
+        ran
     }
 
     /// Start of the simulation.
@@ -123,8 +127,9 @@ impl SimulationHandle {
         for (time, _) in events.all() {
             simulation.cut_at(*time);
         }
-        let parts = (self.0.scene.clone(), self.name().to_owned(), self.0.notes.clone());
-        let handle = Self::unreported(simulation, parts.0, parts.1, parts.2, self.start().clone());
+        let (scene, notes) = (self.0.scene.clone(), self.0.notes.clone());
+        let name = self.name().to_owned();
+        let handle = Self::unreported(simulation, scene, name, notes, self.start().clone());
         handle.0.events.replace(events);
         handle.0.events.borrow_mut().reschedule_after(f64::NEG_INFINITY);
         let captured = CapturedVariables::of(self)?;
@@ -138,7 +143,14 @@ impl SimulationHandle {
 }
 
 /// Values of the variables that the functions of a simulation have captured, stored before a companion run.
-struct CapturedVariables(Vec<(String, Dynamic, Dynamic)>);
+struct CapturedVariables(Vec<CapturedVariable>);
+
+struct CapturedVariable {
+    /// Name of the function in messages.
+    role: String,
+    shared: Dynamic,
+    value: Dynamic,
+}
 
 impl CapturedVariables {
     fn of(handle: &SimulationHandle) -> Result<Self, ScriptError> {
@@ -150,14 +162,15 @@ impl CapturedVariables {
             for shared in function.captured() {
                 let value = shared.flatten_clone();
                 if value.is::<SimulationHandle>() {
-                    let told = format!(
+                    let message = format!(
                         "{} reads a simulation of the script, and a companion run has another one",
                         function.role()
                     );
                     let hint = "read the simulation that the function receives as its argument";
-                    return Err(ScriptError::new(told).hint(hint));
+                    return Err(ScriptError::new(message).hint(hint));
                 }
-                values.push((function.role().to_owned(), shared.clone(), value));
+                let role = function.role().to_owned();
+                values.push(CapturedVariable { role, shared: shared.clone(), value });
             }
         }
         Ok(Self(values))
@@ -167,7 +180,7 @@ impl CapturedVariables {
     /// simulation.
     fn expect_unchanged(self) -> Result<(), ScriptError> {
         let mut changed = None;
-        for (role, mut shared, value) in self.0 {
+        for CapturedVariable { role, mut shared, value } in self.0 {
             if format!("{:?}", shared.flatten_clone()) == format!("{value:?}") {
                 continue;
             }
@@ -177,11 +190,11 @@ impl CapturedVariables {
             }
         }
         changed.map_or(Ok(()), |role| {
-            let told = format!(
+            let message = format!(
                 "{role} changes a variable of the script, so a companion run cannot repeat it from the start"
             );
             let hint = "compute the value from the time and the simulation alone, or estimate the error by a study";
-            Err(ScriptError::new(told).hint(hint))
+            Err(ScriptError::new(message).hint(hint))
         })
     }
 }

@@ -146,7 +146,7 @@ impl SimulationHandle {
                     "{} must return true or false, got {got}",
                     function.role()
                 ))
-                .hint("return a comparison: |q| norm(q.joint_force(pin).force) > 10")
+                .hint("return a comparison: |q| norm(q.present_joint_force(pin).force) > 10")
             })?;
             if is_true {
                 self.0.simulation.borrow_mut().release(*release)?;

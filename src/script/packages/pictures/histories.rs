@@ -12,6 +12,7 @@ use crate::script::bindings::call::Call;
 use crate::script::bindings::parameter::{Parameter, Presence, array, boolean, choice, text};
 use crate::script::handles::history::HistoryHandle;
 use crate::script::messages::error::{CallPart, ScriptError};
+use crate::script::packages::error_estimates::{ERROR, wanted_estimate};
 use crate::script::packages::recording::expect_all_rows;
 use crate::script::presentation::plots::{drift_lines, line_chart};
 use crate::simulation::History;
@@ -26,6 +27,7 @@ pub const HISTORY_OPTIONS: &[Parameter] = &[
     boolean("average")
         .doc("true to plot the mean of each value and the one before, as `averaged` returns it")
         .optional(),
+    ERROR,
     X_LABEL,
     Y_LABEL,
     X_LOG,
@@ -75,7 +77,21 @@ pub fn plot_history(call: &mut Call) -> Result<Dynamic, ScriptError> {
         let chart = chart.y_scale(scale).each(|at, series| marked(&options, at, series));
         with_options(&options, chart).map_err(|wrong| wrong.in_call(call))
     };
-    write_charts(call, charts.into_iter().map(dress).collect::<Result<_, _>>()?)
+    charts = charts.into_iter().map(dress).collect::<Result<_, _>>()?;
+    let is_shared = charts.len() < histories.len();
+    for (number, history) in histories.iter().enumerate() {
+        let Some(estimate) = wanted_estimate(call, &options, &history.of)? else { break };
+        for (column, name) in names.iter().enumerate() {
+            let errors = history.read(|rows| estimate.of_rows(name, rows));
+            let errors = errors.map_err(|error| error.at(CallPart::Key("error".into())))?;
+            let (chart, series) = match is_shared {
+                true => (0, number * names.len() + column),
+                false => (number, column),
+            };
+            charts[chart].add_band(series, &errors);
+        }
+    }
+    write_charts(call, charts)
 }
 
 fn columns(call: &Call, histories: &[HistoryHandle]) -> Result<Vec<String>, ScriptError> {

@@ -67,7 +67,8 @@ fn as_simulation(value: &Dynamic) -> Option<SimulationHandle> {
     value.clone().try_cast()
 }
 
-fn as_history(value: &Dynamic) -> Option<HistoryHandle> {
+/// History of a value: a history, or the whole history of a simulation.
+pub fn as_history(value: &Dynamic) -> Option<HistoryHandle> {
     let whole = |of| HistoryHandle { of, from: f64::NEG_INFINITY, to: f64::INFINITY };
     value.clone().try_cast::<HistoryHandle>().or_else(|| as_simulation(value).map(whole))
 }

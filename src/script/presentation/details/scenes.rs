@@ -170,11 +170,13 @@ pub fn of_slider(scene: &Scene, index: usize) -> Details {
         StartVelocities::Check => "must be compatible with the beam",
         StartVelocities::Project => "are projected to the beam",
     };
-    vec![
+    let friction = (slider.friction > 0.0).then(|| line("friction", number(slider.friction)));
+    let lines = vec![
         line("slides", scene.describe(&slider.slave)),
         line("on", format!("{}, from {} of its length", guide.0, number(guide.1))),
         line("rule", slider.rule.entry().name),
         line("at the ends", ends),
         line("start velocities", velocities),
-    ]
+    ];
+    lines.into_iter().chain(friction).collect()
 }

@@ -54,6 +54,7 @@ impl SliderContact {
         let unknowns = self.read(unknowns);
         let place = self.parameter + unknowns.increment;
         self.path.set_interval(place, place);
+        self.before.clear();
         self.contact(bodies, movements, unknowns)
     }
 
@@ -99,6 +100,7 @@ impl SliderContact {
         let place = self.distance_to_stop().map_or(found.increment, |way| way);
         self.set_parameter(self.parameter + place);
         self.unknowns = ContactUnknowns { increment: 0.0, ..found };
+        self.start_mean_force(found.force);
         self.kinked_axis.iter_mut().for_each(|axis| axis.set_static_kink(found.force));
     }
 

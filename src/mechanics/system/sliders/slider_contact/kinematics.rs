@@ -154,9 +154,7 @@ impl SliderContact {
     fn rate_on_kinked_axis(&self, axis: &KinkedAxis, bodies: &[Body], rates: &[f64]) -> f64 {
         let (offset, (slope, bend)) = (axis.offset(), axis.slopes());
         let (points, master) = (self.window(bodies), &bodies[self.connection.master]);
-        let values = self.start_path.basis().evaluate(self.parameter);
-        let bent = values
-            .map_or(Vec2::zeros(), |values| values.combine(2, master.dynamics.control_points()));
+        let bent = self.bend(bodies);
         let turning = self.start_path.slope().iter().zip(self.start_path.first()..);
         let turning: Vec2 = turning.map(|(by, at)| master.vector_at(at, rates) * *by).sum();
         let tangent = slope_of(self.start_path.slope(), points);

@@ -49,7 +49,11 @@ impl Passing for InStep {
     ) -> (Contact<'s>, [Equation; CONTACT_UNKNOWNS]) {
         let law = slider.law();
         let contact = slider.evaluate(bodies, increments, unknowns);
-        let equations = law.equations(&contact);
+        let mut equations = law.equations(&contact);
+        if let Some(friction) = &contact.friction {
+            let [.., along] = &mut equations;
+            *along = contact.with_friction(friction, *along);
+        }
         (contact, equations)
     }
 
@@ -59,6 +63,10 @@ impl Passing for InStep {
         increments: &[f64],
         unknowns: &[f64],
     ) -> (Contact<'s>, [(f64, Unit); CONTACT_UNKNOWNS]) {
+        if slider.active_friction().is_some() {
+            let (contact, equations) = Self::iterate(slider, bodies, increments, unknowns);
+            return (contact, equations.map(|equation| (equation.value, equation.unit)));
+        }
         let law = slider.law();
         let contact = slider.evaluate(bodies, increments, unknowns);
         let values = law.values(&contact);

@@ -1,16 +1,22 @@
 //! Numeric state of a slider.
 
 use super::SliderContact;
+use crate::geometry::Vec2;
 use crate::joints::{CONTACT_UNKNOWNS, ContactUnknowns};
 use crate::system::sliders::{KinkedAxis, SliderState};
+use crate::system::step_mean::StepMean;
 
 /// Number of values of the path of a slider on a track.
 const ROUTE: usize = 3;
 
+/// Number of values of the friction of a slider.
+const FRICTION: usize = 2;
+
 impl SliderContact {
     pub fn saved(&self) -> usize {
         let of_route = if self.is_on_track() { ROUTE } else { 0 };
-        10 + CONTACT_UNKNOWNS + of_route
+        let of_friction = if self.friction.is_some() { FRICTION } else { 0 };
+        13 + of_friction + CONTACT_UNKNOWNS + of_route
     }
 
     pub fn is_valid(&self, numbers: &[f64]) -> bool {
@@ -26,6 +32,8 @@ impl SliderContact {
     pub fn save(&self, numbers: &mut Vec<f64>) {
         numbers.extend([self.parameter, self.most_spans, self.steps_per_impact]);
         numbers.extend(self.unknowns.to_array());
+        let StepMean { value: mean, covered } = self.mean_force;
+        numbers.extend([mean.x, mean.y, covered]);
         let kink = self.kinked_axis.as_ref().map_or([0.0; 3], KinkedAxis::numbers);
         numbers.extend(kink);
         numbers.extend([
@@ -34,6 +42,7 @@ impl SliderContact {
             self.stop_left_at,
             f64::from(u8::from(self.stop_may_pull)),
         ]);
+        numbers.extend(self.friction.iter().flat_map(|friction| friction.numbers()));
         numbers.extend(self.track.iter().flat_map(|route| route.numbers()));
     }
 
@@ -42,10 +51,14 @@ impl SliderContact {
         let parameter = next();
         (self.most_spans, self.steps_per_impact) = (next(), next());
         self.unknowns = ContactUnknowns::of(std::array::from_fn(|_| next()));
+        self.mean_force = StepMean { value: Vec2::new(next(), next()), covered: next() };
         let kink = std::array::from_fn(|_| next());
         self.kinked_axis.iter_mut().for_each(|axis| axis.restore(kink));
         (self.stop_energy, self.lost_energy, self.stop_left_at) = (next(), next(), next());
         self.stop_may_pull = next() != 0.0;
+        if let Some(friction) = &mut self.friction {
+            friction.restore(std::array::from_fn(|_| next()));
+        }
         if let Some(route) = &mut self.track {
             route.restore(std::array::from_fn(|_| next()));
             self.set_master();

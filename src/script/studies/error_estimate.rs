@@ -5,11 +5,14 @@ use std::sync::atomic::AtomicBool;
 use std::time::Duration;
 
 use crate::analysis::{
-    Case, CaseOutcome, DirectionError, ErrorVerdict, Levels, RunLimits, Trace, TraceSource,
-    TracedQuantity, is_of_the_motion, on_all_cores,
+    Case, CaseOutcome, DiscretisationError, ErrorVerdict, RefinementLevels, RunLimits, Trace,
+    TraceSource, TracedQuantity, is_of_the_motion, on_all_cores,
 };
 use crate::geometry::larger;
-use crate::output::{Cell, TextTable, scientific, significant};
+use crate::output::{
+    Cell, DataColumn, DataTable, DataValues, NpzArchive, NpzArray, TextTable, scientific,
+    significant,
+};
 use crate::script::handles::simulation::{Companion, RunStart, SimulationHandle};
 use crate::script::messages::error::ScriptError;
 use crate::script::state::context::Context;
@@ -29,7 +32,7 @@ const SPANS_TO_COARSEN: usize = 4;
 
 /// Estimated errors of a run.
 #[derive(Debug, Clone)]
-pub struct RunError {
+pub struct ErrorEstimate {
     /// Name of the simulation.
     pub name: String,
     /// Present time of the simulation [time].
@@ -40,8 +43,6 @@ pub struct RunError {
     pub quantities: Vec<QuantityError>,
     /// Reasons for missing estimates.
     pub missing: Vec<String>,
-    /// Steps of all companion runs together.
-    pub steps: usize,
 }
 
 /// Estimated errors of one quantity.
@@ -54,30 +55,38 @@ pub struct QuantityError {
     /// Largest value of the run, or the size of the scene for positions.
     pub scale: f64,
     /// Error of the steps.
-    pub in_time: Option<DirectionError>,
+    pub in_time: Option<DiscretisationError>,
     /// Error of the mesh.
-    pub in_space: Option<DirectionError>,
+    pub in_space: Option<DiscretisationError>,
 }
 
 impl QuantityError {
     /// Errors of a quantity in a dry run, in which nothing is estimated.
     pub fn unknown(name: &str) -> Self {
         let verdict = ErrorVerdict::PreAsymptotic;
-        let none = Some(DirectionError { present: 0.0, largest: 0.0, order: Some(0.0), verdict });
+        let none = Some(DiscretisationError { over_time: Vec::new(), order: Some(0.0), verdict });
         let name = name.to_owned();
-        Self { name, dimension: "-", scale: 0.0, in_time: none, in_space: none }
+        Self { name, dimension: "-", scale: 0.0, in_time: none.clone(), in_space: none }
     }
 
     /// Sum of the errors in time and space at the present time, and the largest of the run.
     pub fn total(&self) -> (f64, f64) {
-        let both = || [self.in_time, self.in_space].into_iter().flatten();
-        (both().map(|error| error.present).sum(), both().map(|error| error.largest).sum())
+        (self.sum(DiscretisationError::present), self.sum(DiscretisationError::largest))
+    }
+
+    /// Sum of the errors in time and space at a time of the run.
+    pub fn at(&self, time: f64) -> f64 {
+        self.sum(|error| error.at(time))
+    }
+
+    fn sum(&self, read: impl Fn(&DiscretisationError) -> f64) -> f64 {
+        [&self.in_time, &self.in_space].into_iter().flatten().map(read).sum()
     }
 
     /// Verdict in words on both errors.
     pub fn verdict(&self) -> String {
-        let both = [("in time", self.in_time), ("in space", self.in_space)];
-        let known = both.into_iter().filter_map(|(of, error)| Some((of, error?.verdict)));
+        let both = [("in time", &self.in_time), ("in space", &self.in_space)];
+        let known = both.into_iter().filter_map(|(of, error)| Some((of, error.as_ref()?.verdict)));
         let known: Vec<(&str, ErrorVerdict)> = known.collect();
         let is_good = |verdict: ErrorVerdict| {
             matches!(verdict, ErrorVerdict::Exact | ErrorVerdict::Converged)
@@ -139,28 +148,24 @@ impl Plan {
     }
 }
 
-/// A finished companion run.
-struct FinishedRun {
-    traces: Vec<Trace>,
-    steps: usize,
-}
+/// Traces of all quantities of a finished run.
+struct FinishedRun(Vec<Trace>);
 
 /// Result of a companion run: its traces, or its description and the reason for its failure.
 type CompanionResult = Result<FinishedRun, (String, String)>;
 
 impl FinishedRun {
     fn of(simulation: &Simulation, quantities: &[TracedQuantity]) -> Self {
-        let traces = quantities.iter().map(|quantity| Trace::of(simulation, quantity)).collect();
-        Self { traces, steps: simulation.counts().steps }
+        Self(quantities.iter().map(|quantity| Trace::of(simulation, quantity)).collect())
     }
 }
 
-impl RunError {
+impl ErrorEstimate {
     /// Estimate without any result, for the given reason.
     pub fn not_estimated(handle: &SimulationHandle, reason: &str) -> Self {
         let (name, time) = (handle.name().to_owned(), handle.time());
         let missing = vec![reason.to_owned()];
-        Self { name, time, length: 1.0, quantities: Vec::new(), missing, steps: 0 }
+        Self { name, time, length: 1.0, quantities: Vec::new(), missing }
     }
 
     /// Estimates the errors of a simulation at its present time and over its run. With a limit, each companion run stops after this time.
@@ -173,12 +178,12 @@ impl RunError {
         limit: Option<Duration>,
     ) -> Result<Self, ScriptError> {
         if let RunStart::Loaded = handle.start() {
-            let told = format!(
+            let message = format!(
                 "the error of '{}' cannot be estimated: a saved simulation does not contain its start",
                 handle.name()
             );
             let hint = "estimate the error before sim.save(…)";
-            return Err(ScriptError::new(told).hint(hint));
+            return Err(ScriptError::new(message).hint(hint));
         }
         if handle.simulation().counts().steps == 0 {
             return Ok(Self::not_estimated(handle, "the simulation has taken no step"));
@@ -190,11 +195,10 @@ impl RunError {
             let own = FinishedRun::of(&simulation, &quantities);
             (Plan::of(simulation.scene())?, quantities, own)
         };
-        let runs = run_companions((handle, &plan.companions), &quantities, context, limit)?;
+        let runs = run_companions(handle, &plan.companions, &quantities, context, limit)?;
         let settings = *handle.simulation().settings();
         let time_levels = [Some(&own), runs[0].as_ref().ok(), runs[1].as_ref().ok()];
         let mesh_levels = plan.meshes.map(|meshes| meshes.map(|run| runs[run].as_ref().ok()));
-        estimate.steps = runs.iter().flatten().map(|run| run.steps).sum();
         let failures = || runs.iter().filter_map(|run| run.as_ref().err());
         match failures().next() {
             Some((_, reason)) if failures().all(|(_, other)| other == reason) => {
@@ -209,15 +213,26 @@ impl RunError {
             estimate.missing.push("in space: the scene has no beams".to_owned());
         }
         let order = f64::from(settings.method.entry().claims.order);
-        let steps = Refinement { sizes: [1.0, 2.0, 4.0], level: 0, order: Some(order) };
-        let meshes = Refinement { sizes: plan.mesh_sizes, level: plan.level, order: None };
-        let scales = Scales::of(&handle.simulation(), &quantities, &own.traces);
+        let scales = Scales::of(&handle.simulation(), &quantities, &own.0);
         estimate.length = scales.length;
         for (index, quantity) in quantities.iter().enumerate() {
             let scale = scales.of_quantity(quantity);
             if scale > 0.0 {
-                let in_time = steps.error_of(index, scale, time_levels);
-                let in_space = mesh_levels.and_then(|runs| meshes.error_of(index, scale, runs));
+                let steps = RefinementLevels {
+                    sizes: [1.0, 2.0, 4.0],
+                    traces: time_levels.map(|run| Some(&run?.0[index])),
+                    level: 0,
+                    order: Some(order),
+                    scale,
+                };
+                let meshes = mesh_levels.map(|runs| RefinementLevels {
+                    sizes: plan.mesh_sizes,
+                    traces: runs.map(|run| Some(&run?.0[index])),
+                    level: plan.level,
+                    order: None,
+                    scale,
+                });
+                let (in_time, in_space) = (steps.error(), meshes.and_then(|levels| levels.error()));
                 let (name, dimension) = (quantity.name.clone(), quantity.dimension);
                 let error = QuantityError { name, dimension, scale, in_time, in_space };
                 estimate.quantities.push(error);
@@ -227,16 +242,17 @@ impl RunError {
             |quantity: &&TracedQuantity| matches!(quantity.source, TraceSource::Position(_));
         let stations = quantities.iter().filter(is_position).count().min(estimate.quantities.len());
         if let Some(first) = estimate.quantities.first().filter(|_| stations > 0) {
-            let largest = |of: fn(&QuantityError) -> Option<DirectionError>| {
-                let errors = estimate.quantities[..stations].iter().filter_map(of);
-                errors.reduce(|a, b| DirectionError {
-                    present: larger(a.present, b.present),
-                    ..if b.largest > a.largest { b } else { a }
-                })
+            let of_stations = |of: fn(&QuantityError) -> &Option<DiscretisationError>| {
+                let errors =
+                    estimate.quantities[..stations].iter().filter_map(|one| of(one).clone());
+                errors.reduce(largest_of_both)
             };
-            let (in_time, in_space) = (largest(|of| of.in_time), largest(|of| of.in_space));
-            let together =
-                QuantityError { name: POSITIONS.to_owned(), in_time, in_space, ..*first };
+            let together = QuantityError {
+                name: POSITIONS.to_owned(),
+                in_time: of_stations(|of| &of.in_time),
+                in_space: of_stations(|of| &of.in_space),
+                ..first.clone()
+            };
             estimate.quantities.insert(0, together);
         }
         Ok(estimate)
@@ -247,22 +263,60 @@ impl RunError {
         self.quantities.iter().find(|quantity| quantity.name == name)
     }
 
+    /// Errors of a column at the times of all rows of a history.
+    ///
+    /// # Errors
+    /// Fails if the error of the column is not estimated.
+    pub fn of_rows(&self, column: &str, history: &History) -> Result<Vec<f64>, ScriptError> {
+        let Some(quantity) = self.of(column) else {
+            let message = format!("the error of column \"{column}\" is not estimated");
+            let reason = match self.quantities.is_empty() {
+                true => self.missing.join("; "),
+                false => "it is zero in all rows, or describes the computation".to_owned(),
+            };
+            return Err(ScriptError::new(message).hint(reason));
+        };
+        Ok(history.samples().iter().map(|row| quantity.at(row.measures.time)).collect())
+    }
+
+    /// Adds the errors of the columns of a history to its table, each in a column after that of the values.
+    pub fn add_columns(&self, table: &mut DataTable, history: &History) {
+        let columns = std::mem::take(&mut table.columns).into_iter();
+        let with_errors = columns.flat_map(|column| {
+            let errors = self.of_rows(&column.name, history).ok().map(|errors| DataColumn {
+                name: format!("{}.error", column.name),
+                dimension: column.dimension.clone(),
+                values: DataValues::Numbers(errors.into_iter().map(Some).collect()),
+            });
+            [Some(column), errors].into_iter().flatten()
+        });
+        table.columns = with_errors.collect();
+    }
+
+    /// Adds the errors of all stations and columns at the times of a history to its archive.
+    pub fn add_arrays(&self, archive: &mut NpzArchive, history: &History) {
+        archive.arrays.extend(self.quantities.iter().map(|quantity| {
+            let errors = history.samples().iter().map(|row| quantity.at(row.measures.time));
+            NpzArray::row(format!("error.{}", quantity.name), errors.collect())
+        }));
+    }
+
     /// One line on all positions together.
     pub fn summary(&self) -> String {
         let Some(positions) = self.of(POSITIONS) else {
             return format!("not estimated: {}", self.missing.join("; "));
         };
-        let part = |of: &str, error: Option<DirectionError>| match error {
+        let part = |of: &str, error: &Option<DiscretisationError>| match error {
             None => format!("{of} not estimated"),
-            Some(error) => format!("{of} {}", scientific(error.present, 2)),
+            Some(error) => format!("{of} {}", scientific(error.present(), 2)),
         };
         format!(
             "positions {} at t = {}, {} ({}, {}; size {})",
             scientific(positions.total().0, 2),
             significant(self.time, 6),
             positions.verdict(),
-            part("in time", positions.in_time),
-            part("in space", positions.in_space),
+            part("in time", &positions.in_time),
+            part("in space", &positions.in_space),
             significant(self.length, 3),
         )
     }
@@ -278,20 +332,19 @@ impl RunError {
         );
         let mut table = TextTable::new(&heads).title(title);
         let is_shown = |quantity: &&QuantityError| {
-            let both = [quantity.in_time, quantity.in_space];
+            let both = [&quantity.in_time, &quantity.in_space];
             both.into_iter().flatten().any(|error| error.verdict != ErrorVerdict::Exact)
         };
         let shown: Vec<&QuantityError> = self.quantities.iter().filter(is_shown).collect();
         for quantity in shown.iter().take(MOST_ROWS) {
-            let cells = [quantity.in_time, quantity.in_space].into_iter().flat_map(|error| {
-                let number = |read: fn(&DirectionError) -> f64| {
-                    error
-                        .as_ref()
-                        .map_or_else(|| "-".to_owned(), |error| scientific(read(error), 2))
+            let cells = [&quantity.in_time, &quantity.in_space].into_iter().flat_map(|error| {
+                let number = |read: fn(&DiscretisationError) -> f64| {
+                    let shown = error.as_ref().map(|error| scientific(read(error), 2));
+                    shown.unwrap_or_else(|| "-".to_owned())
                 };
-                let order = error.and_then(|error| error.order);
+                let order = error.as_ref().and_then(|error| error.order);
                 let order = order.map_or_else(|| "-".to_owned(), |order| format!("{order:.1}"));
-                [number(|error| error.present), number(|error| error.largest), order]
+                [number(DiscretisationError::present), number(DiscretisationError::largest), order]
             });
             let first = format!("{} [{}]", quantity.name, quantity.dimension);
             let cells = cells.map(Cell::Number);
@@ -317,33 +370,10 @@ impl RunError {
     }
 }
 
-/// Three levels of refinement of time or space.
-struct Refinement {
-    /// Step or mesh sizes, from fine to coarse.
-    sizes: [f64; 3],
-    /// Level of the simulation.
-    level: usize,
-    /// Order of the method, if it is known.
-    order: Option<f64>,
-}
-
-impl Refinement {
-    /// Error of a traced quantity.
-    fn error_of(
-        &self,
-        quantity: usize,
-        scale: f64,
-        runs: [Option<&FinishedRun>; 3],
-    ) -> Option<DirectionError> {
-        let traces = runs.map(|run| run.map(|run| &run.traces[quantity]));
-        let &Self { sizes, level, order } = self;
-        Levels { sizes, traces, level, order, scale }.error()
-    }
-}
-
 /// Runs companions, in parallel if no script function is called between their steps.
 fn run_companions(
-    (handle, companions): (&SimulationHandle, &[Companion]),
+    handle: &SimulationHandle,
+    companions: &[Companion],
     quantities: &[TracedQuantity],
     context: &Context,
     limit: Option<Duration>,
@@ -400,6 +430,13 @@ fn run_companions(
     Ok(runs.collect())
 }
 
+/// Larger of both errors at each time, with the order and verdict of the run with the larger error.
+fn largest_of_both(a: DiscretisationError, b: DiscretisationError) -> DiscretisationError {
+    let pairs = a.over_time.iter().zip(&b.over_time);
+    let over_time = pairs.map(|((time, a), (_, b))| (*time, larger(*a, *b))).collect();
+    DiscretisationError { over_time, ..if b.largest() > a.largest() { b } else { a } }
+}
+
 fn traced_quantities(simulation: &Simulation) -> Vec<TracedQuantity> {
     let stations = usual_stations(simulation.scene()).into_iter().map(|(name, station)| {
         TracedQuantity { name, dimension: "length", source: TraceSource::Position(station) }
@@ -429,8 +466,7 @@ impl Scales {
             |quantity: &TracedQuantity| matches!(quantity.source, TraceSource::Position(_));
         let all = || quantities.iter().zip(traces);
         let range = all().filter(|(quantity, _)| is_position(quantity)).map(|(_, of)| of.range());
-        let size = scene.longest_beam().unwrap_or_else(|| scene.extent());
-        let length = if size > 0.0 { size } else { range.fold(0.0, larger) };
+        let length = scene.size().unwrap_or_else(|| range.fold(0.0, larger));
         // Momenta of a scene at rest as a whole are zero but for rounding.
         let kinetic = largest(simulation.history(), "kinetic");
         let momentum = (2.0 * simulation.model().total_mass() * kinetic).sqrt();

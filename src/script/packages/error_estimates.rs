@@ -7,12 +7,13 @@ use rhai::{Array, Dynamic, INT, Map};
 use super::integrators::INTEGRATOR;
 use super::scenes::SCENE;
 use super::simulations::{SIMULATION, SPINNING};
-use crate::analysis::DirectionError;
+use crate::analysis::DiscretisationError;
 use crate::integrators::Method;
 use crate::script::bindings::call::Call;
 use crate::script::bindings::kind::{Scripted, Type};
+use crate::script::bindings::options::Options;
 use crate::script::bindings::parameter::{
-    Parameter, Presence, name, number, object, options, text,
+    Parameter, Presence, boolean, name, number, object, options, text,
 };
 use crate::script::bindings::returns::{Returns, ValueKind};
 use crate::script::bindings::table::{BindingTable, method, property};
@@ -21,8 +22,8 @@ use crate::script::handles::simulation::SimulationHandle;
 use crate::script::messages::error::{CallPart, ScriptError};
 use crate::script::messages::suggest::nearest;
 use crate::script::state::settings::RunMode;
-use crate::script::studies::refinement::{Refinement, RefinementRequest, RefinementRow};
-use crate::script::studies::run_error::{POSITIONS, QuantityError, RunError};
+use crate::script::studies::error_estimate::{ErrorEstimate, POSITIONS, QuantityError};
+use crate::script::studies::refined_run::{RefinedRun, RefinedRunRequest, RefinedRunRow};
 
 pub const TABLE: BindingTable = BindingTable {
     name: "error estimates",
@@ -31,7 +32,7 @@ pub const TABLE: BindingTable = BindingTable {
         times the step, and with three quarters and half of the spans, and derives the errors in \
         time and in space from the differences (Richardson extrapolation with the observed \
         order). The simulation itself is not changed.",
-    types: &[ERROR_ESTIMATE, REFINEMENT],
+    types: &[ERROR_ESTIMATE, REFINED_RUN],
     setup: SPINNING,
     constants: &[],
     rows: &[
@@ -46,13 +47,13 @@ pub const TABLE: BindingTable = BindingTable {
                 bound; 'chaotic' if nearby runs converge up to a time and separate afterwards; \
                 'exact' if the runs agree to rounding. Meshes of one to three spans are compared \
                 with finer meshes. A function that changes variables of the script cannot be \
-                repeated; the reason is then told in place of the estimate. Errors of the model \
+                repeated; the printed estimate then states the reason. Errors of the model \
                 itself are not included, such as unknown stiffnesses.")
             .example("sim.run_to(1);\nlet error = sim.error_estimate();\nprint(error);\n\
                       check(error.verdict == \"converged\" && error.of(\"positions\").present < 0.01);")
             .with_related(&["study_convergence", "study_work_precision", "notes", "invariants"]),
         method(SCENE, "solve", &[options("options", SOLVE)], solve)
-            .returns(Returns::object(REFINEMENT))
+            .returns(Returns::object(REFINED_RUN))
             .summary("Runs a scene with smaller and smaller steps and finer meshes until the estimated error meets a tolerance.")
             .doc("The first run has 50 steps and the meshes as given. After each run the error is \
                 estimated as by sim.error_estimate(), and steps and spans are refined by powers of \
@@ -65,35 +66,35 @@ pub const TABLE: BindingTable = BindingTable {
                       check(found.reached && found.simulation.t == 1);\n\
                       for run in found.rows { print(`dt = ${run.dt}: ${run.in_time}`); }")
             .with_related(&["error_estimate", "start", "study_work_precision"]),
-        property(REFINEMENT, "simulation", |call| Ok(Dynamic::from(call.receiver::<Refinement>()?.simulation)))
+        property(REFINED_RUN, "simulation", |call| Ok(Dynamic::from(call.receiver::<RefinedRun>()?.simulation)))
             .returns(Returns::object(SIMULATION))
             .summary("Last run of scene.solve, at its end.")
             .example("let found = scene.solve(#{ to: 0.5, error: 1e-2 });\ncheck(found.simulation.t == 0.5);"),
-        property(REFINEMENT, "reached", |call| Ok(call.receiver::<Refinement>()?.failure.is_none().into()))
+        property(REFINED_RUN, "reached", |call| Ok(call.receiver::<RefinedRun>()?.failure.is_none().into()))
             .returns(Returns::BOOLEAN)
             .summary("True if the tolerance of scene.solve was reached.")
             .example("check(scene.solve(#{ to: 0.5, error: 1e-2 }).reached);"),
-        property(REFINEMENT, "rows", |call| {
-            let found = call.receiver::<Refinement>()?;
+        property(REFINED_RUN, "rows", |call| {
+            let found = call.receiver::<RefinedRun>()?;
             Ok(found.rows.iter().map(|row| Dynamic::from(run(row))).collect::<Array>().into())
         })
         .returns(Returns::array_of(&ValueKind::Map).with_remark(" #{ spans, dt, steps, in_time, in_space, seconds, verdict }"))
         .summary("Runs of scene.solve with the largest errors of positions, relative to the length of the longest beam.")
         .example("let rows = scene.solve(#{ to: 0.5, error: 1e-2 }).rows;\ncheck(rows[0].dt == 0.01);"),
         property(ERROR_ESTIMATE, "verdict", |call| {
-            let error = call.receiver::<RunError>()?;
+            let error = call.receiver::<ErrorEstimate>()?;
             let verdict = error.of(POSITIONS).map(QuantityError::verdict);
             Ok(verdict.unwrap_or_else(|| "not estimated".to_owned()).into())
         })
         .returns(Returns::TEXT)
         .summary("Verdict on the errors of all positions together.")
         .example("sim.run_to(1);\ncheck(sim.error_estimate().verdict == \"converged\");"),
-        property(ERROR_ESTIMATE, "summary", |call| Ok(call.receiver::<RunError>()?.summary().into()))
+        property(ERROR_ESTIMATE, "summary", |call| Ok(call.receiver::<ErrorEstimate>()?.summary().into()))
             .returns(Returns::TEXT)
             .summary("Error of all positions together, in one line.")
             .example("sim.run_to(1);\nprint(sim.error_estimate().summary);"),
         property(ERROR_ESTIMATE, "rows", |call| {
-            let error = call.receiver::<RunError>()?;
+            let error = call.receiver::<ErrorEstimate>()?;
             let rows = error.quantities.iter().map(|quantity| Dynamic::from(row(quantity)));
             Ok(rows.collect::<Array>().into())
         })
@@ -109,6 +110,11 @@ pub const TABLE: BindingTable = BindingTable {
                       check(tip.time_order > 1.5 && tip.present == tip.time_present + tip.space_present);"),
     ],
 };
+
+/// Option of pictures and files.
+pub(super) const ERROR: Parameter = boolean("error")
+    .doc("true to estimate the errors, as sim.error_estimate() does, and to add them")
+    .optional();
 
 const KEYS: &[Parameter] = &[number("max_time")
     .positive()
@@ -131,11 +137,11 @@ const SOLVE: &[Parameter] = &[
         .doc("time after which no further run is started"),
 ];
 
-const REFINEMENT: Type = Type::of::<Refinement>();
+const REFINED_RUN: Type = Type::of::<RefinedRun>();
 
-const ERROR_ESTIMATE: Type = Type::of::<RunError>();
+const ERROR_ESTIMATE: Type = Type::of::<ErrorEstimate>();
 
-impl Scripted for RunError {
+impl Scripted for ErrorEstimate {
     const NAME: &'static str = "error_estimate";
     const DOC: &'static str = "Estimated discretisation errors of a simulation.";
 
@@ -144,7 +150,7 @@ impl Scripted for RunError {
     }
 }
 
-impl Scripted for Refinement {
+impl Scripted for RefinedRun {
     const NAME: &'static str = "refinement";
     const DOC: &'static str = "A run that was refined until its error met a tolerance.";
 
@@ -157,7 +163,7 @@ fn solve(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let scene = call.receiver::<SceneHandle>()?;
     let options = call.options("options")?;
     let name = options.optional_text("name")?;
-    let request = RefinementRequest {
+    let request = RefinedRunRequest {
         name: name.unwrap_or_else(|| scene.scene().borrow().name.clone()),
         end: options.number("to")?,
         tolerance: options.number("error")?,
@@ -165,13 +171,13 @@ fn solve(call: &mut Call) -> Result<Dynamic, ScriptError> {
         max_time: options.number("max_time")?,
     };
     let found = match call.context().mode() {
-        RunMode::DryRun => Refinement::dry_run(&scene, &request, call.context()),
-        RunMode::Run => Refinement::run(&scene, &request, call.context()),
+        RunMode::DryRun => RefinedRun::dry_run(&scene, &request, call.context()),
+        RunMode::Run => RefinedRun::run(&scene, &request, call.context()),
     };
     Ok(Dynamic::from(found?))
 }
 
-fn run(row: &RefinementRow) -> Map {
+fn run(row: &RefinedRunRow) -> Map {
     [
         ("spans", Dynamic::from(row.spans as INT)),
         ("dt", row.dt.into()),
@@ -190,15 +196,30 @@ fn estimate(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let handle = call.receiver::<SimulationHandle>()?;
     let limit = call.options_or_defaults("options")?.optional_number("max_time");
     let limit = limit.map(|seconds| Duration::from_secs_f64(seconds.min(1e9)));
-    let error = match call.context().mode() {
-        RunMode::DryRun => RunError::not_estimated(&handle, "the script is only checked"),
-        RunMode::Run => RunError::estimate(&handle, call.context(), limit)?,
+    let estimated = match call.context().mode() {
+        RunMode::DryRun => ErrorEstimate::not_estimated(&handle, "the script is only checked"),
+        RunMode::Run => ErrorEstimate::estimate(&handle, call.context(), limit)?,
     };
-    Ok(Dynamic::from(error))
+    Ok(Dynamic::from(estimated))
+}
+
+/// Error estimate for a picture or file of a call with the option `error`; `None` if it is not wanted, or the script is only checked.
+pub(super) fn wanted_estimate(
+    call: &Call,
+    options: &Options,
+    handle: &SimulationHandle,
+) -> Result<Option<ErrorEstimate>, ScriptError> {
+    let is_wanted = options.boolean(ERROR.name).unwrap_or(false);
+    match call.context().mode() {
+        RunMode::Run if is_wanted => {
+            ErrorEstimate::estimate(handle, call.context(), None).map(Some)
+        }
+        _ => Ok(None),
+    }
 }
 
 fn of(call: &mut Call) -> Result<Dynamic, ScriptError> {
-    let (error, name) = (call.receiver::<RunError>()?, call.text("name")?);
+    let (error, name) = (call.receiver::<ErrorEstimate>()?, call.text("name")?);
     if let Some(quantity) = error.of(&name) {
         return Ok(Dynamic::from(row(quantity)));
     }
@@ -210,19 +231,21 @@ fn of(call: &mut Call) -> Result<Dynamic, ScriptError> {
         Some(near) => format!("did you mean \"{near}\"?"),
         None => format!("known quantities: {}", known().collect::<Vec<_>>().join(", ")),
     };
-    let told = format!("there is no error estimate of \"{name}\"");
-    Err(call.error(told).hint(hint).at(CallPart::Argument(0)))
+    let message = format!("there is no error estimate of \"{name}\"");
+    Err(call.error(message).hint(hint).at(CallPart::Argument(0)))
 }
 
 fn row(quantity: &QuantityError) -> Map {
     let optional = |value: Option<f64>| value.map_or(Dynamic::UNIT, Dynamic::from);
-    let read = |error: Option<DirectionError>| {
-        let order = error.and_then(|error| error.order);
-        [error.map(|error| error.present), error.map(|error| error.largest), order].map(optional)
+    let read = |error: &Option<DiscretisationError>| {
+        let error = error.as_ref();
+        let [present, largest] = [DiscretisationError::present, DiscretisationError::largest]
+            .map(|read| error.map(read));
+        [present, largest, error.and_then(|error| error.order)].map(optional)
     };
     let (present, largest) = quantity.total();
-    let [time_present, time_largest, time_order] = read(quantity.in_time);
-    let [space_present, space_largest, space_order] = read(quantity.in_space);
+    let [time_present, time_largest, time_order] = read(&quantity.in_time);
+    let [space_present, space_largest, space_order] = read(&quantity.in_space);
     [
         ("name", quantity.name.clone().into()),
         ("dimension", quantity.dimension.into()),

@@ -1,9 +1,9 @@
-//! Refinement of steps and mesh until the estimated error of a run meets a tolerance.
+//! RefinedRun of steps and mesh until the estimated error of a run meets a tolerance.
 
 use std::time::Instant;
 
-use super::run_error::{POSITIONS, RunError};
-use crate::analysis::{DirectionError, ErrorVerdict};
+use super::error_estimate::{ErrorEstimate, POSITIONS};
+use crate::analysis::{DiscretisationError, ErrorVerdict};
 use crate::elementary::{ln, power};
 use crate::integrators::Method;
 use crate::output::{Cell, TextTable, scientific, significant};
@@ -26,7 +26,7 @@ const MOST_REFINEMENT: [f64; 2] = [8.0, 4.0];
 const PART: f64 = 0.5;
 
 /// Request of a refined run.
-pub struct RefinementRequest {
+pub struct RefinedRunRequest {
     /// Name of the simulation.
     pub name: String,
     /// End of the run [time].
@@ -41,11 +41,11 @@ pub struct RefinementRequest {
 
 /// Refined run and the runs on the way to it.
 #[derive(Clone)]
-pub struct Refinement {
+pub struct RefinedRun {
     /// Last run.
     pub simulation: SimulationHandle,
     /// All runs in their order.
-    pub rows: Vec<RefinementRow>,
+    pub rows: Vec<RefinedRunRow>,
     /// Reason for which the tolerance was not reached; `None` if it was.
     pub failure: Option<String>,
     tolerance: f64,
@@ -53,7 +53,7 @@ pub struct Refinement {
 
 /// One run of a refinement.
 #[derive(Debug, Clone)]
-pub struct RefinementRow {
+pub struct RefinedRunRow {
     /// Number of spans of all beams.
     pub spans: usize,
     /// Step size [time].
@@ -70,10 +70,15 @@ pub struct RefinementRow {
     pub seconds: f64,
 }
 
-/// Next refinement of the steps or the mesh.
-fn refinement_of(error: Option<DirectionError>, length: f64, tolerance: f64, most: f64) -> f64 {
+/// Factor by which the steps or the mesh are refined for the next run; 1 if their error is small enough.
+fn refinement_factor(
+    error: Option<&DiscretisationError>,
+    length: f64,
+    tolerance: f64,
+    most: f64,
+) -> f64 {
     let Some(error) = error else { return 1.0 };
-    let ratio = error.largest / (length * PART * tolerance);
+    let ratio = error.largest() / (length * PART * tolerance);
     match (error.verdict, error.order) {
         (ErrorVerdict::Exact, _) => 1.0,
         _ if ratio <= 1.0 && error.verdict == ErrorVerdict::Converged => 1.0,
@@ -86,27 +91,24 @@ fn refinement_of(error: Option<DirectionError>, length: f64, tolerance: f64, mos
     }
 }
 
-impl Refinement {
+impl RefinedRun {
     /// Runs a scene with smaller and smaller steps and finer meshes until the largest estimated error of the positions is within the tolerance.
     ///
     /// # Errors
     /// Fails if no run can be completed, or the script is stopped.
     pub fn run(
         scene: &SceneHandle,
-        request: &RefinementRequest,
+        request: &RefinedRunRequest,
         context: &Context,
     ) -> Result<Self, ScriptError> {
         let begun = Instant::now();
         let (mut span_ratio, mut dt) = (1.0, request.end / FIRST_STEPS);
-        let mut rows: Vec<RefinementRow> = Vec::new();
+        let mut rows: Vec<RefinedRunRow> = Vec::new();
         loop {
             let started = Instant::now();
             let settings = SimulationSettings::new(request.method, dt);
-            let run = SimulationHandle::start_refined(
-                scene,
-                (span_ratio, settings),
-                request.name.clone(),
-            )?;
+            let name = request.name.clone();
+            let run = SimulationHandle::start_refined(scene, span_ratio, settings, name)?;
             let spans = {
                 let simulation = run.simulation();
                 simulation.scene().beams.iter().map(|beam| beam.mesh.spans()).sum()
@@ -117,7 +119,7 @@ impl Refinement {
             let steps = run.simulation().counts().steps;
             let may_refine =
                 rows.len() + 1 < MOST_RUNS && begun.elapsed().as_secs_f64() < request.max_time;
-            let mut row = RefinementRow {
+            let mut row = RefinedRunRow {
                 spans,
                 dt,
                 steps,
@@ -138,12 +140,14 @@ impl Refinement {
                 }
                 Err(error) => return Err(error),
             }
-            let estimate = RunError::estimate(&run, context, None)?;
+            let estimate = ErrorEstimate::estimate(&run, context, None)?;
             let positions = estimate.of(POSITIONS);
-            let [in_time, in_space] =
-                [positions.and_then(|of| of.in_time), positions.and_then(|of| of.in_space)];
-            let relative = |error: Option<DirectionError>| {
-                error.map_or(f64::NAN, |error| error.largest / estimate.length)
+            let [in_time, in_space] = [
+                positions.and_then(|of| of.in_time.as_ref()),
+                positions.and_then(|of| of.in_space.as_ref()),
+            ];
+            let relative = |error: Option<&DiscretisationError>| {
+                error.map_or(f64::NAN, |error| error.largest() / estimate.length)
             };
             (row.in_time, row.in_space) = (relative(in_time), relative(in_space));
             row.verdict =
@@ -152,7 +156,8 @@ impl Refinement {
                 .into_iter()
                 .flatten()
                 .any(|error| matches!(error.verdict, ErrorVerdict::Chaotic { .. }));
-            let next = |error, most| refinement_of(error, estimate.length, request.tolerance, most);
+            let next =
+                |error, most| refinement_factor(error, estimate.length, request.tolerance, most);
             let finer_steps = next(in_time, MOST_REFINEMENT[0]);
             let finer_mesh = next(in_space, MOST_REFINEMENT[1]);
             let is_within = finer_steps == 1.0 && finer_mesh == 1.0 && in_time.is_some();
@@ -183,18 +188,18 @@ impl Refinement {
     /// Fails if the scene cannot be built.
     pub fn dry_run(
         scene: &SceneHandle,
-        request: &RefinementRequest,
+        request: &RefinedRunRequest,
         context: &Context,
     ) -> Result<Self, ScriptError> {
         let dt = request.end / FIRST_STEPS;
         let settings = SimulationSettings::new(request.method, dt);
-        let simulation =
-            SimulationHandle::start_refined(scene, (1.0, settings), request.name.clone())?;
+        let name = request.name.clone();
+        let simulation = SimulationHandle::start_refined(scene, 1.0, settings, name)?;
         simulation.dry_run(context, request.end)?;
         simulation.report_as_latest(context);
         let (in_time, in_space, verdict) = (0.0, 0.0, String::new());
         let row =
-            RefinementRow { spans: 1, dt, steps: 1, in_time, in_space, verdict, seconds: 0.0 };
+            RefinedRunRow { spans: 1, dt, steps: 1, in_time, in_space, verdict, seconds: 0.0 };
         Ok(Self { simulation, rows: vec![row], failure: None, tolerance: request.tolerance })
     }
 
@@ -237,8 +242,8 @@ mod tests {
     use super::*;
 
     fn refinement(largest: f64, order: Option<f64>, verdict: ErrorVerdict) -> f64 {
-        let error = DirectionError { present: 0.0, largest, order, verdict };
-        refinement_of(Some(error), 2.0, 1e-3, 8.0)
+        let error = DiscretisationError { over_time: vec![(1.0, largest)], order, verdict };
+        refinement_factor(Some(&error), 2.0, 1e-3, 8.0)
     }
 
     #[test]

@@ -1,0 +1,115 @@
+//! Coulomb friction of a sliding contact in a step.
+//!
+//! With the mean tangent `τ` of the path, the contact exchanges the force `T = (λ·τ + 4 η·d)/|τ|` along the master, and `N = τ × λ/|τ|` across it:
+//!
+//! ```text
+//! slip with the sign σ:   T - σ μ |N*| = 0          stick:   Δξ = 0,   |T| ≤ μ |N*|          N* = N + (w1 - w0)/(W Δt)
+//! ```
+//!
+//! The bodies lose the energy `Δξ |τ| T` in the step. `w` is the velocity of the slave across the master at the ends of the step and `W` the velocity
+//! change by a unit impulse across it. The second part of `N*` removes the alternating part of `N`: a velocity error across the master changes its
+//! sign from step to step without moving anything, and the force that reverses it grows with `1/Δt`.
+
+use super::{Contact, Equation};
+use crate::geometry::{Vec2, cross, perpendicular};
+
+/// Friction state of a sliding contact.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum FrictionMode {
+    /// The slave moves along the master in the direction of this sign.
+    Slip(f64),
+    /// The slave keeps its place on the master.
+    Stick,
+}
+
+/// Friction of a contact in a step.
+#[derive(Debug, Clone, Copy)]
+pub struct Friction<'a> {
+    /// Coefficient of friction `μ` [-].
+    pub coefficient: f64,
+    /// State in this step.
+    pub mode: FrictionMode,
+    /// Velocity of the slave at the start of the step [length/time].
+    pub slave_velocity: Vec2,
+    /// Velocities of the control points of the master in the window of the path at the start of the step [length/time].
+    pub master_velocities: &'a [Vec2],
+    /// Velocity `w0` across the master at the start of the step [length/time].
+    pub start_velocity_across: f64,
+    /// `1/W` [mass].
+    pub inertia_across: f64,
+    /// Duration of the step [time].
+    pub duration: f64,
+}
+
+/// Forces and velocities of a contact with friction in an iterate.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct FrictionForces {
+    /// `T |τ|` [force·length].
+    pub along: f64,
+    /// `N* |τ|` [force·length].
+    pub across: f64,
+    /// `|τ|` [length].
+    pub tangent: f64,
+    /// Velocity of the slave along the master at the end of the step [length/time].
+    pub end_velocity: f64,
+}
+
+impl Contact<'_> {
+    /// Velocity of the slave relative to the contact point of the master at the end of the step [length/time], with the unit tangent there [-].
+    ///
+    /// The mean velocity of the step is that of the increments, as with the midpoint rule.
+    fn end_velocity(&self, friction: &Friction<'_>) -> (Vec2, Vec2) {
+        let rate = 2.0 / friction.duration;
+        let (_, moved) = self.master;
+        let of_master = moved.iter().zip(friction.master_velocities);
+        let of_master = of_master.map(|(moved, before)| moved * rate - before);
+        let of_master: Vec2 = self
+            .path
+            .end()
+            .iter()
+            .zip(of_master)
+            .map(|(weight, velocity)| velocity * *weight)
+            .sum();
+        let of_slave = self.slave_movement * rate - friction.slave_velocity;
+        (of_slave - of_master, self.end_point().by_end.normalize())
+    }
+
+    /// Forces and velocities of the contact with friction.
+    pub fn friction_forces(&self, friction: &Friction<'_>) -> FrictionForces {
+        let (tangent, force) = (self.tangent().value, self.unknowns.force);
+        let couple = self.unknowns.couple.dot(&self.tangent_change().value);
+        let (velocity, along) = self.end_velocity(friction);
+        let change = cross(along, velocity) - friction.start_velocity_across;
+        let inertia = friction.inertia_across / friction.duration;
+        FrictionForces {
+            along: force.dot(&tangent) + 4.0 * couple,
+            across: cross(tangent, force) + tangent.norm() * change * inertia,
+            tangent: tangent.norm(),
+            end_velocity: along.dot(&velocity),
+        }
+    }
+
+    /// Sliding equation with friction instead of the `frictionless` one, whose value is `T |τ|/ℓ`.
+    ///
+    /// Its derivatives omit the rotation of the tangent at the end of the step, which changes `N*` by a small part only.
+    pub fn with_friction(&self, friction: &Friction<'_>, frictionless: Equation) -> Equation {
+        let FrictionMode::Slip(sign) = friction.mode else { return self.no_increment() };
+        let (tangent, force) = (self.tangent(), self.unknowns.force);
+        let (velocity, along) = self.end_velocity(friction);
+        let change = cross(along, velocity) - friction.start_velocity_across;
+        let inertia = friction.inertia_across / friction.duration;
+        let (length, normal) = (tangent.value.norm(), perpendicular(along));
+        let across = cross(tangent.value, force) + length * change * inertia;
+        let factor = -sign * friction.coefficient * across.signum() / self.length;
+        let by_tangent = -perpendicular(force) + tangent.value * (change * inertia / length);
+        let by_velocity = normal * (length * inertia * factor * 2.0 / friction.duration);
+        let mut equation = frictionless;
+        equation.value += factor * across;
+        equation.by_unknowns.force += perpendicular(tangent.value) * factor;
+        equation.by_unknowns.increment += by_tangent.dot(&tangent.by_end) * factor;
+        equation.by_difference += by_tangent * (0.5 * factor);
+        equation.by_slave += by_velocity;
+        equation.by_end -= by_velocity;
+        equation
+    }
+}

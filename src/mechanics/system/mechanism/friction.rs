@@ -1,0 +1,91 @@
+//! Friction of sliders: inertia across their masters, and the end of slip.
+
+use super::System;
+use super::impact::{ImpactDirection, ImpactLaw};
+use super::rigidity::Deformation;
+use crate::linalg::LinearError;
+use crate::system::SystemError;
+
+/// Velocity along the master, relative to the fastest point of the model, below which a slider sticks at the start.
+const AT_REST: f64 = 1e-9;
+
+impl System {
+    /// Returns true if a slider has friction.
+    pub(crate) fn has_friction(&self) -> bool {
+        self.sliders.iter().any(|slider| slider.active_friction().is_some())
+    }
+
+    /// Chooses slip or stick for all sliders by their present velocities.
+    pub(in crate::system) fn choose_friction_modes(&mut self) {
+        if !self.has_friction() {
+            return;
+        }
+        let negligible = AT_REST * self.fastest_speed();
+        let Self { sliders, bodies, motion, .. } = self;
+        for slider in sliders.iter_mut() {
+            slider.choose_friction_mode(bodies, &motion.rates, negligible);
+        }
+    }
+
+    /// Determines the inertia of all sliders with friction across their masters. Without a response to an impulse it is zero.
+    pub(super) fn measure_inertia_across(&mut self) {
+        let across = |(at, slider): (usize, &_)| -> Option<ImpactDirection> {
+            let slider: &crate::system::sliders::SliderContact = slider;
+            slider.active_friction().map(|_| (at, slider.across(&self.bodies)))
+        };
+        let directions: Vec<ImpactDirection> =
+            self.sliders.iter().enumerate().filter_map(across).collect();
+        let mut inertia = self.banded_inertia();
+        let Ok(inertia) = inertia.factorise() else { return };
+        let responses = self.impulse_responses(&inertia, &directions);
+        for ((slider, _), response) in directions.iter().zip(&responses) {
+            let velocity = response.velocity(&response.rates);
+            let inertia = if velocity > 0.0 { 1.0 / velocity } else { 0.0 };
+            self.sliders[*slider].friction.iter_mut().for_each(|of| of.inertia_across = inertia);
+        }
+    }
+
+    /// Lets a slider stick. Its remaining velocity along the master is removed by an impulse, whose work is lost.
+    ///
+    /// # Errors
+    /// Fails if the impulse is not determined.
+    pub(crate) fn end_slip(&mut self, slider: usize) -> Result<(), SystemError> {
+        self.sliders[slider].stick();
+        self.stop_along(&[slider]).map_err(|_| self.sliders.overdetermined())
+    }
+
+    /// Lets a slider slip in the direction of the force along its master.
+    pub(crate) fn start_slip(&mut self, slider: usize) {
+        self.sliders[slider].slip();
+        self.motion.accelerations.mark_unknown();
+    }
+
+    /// Lets all sliders stick whose velocity along the master is opposite to their slip.
+    ///
+    /// # Errors
+    /// Fails if the impulses are not determined.
+    pub(crate) fn end_reversed_slips(&mut self) -> Result<(), SystemError> {
+        let is_reversed =
+            |at: &usize| self.sliders[*at].is_slip_reversed(&self.bodies, &self.motion.rates);
+        let reversed: Vec<usize> = (0..self.sliders.len()).filter(is_reversed).collect();
+        if reversed.is_empty() {
+            return Ok(());
+        }
+        reversed.iter().for_each(|at| self.sliders[*at].stick());
+        self.stop_along(&reversed).map_err(|_| self.sliders.overdetermined())
+    }
+
+    /// Removes the velocities of sliders along their masters by impulses, while all contacts across masters stay closed.
+    fn stop_along(&mut self, stopping: &[usize]) -> Result<(), LinearError> {
+        let along = stopping.iter().map(|&at| (at, self.sliders[at].along(&self.bodies)));
+        let along: Vec<ImpactDirection> = along.collect();
+        let problem = self.impact_problem(&[(&along, Deformation::All)], -2.0)?;
+        let impulses = problem.impulses(&vec![ImpactLaw::Ends; along.len()])?;
+        self.apply(problem, &impulses.values);
+        for ((slider, _), work) in along.iter().zip(&impulses.works) {
+            self.sliders[*slider].lost_energy -= work;
+        }
+        self.motion.accelerations.mark_unknown();
+        Ok(())
+    }
+}

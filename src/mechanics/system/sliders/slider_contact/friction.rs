@@ -1,0 +1,232 @@
+//! Friction of a slider along its master: state between steps, and transitions between slip and stick.
+
+use super::SliderContact;
+use crate::geometry::{Vec2, cross};
+use crate::integrators::Interval;
+use crate::joints::{Friction, FrictionForces, FrictionMode};
+use crate::system::bodies::Body;
+use crate::system::sliders::SliderState;
+
+/// Velocity along the master at which slip ends, relative to that at the start of the step.
+const STOPPED: f64 = 1e-9;
+
+/// Rounding error of velocities, relative to the size of the master over the duration of the step.
+const ROUNDING: f64 = 1e-14;
+
+/// Number of transitions in successive steps above which slip does not end within a step.
+const MOST_TRANSITIONS: usize = 8;
+
+/// Transition of a slider with friction at the end of an attempted step.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum FrictionTransition {
+    /// Slip ends. The value is the velocity along the master beyond zero at the end of the step [length/time].
+    SlipEnds(f64),
+    /// The force along the master exceeds the friction limit.
+    SlipStarts,
+}
+
+/// Friction of a slider.
+#[derive(Debug, Clone)]
+pub struct SliderFriction {
+    /// Coefficient of friction [-].
+    coefficient: f64,
+    pub mode: FrictionMode,
+    /// Velocities of slave and control points of the master at the start of the step [length/time].
+    velocities: (Vec2, Vec<Vec2>),
+    /// Velocities of the slave along and across the master at the start of the step [length/time].
+    start: (f64, f64),
+    /// Reciprocal of the velocity across the master that a unit impulse across it causes [mass].
+    pub inertia_across: f64,
+    duration: f64,
+    /// Forces of the last iterate.
+    forces: FrictionForces,
+    /// Mean force on the master along its tangent in the last step [force].
+    force: f64,
+    /// Number of transitions less the number of steps since then.
+    transitions: usize,
+}
+
+impl SliderFriction {
+    pub fn new(coefficient: f64) -> Self {
+        Self {
+            coefficient,
+            mode: FrictionMode::Stick,
+            velocities: (Vec2::zeros(), Vec::new()),
+            start: (0.0, 0.0),
+            inertia_across: 0.0,
+            duration: f64::INFINITY,
+            forces: FrictionForces::default(),
+            force: 0.0,
+            transitions: 0,
+        }
+    }
+
+    /// Friction of the contact in a step; `None` before the first step.
+    pub(super) fn in_step(&self, window: std::ops::Range<usize>) -> Option<Friction<'_>> {
+        let (slave, master) = &self.velocities;
+        Some(Friction {
+            coefficient: self.coefficient,
+            mode: self.mode,
+            slave_velocity: *slave,
+            master_velocities: master.get(window)?,
+            start_velocity_across: self.start.1,
+            inertia_across: self.inertia_across,
+            duration: self.duration,
+        })
+    }
+
+    fn cuts_steps(&self) -> bool {
+        self.transitions < MOST_TRANSITIONS
+    }
+
+    /// State as a number: the sign of the slip, or zero.
+    fn mode_number(&self) -> f64 {
+        match self.mode {
+            FrictionMode::Slip(sign) => sign,
+            FrictionMode::Stick => 0.0,
+        }
+    }
+
+    fn set_mode_number(&mut self, number: f64) {
+        self.mode =
+            if number == 0.0 { FrictionMode::Stick } else { FrictionMode::Slip(number.signum()) };
+        self.transitions = 0;
+    }
+
+    /// Numeric state: mode and mean force.
+    pub(super) fn numbers(&self) -> [f64; 2] {
+        [self.mode_number(), self.force]
+    }
+
+    pub(super) fn restore(&mut self, [mode, force]: [f64; 2]) {
+        self.set_mode_number(mode);
+        self.force = force;
+    }
+
+    fn change_mode(&mut self, mode: FrictionMode) {
+        self.mode = mode;
+        self.transitions += 1;
+    }
+}
+
+impl SliderContact {
+    /// Mean friction force on the master in the last step, positive towards its end [force]; `None` for a slider without friction.
+    pub fn friction_force(&self) -> Option<f64> {
+        let friction = self.friction.as_deref()?;
+        Some(if self.is_sliding() { friction.force } else { 0.0 })
+    }
+
+    /// Friction of a slider that slides along its master.
+    pub fn active_friction(&self) -> Option<&SliderFriction> {
+        self.friction.as_deref().filter(|_| self.is_sliding())
+    }
+
+    pub(super) fn begin_friction(&mut self, bodies: &[Body], rates: &[f64], interval: Interval) {
+        if self.active_friction().is_none() {
+            return;
+        }
+        let (along, velocity) = (self.along(bodies), self.relative_velocity(bodies, rates));
+        let slave = self.slave_velocity(bodies, rates);
+        let master = &bodies[self.connection.master];
+        let count = master.dynamics.control_points().len();
+        let Some(friction) = &mut self.friction else { return };
+        friction.start = (along.dot(&velocity), cross(along, velocity));
+        friction.duration = interval.duration();
+        friction.velocities.0 = slave;
+        friction.velocities.1.clear();
+        friction.velocities.1.extend((0..count).map(|at| master.vector_at(at, rates)));
+    }
+
+    pub(super) fn record_friction(&mut self, forces: Option<FrictionForces>) {
+        if let (Some(friction), Some(forces)) = (&mut self.friction, forces) {
+            friction.forces = forces;
+        }
+    }
+
+    /// Adds the work of the contact in an accepted step to the lost energy. The bodies must not be moved yet.
+    pub(super) fn dissipate(&mut self, increment: f64) {
+        if let Some(friction) =
+            self.friction.as_mut().filter(|_| self.state == SliderState::Sliding)
+        {
+            self.lost_energy += increment * friction.forces.along;
+            friction.force = friction.forces.along / friction.forces.tangent;
+        }
+    }
+
+    pub(super) fn count_friction_step(&mut self) {
+        if let Some(friction) = &mut self.friction {
+            friction.transitions = friction.transitions.saturating_sub(1);
+        }
+    }
+
+    /// Transition of the slider at the end of an attempted step with the given unknowns of all contacts.
+    pub fn friction_transition(&self, unknowns: &[f64]) -> Option<FrictionTransition> {
+        let friction = self.active_friction()?;
+        let increment = self.read(unknowns).increment;
+        let FrictionForces { along, across, end_velocity, .. } = friction.forces;
+        match friction.mode {
+            FrictionMode::Slip(sign) => {
+                let (reversed, least) = match friction.cuts_steps() {
+                    true => (end_velocity, self.velocity_rounding(friction)),
+                    false => (increment, 0.0),
+                };
+                let beyond = -sign * reversed;
+                (beyond > least).then_some(FrictionTransition::SlipEnds(beyond))
+            }
+            FrictionMode::Stick => {
+                let is_exceeded = along.abs() > friction.coefficient * across.abs();
+                let is_jammed = friction.transitions > 2 * MOST_TRANSITIONS;
+                (is_exceeded && !is_jammed).then_some(FrictionTransition::SlipStarts)
+            }
+        }
+    }
+
+    /// Velocity of the slip along the master at the end of the attempted step beyond zero [length/time]; `None` if it counts as zero.
+    pub fn missed_slip_end(&self) -> Option<f64> {
+        let friction = self.active_friction()?;
+        let FrictionMode::Slip(sign) = friction.mode else { return None };
+        let beyond = -sign * friction.forces.end_velocity;
+        let tolerance = STOPPED * friction.start.0.abs() + self.velocity_rounding(friction);
+        (beyond.abs() > tolerance).then_some(beyond)
+    }
+
+    fn velocity_rounding(&self, friction: &SliderFriction) -> f64 {
+        ROUNDING * self.size / friction.duration
+    }
+
+    /// Speed of the slip at the start of the step [length/time].
+    pub fn slip_speed(&self) -> f64 {
+        let friction = self.active_friction();
+        friction.map_or(0.0, |friction| friction.mode_number() * friction.start.0)
+    }
+
+    /// Returns true if the velocity along the master is opposite to the slip.
+    pub fn is_slip_reversed(&self, bodies: &[Body], rates: &[f64]) -> bool {
+        let sign = self.active_friction().map_or(0.0, SliderFriction::mode_number);
+        sign * self.along(bodies).dot(&self.relative_velocity(bodies, rates)) < 0.0
+    }
+
+    /// Lets the slider stick to its master from now on.
+    pub fn stick(&mut self) {
+        if let Some(friction) = &mut self.friction {
+            friction.change_mode(FrictionMode::Stick);
+        }
+    }
+
+    /// Lets the slider slip in the direction of the force along the master in the last attempted step.
+    pub fn slip(&mut self) {
+        if let Some(friction) = &mut self.friction {
+            friction.change_mode(FrictionMode::Slip(friction.forces.along.signum()));
+        }
+    }
+
+    /// Chooses slip or stick by the velocity along the master: slip above a negligible velocity [length/time].
+    pub fn choose_friction_mode(&mut self, bodies: &[Body], rates: &[f64], negligible: f64) {
+        if self.active_friction().is_none() {
+            return;
+        }
+        let velocity = self.along(bodies).dot(&self.relative_velocity(bodies, rates));
+        let number = if velocity.abs() > negligible { velocity.signum() } else { 0.0 };
+        self.friction.iter_mut().for_each(|friction| friction.set_mode_number(number));
+    }
+}
