@@ -101,8 +101,8 @@ impl System {
         }));
     }
 
-    /// Sets all mean forces to the present ones, which are the means of a step of zero length. If these are unknown, for example because a load has no
-    /// value, the first step reports the reason.
+    /// Sets all mean forces to the present forces, which are the means over a step of zero length. If the present forces are unknown, for example
+    /// because a load has no value, the first step reports the reason.
     pub(crate) fn start_means(&mut self) {
         let has_drives = self.supports.prescribed().count() > 0;
         if self.sliders.is_empty() && !has_drives && self.exchanged.impulses.is_none() {
