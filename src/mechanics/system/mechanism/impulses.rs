@@ -28,13 +28,14 @@ pub struct ExchangeLedger {
 
 /// Impulses on all control points, with preallocated buffers.
 pub struct Impulses {
-    /// Separate degrees of freedom of every control point. During an evaluation, they are exchanged with the degrees of freedom of the model.
+    /// Degrees of freedom that are numbered separately for every control point, even if joints tie control points. For an evaluation, they
+    /// temporarily replace the degrees of freedom of the model.
     numbers: Vec<DegreesOfFreedom>,
-    /// Force unknowns of rigid links, numbered after all separate degrees of freedom. During an evaluation, they are exchanged with the numbers of
+    /// Force unknowns of rigid links, numbered after all separate degrees of freedom. For an evaluation, they temporarily replace the numbers in
     /// the model.
     links: Vec<[usize; 2]>,
-    /// `None` for each inclined roller, whose force is summed separately. During an evaluation, the list is exchanged with the force unknowns of
-    /// the model.
+    /// List with `None` for each inclined roller, because the forces of rollers are summed separately. For an evaluation, it temporarily replaces
+    /// the force unknowns in the model.
     rollers: Vec<Option<usize>>,
     values: Vec<f64>,
     /// Residual of the balance, with additional space for contact equations.
@@ -100,8 +101,8 @@ impl System {
         }));
     }
 
-    /// Sets all mean forces to the present ones, which are the means of a step of zero length. If these are unknown, for example because a load has no
-    /// value, the first step reports the reason.
+    /// Sets all mean forces to the present forces, which are the means over a step of zero length. If the present forces are unknown, for example
+    /// because a load has no value, the first step reports the reason.
     pub(crate) fn start_means(&mut self) {
         let has_drives = self.supports.prescribed().count() > 0;
         if self.sliders.is_empty() && !has_drives && self.exchanged.impulses.is_none() {
