@@ -1,13 +1,13 @@
 //! withy: planar dynamics of flexible beams, and its scripting language.
 //!
-//! Layers; each uses only those to its right:
+//! The program consists of the following layers. A layer uses only layers to its right:
 //!
 //! ```text
 //! main → cli → repl, exercises → script → output, analysis → sampling, fitting, mechanics: simulation → … → system → …
 //! ```
 //!
-//! The mechanics is a crate of its own, so that changes of the language do not rebuild it. Its main layers are listed here too. The bottom
-//! layers are `sandbox_fs`, which opens all files, and `panics`, which catches and reports internal errors.
+//! The mechanics is a separate crate, so that changes of the language do not require compiling it again; its main layers are listed here too. The
+//! lowest layers are `sandbox_fs`, which opens all files, and `panics`, which catches and reports internal errors.
 
 #![forbid(unsafe_code)]
 #![cfg_attr(not(test), warn(clippy::disallowed_methods))]

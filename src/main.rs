@@ -1,4 +1,4 @@
-//! The `withy` program; its code is in the library.
+//! The `withy` program. Its code is in the library.
 
 #![forbid(unsafe_code)]
 

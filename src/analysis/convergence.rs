@@ -88,8 +88,8 @@ pub struct Convergence {
 pub const ALL_POSITIONS: &str = "positions";
 
 impl Convergence {
-    /// Errors of one integrator for several sizes: first that of all positions together, as a fraction of the length, then those of each
-    /// observable.
+    /// Returns the errors of one integrator for several sizes. The first element contains the error of all positions together, as a fraction of the
+    /// length; the other elements contain the errors of single observables.
     pub fn ladders_of(
         method: Method,
         rungs: &[(f64, RunResult)],

@@ -25,7 +25,7 @@ pub enum RowEntry {
         /// Part of the sweep, from 1, and number of parts. The whole sweep is (1, 1).
         part: (u32, u32),
     },
-    /// Names of the results. This entry precedes that of the first completed row.
+    /// Names of the results. This entry precedes the entry of the first completed row.
     Names(Vec<String>),
     Computed(u64, Vec<f64>),
     Failed(u64, String),

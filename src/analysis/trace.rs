@@ -1,4 +1,4 @@
-//! Values of a quantity during a run, and their distance from those of another run of the same scene.
+//! Values of a quantity during a run, and their distance from the values in another run of the same scene.
 
 use crate::beams::Station;
 use crate::geometry::Vec2;
@@ -108,7 +108,8 @@ impl Trace {
         both.windows(2).filter_map(over_step).collect()
     }
 
-    /// Value at a time. It is the recorded value, or that of a cubic polynomial through the four nearest ones. `None` outside the trace.
+    /// Returns the value at a time; `None` outside the trace. It is the recorded value, if there is one at this time, otherwise the value of a
+    /// cubic polynomial through the four nearest recorded values.
     fn at(&self, time: f64) -> Option<Vec2> {
         let (first, last) = (*self.times.first()?, *self.times.last()?);
         let slack = SAME_TIME * (last - first);

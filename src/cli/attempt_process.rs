@@ -1,7 +1,7 @@
-//! Grading in a separate process per attempt, so that an attempt cannot affect the next attempt or the marks.
+//! Grades each attempt in a separate process, so that an attempt cannot affect the next attempt or the marks.
 //!
-//! The program starts itself in a new folder with an unpredictable name, with system limits on time, memory and output. The process prints its
-//! verdict as a line of JSON. An attempt whose process dies receives a mark too.
+//! The program starts itself again as this process, in a new folder with an unpredictable name and with system limits on time, memory and output.
+//! The process prints its verdict as one line of JSON. If the process dies, the attempt still receives a mark.
 
 use std::io::Read;
 use std::path::Path;
@@ -28,7 +28,7 @@ use crate::script::state::settings::{RunMode, RunSettings};
 
 const INTERVAL: Duration = Duration::from_millis(5);
 const START: Duration = Duration::from_secs(2);
-/// Maximum length of a message in characters, so that a line fits into the pipe.
+/// Maximum length of the message in a verdict [characters]. It ensures that the line of the verdict fits into the buffer of the pipe.
 const LONGEST_MESSAGE: usize = 4000;
 /// Maximum size of a verdict [bytes].
 const LONGEST_VERDICT: u64 = 1 << 20;
@@ -39,10 +39,10 @@ pub(super) struct JudgeLimits<'a> {
     pub stop: &'a AtomicBool,
 }
 
-/// Mark of an attempt from a separate process; `None` if grading was stopped before.
+/// Runs an attempt in a separate process and returns its mark and message; `None` if grading was stopped before the mark was known.
 ///
 /// # Errors
-/// Fails if no process can be started. The student is not responsible for this.
+/// Fails if the process cannot be started. This is not the fault of the student.
 pub(super) fn mark_in_process(
     submission: &Submission,
     file: &Path,
@@ -165,7 +165,7 @@ fn kill_reason(status: ExitStatus) -> KillReason {
     match status.signal().and_then(|number| Signal::try_from(number).ok()) {
         Some(Signal::SIGXCPU) => KillReason::Time,
         Some(Signal::SIGXFSZ) => KillReason::Written,
-        // A failed allocation aborts the process. The system kills processes that use too much memory.
+        // A process aborts when a memory allocation fails. The system kills a process that uses too much memory.
         Some(Signal::SIGABRT | Signal::SIGKILL) => KillReason::Memory,
         _ => KillReason::Other,
     }
@@ -176,14 +176,14 @@ fn kill_reason(_: ExitStatus) -> KillReason {
     KillReason::Other
 }
 
-/// Protects the process from Ctrl-C at the terminal, which the grading process handles.
+/// Moves the process into its own process group, so that Ctrl-C at the terminal reaches only the grading process.
 fn shield_from_interrupt(command: &mut Command) -> &mut Command {
     #[cfg(unix)]
     std::os::unix::process::CommandExt::process_group(command, 0);
     command
 }
 
-/// Reports an exceeded limit in code that does not check for limits, and exits.
+/// Prints the mark for an exceeded limit, and exits. It is called when code does not check for limits and therefore does not stop by itself.
 fn stopped_hard(stop: Stop) {
     print_line(&write(&(Mark::Stopped, stop.message_and_hint().0)));
     process::exit(0)
@@ -213,11 +213,11 @@ pub(super) fn judge_one(
         Some(mark) => print_line(&write(&mark)),
         None => return Exit::Interrupted,
     }
-    // Data of the attempt are not dropped, because this may take long.
+    // The process exits without dropping the data of the attempt, because dropping may take long.
     process::exit(0)
 }
 
-/// System limits of this process, in addition to the limits that the program checks.
+/// Sets system limits for this process, in addition to the limits that the program checks.
 #[cfg(unix)]
 fn confine(limits: &Limits) -> nix::Result<()> {
     use nix::sys::resource::{Resource, getrlimit, setrlimit};
@@ -245,7 +245,7 @@ fn confine(limits: &Limits) -> nix::Result<()> {
 
 #[cfg(unix)]
 const FILES_OPEN: u64 = 64;
-/// Address space for the program itself [bytes].
+/// Address space reserved for the program itself [bytes].
 #[cfg(unix)]
 const CODE: u64 = 1 << 30;
 

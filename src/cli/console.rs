@@ -1,14 +1,14 @@
-//! Output to stdout and stderr.
+//! Writes to stdout and stderr.
 
 use std::io::{self, ErrorKind, Write, stderr, stdout};
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use crate::output::{printable, printable_in_colours};
 
-/// True if some output could not be written.
+/// True if some output could not be written; a closed pipe does not count.
 static LOST: AtomicBool = AtomicBool::new(false);
 
-/// Prints a line of output and flushes. A closed pipe is not an error.
+/// Prints a line to stdout and flushes stdout. A closed pipe is not an error.
 pub(super) fn print_line(text: &str) {
     let mut out = stdout();
     let line = format!("{}\n", printable_in_colours(text));
@@ -19,7 +19,7 @@ pub(super) fn print_error(text: &str) {
     print_error_styled(&printable(text));
 }
 
-/// Prints to standard error. The colour sequences of this program are kept.
+/// Prints to stderr. Colour sequences written by this program are kept; other control characters are replaced.
 pub(super) fn print_error_styled(text: &str) {
     record_write_error(stderr().write_all(printable_in_colours(text).as_bytes()));
 }
@@ -30,7 +30,7 @@ fn record_write_error(written: io::Result<()>) {
     }
 }
 
-/// Returns true if some output could not be written, except to a closed pipe.
+/// Returns true if some output could not be written for another reason than a closed pipe.
 pub(super) fn is_output_lost() -> bool {
     LOST.load(Ordering::Relaxed)
 }

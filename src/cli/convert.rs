@@ -1,6 +1,6 @@
-//! `withy convert`: export of a saved simulation, without its script.
+//! `withy convert`: exports a saved simulation without its script.
 //!
-//! Runs a generated script that loads the file and writes the output.
+//! It generates and runs a short script that loads the file and writes the output.
 
 use std::io::{stderr, stdout};
 

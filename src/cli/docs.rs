@@ -1,4 +1,4 @@
-//! `withy docs`: help pages, the reference, and definition files for editors.
+//! `withy docs`: prints help pages and the reference, and writes definition files for editors.
 
 use std::io::{self, IsTerminal, Write, stdout};
 use std::path::Path;
@@ -16,7 +16,7 @@ use crate::script::help::lookup::{self, WIDTH};
 use crate::script::help::reference::reference;
 use crate::script::packages::language;
 
-/// Maximum size of a definition file that is checked before it is replaced [bytes].
+/// Maximum size of an existing file that may be recognised as a definition file and replaced [bytes].
 const LARGEST_DEFINITION: u64 = 1 << 24;
 
 pub fn docs(options: &DocsOptions) -> Exit {
@@ -68,13 +68,13 @@ fn write_definitions(catalog: &Catalog, folder: &Path) -> Result<String, Diagnos
     Ok(listing)
 }
 
-/// Returns true if a file may be replaced, that is, if it contains the marker line of definition files.
+/// Returns true if the file is a definition file, which may be replaced. Such a file contains the line `module static;`.
 fn is_definition(path: &Path) -> bool {
     read_text(path, LARGEST_DEFINITION)
         .is_ok_and(|text| text.lines().any(|line| line == "module static;"))
 }
 
-/// Prints a text. A closed pipe is not an error.
+/// Prints a text to stdout. A closed pipe is not an error.
 fn show(text: &str) -> Exit {
     let mut out = stdout();
     match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {

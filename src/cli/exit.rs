@@ -2,16 +2,16 @@
 
 use std::process::ExitCode;
 
-/// Exit codes, the same for all commands.
+/// Exit codes. They have the same meaning for all commands.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Exit {
-    /// Success, or the reader of the output has closed the pipe.
+    /// The command succeeded, or the reader of its output closed the pipe.
     Success = 0,
-    /// A `check` in the script failed.
+    /// A call of `check` in the script failed.
     CheckFailed = 1,
-    /// The script or the arguments are wrong, or output could not be written.
+    /// The script or the arguments contain an error, or output could not be written.
     Failure = 2,
-    /// Interrupted by Ctrl-C.
+    /// The command was interrupted by Ctrl-C.
     Interrupted = 130,
 }
 

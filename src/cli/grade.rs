@@ -1,4 +1,4 @@
-//! `withy learn grade`: grading of the attempts of a class.
+//! `withy learn grade`: grades the attempts of a class.
 
 use std::path::Path;
 use std::sync::Arc;
@@ -35,7 +35,7 @@ pub struct GradeOptions<'a> {
     pub limits: &'a LimitOptions,
 }
 
-/// Grades all submissions of a folder, and prints each mark when it is known. Files that attempts write are discarded.
+/// Grades all submissions of a folder, and prints each mark as soon as it is known. Files that the attempts write are discarded.
 pub fn grade(wishes: &GradeOptions) -> Result<Exit, ExerciseError> {
     let submissions = Submission::all_in(wishes.folder)?;
     let refused = |path: &Path, source| ExerciseError::Marks { path: path.into(), source };
@@ -97,7 +97,7 @@ pub fn grade(wishes: &GradeOptions) -> Result<Exit, ExerciseError> {
 struct GradedMark {
     mark: Mark,
     message: String,
-    /// `None` if a repeated attempt may get a different mark.
+    /// Fingerprint of the attempt; `None` if a repetition may give a different mark, so that the mark must not be reused.
     fingerprint: Option<String>,
     origin: MarkOrigin,
 }
@@ -130,7 +130,7 @@ impl GradedMark {
             Ok(marked) => (false, marked?),
             Err(error) => (true, (Mark::Error, format!("cannot start a process for it: {error}"))),
         };
-        // The attempt may have changed while it was judged.
+        // The attempt may have changed while it was judged. Its fingerprint is then no longer equal to `before`.
         let fingerprint = (!is_ours && of_attempt() == before).then_some(before);
         Some(Self { mark, message, fingerprint, origin: MarkOrigin::ThisRun })
     }

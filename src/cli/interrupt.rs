@@ -1,4 +1,4 @@
-//! Handling of Ctrl-C and termination. The run stops after its current step. If it does not react, the program ends.
+//! Handles Ctrl-C and termination signals. After Ctrl-C the run stops at the end of its current step. If the run does not react, the program ends.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -11,18 +11,19 @@ use super::tui::terminal;
 use crate::repl::editor::typed_ahead;
 use crate::script::state::limits::INTERRUPT_HEARD;
 
-/// Time after Ctrl-C in which a run must react.
+/// Time in which a run must react to Ctrl-C.
 const REACTION_TIME: Duration = Duration::from_millis(900);
 
-/// Time for a run that has reacted to save its results.
+/// Time for a run that has reacted to Ctrl-C to save its results.
 const TO_WRITE: Duration = Duration::from_secs(20);
 
-/// Work that is lost when Ctrl-C ends the program.
+/// What is lost if Ctrl-C ends the program.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum InterruptLoss {
-    /// A run. The program ends after a grace period, or at a second Ctrl-C.
+    /// A run. The program ends after a grace period, or at the second Ctrl-C.
     Run,
-    /// A session with all its data. The program ends only if a first Ctrl-C is not noticed and another one follows some time later.
+    /// A session with all its data. The program ends only at another Ctrl-C that follows at least a second after the first one, if the session has
+    /// not reacted to the first one.
     Session,
 }
 
@@ -38,7 +39,7 @@ pub fn flag(at_stake: InterruptLoss) -> Arc<AtomicBool> {
         if !set.swap(true, Ordering::Relaxed) {
             asked = Instant::now();
             if at_stake == InterruptLoss::Run {
-                // A separate thread is used, because this one waits for the second Ctrl-C.
+                // The waiting is done in a separate thread, because the thread of the handler must receive the second Ctrl-C.
                 thread::spawn(|| {
                     thread::sleep(REACTION_TIME);
                     if INTERRUPT_HEARD.load(Ordering::Relaxed) {
@@ -52,14 +53,14 @@ pub fn flag(at_stake: InterruptLoss) -> Arc<AtomicBool> {
         }
     });
     if let Err(error) = installed {
-        // Without a handler, Ctrl-C ends the process as usual, so a warning is sufficient.
+        // Without a handler, Ctrl-C ends the process by default. Therefore a warning is sufficient.
         print_error(&format!("warning: Ctrl-C ends the program without saving results: {error}\n"));
     }
     flag
 }
 
-/// Ends a session within a second on SIGTERM and SIGHUP, as when its window is closed. Ctrl-C applies to the inputs of the session only. It must be
-/// called before other threads start.
+/// Ends a session on SIGTERM and SIGHUP, for example when its terminal window is closed. Ctrl-C does not end a session; it stops only the
+/// evaluation of the current input. This function must be called before other threads start.
 #[cfg(unix)]
 pub fn end_on_signal() {
     use nix::sys::signal::{SigSet, Signal};

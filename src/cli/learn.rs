@@ -1,4 +1,4 @@
-//! `withy learn`: exercises for students.
+//! `withy learn`: offers exercises to students.
 
 use std::io::{IsTerminal, stderr, stdout};
 use std::path::{Path, PathBuf};

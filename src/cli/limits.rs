@@ -34,12 +34,12 @@ pub struct LimitOptions {
     max_files: Option<u64>,
 }
 
-/// Defaults for graded attempts.
+/// Default limits of written output and files for an attempt that is graded.
 const MEGABYTES_OF_AN_ATTEMPT: u64 = 100;
 const FILES_OF_AN_ATTEMPT: u64 = 100;
 
 impl LimitOptions {
-    /// Limits of a run.
+    /// Returns the limits of a run.
     pub fn limits(&self) -> Limits {
         Limits {
             time: self.max_time,
@@ -51,7 +51,8 @@ impl LimitOptions {
         }
     }
 
-    /// Limits of an attempt: less output, and always a time limit.
+    /// Returns the limits of an attempt that is graded. By default they allow less output than [`limits`](Self::limits), and the run time is always
+    /// limited.
     pub fn for_an_attempt(&self) -> Limits {
         Limits {
             time: self.max_time.or(Some(DEFAULT_TIME_LIMIT)),
@@ -61,7 +62,7 @@ impl LimitOptions {
         }
     }
 
-    /// Options as command line arguments.
+    /// Returns the options as command line arguments for a process that this program starts.
     pub fn to_arguments(&self) -> Vec<String> {
         let time = self.max_time.map(|time| time.as_secs_f64().to_string());
         let given = [

@@ -1,4 +1,4 @@
-//! Command line: definitions, runs, sessions, and the progress bar. The work is done by `script` and `repl`.
+//! Command line: defines the options, starts runs and sessions, and shows the progress bar. Scripts are run by the modules `script` and `repl`.
 
 mod args;
 mod attempt_process;

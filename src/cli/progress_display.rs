@@ -1,4 +1,4 @@
-//! Progress bar in a terminal.
+//! Shows a progress bar in a terminal.
 
 use std::cell::{Cell, RefCell};
 use std::io::{IsTerminal, stderr};
@@ -23,7 +23,7 @@ pub fn progress(wish: ProgressPreference) -> Box<dyn Progress + Send> {
     }
 }
 
-/// A bar over the time of a simulation or the cases of a study. Short runs have no bar.
+/// A progress bar for the simulated time of a run or for the cases of a study. A short run shows no bar.
 #[derive(Default)]
 struct ProgressDisplay {
     start: Cell<Option<Instant>>,
@@ -34,7 +34,7 @@ struct ProgressDisplay {
 }
 
 const PARTS: u64 = 1000;
-/// Duration of a run below which no bar is shown.
+/// Duration of a run after which its bar appears.
 const SHORTEST_SHOWN: Duration = Duration::from_millis(300);
 
 impl ProgressDisplay {

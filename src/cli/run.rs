@@ -24,7 +24,7 @@ use crate::script::state::settings::{
     ErrorEstimation, JournalPreference, RunMode, RunSettings, StudyPreferences,
 };
 
-/// Maximum size of a report that is checked before it is replaced [bytes].
+/// Maximum size of an existing file that may be recognised as a report and replaced [bytes].
 const LARGEST_REPORT: u64 = 1 << 28;
 
 pub fn run(options: &RunOptions) -> Exit {
@@ -58,7 +58,8 @@ pub fn run(options: &RunOptions) -> Exit {
     exit_for(&outcome)
 }
 
-/// Estimation of errors for the options. Output that is read by a program does not depend on the run time, so it has no automatic estimates.
+/// Returns whether the errors of a run are estimated. With `auto` this depends on the run time, so it is done only if the output goes to a terminal:
+/// output that a program reads must not depend on the run time.
 fn error_estimation(options: &RunOptions) -> ErrorEstimation {
     match options.error {
         ErrorChoice::Always => ErrorEstimation::Always,
@@ -155,7 +156,7 @@ fn exit_for_study(outcome: &RunOutcome, out: &Path) -> Exit {
             Exit::Interrupted
         }
         Ending::Failed(diagnostic) => {
-            // In a long study, an exceeded time limit does not indicate an endless loop.
+            // In a long study, an exceeded time limit does not indicate an endless loop. The usual hint would therefore mislead.
             let hint = match outcome.stopped_by {
                 Some(Stop::Time(_)) => Some("--max-time SECONDS allows more".to_owned()),
                 _ => diagnostic.hint.clone(),
@@ -168,7 +169,8 @@ fn exit_for_study(outcome: &RunOutcome, out: &Path) -> Exit {
     }
 }
 
-/// Exit code of a run that computes a part of studies. Errors after the studies are ignored, because the results of the studies are incomplete.
+/// Returns the exit code of a run that computes only a part of the studies. If the script fails after the studies, the run still counts as
+/// successful, because the statements after the studies lack the results of the other parts.
 fn exit_for_part(outcome: &RunOutcome, options: &StudyOptions) -> Exit {
     let cases = match outcome.kept_cases {
         1 => "1 finished case is".to_owned(),

@@ -1,4 +1,4 @@
-//! Generated one-line scripts about a saved simulation.
+//! Generates one-line scripts that load and use a saved simulation.
 
 use std::path::{Path, PathBuf};
 

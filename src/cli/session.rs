@@ -1,4 +1,4 @@
-//! `withy`, `withy repl` and `withy -e`: sessions with a terminal, with a pipe, or with inputs of the command line.
+//! `withy`, `withy repl` and `withy -e`: open sessions that read their inputs from a terminal, a pipe or the command line.
 
 use std::io::{self, IsTerminal, stderr, stdin, stdout};
 use std::path::{Path, PathBuf};
@@ -23,7 +23,7 @@ use crate::script::packages::language;
 use crate::script::source::program::Program;
 use crate::script::state::settings::{RunMode, RunSettings};
 
-/// Runs `withy repl`: opens a session, optionally after evaluating a file.
+/// Runs `withy repl`. It evaluates the given file, if any, and then opens a session.
 pub fn open(options: &ReplOptions) -> Exit {
     panics::silence();
     if is_interactive(&options.session) {

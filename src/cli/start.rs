@@ -1,4 +1,4 @@
-//! Dispatch of the command line.
+//! Parses the command line and calls the selected command.
 
 use std::io::{ErrorKind, Write, stdout};
 use std::process::ExitCode;
@@ -8,7 +8,7 @@ use clap::Parser;
 use super::args::{CliArguments, CliCommand};
 use super::{Exit, console, convert, docs, learn, run, session, view};
 
-/// Parses the command line and runs the command.
+/// Parses the command line, runs the selected command, and returns its exit code.
 pub fn main() -> ExitCode {
     let arguments = match CliArguments::try_parse() {
         Ok(arguments) => arguments,

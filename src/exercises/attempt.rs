@@ -1,4 +1,4 @@
-//! Reading of attempts. The files may have any content.
+//! Reads attempts. Their files may have any content.
 
 use std::io::ErrorKind;
 use std::path::Path;
@@ -7,13 +7,13 @@ use crate::sandbox_fs::Folder;
 use crate::script::diagnose::Diagnostic;
 use crate::script::source::program::Program;
 
-/// Maximum size of an attempt [bytes].
+/// Maximum size of the file of an attempt [bytes].
 pub const LARGEST: u64 = 1 << 20;
 
-/// Reads an attempt in a folder.
+/// Reads an attempt from a file in the given folder.
 ///
 /// # Errors
-/// Fails if the file is a link, not regular, not UTF-8, or larger than a megabyte.
+/// Fails if the file is a link, not a regular file, not UTF-8 text, or larger than a megabyte.
 pub fn load(path: &Path, folder: &Path) -> Result<Program, Diagnostic> {
     let refused = |why: &str| {
         let message = format!("cannot read the attempt '{}': {why}", path.display());

@@ -1,11 +1,11 @@
-//! Captured output of an attempt, limited in length.
+//! Captures the output of an attempt up to a maximum length.
 
 use std::io::{self, Write};
 use std::sync::{Arc, Mutex, PoisonError};
 
 use serde::{Deserialize, Serialize};
 
-/// Maximum captured length [bytes].
+/// Maximum length of the captured output [bytes].
 const MOST: usize = 1 << 14;
 
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
@@ -14,7 +14,7 @@ pub struct CapturedOutput {
     pub further_lines: usize,
 }
 
-/// A writer that keeps the beginning of the output and counts the rest. Clones share the buffer.
+/// A writer that keeps the beginning of the output and only counts the remaining bytes. Clones share the same buffer.
 #[derive(Clone, Default)]
 pub struct CaptureWriter(Arc<Mutex<CapturedText>>);
 

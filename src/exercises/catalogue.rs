@@ -1,4 +1,4 @@
-//! Catalogue of all exercises, in order. Their files are embedded in the program.
+//! Catalogue of all exercises in the order in which they are offered. The files of the exercises are embedded in the program.
 
 use super::error::ExerciseError;
 use super::exercise::Exercise;
@@ -7,13 +7,13 @@ use crate::script::messages::suggest::nearest;
 /// A series of exercises on one subject.
 #[derive(Debug, PartialEq, Eq)]
 pub struct ExerciseTrack {
-    /// Name of the track and its folder.
+    /// Name of the track, which is also the name of its folder.
     pub name: &'static str,
     /// Title of the track.
     pub title: &'static str,
 }
 
-/// Tracks, in order.
+/// All tracks, in the order in which they are offered.
 pub const TRACKS: &[ExerciseTrack] = &[
     ExerciseTrack { name: "beams", title: "Beams and sections" },
     ExerciseTrack { name: "splines", title: "Splines and knot vectors" },
@@ -46,7 +46,7 @@ macro_rules! exercise {
     };
 }
 
-/// All exercises by track, from easy to hard.
+/// All exercises, grouped by track. In each track the exercises proceed from easy to hard.
 pub const EXERCISES: &[Exercise] = &[
     exercise!("beams", "change_one_number"),
     exercise!("beams", "rectangle"),
@@ -73,10 +73,10 @@ pub const EXERCISES: &[Exercise] = &[
     exercise!("studies", "whose_stiffness"),
 ];
 
-/// Exercise identified by `name`, `track/name`, or the path of its file.
+/// Returns the exercise with this name. `name` may be `name`, `track/name` or the path of the exercise file.
 ///
 /// # Errors
-/// Fails if there is no such exercise. The error contains a suggestion.
+/// Fails if there is no such exercise. The error suggests a similar name.
 pub fn find(name: &str) -> Result<&'static Exercise, ExerciseError> {
     let wanted = name.strip_suffix(".rhai").unwrap_or(name);
     let is_meant = |exercise: &&Exercise| {

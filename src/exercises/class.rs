@@ -1,4 +1,4 @@
-//! Parallel grading of the attempts of a class. Each attempt is judged independently; marks are reported in order.
+//! Grades the attempts of a class in parallel. Each attempt is judged independently of the others; the marks are reported in a fixed order.
 
 use std::collections::BTreeMap;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
@@ -9,8 +9,10 @@ use super::catalogue::EXERCISES;
 use super::exercise::Exercise;
 use super::submissions::Submission;
 
-/// Grades a class: calls `judge` for every mark, from `workers` threads. `note` is called with each mark as soon as it is known, and `tell` with the
-/// marks by student, in the order of the exercises. Returns true if grading completed. It ends early if `judge` returns `None` or `stop` is set.
+/// Grades a class: `workers` threads call `judge` for each exercise of each submission.
+///
+/// `note` receives each mark as soon as it is known. `tell` receives the marks in order: student by student, and for each student in the order of
+/// the exercises. Returns true if all marks were reported. Grading ends early if `judge` returns `None` or `stop` is set.
 pub fn grade<M: Send>(
     submissions: &[Submission],
     workers: usize,

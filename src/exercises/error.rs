@@ -1,4 +1,4 @@
-//! Errors of the folder of a student or a class.
+//! Errors that concern the folder of a student or of a class.
 
 use std::io;
 use std::path::PathBuf;
@@ -10,7 +10,7 @@ pub enum ExerciseError {
     #[error("there is no exercise '{name}'; {}", meant(.nearest.as_deref()))]
     Unknown {
         name: String,
-        /// Name of an exercise that is similar to the given one.
+        /// Name of the exercise that is most similar to the given one.
         nearest: Option<String>,
     },
     #[error(transparent)]
@@ -35,7 +35,7 @@ pub enum ExerciseError {
     #[error("'{}' has no submissions; it must contain a folder for each student, with folders such as '{track}'", path.display())]
     NoSubmissions {
         path: PathBuf,
-        /// Name of a track, for the description of the expected folders.
+        /// Name of a track, which serves as an example in the description of the expected folders.
         track: &'static str,
     },
 }

@@ -1,39 +1,39 @@
-//! An exercise: its embedded texts, and their metadata.
+//! An exercise: its texts, which are embedded in the program, and its metadata.
 
 use super::judge::Judge;
 
-/// An exercise with its task, solution and judge. The texts are files of `scripts/exercises`, which [`catalogue`](super::catalogue) embeds.
+/// An exercise with its task, solution and judge. Its texts are files in `scripts/exercises`, which [`catalogue`](super::catalogue) embeds.
 #[derive(Debug, PartialEq, Eq)]
 pub struct Exercise {
-    /// Track, which is also its folder.
+    /// Name of the track, which is also the name of its folder.
     pub track: &'static str,
-    /// Name, unique among all tracks.
+    /// Name of the exercise, which is unique among all tracks.
     pub name: &'static str,
-    /// Start file.
+    /// Text of the start file, which the student completes.
     pub start: &'static str,
-    /// Model solution.
+    /// Text of the model solution.
     pub solution: &'static str,
-    /// Script that judges an attempt; its header contains the required variables and the hints.
+    /// Script that judges an attempt. Its header contains the required variables and the hints.
     pub judge: &'static str,
 }
 
 impl Exercise {
-    /// Name with track: `track/name`.
+    /// Name with the track: `track/name`.
     pub fn id(&self) -> String {
         format!("{}/{}", self.track, self.name)
     }
 
-    /// File in the folder of a student.
+    /// Path of the exercise file relative to the folder of a student.
     pub fn file(&self) -> String {
         format!("{}/{}.rhai", self.track, self.name)
     }
 
-    /// Title: first line of the start file.
+    /// Title of the exercise, which is the first line of its start file.
     pub fn title(&self) -> &'static str {
         self.start.lines().next().and_then(|line| line.strip_prefix("//! ")).unwrap_or_default()
     }
 
-    /// Judge of the exercise.
+    /// Returns the parsed header of the judge's script.
     pub fn judge(&self) -> Judge {
         Judge::of(self.judge)
     }

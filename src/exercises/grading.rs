@@ -1,4 +1,4 @@
-//! Grading of submissions. Every exercise of a student gets a mark, whatever the files contain.
+//! Grades submissions. A student gets a mark for every exercise, whatever the files contain.
 
 use std::path::PathBuf;
 
@@ -12,12 +12,12 @@ use super::submissions::Submission;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Mark {
     Passed,
-    /// The attempt runs, but checks of the judge failed.
+    /// The attempt runs, but some checks of the judge fail.
     WrongResult,
-    /// The attempt fails or is not a text file.
+    /// The attempt fails with an error, or its file is not a text file.
     Error,
     Stopped,
-    /// The start file is unchanged.
+    /// The file is equal to the start file.
     Unchanged,
     Missing,
 }
@@ -78,9 +78,9 @@ impl StudentReport {
     }
 }
 
-/// Work that is needed to find a mark.
+/// What must be done to find the mark of an attempt.
 pub enum GradingTask {
-    /// No work: the mark and its message are known without judging.
+    /// Nothing: the mark and its message are known without judging.
     Known(Mark, String),
     /// The attempt in this file must be judged.
     Judge(PathBuf),
@@ -108,7 +108,7 @@ impl GradingTask {
     }
 }
 
-/// Mark and message of a verdict; `None` if interrupted.
+/// Converts a verdict to a mark and a message; `None` if the judging was interrupted.
 pub fn mark(verdict: AttemptVerdict) -> Option<(Mark, String)> {
     let (mark, message) = match verdict {
         AttemptVerdict::Passed => (Mark::Passed, String::new()),

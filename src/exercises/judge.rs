@@ -1,4 +1,4 @@
-//! Header of a judge's script: required variables and hints.
+//! Parses the header of a judge's script, which contains the required variables and the hints:
 //!
 //! ```text
 //! //! needs: sim (simulation), rod (beam)
@@ -10,7 +10,7 @@
 /// Parsed header of a judge's script.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Judge {
-    /// Variables of the attempt that are visible to the judge.
+    /// Variables of the attempt that the judge uses.
     pub needs: Vec<Need>,
     /// Hints, from vague to explicit.
     pub hints: Vec<String>,
@@ -19,7 +19,7 @@ pub struct Judge {
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Need {
     pub name: String,
-    /// Type name, as in messages and help.
+    /// Type of the variable, named as in messages and in the help.
     pub of: String,
 }
 

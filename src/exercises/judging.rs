@@ -1,5 +1,5 @@
-//! Running of an attempt and its judge. The judge sees only the variables named in its header, so that functions, constants and names of the attempt
-//! cannot replace those of the judge. Only checks of the judge count.
+//! Runs an attempt and then the script of its judge. The judge sees only those variables of the attempt that its header names. Thus functions,
+//! constants and other names of the attempt cannot replace those of the judge. Only the calls of `check` in the judge's script count.
 
 use std::any::TypeId;
 use std::time::Duration;
@@ -19,25 +19,25 @@ use crate::script::packages::language;
 use crate::script::source::program::Program;
 use crate::script::state::settings::RunSettings;
 
-/// Default time limit of an attempt, and of its judge.
+/// Default time limit, which applies to the attempt and to its judge separately.
 pub const DEFAULT_TIME_LIMIT: Duration = Duration::from_secs(20);
 
-/// Verdict on an attempt.
+/// Result of judging an attempt.
 #[derive(Debug)]
 pub enum AttemptVerdict {
     /// All checks of the judge passed.
     Passed,
-    /// The attempt runs, but checks failed, with these messages of the judge.
+    /// The attempt runs, but some checks of the judge failed. The judge gives these messages.
     WrongResult(Vec<String>),
-    /// The attempt fails.
+    /// The attempt fails with an error.
     Error(Diagnostic),
-    /// A limit was exceeded.
+    /// The attempt or its judge exceeded a limit.
     Stopped(Diagnostic),
-    /// Interrupted from outside.
+    /// The judging was interrupted from outside, for example by Ctrl-C.
     Interrupted,
 }
 
-/// Runs an attempt, then its judge. The output of the attempt goes to the writers in `settings`.
+/// Runs an attempt and then its judge. The output of the attempt goes to the writers in `settings`; the judge prints nothing.
 pub fn judge(exercise: &Exercise, attempt: &Program, settings: RunSettings) -> AttemptVerdict {
     let mut limits = settings.limits;
     limits.time = limits.time.or(Some(DEFAULT_TIME_LIMIT));
@@ -72,7 +72,7 @@ impl JudgingContext {
     fn run_judge(&self, exercise: &Exercise, attempt: &Program) -> Result<(), AttemptVerdict> {
         let mut scope = Scope::new();
         let held = self.run_judge_within(&mut scope, exercise, attempt);
-        // The limits still apply while the data of the attempt are dropped, because this may take time and memory too.
+        // The limits also apply while the data of the attempt are dropped, because dropping may need time and memory.
         let _limits_kept = self.engine.watch().map_err(|halt| self.verdict(halt))?;
         drop(scope);
         held
@@ -128,7 +128,7 @@ impl JudgingContext {
                 continue;
             };
             let value = value.flatten_clone();
-            // The engine's type names for texts and functions differ from those in headers.
+            // For texts and functions, the type names of the script engine differ from those in the headers.
             let found = match value.type_id() {
                 _ if value.is_string() => "text",
                 function if function == TypeId::of::<FnPtr>() => "function",
@@ -139,7 +139,7 @@ impl JudgingContext {
                     let value = callable(name, value, functions);
                     _ = seen.push_dynamic(name.as_str(), value);
                 }
-                // Integers are accepted as numbers.
+                // The judge accepts an integer where it requires a number.
                 "whole number" if of == "number" => {
                     let number = value.as_int().unwrap_or_default() as f64;
                     seen.push(name.as_str(), number);
@@ -179,7 +179,7 @@ impl JudgingContext {
     }
 }
 
-/// Makes a function of the attempt callable by the judge. It carries the functions of its file, and sees nothing of the judge.
+/// Makes a function of the attempt callable by the judge. The function can call other functions of its own file, but it cannot access the judge.
 fn callable(name: &str, value: Dynamic, functions: &AST) -> Dynamic {
     let Some(function) = value.clone().try_cast::<FnPtr>() else { return value };
     let definition = functions.iter_functions().find(|known| known.name == function.fn_name());
@@ -200,7 +200,7 @@ fn callable(name: &str, value: Dynamic, functions: &AST) -> Dynamic {
             arguments.iter_mut().map(|argument| std::mem::take(*argument)).collect();
         function.call_raw(&inner, None, arguments)
     };
-    // The function is marked as deprecated only because it is volatile.
+    // `FnPtr::from_fn` is marked as deprecated only because its interface may change.
     #[allow(deprecated)]
     FnPtr::from_fn("of_the_attempt", call).map_or(value, Dynamic::from)
 }

@@ -1,4 +1,5 @@
-//! File of the marks of a class, with one JSON line per mark. Each run appends its marks. Marks of unchanged attempts are reused.
+//! File with the marks of a class, one mark per line in JSON. Each run appends its marks. The mark of an attempt that has not changed since is
+//! reused.
 
 use std::collections::BTreeMap;
 use std::fs::{File, TryLockError};
@@ -33,15 +34,15 @@ struct KnownMark {
 #[derive(Debug)]
 pub struct MarksFile(File);
 
-/// Opens or creates a file of marks.
+/// Opens the file of marks and reads it. The file is created if it does not exist.
 ///
 /// # Errors
-/// Fails if it cannot be read or written, another run uses it, or it exists and contains no marks.
+/// Fails if the file cannot be read or written, if another run uses it, or if it is not a file of marks.
 pub fn open(path: &Path) -> io::Result<(KnownMarks, MarksFile)> {
     let folder = path.parent().unwrap_or(Path::new("."));
     let (folder, name) = (Folder::open(folder)?, Path::new(path.file_name().unwrap_or_default()));
     let mut file = folder.append(name)?;
-    // The file is locked before it is read, so that marks of another run are not missed.
+    // The file is locked before it is read, so that no mark of another run is missed.
     file.try_lock().map_err(|refused| match refused {
         TryLockError::WouldBlock => io::Error::other("another process is writing to it"),
         TryLockError::Error(error) => error,
@@ -49,12 +50,12 @@ pub fn open(path: &Path) -> io::Result<(KnownMarks, MarksFile)> {
     let bytes = folder.read(name, LARGEST)?;
     let text = String::from_utf8_lossy(&bytes);
     let known: Vec<_> = text.lines().filter_map(read_line).collect();
-    // If a run was killed while it wrote the first mark, the file has a single incomplete line.
+    // The file may consist of one incomplete line, if a run was killed while it wrote the first mark.
     let begun = text.trim();
     if known.is_empty() && !begun.starts_with(HEAD) && !HEAD.starts_with(begun) {
         return Err(io::Error::other("the file exists and is not a file of marks"));
     }
-    // If a run was killed, its last line may be incomplete. The line is completed or removed.
+    // The last line may be incomplete, if a run was killed. It is then removed; if only its line break is missing, the line break is added.
     let whole = bytes.iter().rposition(|byte| *byte == b'\n').map_or(0, |end| end + 1);
     match &bytes[whole..] {
         [] => (),
@@ -68,7 +69,7 @@ fn read_line(line: &str) -> Option<(StudentExercise, KnownMark)> {
     let line: Value = serde_json::from_str(line).ok()?;
     let text = |key: &str| Some(line.get(key)?.as_str()?.to_owned());
     let mark = Mark::of(&text("result")?)?;
-    // Attempts whose marks have no fingerprint are judged again.
+    // A mark without a fingerprint is not reused, so its attempt is judged again.
     let fingerprint = text("fingerprint").unwrap_or_default();
     let known = KnownMark { fingerprint, mark, message: text("message")? };
     Some(((text("student")?, text("exercise")?), known))
@@ -87,7 +88,7 @@ impl KnownMarks {
 }
 
 impl MarksFile {
-    /// Appends a mark and writes the file to disk. Without a fingerprint, the attempt will be judged again.
+    /// Appends a mark and flushes the file to disk. Without a fingerprint, the next run judges the attempt again.
     ///
     /// # Errors
     /// Fails if writing fails.

@@ -1,4 +1,4 @@
-//! Progress of a student: passed exercises and given hints, in a small file.
+//! Progress of a student: the passed exercises and the hints given so far. It is stored in a small file.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::io::ErrorKind;
@@ -11,13 +11,13 @@ use super::exercise::Exercise;
 use crate::output::write_atomic;
 use crate::sandbox_fs::read_text;
 
-/// Maximum size of the file [bytes].
+/// Maximum size of the progress file [bytes].
 const LARGEST: u64 = 1 << 20;
 
-/// Name of the progress file, which identifies the folder of a student.
+/// Name of the progress file. A folder that contains this file is the folder of a student.
 pub const FILE: &str = "withy-progress.json";
 
-/// Progress of a student. Entries of exercises that this version does not have are kept.
+/// Progress of a student. Entries for exercises that do not exist in this version of the program are kept.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct StudentProgress {
@@ -26,7 +26,7 @@ pub struct StudentProgress {
 }
 
 impl StudentProgress {
-    /// Reads the progress from a student's folder; empty if there is no file.
+    /// Reads the progress from a student's folder. The progress is empty if there is no progress file.
     ///
     /// # Errors
     /// Fails if the file cannot be read or is damaged.
@@ -43,7 +43,7 @@ impl StudentProgress {
     /// Writes the progress to a student's folder.
     ///
     /// # Errors
-    /// Fails if writing fails. The old file is then unchanged.
+    /// Fails if the file cannot be written. The old file is then unchanged.
     pub fn write(&self, folder: &Path) -> Result<(), ExerciseError> {
         let text = format!("{:#}\n", serde_json::json!(self));
         Ok(write_atomic(folder.join(FILE), text.as_bytes())?)

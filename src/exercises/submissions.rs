@@ -1,4 +1,4 @@
-//! Folders of a class: students and their attempts.
+//! Folders of a class with the attempts of its students.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -10,16 +10,17 @@ use super::workbook;
 
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Submission {
-    /// Name of the student: that of the folder.
+    /// Name of the student, which is the name of the folder.
     pub student: String,
     pub folder: PathBuf,
 }
 
 impl Submission {
-    /// Submissions in a folder, by name. Each subfolder is a submission. If the folder itself contains attempts, it is the only submission.
+    /// Returns the submissions in a folder, sorted by name. Each subfolder is one submission. If the folder itself contains attempts, it is the
+    /// only submission.
     ///
     /// # Errors
-    /// Fails if the folder cannot be read, or there is nothing to grade.
+    /// Fails if the folder cannot be read, or if it contains nothing to grade.
     pub fn all_in(folder: &Path) -> Result<Vec<Self>, ExerciseError> {
         let unreadable = |source| ExerciseError::Read { path: folder.into(), source };
         let own = Self::new(folder);
@@ -46,19 +47,19 @@ impl Submission {
     }
 
     fn new(folder: &Path) -> Self {
-        // If the path cannot be resolved, it is used as given. Errors are reported when its files are read.
+        // A path that cannot be resolved is used as given. An error is then reported when the files of the submission are read.
         let real = folder.canonicalize().unwrap_or_else(|_| folder.into());
         let name = real.file_name().map(|name| name.to_string_lossy().into_owned());
         Self { student: name.unwrap_or_else(|| ".".into()), folder: folder.into() }
     }
 
-    /// Returns true if the folder of the submission is a link, which could lead to the work of another student.
+    /// Returns true if the folder of the submission is a link. Such a link could lead to the work of another student.
     pub fn is_link(&self) -> bool {
         fs::symlink_metadata(&self.folder).is_ok_and(|about| about.is_symlink())
     }
 
-    /// File of the student's attempt. It may be in the folder of its track, with or without the folder that `withy learn` creates, or directly in the
-    /// submission.
+    /// Returns the file of the student's attempt. It may be in the folder of its track, or directly in the folder of the submission. The folder of
+    /// the track may be inside the folder that `withy learn` creates.
     pub fn attempt(&self, exercise: &Exercise) -> Option<PathBuf> {
         let inside = self.folder.join(workbook::FOLDER);
         let places = [

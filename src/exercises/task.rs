@@ -1,20 +1,20 @@
-//! Task of an exercise: the comment at the beginning of its start file, as paragraphs.
+//! Task of an exercise, as paragraphs. The task is the comment at the beginning of the start file.
 
 use super::exercise::Exercise;
 
-/// Beginning of the paragraph that states what to do.
+/// First words of the paragraph that tells the student what to do.
 pub const TO_DO: &str = "To do:";
 
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Paragraph {
     /// Text that may be wrapped.
     Words(String),
-    /// Preformatted lines, such as formulas and tables.
+    /// Preformatted lines, for example a formula or a table.
     Set(Vec<String>),
 }
 
 impl Exercise {
-    /// Paragraphs below the title; the last one states what to do.
+    /// Returns the paragraphs below the title. The last paragraph tells the student what to do.
     pub fn task(&self) -> Vec<Paragraph> {
         let below_title = self.start.lines().skip(1);
         let mut paragraphs = Vec::new();

@@ -1,7 +1,7 @@
-//! Detection of saved attempts.
+//! Detects that the file of an attempt was saved.
 //!
-//! Files are read and compared a few times per second. This works with all file systems and editors, including editors that replace the file. Files
-//! saved without changes are ignored.
+//! All files are read a few times per second and compared with their previous contents. This works with all file systems, and with all editors,
+//! including editors that replace the file. A file that was saved without changes is ignored.
 
 use std::time::Duration;
 
@@ -13,7 +13,7 @@ use crate::sandbox_fs::read_file;
 
 pub const INTERVAL: Duration = Duration::from_millis(200);
 
-/// Contents of a student's attempts at the last check.
+/// Contents of all attempts of a student at the last check.
 pub struct Watcher<'a> {
     workbook: &'a Workbook,
     files: Vec<Seen>,
@@ -26,14 +26,14 @@ struct Seen {
 }
 
 impl<'a> Watcher<'a> {
-    /// Reads the attempts of a workbook for the first time.
+    /// Reads all attempts of a workbook. Later changes are detected relative to these contents.
     pub fn new(workbook: &'a Workbook) -> Self {
         let look = |exercise| Seen { content: content(workbook, exercise), was_missing: false };
         Self { workbook, files: EXERCISES.iter().map(look).collect() }
     }
 
-    /// First exercise in the order of the catalogue whose file has changed. A file that is empty or missing at a single check, as while it is saved,
-    /// has not changed.
+    /// Returns the first exercise, in the order of the catalogue, whose file has changed. A file that is empty or missing at only one check counts
+    /// as unchanged, because an editor is probably saving it.
     pub fn changed(&mut self) -> Option<&'static Exercise> {
         EXERCISES.iter().zip(&mut self.files).find_map(|(exercise, seen)| {
             let now = content(self.workbook, exercise);
@@ -49,7 +49,7 @@ impl<'a> Watcher<'a> {
     }
 }
 
-/// Content of a file; `None` if it is unreadable, which the next run reports.
+/// Returns the content of an exercise file; `None` if it is unreadable. The next run of the attempt then reports the error.
 fn content(workbook: &Workbook, exercise: &Exercise) -> Option<Vec<u8>> {
     read_file(&workbook.file(exercise), LARGEST).ok()
 }

@@ -1,4 +1,4 @@
-//! Folder of a student: start files, attempts, progress.
+//! Folder of a student with the start files, the attempts and the progress file.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -19,7 +19,7 @@ pub struct Workbook {
     folder: PathBuf,
 }
 
-/// A hint, or the solution after the last hint.
+/// A hint, or the solution if all hints were given.
 #[derive(Debug, PartialEq, Eq)]
 pub enum Advice {
     Hint {
@@ -27,14 +27,15 @@ pub enum Advice {
         number: usize,
         count: usize,
     },
-    /// The solution, after all hints were given.
+    /// The solution, because all hints were given.
     Solution(&'static str),
 }
 
 impl Workbook {
-    /// Workbook near the folder `here`: `here` or its nearest parent that is a workbook, otherwise a subfolder of `here`. Writes nothing.
+    /// Returns the workbook of the folder `here`: the nearest workbook among `here` and its parent folders, otherwise a new subfolder of `here`.
+    /// Nothing is written.
     pub fn near(here: &Path) -> Self {
-        // If the path cannot be resolved, it is used as given. Errors are reported when it is read.
+        // A path that cannot be resolved is used as given. An error is then reported when the folder is read.
         let real = here.canonicalize().unwrap_or_else(|_| here.into());
         let is_workbook = |folder: &&Path| folder.join(progress::FILE).exists();
         match real.ancestors().find(is_workbook) {
@@ -44,10 +45,10 @@ impl Workbook {
         }
     }
 
-    /// Creates the folder and missing start files. Returns the number of files written.
+    /// Creates the folder and the missing start files. Returns the number of files written.
     ///
     /// # Errors
-    /// Fails if writing fails.
+    /// Fails if the folder or a file cannot be written.
     pub fn fill(&self) -> Result<usize, ExerciseError> {
         let missing: Vec<_> =
             EXERCISES.iter().filter(|exercise| !self.file(exercise).exists()).collect();
@@ -68,40 +69,40 @@ impl Workbook {
         self.folder.join(exercise.track).join(format!("{}.rhai", exercise.name))
     }
 
-    /// Returns true if the file of an exercise differs from its start file.
+    /// Returns true if the file of the exercise differs from its start file.
     pub fn is_begun(&self, exercise: &Exercise) -> bool {
         read_file(&self.file(exercise), LARGEST).is_ok_and(|text| text != exercise.start.as_bytes())
     }
 
-    /// Progress of the student.
+    /// Returns the progress of the student.
     ///
     /// # Errors
-    /// Fails if the progress file cannot be used.
+    /// Fails if the progress file cannot be read or is damaged.
     pub fn progress(&self) -> Result<StudentProgress, ExerciseError> {
         StudentProgress::read(&self.folder)
     }
 
-    /// First exercise that was not passed; `None` if all were passed.
+    /// Returns the first exercise that has not been passed; `None` if all exercises have been passed.
     ///
     /// # Errors
-    /// Fails if the progress file cannot be used.
+    /// Fails if the progress file cannot be read or is damaged.
     pub fn next(&self) -> Result<Option<&'static Exercise>, ExerciseError> {
         let progress = self.progress()?;
         Ok(EXERCISES.iter().find(|exercise| !progress.has_passed(exercise)))
     }
 
-    /// Records the result of a check.
+    /// Records whether the attempt at an exercise passed.
     ///
     /// # Errors
-    /// Fails if the progress file cannot be used.
+    /// Fails if the progress file cannot be read or written.
     pub fn record(&self, exercise: &Exercise, passed: bool) -> Result<(), ExerciseError> {
         self.change(|progress| progress.record(exercise, passed))
     }
 
-    /// Next hint of an exercise. The hint is recorded as given.
+    /// Returns the next hint of an exercise, and records that it was given.
     ///
     /// # Errors
-    /// Fails if the progress file cannot be used.
+    /// Fails if the progress file cannot be read or written.
     pub fn hint(&self, exercise: &Exercise) -> Result<Advice, ExerciseError> {
         let given = self.progress()?.hints(exercise);
         let hints = exercise.judge().hints;
@@ -112,10 +113,10 @@ impl Workbook {
         Ok(Advice::Hint { text, number: given + 1, count: hints.len() })
     }
 
-    /// Restores the start file of an exercise. Returns the path under which the attempt is kept.
+    /// Restores the start file of an exercise. The attempt is kept under another name. Returns the path of the kept attempt.
     ///
     /// # Errors
-    /// Fails if writing fails. The attempt is then unchanged.
+    /// Fails if a file cannot be renamed or written. The attempt is not lost.
     pub fn reset(&self, exercise: &Exercise) -> Result<PathBuf, ExerciseError> {
         let file = self.file(exercise);
         let kept = free_name(&file);
@@ -129,7 +130,7 @@ impl Workbook {
         Ok(kept)
     }
 
-    /// The file is read again for each change, because another window may have changed it.
+    /// Changes the progress file. The file is read again for each change, because the program in another window may have changed it.
     fn change(&self, change: impl FnOnce(&mut StudentProgress)) -> Result<(), ExerciseError> {
         let before = self.progress()?;
         let mut progress = before.clone();
@@ -138,7 +139,7 @@ impl Workbook {
     }
 }
 
-/// `name.old`; if it exists, `name.old2` and so on.
+/// Returns the first unused name among `name.old`, `name.old2` and so on.
 fn free_name(file: &Path) -> PathBuf {
     let numbered = |number: usize| match number {
         1 => file.with_extension("old"),

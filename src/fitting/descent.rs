@@ -1,4 +1,4 @@
-//! Constrained minimisation with derivatives.
+//! Constrained minimisation that uses derivatives of the objective and the constraints.
 
 use std::cell::RefCell;
 
@@ -8,12 +8,12 @@ use super::design::{PENALTY, Scaled};
 use super::gradient_check::{REJECTED_DERIVATIVES, matches_derivatives, test_points};
 use super::{Design, Designed, Rating};
 
-/// Number of restarts. If the last solution slightly violated a constraint, the constraint is tightened.
+/// Maximum number of runs of SLSQP. If a solution slightly violates a constraint, the next run starts there with tightened constraints.
 const RESTARTS: usize = 4;
-/// Final step size, relative to the tolerance. It can be small, because convergence is fast near the end.
+/// Step size at which SLSQP stops, as a fraction of the tolerance. It can be small, because convergence is fast near the solution.
 const SHORTER: f64 = 0.1;
 
-/// Objective and constraints, with derivatives with respect to all parameters.
+/// Objective and constraints of a design, with their derivatives with respect to all parameters.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SlopedRating {
     pub rating: Rating,
@@ -21,7 +21,7 @@ pub struct SlopedRating {
     pub constraints: Vec<Vec<f64>>,
 }
 
-/// Values with derivatives, or the reason for missing derivatives.
+/// Objective and constraints with derivatives, or the reason why derivatives are missing.
 pub type SlopesOfRating = Result<SlopedRating, String>;
 
 /// Evaluates a design; `None` if the run fails.
@@ -34,7 +34,7 @@ struct Descent<'d, 'f, E> {
     rate_with_slopes: &'d mut RateWithSlopes<'f, E>,
     rate: &'d mut Rate<'f, E>,
     best: Option<(Vec<f64>, Rating)>,
-    /// Last evaluated design, in scaled parameters.
+    /// Design that was evaluated last, in scaled parameters.
     last: Option<(Vec<f64>, SlopedRating)>,
     worst: f64,
     runs: usize,
@@ -68,7 +68,7 @@ impl<E> Descent<'_, '_, E> {
 
     fn evaluate(&mut self, scaled: &[f64]) -> Result<Option<SlopedRating>, Ended<E>> {
         let x = self.design.unscaled(scaled);
-        // The run is counted once, although a missing derivative needs a second call.
+        // The design counts as one run, although a second call is needed if derivatives are missing.
         self.runs += 1;
         match (self.rate_with_slopes)(&x).map_err(Ended::Error)? {
             Ok(mut found) => {
@@ -96,7 +96,7 @@ impl<E> Descent<'_, '_, E> {
         }
     }
 
-    /// Checks the derivatives of objective and constraints against values for plain numbers.
+    /// Returns true if the derivatives of objective and constraints agree with finite differences of values that are computed without derivatives.
     fn are_true(&mut self, x: &[f64], found: &SlopedRating) -> Result<bool, Ended<E>> {
         let [low, high] = test_points(&self.design.ranges, x);
         self.runs += 2;
@@ -137,11 +137,13 @@ impl<E> Descent<'_, '_, E> {
 }
 
 impl Design {
-    /// Minimises as [`solve`](Self::solve), with derivatives, by D. Kraft's SLSQP (1988). It solves quadratic models of the objective, whose second
-    /// derivatives are BFGS updates, under linearised constraints. If derivatives are missing or the method fails, `solve` continues from the best
-    /// design.
+    /// Minimises like [`solve`](Self::solve), but with derivatives, by SLSQP (D. Kraft, 1988).
+    ///
+    /// Each step of SLSQP minimises a quadratic model of the objective under linearised constraints. The second derivatives of the model come from
+    /// BFGS updates. If derivatives are missing or SLSQP fails, `solve` continues from the best design found so far.
     ///
     /// # Errors
+    /// Returns the first error of `sloped` or `rate`.
     /// First error of `rate_with_slopes` and `rate`.
     pub fn solve_with<'f, E>(
         &self,
@@ -182,7 +184,7 @@ impl Design {
         if without.is_none() || runs >= self.most_runs {
             return Ok(found);
         }
-        // Starts at the result of the descent, where the values are known.
+        // `solve` starts at the best design of SLSQP. The values of this design are known and are not computed again.
         let mut known = found.as_ref().map(|found| found.rating.clone());
         let asked_again = usize::from(known.is_some());
         let mut rest = Self { most_runs: self.most_runs - runs + asked_again, ..self.clone() };
@@ -194,7 +196,7 @@ impl Design {
             Some(rating) => Ok(Some(rating)),
             None => rate(x),
         })?;
-        // The search starts from the best design of the descent, so its result is never worse.
+        // `solve` starts at the best design of SLSQP. Therefore its result is never worse.
         Ok(more.map(|more| Designed {
             runs: runs + more.runs - asked_again,
             gradient_runs,
@@ -241,7 +243,7 @@ impl Design {
             if missed.rating.is_feasible() {
                 return true;
             }
-            // The solution may be slightly on either side of the boundary.
+            // The margin is twice the violation, because the solution may lie slightly on either side of the limit.
             margin += 2.0 * missed.rating.largest_violation();
             start = at;
         }
@@ -265,7 +267,7 @@ mod tests {
         Design { ranges: ranges.collect(), constraints, tolerance: 1e-4, most_runs: 500 }
     }
 
-    /// Powell's test problem 2 (1994): x y has its minimum -1/2 on the unit disc.
+    /// Test problem 2 of M. J. D. Powell (1994): on the unit disc the product x y has the minimum -1/2.
     fn product(x: &[f64]) -> SlopedRating {
         SlopedRating {
             rating: Rating {
@@ -293,7 +295,7 @@ mod tests {
         assert!(2 * found.runs < without.unwrap().runs, "{found:?}");
     }
 
-    /// H. H. Rosenbrock's valley (1960), with a bound that excludes the minimum; the solution is then (0.5, 0.25).
+    /// Valley of H. H. Rosenbrock (1960), also with a bound that excludes its minimum. The solution with this bound is (0.5, 0.25).
     #[test]
     fn a_valley_is_followed_to_its_end_or_to_a_bound() {
         let rosenbrock = |x: &[f64]| {

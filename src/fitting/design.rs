@@ -1,4 +1,4 @@
-//! Constrained minimisation: without derivatives here, with derivatives in [`descent`](super::descent).
+//! Constrained minimisation without derivatives. The module [`descent`](super::descent) minimises with derivatives.
 
 use std::cell::RefCell;
 
@@ -6,20 +6,21 @@ use cobyla::{RhoBeg, StopTols, minimize};
 
 use super::SearchRange;
 
-/// Initial step, relative to the size of the parameters.
+/// First step, as a fraction of the size of the parameters.
 const FIRST_STEP: f64 = 0.1;
-/// Violation of a constraint, relative to its size, below which the constraint is met.
+/// Largest violation for which a constraint counts as met. Constraints are scaled to order one.
 const MET: f64 = 1e-6;
-/// Distance from zero, relative to the size of a parameter, above which an unbounded parameter counts as diverged.
+/// Distance from zero, as a multiple of the size of a parameter, at which the search of an unbounded parameter ends. A parameter that comes near
+/// this distance counts as diverged.
 const FARTHEST: f64 = 1e15;
-/// Penalty of a failed run, added to the worst objective.
+/// Added to the worst objective so far to obtain the objective of a design whose run fails.
 pub(super) const PENALTY: f64 = 10.0;
 
 #[derive(Clone, Debug, PartialEq)]
 pub struct Design {
     pub ranges: Vec<SearchRange>,
     pub constraints: usize,
-    /// Tolerance of the parameters, relative to their sizes.
+    /// Tolerance of the parameters, as a fraction of their sizes.
     pub tolerance: f64,
     pub most_runs: usize,
 }
@@ -27,7 +28,7 @@ pub struct Design {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Rating {
     pub objective: f64,
-    /// Constraints, scaled to order one. They are met if not negative.
+    /// Values of the constraints, scaled to order one. A constraint is met if its value is not negative.
     pub constraints: Vec<f64>,
 }
 
@@ -38,10 +39,10 @@ pub struct Designed {
     pub is_feasible: bool,
     /// True if the search converged within the allowed number of runs and no parameter diverged.
     pub is_settled: bool,
-    /// Index of an unbounded parameter that diverged, because the objective decreases without limit.
+    /// Index of the unbounded parameter that diverged, because the objective decreases without limit along it; `None` if no parameter diverged.
     pub runaway: Option<usize>,
     pub runs: usize,
-    /// Number of calls with derivatives, included in `runs`.
+    /// Number of calls with derivatives. They are included in `runs`.
     pub gradient_runs: usize,
     pub derivative_free_reason: Option<String>,
 }
@@ -60,7 +61,7 @@ struct DesignSearch<E> {
 }
 
 impl Rating {
-    /// Largest violation of a constraint; zero if all are met.
+    /// Returns the largest violation of a constraint; zero if all constraints are met.
     pub fn largest_violation(&self) -> f64 {
         let missed = self.constraints.iter().map(|value| (-value).max(0.0));
         missed.fold(0.0, f64::max)
@@ -70,7 +71,8 @@ impl Rating {
         self.largest_violation() <= MET
     }
 
-    /// Returns true if this result is better: feasible with a lower objective, or with a smaller violation.
+    /// Returns true if this design is better than `other`. A feasible design is better than an infeasible one. Of two feasible designs, the one
+    /// with the lower objective is better; of two infeasible designs, the one with the smaller violation.
     pub(super) fn is_better_than(&self, other: &Self) -> bool {
         match (self.is_feasible(), other.is_feasible()) {
             (true, true) => self.objective < other.objective,
@@ -81,12 +83,13 @@ impl Rating {
 }
 
 impl Design {
-    /// Finds the feasible design with the lowest objective, by M. J. D. Powell's COBYLA (1994), which uses linear models of objective and constraints
-    /// on a simplex. The best of all evaluated designs is returned. If a run fails, `rate` returns `None`, and the search avoids the design. Returns
-    /// `None` if all runs fail.
+    /// Finds the feasible design with the lowest objective by COBYLA (M. J. D. Powell, 1994).
+    ///
+    /// COBYLA uses linear models of objective and constraints on a simplex. The best of all evaluated designs is returned. If a run fails, `rate`
+    /// must return `None`, and the search avoids this design. Returns `None` if all runs fail.
     ///
     /// # Errors
-    /// First error of `rate`.
+    /// Returns the first error of `rate`.
     pub fn solve<E>(
         &self,
         rate: impl FnMut(&[f64]) -> Result<Option<Rating>, E>,
@@ -96,7 +99,7 @@ impl Design {
         let rate = RefCell::new(rate);
         let search =
             RefCell::new(DesignSearch { best: None, last: None, worst: 0.0, runs: 0, error: None });
-        // Objective and constraints are requested separately for the same design.
+        // COBYLA requests the objective and each constraint of the same design in separate calls. Therefore the last result is stored.
         let rated = |u: &[f64]| -> Rating {
             let mut search = search.borrow_mut();
             if let Some((at, rating)) = &search.last
@@ -174,7 +177,7 @@ impl Design {
         Scaled { start, bounds }
     }
 
-    /// Index of the first parameter that diverged on an unbounded side.
+    /// Returns the index of the first parameter that diverged in a direction without bound.
     pub(super) fn runaway(&self, parameters: &[f64]) -> Option<usize> {
         self.ranges.iter().zip(parameters).position(|(range, x)| {
             let bound = if *x < 0.0 { range.low } else { range.high };
@@ -210,7 +213,7 @@ mod tests {
         found.unwrap()
     }
 
-    /// Smallest product of two numbers on the unit circle (Powell 1994, test problem 2).
+    /// Test problem 2 of M. J. D. Powell (1994): smallest product of the coordinates of a point on the unit circle.
     #[test]
     fn a_product_on_a_circle_is_least_where_both_are_equal() {
         let found = solved(&[(1.0, -2.0, 2.0), (0.5, -2.0, 2.0)], 1, |x| {

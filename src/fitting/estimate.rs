@@ -1,28 +1,31 @@
-//! Uncertainty of fitted parameters.
+//! Uncertainty of the parameters of a fit.
 
 use nalgebra::DMatrix;
 
 use super::student_quantile;
 
-/// Uncertainty of fitted parameters, from the scatter of the residuals.
+/// Uncertainty of the parameters of a fit, computed from the scatter of the residuals.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Estimate {
-    /// Standard deviation of a weighted residual: square root of the sum of squares divided by the degrees of freedom.
+    /// Standard deviation of a weighted residual: the square root of the ratio of the sum of squares to the degrees of freedom.
     pub deviation: f64,
-    /// Degrees of freedom: residuals minus parameters.
+    /// Degrees of freedom: number of residuals minus number of free parameters.
     pub freedom: usize,
-    /// Covariance matrix of the parameters, by rows.
+    /// Covariance matrix of the parameters, as a list of its rows.
     pub covariance: Vec<Vec<f64>>,
 }
 
 impl Estimate {
-    /// Estimate from the derivatives of weighted residuals at the minimum, `C = s² (JᵀJ)⁻¹`; `None` without degrees of freedom, or if the derivatives
-    /// are linearly dependent. Parameters at bounds are not `free` and count as known. Parameters on which no residual depends have NaN covariances.
+    /// Computes the estimate from the derivatives `J` of the weighted residuals at the minimum: `C = s² (JᵀJ)⁻¹` with the covariance matrix `C` and
+    /// the variance `s²` of a residual. `squares` is the sum of the squared residuals.
+    ///
+    /// Returns `None` if there are no degrees of freedom or the derivatives are linearly dependent. A parameter that is not `free`, because it is
+    /// at a bound, counts as known. The covariances of a parameter on which no residual depends are NaN.
     pub fn of(derivatives: &DMatrix<f64>, squares: f64, free: &[bool]) -> Option<Self> {
         let columns: Vec<usize> = (0..free.len()).filter(|at| free[*at]).collect();
         let freedom = derivatives.nrows().checked_sub(columns.len()).filter(|left| *left > 0)?;
         let chosen = derivatives.select_columns(&columns);
-        // Columns are normalised, because parameters may have very different sizes.
+        // The columns are normalised, because the parameters may have very different sizes.
         let sizes: Vec<f64> = chosen.column_iter().map(|column| column.norm()).collect();
         let scaled = DMatrix::from_fn(chosen.nrows(), chosen.ncols(), |row, column| {
             chosen[(row, column)] / sizes[column]
@@ -45,13 +48,13 @@ impl Estimate {
         Some(Self { deviation: variance.sqrt(), freedom, covariance })
     }
 
-    /// Standard error of a parameter; `None` if no residual depends on it.
+    /// Returns the standard error of a parameter; `None` if no residual depends on it.
     pub fn error(&self, parameter: usize) -> Option<f64> {
         Some(self.covariance[parameter][parameter].sqrt()).filter(|error| !error.is_nan())
     }
 
-    /// Half width of the confidence interval of a parameter for a probability such as 0.95, by Student's distribution; `None` if no
-    /// residual depends on it.
+    /// Returns half the width of the confidence interval of a parameter, by Student's distribution. `probability` is the confidence level, for
+    /// example 0.95. Returns `None` if no residual depends on the parameter.
     pub fn half_width(&self, parameter: usize, probability: f64) -> Option<f64> {
         let quantile = student_quantile(0.5 + probability / 2.0, self.freedom as f64);
         Some(self.error(parameter)? * quantile)
@@ -62,7 +65,7 @@ impl Estimate {
 mod tests {
     use super::*;
 
-    /// Straight line fit: textbook formulas of the errors of slope and intercept.
+    /// The errors of slope and intercept of a fitted straight line must agree with the formulas of textbooks.
     #[test]
     fn errors_of_a_straight_line_are_those_of_textbooks() {
         let x = [0.0, 1.0, 2.0, 3.0, 4.0];

@@ -1,4 +1,4 @@
-//! Evaluation of a function and its derivatives, with the number of calls.
+//! Evaluates a function and its derivatives, and counts the calls.
 
 use nalgebra::{DMatrix, DVector};
 
@@ -11,9 +11,9 @@ pub struct CountedEvaluator<'a, 'e, E> {
     slopes: &'a mut Slopes<'e, E>,
     ranges: &'a [SearchRange],
     pub runs: usize,
-    /// Number of calls with derivatives.
+    /// Number of calls that returned derivatives.
     pub gradient_runs: usize,
-    /// Reason why derivatives are no longer requested from the function.
+    /// Reason why derivatives are computed by finite differences and no longer requested from the function; `None` while they are requested.
     pub differences: Option<String>,
 }
 
@@ -31,10 +31,10 @@ impl<'a, 'e, E> CountedEvaluator<'a, 'e, E> {
         Self { evaluate, slopes, ranges, runs: 0, gradient_runs: 0, differences: None }
     }
 
-    /// Values at a point, with derivatives if the function provides them. The first derivatives are checked against finite differences.
+    /// Returns the values at a point, with derivatives if the function provides them. The first derivatives are checked against finite differences.
     ///
     /// # Errors
-    /// Errors of the function.
+    /// Returns an error of the function.
     pub fn at(&mut self, x: &[f64]) -> Result<EvaluatedPoint, E> {
         let mut unknown = None;
         if self.differences.is_none() {
@@ -55,7 +55,7 @@ impl<'a, 'e, E> CountedEvaluator<'a, 'e, E> {
         }
         self.runs += 1;
         let values = only((self.evaluate)(&[x.to_vec()])?);
-        // A failed evaluation is no evidence against the derivatives.
+        // If the values without derivatives cannot be computed either, the failure does not mean that derivatives are missing or wrong.
         if values.is_ok() && self.differences.is_none() {
             self.differences = unknown;
         }
@@ -72,10 +72,10 @@ impl<'a, 'e, E> CountedEvaluator<'a, 'e, E> {
         Ok(matches_derivatives([low, high], here, |at| change[at]))
     }
 
-    /// Derivatives at a point by finite differences; `here` are the values there.
+    /// Computes the derivatives at a point by finite differences. `here` contains the values at the point.
     ///
     /// # Errors
-    /// Errors of the function. The inner error names the call that failed.
+    /// Returns an error of the function. The inner error is the reason why an evaluation failed.
     pub fn differences(
         &mut self,
         ranges: &[SearchRange],

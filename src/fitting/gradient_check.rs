@@ -1,25 +1,27 @@
-//! Check of supplied derivatives against finite differences. A function that branches on its argument or rounds it has wrong derivatives.
+//! Checks derivatives that a function returns against finite differences. The derivatives are wrong if the function depends on its argument in a
+//! way that they do not contain, for example by rounding it or by a branch.
 
 use super::SearchRange;
 
-/// Perturbation of the check, relative to the sizes of the parameters.
+/// Largest perturbation of a parameter in the check, as a fraction of the size of the parameter.
 const DISTANCE: f64 = 1e-4;
 
-/// Relative tolerance. It is far above the error of the differences and far below that of wrong derivatives.
+/// Relative tolerance of the check. It is far above the error of the finite differences and far below the error of wrong derivatives.
 const OFF: f64 = 0.02;
 
-/// Difference, relative to the values, below which it is ignored.
+/// Deviation that is ignored because of rounding, as a fraction of the values.
 const ROUNDING: f64 = 1e-7;
 
 pub const REJECTED_DERIVATIVES: &str =
     "the derivatives of the runs differ from finite differences of their results";
 
-/// Two points on both sides of `x`, or on one side at a bound. Each parameter is changed by a different fraction of its size.
+/// Returns two points, one on each side of `x`. At a bound, one of them is cut off at the bound. Each parameter is changed by a different fraction
+/// of its size.
 pub fn test_points(ranges: &[SearchRange], x: &[f64]) -> [Vec<f64>; 2] {
     let moved = |sign: f64| {
         let parameters = x.iter().zip(ranges).enumerate();
         let moved = parameters.map(|(at, (x, range))| {
-            // The fractions are all different, so that errors cannot cancel.
+            // The fractions are different, so that errors of the derivatives cannot cancel.
             let part = 0.5 + 0.5 * (1.0 + at as f64).recip();
             range.clip(x + sign * part * DISTANCE * range.size(*x))
         });
@@ -28,7 +30,10 @@ pub fn test_points(ranges: &[SearchRange], x: &[f64]) -> [Vec<f64>; 2] {
     [moved(-1.0), moved(1.0)]
 }
 
-/// Returns true if the values at two points differ as the derivatives predict, and their mean is close to the values at the point between them.
+/// Returns true if derivatives agree with the values at two points and at the point `here` between them.
+///
+/// `change` returns the difference of a value between the two points as predicted by the derivatives. The actual differences must agree with it,
+/// and the mean of the values at the two points must be close to the values at `here`.
 pub fn matches_derivatives(
     values: [&[f64]; 2],
     here: &[f64],
@@ -45,7 +50,7 @@ pub fn matches_derivatives(
     let off = norm(&|at| high[at] - low[at] - change(at));
     let aside = norm(&|at| 0.5 * (low[at] + high[at]) - here[at]);
     let floor = ROUNDING * norm(&|at| here[at]);
-    // Values that are not finite are no evidence against the derivatives.
+    // Values that are not finite do not show that the derivatives are wrong. Therefore the negated comparison is used, which is true for NaN.
     !(off > OFF * difference.max(promised) + floor || aside > difference.max(promised) + floor)
 }
 

@@ -1,4 +1,4 @@
-//! Least squares: bounded Levenberg–Marquardt method with few runs.
+//! Least squares by a Levenberg–Marquardt method with bounds. The method needs few runs.
 
 use nalgebra::{DMatrix, DVector};
 
@@ -6,35 +6,36 @@ use super::evaluator::{CountedEvaluator, EvaluatedPoint};
 use super::{Estimate, Evaluate, RELATIVE_STEP, SearchRange, Slopes};
 
 const MOST_ITERATIONS: usize = 30;
-/// Maximum number of steps per round with updated derivatives, in addition to one per parameter.
+/// Maximum number of steps with updated derivatives, before the derivatives are computed again. The number of parameters is added to it.
 const MORE_STEPS: usize = 6;
-/// Change of a parameter, relative to its size, below which the search has converged.
+/// Change of a parameter, as a fraction of its size, below which the search has converged.
 const SETTLED: f64 = 1e-7;
-/// Relative change of the parameters up to which derivatives count as current.
+/// Largest change of a parameter, as a fraction of its size, for which the derivatives still count as accurate.
 const NEAR: f64 = 0.02;
-/// Cosine of the angle between the residuals and the columns of the Jacobian below which the search has converged.
+/// Cosine of the angle between the residuals and a column of the Jacobian. If all these cosines are smaller than this value, the search has
+/// converged.
 const ORTHOGONAL: f64 = 1e-7;
-/// Smallest predicted reduction of the sum of squares, relative to it, for which a step is taken. A smaller reduction changes parameters by less than
-/// `1e-3 √(n - p)` of their standard errors, for `n` residuals and `p` parameters.
+/// Smallest predicted reduction of the sum of squares, as a fraction of the sum, for which the search continues. With a smaller reduction,
+/// parameters change by less than `1e-3 √(n - p)` of their standard errors, for `n` residuals and `p` parameters.
 const NOTHING: f64 = 1e-6;
-/// Sum of squares, relative to the initial one, below which it is due to rounding.
+/// Sum of squares, as a fraction of its initial value, below which it is due to rounding.
 const ROUNDING: f64 = 1e-26;
-/// Initial, minimum and maximum damping.
+/// Initial, smallest and largest damping.
 const DAMPING: (f64, f64, f64) = (1e-3, 1e-14, 1e12);
 
 #[derive(Clone, Debug, PartialEq)]
 pub struct LeastSquares {
     pub ranges: Vec<SearchRange>,
-    /// Perturbation for finite differences, relative to the size of a parameter.
+    /// Perturbation for finite differences, as a fraction of the size of a parameter.
     pub relative_step: f64,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum TerminationReason {
     Settled,
-    /// No step reduces the sum of squares, although the derivatives predict it. The cause is the noise of the runs or a discontinuity.
+    /// No step reduces the sum of squares, although the derivatives predict a reduction. The cause is noise of the runs or a discontinuity.
     Stalled,
-    /// The maximum number of rounds was reached.
+    /// The maximum number of iterations was reached.
     Unfinished,
 }
 
@@ -42,13 +43,13 @@ pub enum TerminationReason {
 pub struct Fitted {
     pub parameters: Vec<f64>,
     pub residuals: Vec<f64>,
-    /// Uncertainty of the parameters, if it can be estimated.
+    /// Uncertainty of the parameters; `None` if it cannot be estimated.
     pub estimate: Option<Estimate>,
     pub settling: TerminationReason,
     pub runs: usize,
-    /// Number of calls with derivatives, included in `runs`.
+    /// Number of calls with derivatives. They are included in `runs`.
     pub gradient_runs: usize,
-    /// Reason for finite differences, if they were used.
+    /// Reason why finite differences were used; `None` if the function provided all derivatives.
     pub differences: Option<String>,
     pub steps: usize,
 }
@@ -57,7 +58,7 @@ struct LeastSquaresState {
     x: Vec<f64>,
     residuals: DVector<f64>,
     derivatives: DMatrix<f64>,
-    /// Largest column norms of the derivatives so far, for scaling.
+    /// Largest norm of each column of the derivatives so far. The parameters are scaled by these norms.
     sizes: Vec<f64>,
     damping: f64,
 }
@@ -67,7 +68,7 @@ impl LeastSquaresState {
         self.residuals.norm_squared()
     }
 
-    /// Marks parameters that no bound holds and on which some residual depends.
+    /// Marks the free parameters: no bound prevents their change, and some residual depends on them.
     fn free(&self, ranges: &[SearchRange]) -> Vec<bool> {
         let gradient = self.derivatives.tr_mul(&self.residuals);
         let is_free = |at: usize| {
@@ -89,8 +90,9 @@ impl LeastSquaresState {
         cosines.fold(0.0, f64::max)
     }
 
-    /// Step of the free parameters that minimises `|r + J δ|² + λ |D δ|²`. Parameters that would exceed a bound are fixed at the bound, and the step
-    /// of the others is recomputed.
+    /// Returns the step `δ` of the free parameters that minimises `|r + J δ|² + λ |D δ|²`, with the residuals `r`, their derivatives `J`, the
+    /// damping `λ` and the diagonal scaling `D`. A parameter that would exceed a bound is fixed at the bound, and the step of the other parameters
+    /// is computed again.
     fn step(&self, ranges: &[SearchRange]) -> DVector<f64> {
         let mut free = self.free(ranges);
         let mut step = DVector::zeros(self.x.len());
@@ -140,7 +142,8 @@ impl LeastSquaresState {
         DVector::from_fn(count, |at, _| solution[at] / self.sizes[columns[at]])
     }
 
-    /// Updates the derivatives after a step: C. G. Broyden's rank-one correction (1965), in scaled parameters.
+    /// Updates the derivatives after a step by the rank-one correction of C. G. Broyden (1965), in scaled parameters. `change` is the change of the
+    /// residuals in this step.
     fn update_derivatives(&mut self, step: &DVector<f64>, change: &DVector<f64>) {
         let scaled =
             DVector::from_fn(step.len(), |at, _| step[at] * self.sizes[at] * self.sizes[at]);
@@ -160,10 +163,10 @@ impl LeastSquaresState {
 }
 
 enum Round {
-    /// The search has converged, or no further reduction is predicted.
+    /// The search has converged, or no further reduction of the sum of squares is predicted.
     Converged,
     NeedsDerivatives(Option<DMatrix<f64>>),
-    /// No step achieves the reduction that current derivatives predict.
+    /// No step achieves the reduction that newly computed derivatives predict.
     Stalled,
 }
 
@@ -172,19 +175,22 @@ impl LeastSquares {
         Self { ranges, relative_step: RELATIVE_STEP }
     }
 
-    /// Minimises the sum of squares. Derivatives are central differences at the start and are updated after each step. They are recomputed when the
-    /// updated ones no longer help, and at the end. Steps that fail are shortened.
+    /// Minimises the sum of squares of the residuals.
+    ///
+    /// The derivatives are computed by central differences at the start and are updated after each step. They are computed again when the updated
+    /// derivatives no longer reduce the sum of squares, or when the search seems to have converged far from the point where they were computed. A
+    /// step that fails is shortened.
     ///
     /// # Errors
-    /// Errors of the function. The inner error is the reason of a failure at a required point.
+    /// Returns an error of `evaluate`. The inner error is the reason why an evaluation failed without which the search cannot continue.
     pub fn solve<E>(&self, evaluate: &mut Evaluate<'_, E>) -> Result<Result<Fitted, String>, E> {
         self.solve_with(evaluate, &mut |_| Ok(Err("differences are wanted".into())))
     }
 
-    /// Minimises as [`solve`](Self::solve), with derivatives of the function, or finite differences if they are missing.
+    /// Minimises like [`solve`](Self::solve), but with derivatives from `slopes`. If they are missing, finite differences are used.
     ///
     /// # Errors
-    /// See [`solve`](Self::solve); also errors of the derivatives.
+    /// See [`solve`](Self::solve). An error of `slopes` is returned too.
     pub fn solve_with<E>(
         &self,
         evaluate: &mut Evaluate<'_, E>,
@@ -277,7 +283,7 @@ impl LeastSquares {
                 return Ok(if is_near { Round::Converged } else { Round::NeedsDerivatives(None) });
             }
             let x: Vec<f64> = state.x.iter().zip(step.iter()).map(|(x, step)| x + step).collect();
-            // A bound may prevent the predicted reduction, and a shorter step may not achieve it.
+            // At a bound, the predicted reduction may be zero. Such a step is not evaluated.
             let nothing =
                 || EvaluatedPoint { values: Err("nothing is promised".into()), derivatives: None };
             let EvaluatedPoint { values: found, derivatives } =
@@ -314,7 +320,7 @@ impl LeastSquares {
             *steps += 1;
             taken += 1;
             is_fresh = false;
-            // The exact derivatives replace the updated ones.
+            // The function may have returned exact derivatives, which replace the updated ones.
             if state.squares() <= least || derivatives.is_some() {
                 return Ok(Round::NeedsDerivatives(derivatives));
             }

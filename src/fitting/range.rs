@@ -1,6 +1,6 @@
-//! Start value and bounds of a parameter.
+//! Start value and bounds of a parameter in a search.
 
-/// Start value and bounds, which may be infinite.
+/// Start value and bounds of a parameter. A bound may be infinite.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SearchRange {
     pub start: f64,
@@ -9,23 +9,24 @@ pub struct SearchRange {
 }
 
 impl SearchRange {
-    /// Start value, or the nearest bound if it is outside the bounds.
+    /// Returns the start value. If it lies outside the bounds, the nearest bound is returned.
     pub fn first(self) -> f64 {
         self.clip(self.start)
     }
 
-    /// Nearest value within the bounds.
+    /// Returns the value within the bounds that is nearest to `x`.
     pub fn clip(self, x: f64) -> f64 {
         x.max(self.low).min(self.high)
     }
 
-    /// Scale of the values: the width of the range; if it is unbounded, the size of the start value.
+    /// Returns the scale of the parameter: the width of the range between its bounds, or the size of the start value if the range is unbounded.
     pub fn width(self) -> f64 {
         let range = self.high - self.low;
         if range.is_finite() && range > 0.0 { range } else { self.size(self.start) }
     }
 
-    /// Magnitude of a significant change: the value itself, or a hundredth of the range near zero.
+    /// Returns the size of the parameter at the value `x`: the magnitude of `x`, but at least a hundredth of the width of the range. Changes of the
+    /// parameter are compared with this size.
     pub fn size(self, x: f64) -> f64 {
         let range = self.high - self.low;
         let least = if range.is_finite() { 0.01 * range } else { 1e-3 * self.start.abs() };

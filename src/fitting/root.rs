@@ -1,4 +1,4 @@
-//! Root finding in one dimension.
+//! Finds a root of a function of one variable.
 
 const MOST_CALLS: usize = 200;
 
@@ -12,22 +12,27 @@ pub struct Root {
 
 #[derive(Clone, Debug, PartialEq)]
 pub enum RootError<E> {
-    /// The function has the same sign at both ends, where it has these values.
+    /// The function has the same sign at both ends of the interval. Contains the values at the ends.
     SameSign(f64, f64),
-    /// The function is not finite, for this argument with this value.
+    /// The function value is not finite. Contains the argument and the value.
     NotFinite(f64, f64),
-    /// The sign changes at a pole, where values exceed those at both ends. Argument and value.
+    /// The sign changes at a pole: the values near it are larger in magnitude than at both ends of the interval. Contains an argument near the pole
+    /// and the value there.
     Pole(f64, f64),
-    /// The search did not converge within the maximum number of calls. Best argument and its value.
+    /// The search did not converge within the maximum number of calls. Contains the best argument and its value.
     Unfinished(f64, f64),
     Function(E),
 }
 
-/// Root of `function` in an interval with a change of sign, within `tolerance`: R. P. Brent's method (Algorithms for Minimization without
-/// Derivatives, 1973, chapter 4), which brackets the root and uses inverse quadratic interpolation and secants.
+/// Returns a root of `function` between `from` and `to`, where the function must have different signs. `tolerance` is the tolerance of the
+/// argument.
+///
+/// It uses the method of R. P. Brent (Algorithms for Minimization without Derivatives, 1973, chapter 4), which keeps the root in an interval and
+/// approaches it by secants and inverse quadratic interpolation.
 ///
 /// # Errors
-/// Fails if the signs do not differ, a value is not finite, or the function fails.
+/// Fails if the signs are equal, if a value is not finite, if the sign changes at a pole, if the search does not converge, or if the function
+/// fails.
 pub fn root<E>(
     (from, to): (f64, f64),
     tolerance: f64,
@@ -51,7 +56,7 @@ pub fn root<E>(
     let (mut c, mut fc) = (a, fa);
     let (mut last, mut step) = (b - a, b - a);
     for _ in 0..MOST_CALLS {
-        // `b` is the best estimate, and `c` is on the other side of the root.
+        // `b` is the best estimate of the root. The function has opposite signs at `b` and `c`.
         if fb.signum() == fc.signum() {
             (c, fc) = (a, fa);
             step = b - a;
@@ -106,7 +111,7 @@ mod tests {
 
     #[test]
     fn roots_are_found_to_the_tolerance_in_few_calls() {
-        // First frequency of a cantilever: cos x cosh x = -1.
+        // First natural frequency of a cantilever, for which cos x cosh x = -1.
         let found = root((1.0, 3.0), 1e-12, |x| good(cos(x) * cosh(x) + 1.0)).unwrap();
         assert!((found.at - 1.875_104_068_711_961).abs() < 1e-12 && found.calls < 12, "{found:?}");
         let found = root((3.0, 1.0), 1e-10, |x| good(x * x * x - 8.0)).unwrap();

@@ -1,11 +1,12 @@
-//! Student's distribution.
+//! Student's t distribution.
 
 use crate::elementary::{exp, ln, power};
 
 const TERMS: usize = 500;
 const HALVINGS: usize = 200;
 
-/// Logarithm of the gamma function for positive numbers: C. Lanczos (1964), with nine terms and g = 7, to about 1e-15.
+/// Logarithm of the gamma function of a positive number, by the approximation of C. Lanczos (1964) with nine terms and g = 7. Its relative error is
+/// about 1e-15.
 fn ln_gamma(x: f64) -> f64 {
     const TERMS: [f64; 9] = [
         0.999_999_999_999_809_9,
@@ -25,7 +26,8 @@ fn ln_gamma(x: f64) -> f64 {
     0.5 * ln(2.0 * std::f64::consts::PI) + (x + 0.5) * ln(base) - base + ln(sum)
 }
 
-/// Regularised incomplete beta function, by Lentz's method for its continued fraction (W. H. Press et al., Numerical Recipes, section 6.4).
+/// Regularised incomplete beta function `I_x(a, b)`. Its continued fraction is evaluated by Lentz's method (W. H. Press et al., Numerical Recipes,
+/// section 6.4).
 fn incomplete_beta(x: f64, a: f64, b: f64) -> f64 {
     if x <= 0.0 || x >= 1.0 {
         return x.clamp(0.0, 1.0);
@@ -54,10 +56,10 @@ fn incomplete_beta(x: f64, a: f64, b: f64) -> f64 {
     front * fraction
 }
 
-/// Quantile of Student's distribution for a probability above one half.
+/// Quantile of Student's distribution with `freedom` degrees of freedom. `probability` must be above one half.
 pub fn student_quantile(probability: f64, freedom: f64) -> f64 {
     let tail = 2.0 * (1.0 - probability);
-    // Solves for both tails together: I_x(ν/2, 1/2) = tail probability at x = ν/(ν + t²).
+    // Solves I_x(ν/2, 1/2) = P by bisection, with ν degrees of freedom, x = ν/(ν + t²) and the probability P of both tails together.
     let (mut low, mut high) = (0.0, 1.0);
     for _ in 0..HALVINGS {
         let middle = (low + high) / 2.0;
@@ -74,7 +76,7 @@ pub fn student_quantile(probability: f64, freedom: f64) -> f64 {
 mod tests {
     use super::*;
 
-    /// Values of tables; with one degree of freedom it is tan(π (p - 1/2)).
+    /// Values of published tables. With one degree of freedom, the quantile is tan(π (p - 1/2)).
     #[test]
     fn quantiles_are_those_of_tables() {
         for (probability, freedom, expected) in [

@@ -1,25 +1,25 @@
-//! Chart axes: mapping from numbers to positions, and tick labels.
+//! Axes of charts: conversion of numbers to positions, and tick labels.
 
 use super::number::{format_number, significant};
 use crate::elementary::{log10, power, whole_power};
 
-/// Layout of numbers along a chart axis.
+/// Rule for the positions of numbers along an axis.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum AxisScale {
     /// Equal differences of numbers are equally long on the axis.
     #[default]
     Linear,
-    /// Equal ratios of numbers are equally long on the axis. Numbers at or below the floor, including zero, are shown at the bottom.
+    /// Equal ratios of numbers are equally long on the axis. Numbers that do not exceed a floor, including zero, are shown at the bottom.
     Logarithmic,
 }
 
-/// Floor of a logarithmic axis unless a chart sets another. It is well below the rounding error of a number near one.
+/// Floor of a logarithmic axis if a chart does not set one. It is well below the rounding error of a number near one.
 pub const DEFAULT_FLOOR: f64 = 1e-18;
 
-/// Magnitude to which numbers are limited, so that the length of any range is finite.
+/// Magnitude to which numbers are limited. It ensures that the length of any range is finite.
 const LARGEST: f64 = 1e300;
 
-/// Width of a range, relative to its numbers, below which it is due to rounding and shown as a constant.
+/// Width of a range that is due to rounding, as a fraction of its numbers. Such a range is shown as a constant.
 const ROUNDING: f64 = 1e-10;
 
 #[derive(Clone, Debug, PartialEq)]
@@ -32,7 +32,7 @@ pub struct Tick {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Axis {
     scale: AxisScale,
-    /// Ends of the axis; on a logarithmic axis the exponents of the ends.
+    /// Low end of the axis. On a logarithmic axis it is the exponent of the end.
     low: f64,
     high: f64,
     cut: AxisCut,
@@ -51,7 +51,7 @@ impl Default for Axis {
 }
 
 impl Axis {
-    /// A linear axis from the smallest to the largest finite value, extended at each end by `margin` times its length.
+    /// Creates a linear axis from the smallest to the largest finite value. At each end it is extended by `margin` times its length.
     pub fn linear(values: impl IntoIterator<Item = f64>, margin: f64) -> Self {
         let (low, high) = extent(values).unwrap_or((0.0, 1.0));
         let size = low.abs().max(high.abs());
@@ -74,8 +74,8 @@ impl Axis {
         Self::linear([low, high], 0.0)
     }
 
-    /// A logarithmic axis over whole powers of ten. Values at or below `floor` are shown at the bottom, one power of ten below the smallest value
-    /// above `floor`.
+    /// Creates a logarithmic axis between integer powers of ten. Values that do not exceed `floor` are shown at the bottom, one power of ten below
+    /// the smallest value above `floor`.
     pub fn logarithmic(values: impl IntoIterator<Item = f64>, floor: f64) -> Self {
         let floor = if floor > 0.0 && floor.is_finite() { floor } else { DEFAULT_FLOOR };
         let mut cut = AxisCut::Nothing;
@@ -99,8 +99,7 @@ impl Axis {
         Self { scale: AxisScale::Logarithmic, low, high, cut: AxisCut::Nothing }
     }
 
-    /// Position of `x` on the axis, from 0 at the low end to 1 at the high end. Values outside the range have positions below 0 or above 1. For NaN
-    /// it is NaN.
+    /// Position of `x` on the axis: 0 at the low end, 1 at the high end, and below 0 or above 1 outside the range. For NaN it is NaN.
     pub fn place(&self, x: f64) -> f64 {
         match self.scale {
             AxisScale::Linear => (x.clamp(-LARGEST, LARGEST) - self.low) / (self.high - self.low),
@@ -110,7 +109,7 @@ impl Axis {
         }
     }
 
-    /// About `count` labelled ticks of the axis, and the power of ten that is taken out of their labels.
+    /// About `count` labelled ticks of the axis, and the power of ten by which their labels are divided.
     pub fn ticks(&self, count: usize) -> (Vec<Tick>, Factor) {
         let count = count.max(2) as f64;
         match self.scale {
@@ -131,7 +130,7 @@ impl Axis {
             other => other,
         };
         let decimals = (factor - power).max(0) as usize;
-        // Rounding may have moved the ends of the range. The tolerance keeps the ticks at the ends.
+        // Rounding may have moved the ends of the range. The tolerance ensures that ticks at the ends are not lost.
         let (first, last) = ((self.low / step - 1e-6).ceil(), (self.high / step + 1e-6).floor());
         let ticks = (0..=(last - first).clamp(0.0, 100.0) as usize).map(|index| {
             let multiple = first + index as f64;
@@ -174,12 +173,12 @@ impl Axis {
     }
 }
 
-/// A power of ten that all labels of an axis have in common.
+/// Power of ten by which all labels of an axis are divided.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Factor(i32);
 
 impl Factor {
-    /// The label of an axis followed by the factor, if there is one: `energy [J] (×10⁻⁷)`.
+    /// Label of an axis, followed by the power of ten if there is one, as in `energy [J] (×10⁻⁷)`.
     pub fn after(&self, label: &str) -> String {
         match self.0 {
             0 => label.into(),
@@ -188,7 +187,7 @@ impl Factor {
     }
 }
 
-/// Smallest and largest finite number of some values; `None` if there is none.
+/// Smallest and largest finite number of some values; `None` if there is no finite number.
 pub fn extent(values: impl IntoIterator<Item = f64>) -> Option<(f64, f64)> {
     values.into_iter().filter(|x| x.is_finite()).map(|x| x.clamp(-LARGEST, LARGEST)).fold(
         None,
@@ -199,7 +198,7 @@ pub fn extent(values: impl IntoIterator<Item = f64>) -> Option<(f64, f64)> {
     )
 }
 
-/// Smallest number of at least `step` that is 1, 2 or 5 times a power of ten.
+/// Smallest number that is at least `step` and is 1, 2 or 5 times a power of ten.
 fn round_step(step: f64) -> (u8, i32) {
     let power = log10(step).floor() as i32;
     match step / ten_to(power) {
@@ -219,7 +218,7 @@ fn typeset(x: f64, decimals: usize) -> String {
     format!("{x:.decimals$}").replace('-', "−")
 }
 
-/// A number in a picture, with some significant digits: `−0.25`, `4.09 × 10⁻⁵`.
+/// Formats a number for a picture with the given number of significant digits, as in `−0.25` or `4.09 × 10⁻⁵`.
 pub(super) fn typeset_number(x: f64, digits: usize) -> String {
     let text = significant(x, digits);
     let plain = |text: &str| text.replace('-', "−");
@@ -232,7 +231,7 @@ pub(super) fn typeset_number(x: f64, digits: usize) -> String {
     }
 }
 
-/// The text of a power of ten, such as `10⁻¹²`.
+/// Formats a power of ten, as in `10⁻¹²`.
 pub(super) fn power_of_ten(power: f64) -> String {
     let digits = format_number(power);
     let raised = digits.chars().map(|c| match c.to_digit(10) {

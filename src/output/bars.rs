@@ -1,4 +1,4 @@
-//! Bar charts: horizontal bars from zero, each with a name before it and a number after it.
+//! Bar charts. Horizontal bars start at zero, with a name before each bar and a number after it.
 
 use super::{
     canvas::{Align, Area, Canvas},
@@ -21,7 +21,7 @@ struct Bar {
     text: String,
 }
 
-/// A chart of level bars below each other.
+/// Chart of horizontal bars below each other.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct BarChart {
     title: String,
@@ -31,18 +31,18 @@ pub struct BarChart {
 }
 
 impl BarChart {
-    /// An empty bar chart; `label` names the quantity that the bars show.
+    /// Creates a bar chart without bars. `label` names the quantity that the bars show.
     pub fn new(title: impl Into<String>, label: impl Into<String>) -> Self {
         Self { title: title.into(), label: label.into(), ..Self::default() }
     }
 
-    /// Adds a bar of length `value` below the others; `text` is written after it.
+    /// Adds a bar of length `value` below the others. `text` is written after it.
     pub fn bar(mut self, name: impl Into<String>, value: f64, text: impl Into<String>) -> Self {
         self.bars.push(Bar { name: name.into(), value, text: text.into() });
         self
     }
 
-    /// Marks a reference value across all bars.
+    /// Marks a reference value by a line across all bars.
     pub fn mark(mut self, value: f64) -> Self {
         self.mark = Some(value);
         self
@@ -92,7 +92,7 @@ impl Panel for BarChart {
             canvas.line([(x, plot.top), (x, plot.bottom)], 1.0, GREY);
         }
         for (text, (left, baseline)) in texts {
-            // White boxes keep the reference line from crossing the texts of shorter bars.
+            // White boxes are drawn so that the reference line does not cross the texts of shorter bars.
             let (top, bottom) = (baseline - TEXT, baseline + 0.3 * TEXT);
             let right = left + fonts::width(&text, TEXT);
             canvas.fill(Area { left: left - 2.0, top, right: right + 2.0, bottom }, WHITE);

@@ -21,7 +21,7 @@ mod tests {
 
     #[test]
     fn letters_are_those_of_the_standard() {
-        // RFC 4648, section 10.
+        // Test vectors of RFC 4648, section 10.
         let vectors = ["", "Zg==", "Zm8=", "Zm9v", "Zm9vYg==", "Zm9vYmE=", "Zm9vYmFy"];
         for (length, expected) in vectors.into_iter().enumerate() {
             assert_eq!(base64(&b"foobar"[..length]), expected);

@@ -1,24 +1,23 @@
-//! Shapes that make up a picture: lines, discs, filled boxes and texts, in pixels from the top left corner.
+//! Shapes of which a picture consists: lines, discs, filled boxes and texts. Coordinates are in pixels from the top left corner.
 //!
-//! Charts draw on a canvas, and painters write the canvas to a file. Charts and painters are independent, so that the drawing library can be
-//! replaced.
+//! Charts draw on a canvas, and painters write the canvas to a file. Charts do not depend on painters, so that the drawing library can be replaced.
 
 use super::{colour::Colour, fonts};
 
-/// A point: pixels on a canvas, data units in a chart.
+/// Point: in pixels on a canvas, in data units in a chart.
 pub type Point = (f64, f64);
 
-/// Magnitude to which coordinates are limited [pixels]. It is far outside every picture, and prevents overflow.
+/// Magnitude to which coordinates are limited [pixels]. It is far outside every picture and prevents overflow.
 const FAR: f64 = 20_000.0;
 
-/// A box with sides along the axes; `top` is less than `bottom`.
+/// Box with sides along the axes. `top` is less than `bottom`, because y increases downwards.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Area {
     pub left: f64,
-    /// The least y of the box, its upper side.
+    /// Smallest y of the box, at its upper side.
     pub top: f64,
     pub right: f64,
-    /// The greatest y of the box, its lower side.
+    /// Largest y of the box, at its lower side.
     pub bottom: f64,
 }
 
@@ -33,7 +32,7 @@ impl Area {
         }
     }
 
-    /// Square centred on a point, with sides of twice `reach`.
+    /// Square centred on a point, whose sides have the length `2 · reach`.
     pub fn around((x, y): Point, reach: f64) -> Self {
         Self { left: x - reach, top: y - reach, right: x + reach, bottom: y + reach }
     }
@@ -47,7 +46,7 @@ impl Area {
     }
 }
 
-/// Alignment of a text relative to its anchor.
+/// Alignment of a text with respect to its anchor.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Align {
     /// The text begins at the anchor.
@@ -62,15 +61,15 @@ pub enum Align {
 pub enum TextDirection {
     /// The text runs from left to right.
     Level,
-    /// The text runs from bottom to top, as the label of a vertical axis does.
+    /// The text runs from bottom to top, like the label of a vertical axis.
     Upwards,
 }
 
-/// A text of a picture on its line; `anchor` is on the baseline.
+/// Text in a picture, on a single line.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Text {
     pub text: String,
-    /// Left end of the baseline, after alignment [pixels].
+    /// Left end of the baseline after alignment [pixels].
     pub start: Point,
     /// The size of the text [pixels per em].
     pub size: f64,
@@ -101,7 +100,7 @@ pub enum Shape {
     Text(Text),
 }
 
-/// A picture under construction: shapes from back to front.
+/// Picture that is being drawn: its shapes, from back to front.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Canvas {
     shapes: Vec<Shape>,
@@ -112,7 +111,7 @@ impl Canvas {
         &self.shapes
     }
 
-    /// Draws a line. Points that are not finite are omitted. A single point becomes a dot.
+    /// Draws a line. Points that are not finite are omitted. A single point is drawn as a dot.
     pub fn line(&mut self, points: impl IntoIterator<Item = Point>, width: f64, colour: Colour) {
         let points: Vec<Point> = points.into_iter().filter_map(reachable).collect();
         if !points.is_empty() {
@@ -133,12 +132,12 @@ impl Canvas {
         }
     }
 
-    /// Writes a text on the canvas with its baseline at `anchor`.
+    /// Writes a text. `anchor` is a point on its baseline.
     pub fn text(&mut self, text: &str, anchor: Point, size: f64, align: Align, colour: Colour) {
         self.write(text, anchor, size, align, TextDirection::Level, colour);
     }
 
-    /// Writes a text on the canvas that runs from bottom to top, with its baseline at `anchor`.
+    /// Writes a text that runs from bottom to top. `anchor` is a point on its baseline.
     pub fn text_upwards(
         &mut self,
         text: &str,

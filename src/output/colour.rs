@@ -1,6 +1,6 @@
-//! Colours for white paper that colour-blind readers and black-and-white prints can distinguish.
+//! Colours for white paper. They can be distinguished by colour-blind readers and in black-and-white prints.
 
-/// An opaque colour: red, green and blue from 0 to 255.
+/// Opaque colour: red, green and blue from 0 to 255.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Colour(pub u8, pub u8, pub u8);
 
@@ -10,7 +10,7 @@ pub const GREY: Colour = Colour(110, 116, 124);
 pub const AXIS: Colour = Colour(150, 156, 163);
 pub const GRID: Colour = Colour(229, 232, 236);
 
-/// Palette of Okabe and Ito (2008) without its yellow, which is invisible on white paper.
+/// Palette of Okabe and Ito (2008). Its yellow is left out, because it is not visible on white paper.
 const HUES: [Colour; 7] = [
     Colour(0, 114, 178),
     Colour(213, 94, 0),
@@ -21,8 +21,8 @@ const HUES: [Colour; 7] = [
     Colour(60, 60, 60),
 ];
 
-/// Nine equidistant samples of the viridis colour map (Smith and van der Walt, matplotlib), from pale to dark. The palest tenth is omitted, because
-/// it is invisible on white paper.
+/// Nine equally spaced samples of the viridis colour map (Smith and van der Walt, matplotlib), from pale to dark. The palest tenth of the map is
+/// left out, because it is not visible on white paper.
 const RAMP: [Colour; 9] = [
     Colour(189, 223, 38),
     Colour(128, 211, 75),
@@ -35,7 +35,7 @@ const RAMP: [Colour; 9] = [
     Colour(68, 1, 84),
 ];
 
-/// The number of hues for series before they repeat.
+/// Number of hues for series. More series repeat them.
 pub const HUE_COUNT: usize = HUES.len();
 
 /// Hue of the series or beam with an index. The hues repeat after [`HUE_COUNT`].
@@ -43,19 +43,19 @@ pub fn hue(index: usize) -> Colour {
     HUES[index % HUES.len()]
 }
 
-/// A colour of a perceptually even ramp from pale (`part` 0) to dark (`part` 1).
+/// Colour of a ramp from pale (`part` 0) to dark (`part` 1). Equal differences of `part` look equally large.
 pub fn ramp(part: f64) -> Colour {
     let place = clamp_part(part) * (RAMP.len() - 1) as f64;
     let below = (place as usize).min(RAMP.len() - 2);
     mix(RAMP[below], RAMP[below + 1], place - below as f64)
 }
 
-/// A tint of one hue, from pale (`part` 0) to the `full` colour (`part` 1).
+/// Shade of a single hue, from pale (`part` 0) to the `full` colour (`part` 1).
 pub fn tint(full: Colour, part: f64) -> Colour {
     mix(WHITE, full, 0.25 + 0.75 * clamp_part(part))
 }
 
-/// Linear blend from `from` (`part` 0) to `to` (`part` 1).
+/// Linear mixture of two colours: `from` for `part` 0, `to` for `part` 1.
 pub fn mix(from: Colour, to: Colour, part: f64) -> Colour {
     let part = clamp_part(part);
     let blend = |a: u8, b: u8| (f64::from(a) + part * (f64::from(b) - f64::from(a))).round() as u8;

@@ -1,4 +1,4 @@
-//! Colour bars: the legend of a continuous colour scale.
+//! Colour bars, which are the legend of a continuous colour scale.
 
 use super::{
     axis::{Axis, extent},
@@ -9,7 +9,7 @@ use super::{
 
 const TEXT: f64 = 12.0;
 const LABEL: f64 = 13.0;
-/// Distance of the bar from the plot, width of the bar, and distance of the numbers from the bar.
+/// Distance of the bar from the plot. The width of the bar and the distance of the numbers from it follow [pixels].
 const GAP: f64 = 22.0;
 const BREADTH: f64 = 12.0;
 const NUMBERS: f64 = 8.0;
@@ -22,7 +22,7 @@ enum BarWidth {
     Wedge(f64, f64),
 }
 
-/// Colour scale with its bar. With fewer than two different numbers no bar is drawn.
+/// Colour scale and its bar. The bar is drawn only if there are at least two different numbers.
 pub struct ColourBar {
     label: String,
     axis: Option<Axis>,
@@ -31,7 +31,7 @@ pub struct ColourBar {
 }
 
 impl ColourBar {
-    /// A colour bar over all finite `numbers`. `shade` gives the colours of 0 (smallest) to 1 (largest).
+    /// Creates a colour bar over all finite `numbers`. `shade` gives the colours from 0 (smallest number) to 1 (largest number).
     pub fn new(
         label: &str,
         numbers: impl IntoIterator<Item = f64>,
@@ -43,13 +43,13 @@ impl ColourBar {
         Self { label: label.into(), axis, shade, form: BarWidth::Even }
     }
 
-    /// Makes the bar a wedge: its width goes from `least` to `most` [pixels].
+    /// Makes the bar a wedge whose width increases from `least` to `most` [pixels].
     pub fn with_wedge(mut self, least: f64, most: f64) -> Self {
         self.form = BarWidth::Wedge(least, most);
         self
     }
 
-    /// Position of a number between the smallest (0) and the largest (1); 1 if all numbers are equal.
+    /// Position of a number in the scale: 0 for the smallest, 1 for the largest number. If all numbers are equal it is 1.
     pub fn part(&self, number: f64) -> f64 {
         self.axis.map_or(1.0, |axis| axis.place(number))
     }
@@ -69,7 +69,7 @@ impl ColourBar {
         let height = plot.bottom - top;
         for piece in 0..PIECES {
             let (low, high) = (piece as f64 / PIECES as f64, (piece + 1) as f64 / PIECES as f64);
-            // Pieces overlap the pieces below them, to avoid visible seams.
+            // Each piece overlaps the piece below it, so that no seams are visible.
             let (piece_top, bottom) = (plot.bottom - height * high, plot.bottom - height * low);
             let under = if piece == 0 { 0.0 } else { 0.5 };
             let right = left

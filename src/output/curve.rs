@@ -1,15 +1,15 @@
-//! Preparation of curves for drawing: split at gaps, clipped to the plot, thinned to the resolution.
+//! Preparation of curves for drawing. They are split at gaps, clipped to the plot, and thinned to the resolution.
 
 use super::canvas::{Area, Point};
 use crate::elementary::hypot;
 
-/// Width of the strips in which a long curve is thinned [pixels].
+/// Width of the vertical strips in which a long curve is thinned [pixels].
 const STRIP: f64 = 0.5;
 
 /// Number of points above which curves are thinned.
 const LONG: usize = 2000;
 
-/// Splits a curve, in pixels, at its gaps and at the sides of `window`. A long curve is thinned.
+/// Splits a curve, given in pixels, at its gaps and at the sides of `window`. A long curve is thinned.
 pub fn pieces(points: impl IntoIterator<Item = Point>, window: &Area) -> Vec<Vec<Point>> {
     let runs = runs(points);
     let length: usize = runs.iter().map(Vec::len).sum();
@@ -31,7 +31,7 @@ fn runs(points: impl IntoIterator<Item = Point>) -> Vec<Vec<Point>> {
     runs
 }
 
-/// Keeps the first, lowest, highest and last point of each vertical strip. They cover the same pixels as all points of the strip.
+/// Keeps the first, lowest, highest and last point in each vertical strip. They cover the same pixels as all points in the strip.
 fn thinned(run: &[Point]) -> Vec<Point> {
     let strip = |point: &Point| (point.0 / STRIP).floor();
     let mut kept = Vec::new();
@@ -62,7 +62,7 @@ fn inside(run: &[Point], window: &Area) -> Vec<Vec<Point>> {
     parts
 }
 
-/// The part of the straight line from `a` to `b` within `window` (Liang and Barsky, ACM Trans. Graphics 3, 1984).
+/// Part of the straight line from `a` to `b` that is within `window` (Liang and Barsky, ACM Trans. Graphics 3, 1984).
 fn clipped(a: Point, b: Point, window: &Area) -> Option<(Point, Point)> {
     let (dx, dy) = (b.0 - a.0, b.1 - a.1);
     let (mut enter, mut leave) = (0.0f64, 1.0f64);
@@ -86,7 +86,7 @@ fn clipped(a: Point, b: Point, window: &Area) -> Option<(Point, Point)> {
         .then(|| (if enter > 0.0 { at(enter) } else { a }, if leave < 1.0 { at(leave) } else { b }))
 }
 
-/// Dashed version of a curve; `pattern` holds alternating lengths of strokes and gaps.
+/// Splits a curve into dashes. `pattern` contains alternating lengths of strokes and gaps.
 pub fn dashes(run: &[Point], pattern: &[f64]) -> Vec<Vec<Point>> {
     let whole =
         run.windows(2).map(|pair| hypot(pair[1].0 - pair[0].0, pair[1].1 - pair[0].1)).sum::<f64>();

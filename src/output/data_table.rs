@@ -1,11 +1,11 @@
-//! Tables of numbers, booleans and texts for other programs: a header line and no comment lines.
+//! Tables of numbers, booleans and texts for other programs. They have a header line and no comment lines.
 
 use std::io::{self, Write};
 
 use super::OutputError;
 use super::csv::{csv_cell, exact};
 
-/// Columns of equal length; a value may be missing.
+/// Table of columns of equal length. Values may be missing.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct DataTable {
     pub columns: Vec<DataColumn>,
@@ -14,7 +14,7 @@ pub struct DataTable {
 #[derive(Clone, Debug, PartialEq)]
 pub struct DataColumn {
     pub name: String,
-    /// Dimension of the column; `-` for a pure number, empty if unknown or not applicable.
+    /// Dimension of the column: `-` for a pure number, empty if unknown or not applicable.
     pub dimension: String,
     pub values: DataValues,
 }
@@ -27,7 +27,7 @@ pub enum DataValues {
     Texts(Vec<Option<String>>),
 }
 
-/// Header lines above the rows.
+/// Header lines above the rows of a file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum TableHeading {
     Names,
@@ -56,11 +56,11 @@ impl DataValues {
 }
 
 impl DataTable {
-    /// Writes the CSV file piece by piece. Numbers have 17 digits, which determine a float uniquely. An error of `file` ends the writing, so that a
-    /// long table can be interrupted.
+    /// Writes the CSV file piece by piece. Numbers have 17 digits, from which a float can be restored exactly. An error of `file` ends the writing.
+    /// By this, writing a long table can be interrupted.
     ///
     /// # Errors
-    /// Errors of `file`, or columns of different lengths.
+    /// Errors of `file`, or an error if columns have different lengths.
     pub fn write_csv(&self, heading: TableHeading, file: &mut dyn Write) -> io::Result<()> {
         let rows = self.rows().map_err(io::Error::other)?;
         let mut writer = ::csv::Writer::from_writer(file);

@@ -1,16 +1,16 @@
-//! Errors of writing tables and pictures.
+//! Errors in writing tables and pictures.
 
 use std::{io, path::PathBuf};
 
-/// A table or picture could not be written. Every message names the file, the reason and the next action.
+/// Table or picture that could not be written. Every message contains the file, the reason and what to do next.
 #[derive(Debug, thiserror::Error)]
 pub enum OutputError {
     #[error("cannot create the folder '{}' for '{}': {source}; choose a writable folder", folder.display(), path.display())]
     Folder { folder: PathBuf, path: PathBuf, source: io::Error },
-    /// The file could not be written; an older file of that name is untouched.
+    /// The file could not be written. An older file with the same name is not changed.
     #[error("cannot write '{}': {source}; check that the folder is writable and the disk has space", path.display())]
     Write { path: PathBuf, source: io::Error },
-    /// The path has no file name, or a folder stands where the file should go.
+    /// The path contains no file name, or it is the path of a folder.
     #[error("cannot write '{}': this is not a file name; give one such as 'results/energy.csv'", path.display())]
     NotAFile { path: PathBuf },
     #[error("picture '{}': the file extension is {ending}; use '.svg' (vector graphics) or '.png' (pixels)", path.display())]
@@ -21,7 +21,7 @@ pub enum OutputError {
     RaggedColumns {
         name: String,
         length: usize,
-        /// The name of the first column, which sets the number of rows.
+        /// Name of the first column, which determines the number of rows.
         first: String,
         expected: usize,
     },

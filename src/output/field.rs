@@ -1,4 +1,4 @@
-//! Beams coloured by a magnitude along them. Larger values are drawn darker and wider.
+//! Pictures of beams that are coloured by a magnitude along them. Larger values are drawn darker and wider.
 
 use super::{
     axis::typeset_number,
@@ -15,13 +15,13 @@ use super::{
 use crate::elementary::hypot;
 
 const WIDTHS: (f64, f64) = (2.0, 10.0);
-/// Length of a piece of one colour [pixels], unless there are too many pieces.
+/// Length of a piece in a single colour [pixels]. It is larger if there would be too many pieces.
 const PIECE: f64 = 3.0;
 const MOST_PIECES: f64 = 4000.0;
 const NUMBER: f64 = 12.0;
 const DIGITS: usize = 4;
 
-/// Beams with non-negative values along them.
+/// Beams, and values along them that are not negative.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct FieldPicture {
     title: String,
@@ -32,12 +32,12 @@ pub struct FieldPicture {
 }
 
 impl FieldPicture {
-    /// A picture without beams; `label` names the quantity that the colours show.
+    /// Creates a picture without beams. `label` names the quantity that the colours show.
     pub fn new(title: impl Into<String>, label: impl Into<String>) -> Self {
         Self { title: title.into(), label: label.into(), ..Self::default() }
     }
 
-    /// Adds a beam: points along it with their values.
+    /// Adds a beam, given by points along it and their values.
     pub fn beam(mut self, values: Vec<(Point, f64)>) -> Self {
         self.beams.push(values);
         self
@@ -49,7 +49,7 @@ impl FieldPicture {
         self
     }
 
-    /// Fixes the ends of the axes. Both axes keep the same scale, so one of them may show more.
+    /// Sets the ends of the axes. Both axes have the same scale, so one of them may show more than requested.
     pub fn limits(mut self, limits: AxisLimits) -> Self {
         self.limits = limits;
         self
@@ -137,7 +137,7 @@ impl FieldPicture {
     }
 }
 
-/// Directions from a mark to its number, in the order of preference.
+/// Directions from a mark to its number, with the preferred one first.
 const AROUND: [(f64, f64); 8] = [
     (1.0, -1.0),
     (-1.0, -1.0),
@@ -201,7 +201,7 @@ impl Panel for FieldPicture {
             (plot.left..=plot.right).contains(&at.0) && (plot.top..=plot.bottom).contains(&at.1)
         };
         for beam in &beams {
-            // If limits clip a beam, the parts between samples that are partly visible are drawn completely.
+            // If limits clip a beam, parts between two samples that are partly visible are drawn completely.
             for seen in beam.chunk_by(|(a, _), (b, _)| is_inside(*a) && is_inside(*b)) {
                 Self::draw_beam(canvas, piece, seen);
             }

@@ -1,4 +1,4 @@
-//! Finished pictures and their file formats.
+//! Completed pictures, and their file formats.
 
 use std::path::Path;
 
@@ -6,7 +6,7 @@ use super::{OutputError, canvas::Canvas, png, svg};
 
 const SIDES: std::ops::RangeInclusive<f64> = 100.0..=8000.0;
 
-/// File formats of pictures, by file extension.
+/// File format of a picture, which the file extension selects.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum PictureKind {
     /// Vector graphics, `.svg`.
@@ -16,7 +16,7 @@ pub enum PictureKind {
 }
 
 impl PictureKind {
-    /// File format of the extension of `path`.
+    /// File format for the extension of `path`.
     pub fn of(path: &Path) -> Result<Self, OutputError> {
         let ending = path.extension().map(|ending| ending.to_string_lossy().to_lowercase());
         match ending.as_deref() {
@@ -30,7 +30,7 @@ impl PictureKind {
     }
 }
 
-/// A drawn picture of fixed size. Equal drawings give equal bytes on every machine, independent of installed fonts.
+/// Picture of fixed size. Equal drawings give equal bytes on every machine, whatever fonts are installed.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Figure {
     canvas: Canvas,
@@ -39,7 +39,7 @@ pub struct Figure {
 }
 
 impl Figure {
-    /// A picture of `canvas` with the given size [pixels], rounded up to whole pixels.
+    /// Creates a picture from `canvas` with the given size [pixels]. The size is rounded up to whole pixels.
     pub fn new(canvas: Canvas, (width, height): (f64, f64)) -> Result<Self, OutputError> {
         if !SIDES.contains(&width) || !SIDES.contains(&height) {
             return Err(OutputError::PictureSize { width, height });
@@ -65,7 +65,7 @@ impl Figure {
         png::pixels(&self.canvas, self.width, self.height)
     }
 
-    /// Writes the picture to the file `path` atomically; the extension, `.svg` or `.png`, selects the format.
+    /// Writes the picture to the file `path` atomically. The extension `.svg` or `.png` selects the format.
     #[cfg(test)]
     pub fn save(&self, path: impl AsRef<Path>) -> Result<(), OutputError> {
         let path = path.as_ref();

@@ -1,6 +1,7 @@
-//! Text rendering with the embedded DejaVu Sans, so that pictures do not depend on installed fonts.
+//! Text in the font DejaVu Sans, which is part of the program, so that pictures do not depend on installed fonts.
 //!
-//! Sizes are in pixels per em, and lengths in pixels. From the start of the baseline, `x` points to the right and `y` downwards.
+//! Sizes are in pixels per em, and lengths in pixels. Coordinates start at the left end of the baseline; `x` increases to the right and `y`
+//! downwards.
 
 use std::sync::LazyLock;
 
@@ -9,13 +10,13 @@ use ab_glyph::{Font, FontRef, GlyphId, Outline, OutlineCurve, OutlinedGlyph, PxS
 use super::canvas::Point;
 use crate::elementary::{hypot, square};
 
-/// Maximum number of characters of a text. Further characters are dropped.
+/// Largest number of characters of a text. Further characters are omitted.
 const LONGEST: usize = 400;
 
-/// Maximum deviation of a flattened curve [pixels].
+/// Largest distance between a curve and the polyline that replaces it [pixels].
 const FLATNESS: f64 = 0.03;
 
-/// The embedded font can always be loaded. Without it, pictures would have no text.
+/// The font. Loading it cannot fail. If it failed, pictures would have no text.
 static FACE: LazyLock<Option<FontRef<'static>>> =
     LazyLock::new(|| FontRef::try_from_slice(dejavu::sans::regular()).ok());
 
@@ -24,16 +25,16 @@ pub fn width(text: &str, size: f64) -> f64 {
     set(text, size).1
 }
 
-/// Largest size up to `size` at which `text` fits into `room` [pixels], at least 60 % of `size`.
+/// Size at which `text` fits into the width `room` [pixels]. It is at most `size` and at least 60 % of it.
 pub fn shrunk(text: &str, size: f64, room: f64) -> f64 {
     const SMALLEST: f64 = 0.6;
-    // Rounding must not make a text that fits slightly too long.
+    // Because of rounding, a text that fits exactly could become slightly too long.
     const ROUNDING: f64 = 1.0 - 1e-9;
     let wanted = width(text, size);
     if wanted <= room { size } else { size * (ROUNDING * room / wanted).max(SMALLEST) }
 }
 
-/// The text; if it is longer than `room` pixels, it is shortened with an ellipsis.
+/// Returns the text. If it is longer than `room` pixels, it is shortened and ends with an ellipsis.
 pub fn fit(text: &str, size: f64, room: f64) -> String {
     if text.chars().count() <= LONGEST && width(text, size) <= room {
         return text.into();
@@ -48,7 +49,7 @@ pub fn fit(text: &str, size: f64, room: f64) -> String {
     }
 }
 
-/// Breaks `text` into lines of at most `room` pixels, between words where possible.
+/// Breaks `text` into lines of at most `room` pixels. Lines are broken between words if possible.
 pub fn lines(text: &str, size: f64, room: f64) -> Vec<String> {
     let mut lines: Vec<String> = Vec::new();
     let mut line = String::new();
@@ -70,7 +71,7 @@ pub fn lines(text: &str, size: f64, room: f64) -> Vec<String> {
     lines
 }
 
-/// Glyphs of `text` at `size` pixels per em, for rasterisation.
+/// Glyphs of `text` at `size` pixels per em, for conversion to pixels.
 pub fn glyphs(text: &str, size: f64) -> Vec<OutlinedGlyph> {
     let Some(face) = FACE.as_ref() else { return Vec::new() };
     let scale = PxScale::from((f64::from(face.height_unscaled()) * per_unit(face, size)) as f32);
@@ -79,7 +80,7 @@ pub fn glyphs(text: &str, size: f64) -> Vec<OutlinedGlyph> {
     set(text, size).0.into_iter().filter_map(|glyph| face.outline_glyph(place(glyph))).collect()
 }
 
-/// Outlines of `text` at `size` pixels per em: closed contours per glyph, with holes in the opposite direction.
+/// Outlines of `text` at `size` pixels per em. Each glyph consists of closed contours, and holes have the opposite direction.
 pub fn outlines(text: &str, size: f64) -> Vec<Vec<Vec<Point>>> {
     let Some(face) = FACE.as_ref() else { return Vec::new() };
     let per_unit = per_unit(face, size);
@@ -134,7 +135,7 @@ fn contours(outline: &Outline, place: impl Fn(ab_glyph::Point) -> Point) -> Vec<
     contours
 }
 
-/// Appends the interior points of the quadratic curve `a b c`. TrueType fonts have no cubic curves.
+/// Appends interior points of the quadratic Bézier curve with the control points `a`, `b` and `c`. TrueType fonts have no cubic curves.
 fn bend(contour: &mut Vec<Point>, a: Point, b: Point, c: Point) {
     let sag = hypot(a.0 - 2.0 * b.0 + c.0, a.1 - 2.0 * b.1 + c.1) / 4.0;
     let pieces = (sag / FLATNESS).sqrt().ceil().clamp(1.0, 8.0) as usize;

@@ -1,4 +1,4 @@
-//! The frame around the data of a panel: title, grid, axis lines, labels and legend.
+//! Frame around the data of a panel: title, grid, axis lines, labels and legend.
 
 use super::{
     axis::{Axis, Factor, Tick},
@@ -13,12 +13,12 @@ const CAPTION: f64 = 12.0;
 const LABEL: f64 = 13.0;
 const NUMBER: f64 = 12.0;
 const EDGE: f64 = 14.0;
-/// Smallest size of a text, as a fraction of its normal size. A longer text is broken into lines.
+/// Smallest size of a text, as a fraction of its normal size. A text that would be smaller is broken into lines.
 const SMALLEST: f64 = 0.8;
 const MOST_LINES: usize = 4;
-/// Number of points above which only the points of the thinned curve are marked.
+/// Largest number of points that are all marked. Of longer curves, only the points that remain after thinning are marked.
 const MOST_MARKS: usize = 2000;
-/// Distance of ticks along the horizontal and the vertical axis [pixels].
+/// Distance between ticks on the horizontal and on the vertical axis [pixels].
 const TICK_EVERY: (f64, f64) = (85.0, 50.0);
 
 /// Space between the border of a panel and its plot [pixels].
@@ -35,7 +35,7 @@ pub struct Margins {
 }
 
 impl Margins {
-    /// Maximum of the margins of two panels, side by side.
+    /// For each side, the larger margin of two panels that are side by side.
     pub fn widest(self, other: Self) -> Self {
         Self {
             left: self.left.max(other.left),
@@ -45,7 +45,7 @@ impl Margins {
         }
     }
 
-    /// The box inside the margins of `area`, which is never empty.
+    /// Box inside the margins of `area`. It is never empty.
     pub fn inside(&self, area: &Area) -> Area {
         let (left, top) = (area.left + self.left, area.top + self.top);
         let (right, bottom) = (area.right - self.right, area.bottom - self.bottom);
@@ -53,7 +53,7 @@ impl Margins {
     }
 }
 
-/// The frame of a panel: everything around the data.
+/// Frame of a panel, which is everything around the data.
 #[derive(Clone, Debug, Default)]
 pub struct Frame {
     pub title: String,
@@ -62,7 +62,7 @@ pub struct Frame {
     pub y_label: String,
     pub x: Axis,
     pub y: Axis,
-    /// Entries of the legend; empty if no legend is needed.
+    /// Entries of the legend. It is empty if no legend is needed.
     pub legend: Vec<LegendEntry>,
 }
 
@@ -89,7 +89,7 @@ impl Frame {
         }
     }
 
-    /// The margins with a colour bar of width `bar` on the right, which reduces the width of the plot and the legend.
+    /// Margins if a colour bar of width `bar` is on the right. The bar reduces the width of the plot and of the legend.
     pub fn margins_beside(&self, bar: f64, width: f64, height: f64) -> Margins {
         let alone = self.margins(width, height).right;
         let right = alone.max(bar);
@@ -101,7 +101,7 @@ impl Frame {
         canvas.text("no data", middle, 14.0, Align::Middle, GREY);
     }
 
-    /// Draws the frame without the data; `plot` is the part of `area` inside the margins.
+    /// Draws the frame without the data. `plot` is the part of `area` inside the margins.
     pub fn draw(&self, canvas: &mut Canvas, area: &Area, plot: &Area) {
         let room = area.right - plot.left - EDGE;
         let title = FittedText::of(&self.title, TITLE, room);
@@ -127,16 +127,16 @@ impl Frame {
         (plot.left + self.x.place(x) * plot.width(), plot.bottom - self.y.place(y) * plot.height())
     }
 
-    /// Visible runs of a data curve, as points on the canvas [pixels].
+    /// Visible pieces of a data curve, as points on the canvas [pixels].
     pub fn curve(&self, plot: &Area, points: &[Point]) -> Vec<Vec<Point>> {
-        // The window is slightly wider than the plot, so that rounding does not clip a line along its side.
+        // The window is slightly larger than the plot. Otherwise rounding could clip a line along its side.
         let window = Area {
             left: plot.left - 0.01,
             top: plot.top - 0.01,
             right: plot.right + 0.01,
             bottom: plot.bottom + 0.01,
         };
-        // Axes limit infinite values to their ends, but a curve must have a gap there.
+        // Axes move infinite values to their ends, but a curve must have a gap there.
         let place = |&(x, y): &Point| {
             let is_somewhere = x.is_finite() && y.is_finite();
             if is_somewhere { self.place(plot, (x, y)) } else { (f64::NAN, f64::NAN) }
@@ -144,7 +144,7 @@ impl Frame {
         curve::pieces(points.iter().map(place), &window)
     }
 
-    /// Positions of the markers of a curve: its data points, without the points at which the curve is clipped.
+    /// Positions of the markers of a curve. They are at its data points, but not at the points where the curve is clipped.
     pub fn marks(&self, plot: &Area, points: &[Point]) -> Vec<Point> {
         if points.len() > MOST_MARKS {
             return self.curve(plot, points).concat();
@@ -203,10 +203,10 @@ impl Frame {
     }
 }
 
-/// A title or label. If it is too long for a line, it is set smaller, and then broken into several lines.
+/// Title or label. If it is too long for a line, it is first reduced in size and then broken into several lines.
 struct FittedText {
     lines: Vec<String>,
-    /// Size of the letters, and size before a reduction.
+    /// Size of the letters. The next field is the size before the reduction.
     size: f64,
     full: f64,
 }
@@ -232,7 +232,7 @@ impl FittedText {
         1.25 * self.size
     }
 
-    /// Height including some white space below; zero if there is no text.
+    /// Height of the text, including some white space below it. It is zero if there is no text.
     fn height(&self, paper: f64) -> f64 {
         match self.lines.len() {
             0 => 0.0,
@@ -245,7 +245,7 @@ fn count(length: f64, every: f64) -> usize {
     (length / every).clamp(2.0, 16.0) as usize
 }
 
-/// Moves a point to the centre of its pixel, which makes thin vertical and horizontal lines sharp.
+/// Moves a point to the centre of its pixel, so that thin vertical and horizontal lines are sharp.
 fn pixel_aligned((x, y): Point) -> Point {
     (x.floor() + 0.5, y.floor() + 0.5)
 }

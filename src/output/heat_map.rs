@@ -1,4 +1,4 @@
-//! Heat maps: cells in rows and columns, each coloured by a number on a logarithmic scale. Cells without a number are hatched.
+//! Heat maps: cells in rows and columns. A number determines the colour of each cell on a logarithmic scale. Cells without a number are hatched.
 
 use super::{
     axis::power_of_ten,
@@ -22,7 +22,7 @@ const GAP: (f64, f64) = (7.0, 10.0);
 const CELL: (f64, f64) = (104.0, 52.0);
 const CELL_IN_COLUMNS: (f64, f64) = (76.0, 50.0);
 const WIDEST_CELL: f64 = 200.0;
-/// White space around a text in a cell and around the name of a column.
+/// White space around a text in a cell, and around the name of a column.
 const AROUND_TEXT: f64 = 8.0;
 const AROUND_NAME: f64 = 5.0;
 const LINE: f64 = 14.0;
@@ -31,11 +31,11 @@ const LINE: f64 = 14.0;
 pub struct HeatCell {
     /// Number that determines the colour; `None` for a hatched cell.
     pub value: Option<f64>,
-    /// Text in the cell; line breaks are kept.
+    /// Text in the cell. Line breaks are kept.
     pub text: String,
 }
 
-/// A heat map: cells in named rows and columns, with a colour key.
+/// Heat map: cells in named rows and columns, with a key of the colours.
 #[derive(Clone, Debug, PartialEq)]
 pub struct HeatMap {
     title: String,
@@ -47,7 +47,7 @@ pub struct HeatMap {
 }
 
 impl HeatMap {
-    /// An empty heat map. Numbers at or below the first power of ten are palest, numbers at or above the second are darkest.
+    /// Creates a heat map without cells. Numbers up to the first power of ten have the palest colour, numbers from the second one on the darkest.
     pub fn new(title: impl Into<String>, shows: impl Into<String>, powers: (i32, i32)) -> Self {
         Self {
             title: title.into(),
@@ -69,13 +69,13 @@ impl HeatMap {
         self
     }
 
-    /// Sets the meaning of a hatched cell.
+    /// Sets the text that explains hatched cells.
     pub fn hatched(mut self, meaning: impl Into<String>) -> Self {
         self.hatched = meaning.into();
         self
     }
 
-    /// Adds a row below the others. Missing cells are white; superfluous cells are not shown.
+    /// Adds a row below the others. Missing cells are white, and cells in excess of the columns are not shown.
     pub fn row(mut self, name: impl Into<String>, cells: Vec<HeatCell>) -> Self {
         self.rows.1.push(name.into());
         self.cells.push(cells);
@@ -121,7 +121,7 @@ impl HeatMap {
     }
 
     fn colour(&self, part: f64) -> Colour {
-        // Cells are large, so they may be paler than lines. Their texts must be readable.
+        // Cells are large areas, so their colours may be paler than those of lines. Texts in the cells must be readable.
         if part < 0.06 { mix(WHITE, ramp(0.0), 0.35) } else { ramp(part) }
     }
 
@@ -136,7 +136,7 @@ impl HeatMap {
             *x += fonts::width(&text, TEXT) + GAP.0;
         };
         let shows = fonts::width(&self.scale.0, TEXT);
-        // One additional pixel, so that rounding does not cut off a letter.
+        // One pixel is added, so that rounding does not cut off a letter.
         write(canvas, &self.scale.0, &mut x, room - (self.key_width() - shows) + 1.0);
         write(canvas, &low, &mut x, f64::INFINITY);
         let steps = 22;

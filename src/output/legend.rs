@@ -1,4 +1,4 @@
-//! Legends: a strip of names between the title and the plot, outside the data.
+//! Legends: names of the curves, between the title and the plot.
 
 use super::{
     canvas::{Align, Area, Canvas},
@@ -16,7 +16,7 @@ const BETWEEN: f64 = 20.0;
 const LINE: f64 = 16.0;
 const REST: f64 = 110.0;
 
-/// Maximum number of rows, which leaves space for the plot. If it is exceeded, the last row states the number of missing names.
+/// Largest number of rows, so that there is enough space for the plot. If there are more entries, the last row shows how many are missing.
 const MOST_ROWS: usize = 4;
 const MOST_LINES: usize = 3;
 

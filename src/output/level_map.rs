@@ -1,4 +1,4 @@
-//! Level maps: cells over two numeric axes, each coloured by a number on a linear scale. Cells without a number are hatched.
+//! Level maps: cells over two numeric axes. A number determines the colour of each cell on a linear scale. Cells without a number are hatched.
 
 use super::{
     axis::{Axis, AxisScale},
@@ -11,16 +11,16 @@ use super::{
 };
 use crate::elementary::ln;
 
-/// Difference of the ratios of neighbouring numbers, relative to them, below which they are equal.
+/// Difference of two ratios of neighbouring numbers that count as equal, as a fraction of the ratio.
 const EQUAL_RATIOS: f64 = 1e-6;
-/// Maximum number of cells along an axis. Smaller cells would not be visible, and a picture of millions of cells would have many megabytes.
+/// Largest number of cells along an axis. Smaller cells would not be visible, and a picture of millions of cells would have many megabytes.
 const MOST_CELLS: usize = 160;
 
-/// Axis of a level map: its label and the ascending midpoints of its cells.
+/// Axis of a level map: its label, and the centres of its cells in increasing order.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct LevelAxis {
     pub label: String,
-    /// Midpoints of the cells, ascending.
+    /// Centres of the cells, in increasing order.
     pub middles: Vec<f64>,
 }
 
@@ -34,7 +34,7 @@ pub struct LevelMap {
     values: Vec<Vec<f64>>,
 }
 
-/// Means of the finite values of blocks of `across` by `up` cells; NaN if a block has no finite value.
+/// Means of the finite values in blocks of `across` by `up` cells. NaN for a block without finite values.
 fn means(values: &[Vec<f64>], (across, up): (usize, usize)) -> Vec<Vec<f64>> {
     let row = |rows: &[Vec<f64>]| {
         let columns = rows.iter().map(Vec::len).max().unwrap_or(0);
@@ -52,7 +52,7 @@ fn means(values: &[Vec<f64>], (across, up): (usize, usize)) -> Vec<Vec<f64>> {
 }
 
 impl LevelAxis {
-    /// Scale of the axis: logarithmic if all numbers are positive with equal ratios, otherwise linear.
+    /// Scale of the axis. It is logarithmic if all numbers are positive and have equal ratios, otherwise linear.
     pub fn scale(&self) -> AxisScale {
         let ratios: Vec<f64> = self.middles.windows(2).map(|pair| pair[1] / pair[0]).collect();
         let is_equal = |ratio: &f64| (ratio / ratios[0] - 1.0).abs() < EQUAL_RATIOS;
@@ -63,12 +63,12 @@ impl LevelAxis {
         }
     }
 
-    /// Boundaries of the cells: arithmetic means of neighbouring midpoints, or geometric means on a logarithmic axis.
+    /// Boundaries of the cells. They are arithmetic means of neighbouring centres, on a logarithmic axis geometric means.
     fn ends(&self) -> Vec<f64> {
         self.ends_by(self.scale())
     }
 
-    /// Arithmetic means of neighbouring midpoints, extrapolated at both ends.
+    /// Arithmetic means of neighbouring centres. At both ends they are extrapolated.
     pub fn ends_halfway(&self) -> Vec<f64> {
         self.ends_by(AxisScale::Linear)
     }
@@ -79,7 +79,7 @@ impl LevelAxis {
             AxisScale::Logarithmic => (a * b).sqrt(),
         };
         let beyond = |a: f64, end: f64| match scale {
-            // Twice the largest float would be infinite.
+            // Twice a number near the largest float would be infinite.
             AxisScale::Linear => Some(2.0 * a - end).filter(|far| far.is_finite()).unwrap_or(a),
             AxisScale::Logarithmic => a * a / end,
         };
@@ -114,7 +114,7 @@ impl LevelAxis {
         let ends = self.ends();
         let (low, high) = (ends[0], ends[ends.len() - 1]);
         match self.scale() {
-            // A narrower range is not suitable for an axis.
+            // A range with a smaller ratio is not suitable for a logarithmic axis.
             AxisScale::Logarithmic if ln(high / low) > 1e-3 => Axis::powers_between(low, high),
             _ => Axis::between(low, high),
         }
@@ -122,9 +122,9 @@ impl LevelAxis {
 }
 
 impl LevelMap {
-    /// A map over two axes. `values` are by rows of the vertical axis, from the bottom; `label` names their quantity. Cells with values that are not
-    /// finite are hatched. On axes with more than 160 numbers, neighbouring cells are merged into one cell with the mean value, and a caption states
-    /// this.
+    /// Creates a map over two axes. `values` are given by rows of the vertical axis, from the bottom. `label` names their quantity. Cells whose
+    /// values are not finite are hatched. On axes with more than 160 numbers, neighbouring cells are merged to one cell with their mean value, and
+    /// a caption states this.
     pub fn new(
         title: impl Into<String>,
         label: impl Into<String>,
@@ -190,7 +190,7 @@ impl Panel for LevelMap {
                 let (right, top) = frame.place(plot, (x[1], y[1]));
                 let cell = Area { left, top, right, bottom };
                 match value.is_finite() {
-                    // Cells overlap slightly, to avoid visible seams.
+                    // Cells overlap slightly, so that no seams are visible.
                     true => {
                         let cell = Area {
                             right: (right + 0.3).min(plot.right),
@@ -199,7 +199,7 @@ impl Panel for LevelMap {
                         };
                         canvas.fill(cell, ramp(bar.part(*value)));
                     }
-                    // Cells at the largest numbers extend far beyond the plot.
+                    // At the largest numbers, cells extend far beyond the plot.
                     false => hatch(canvas, &cell.within(plot)),
                 }
             }
@@ -245,7 +245,7 @@ mod tests {
         let ends = map.x.drawn_ends();
         assert_eq!((map.values[1].len(), ends.len()), (143, 144));
         assert_eq!((ends[0], ends[1], ends[143]), (-0.5, 6.5, 999.5));
-        // The last cell has 994 to 999.
+        // The last cell contains the mean of 994 to 999.
         assert_eq!((map.values[1][0], map.values[2][142]), (1003.0, 2996.5));
         map.values[0][0] = f64::NAN;
         assert_eq!(

@@ -4,17 +4,17 @@ use super::canvas::Point;
 use crate::elementary::hypot;
 
 pub const LINK: f64 = 1.2;
-/// Length of the straight end pieces of a spring: maximum [pixels], and fraction of its length.
+/// Length of the straight pieces at the ends of a spring: largest value [pixels], and fraction of the length of the spring.
 const LEAD: (f64, f64) = (8.0, 0.15);
-/// Length of a coil of a spring, and the range of the number of coils.
+/// Length of a coil of a spring. The smallest and largest number of coils follow.
 const TURN: f64 = 12.0;
 const TURNS: (f64, f64) = (3.0, 12.0);
 /// Half width of a spring and of the cylinder of a damper.
 const BREADTH: f64 = 5.0;
-/// Half length of a cylinder: maximum [pixels], and fraction of the length of the damper.
+/// Half length of a cylinder: largest value [pixels], and fraction of the length of the damper.
 const CYLINDER: (f64, f64) = (9.0, 0.2);
 
-/// Directed line between two points.
+/// Line from one point to another.
 pub struct Link {
     from: Point,
     along: Point,
@@ -34,12 +34,12 @@ impl Link {
         (self.from.0 + ahead * x - aside * y, self.from.1 + ahead * y + aside * x)
     }
 
-    /// A straight line.
+    /// Straight line between both points.
     pub fn ends(&self) -> Vec<Point> {
         vec![self.from, self.at((self.length, 0.0))]
     }
 
-    /// A zigzag with as many coils as fit.
+    /// Zigzag line with as many coils as fit between both points.
     pub fn spring(&self) -> Vec<Vec<Point>> {
         let lead = LEAD.0.min(LEAD.1 * self.length);
         let teeth = 2.0 * (self.length / TURN).round().clamp(TURNS.0, TURNS.1);
@@ -53,7 +53,7 @@ impl Link {
         vec![begin.into_iter().chain(zigzag).chain(end).map(|at| self.at(at)).collect()]
     }
 
-    /// A piston in a cylinder that is open on one side.
+    /// Piston in a cylinder that is open at one end.
     pub fn damper(&self) -> Vec<Vec<Point>> {
         let (middle, half) = (0.5 * self.length, CYLINDER.0.min(CYLINDER.1 * self.length));
         let (bottom, rim) = (middle - half, middle + half);

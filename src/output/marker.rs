@@ -1,4 +1,4 @@
-//! Marker shapes, which distinguish series without colours.
+//! Shapes of markers. Series can be distinguished by them without colours.
 
 use super::{
     canvas::{Area, Canvas, Point},
@@ -10,11 +10,11 @@ pub enum Marker {
     #[default]
     Disc,
     Square,
-    /// An outlined square standing on its corner.
+    /// Outline of a square that stands on its corner.
     Diamond,
-    /// An outlined triangle.
+    /// Outline of a triangle.
     Triangle,
-    /// An outlined circle.
+    /// Outline of a circle.
     Ring,
     /// Two crossed strokes, like an x.
     Cross,
@@ -24,12 +24,12 @@ impl Marker {
     const ALL: [Self; 6] =
         [Self::Disc, Self::Square, Self::Diamond, Self::Triangle, Self::Ring, Self::Cross];
 
-    /// Marker of the series with the given index; shapes repeat.
+    /// Marker of the series with the given index. Further series repeat the shapes.
     pub fn of_index(index: usize) -> Self {
         Self::ALL[index % Self::ALL.len()]
     }
 
-    /// Draws a marker centred on a point, of about the size of a disc of this radius [pixels].
+    /// Draws a marker centred on a point. It is about as large as a disc of the given radius [pixels].
     pub fn draw(self, canvas: &mut Canvas, (x, y): Point, radius: f64, colour: Colour) {
         let width = 0.5 * radius;
         let half = 0.9 * radius;

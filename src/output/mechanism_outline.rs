@@ -1,4 +1,4 @@
-//! Mechanism around the beams in pictures of section results: outlines of rigid bodies and symbols.
+//! Parts of a mechanism other than beams in pictures of section results: outlines of rigid bodies, and symbols.
 
 use super::{
     canvas::{Area, Canvas, Point},
@@ -10,7 +10,7 @@ use super::{
 
 const OUTLINE: f64 = 1.6;
 
-/// Rigid bodies as lines, and symbols on top, in data units.
+/// Rigid bodies as lines, and symbols drawn over them, in data units.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct MechanismOutline {
     pub bodies: Vec<Vec<Point>>,

@@ -1,4 +1,4 @@
-//! Tables, files and pictures from plain data. This module knows nothing about simulations.
+//! Tables, files and pictures from plain data. This module does not depend on simulations.
 //!
 //! ```text
 //! chart, heat_map, level_map, bars, motion, strips, field → page → mechanism_outline → plane, symbol
@@ -8,7 +8,7 @@
 //! viewer (a page for browsers) → canvas, colour
 //! ```
 //!
-//! Pictures look the same on every machine: text is drawn from an embedded font, and equal data gives equal bytes.
+//! Pictures look the same on every machine: the font of their texts is part of the program, and equal data give equal bytes.
 
 #![cfg_attr(test, allow(clippy::unwrap_used))]
 

@@ -1,4 +1,4 @@
-//! Pictures of motion: snapshots at several times in one plot, early snapshots pale and late ones dark.
+//! Pictures of motion. Snapshots at several times are in one plot, the early ones pale and the late ones dark.
 
 use super::{
     canvas::{Area, Canvas, Point},
@@ -22,16 +22,16 @@ const PARTICLE: f64 = 4.5;
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct MotionFrame {
     pub time: f64,
-    /// The centre line of each beam in the snapshot, always in the same order.
+    /// Centre line of each beam in the snapshot. The order of the beams is the same in all snapshots.
     pub lines: Vec<Vec<Point>>,
-    /// Points marked by dots: knots, nodes, joints.
+    /// Points that are marked by dots: knots, nodes, joints.
     pub marks: Vec<Point>,
-    /// Point masses, drawn as larger dots.
+    /// Point masses, which are drawn as larger dots.
     pub particles: Vec<Point>,
     pub bodies: Vec<Vec<Point>>,
 }
 
-/// Snapshots of a motion in the plane, with equal scales of both axes.
+/// Snapshots of a motion in the plane. Both axes have the same scale.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct MotionPicture {
     title: String,
@@ -49,7 +49,7 @@ impl MotionPicture {
         Self { title: title.into(), time_label: "t".into(), ..Self::default() }
     }
 
-    /// Sets the label of the time bar; the default is `t`.
+    /// Sets the label of the bar that shows the times. The default is `t`.
     pub fn time_label(mut self, label: impl Into<String>) -> Self {
         self.time_label = label.into();
         self
@@ -60,13 +60,13 @@ impl MotionPicture {
         self
     }
 
-    /// Names the beams, in the order of the lines of each snapshot.
+    /// Sets the names of the beams, in the order of the lines in each snapshot.
     pub fn beams(mut self, names: impl IntoIterator<Item = impl Into<String>>) -> Self {
         self.beams = names.into_iter().map(Into::into).collect();
         self
     }
 
-    /// Adds a snapshot. Later snapshots are drawn over earlier ones, independent of the order of the calls.
+    /// Adds a snapshot. Later snapshots are drawn over earlier ones, whatever the order of the calls.
     pub fn snapshot(mut self, snapshot: MotionFrame) -> Self {
         self.snapshots.push(snapshot);
         self
@@ -89,13 +89,13 @@ impl MotionPicture {
         self
     }
 
-    /// Fixes the ends of the axes. Both axes keep the same scale, so one of them may show more.
+    /// Sets the ends of the axes. Both axes have the same scale, so one of them may show more than requested.
     pub fn limits(mut self, limits: AxisLimits) -> Self {
         self.limits = limits;
         self
     }
 
-    /// Motion pictures side by side with common axes, for example for comparing integrators.
+    /// Page of several motion pictures side by side with the same axes, for example to compare integrators.
     pub fn side_by_side(pictures: impl IntoIterator<Item = MotionPicture>) -> Page {
         let pictures: Vec<MotionPicture> = pictures.into_iter().collect();
         let limits = Self::shared_limits(&pictures);
@@ -103,7 +103,7 @@ impl MotionPicture {
         framed.fold(Page::row(), Page::panel)
     }
 
-    /// Common axis limits that contain everything in all pictures. Limits of the first picture take precedence.
+    /// Limits of the axes that contain everything in all pictures. Limits of the first picture have precedence.
     pub fn shared_limits(pictures: &[Self]) -> AxisLimits {
         let given = pictures.first().map_or_else(AxisLimits::default, |first| first.limits);
         let points = pictures.iter().flat_map(Self::points);
@@ -158,7 +158,8 @@ impl MotionPicture {
         self.snapshots.iter().map(|snapshot| snapshot.lines.len()).max().unwrap_or(0)
     }
 
-    /// Paths are dashed, in colours that no beam has. With a single beam they are vermilion, which stands out from the colour ramp.
+    /// Paths are dashed and have colours that no beam has. If there is a single beam, they are vermilion, which differs from the colours of the
+    /// snapshots.
     fn trace_style(&self, index: usize) -> (Colour, Stroke) {
         let first = if self.beam_count() > 1 { self.beam_count() } else { 1 };
         (hue(first + index), if index < HUE_COUNT { Stroke::Dashed } else { Stroke::Dotted })
@@ -168,7 +169,7 @@ impl MotionPicture {
         if self.beam_count() > 1 { tint(hue(index), part) } else { ramp(part) }
     }
 
-    /// Beams beyond the number of hues differ by the line style.
+    /// If there are more beams than hues, beams with the same hue have different line styles.
     fn stroke(&self, index: usize) -> Stroke {
         if self.beam_count() > 1 {
             Stroke::of_palette_pass(index / HUE_COUNT)

@@ -1,4 +1,4 @@
-//! Array archives for NumPy: an uncompressed ZIP file with one `.npy` file per array (NEP 1, format 1.0).
+//! Archives of arrays for NumPy. They are uncompressed ZIP files with one `.npy` file for each array (NEP 1, format 1.0).
 
 use std::io::{Cursor, Write};
 
@@ -7,32 +7,32 @@ use zip::{CompressionMethod, DateTime, ZipWriter};
 
 use super::OutputError;
 
-/// Magic bytes and version of `.npy` files.
+/// First bytes and version of `.npy` files.
 const MAGIC: &[u8; 8] = b"\x93NUMPY\x01\x00";
 /// Alignment of the data [bytes].
 const ALIGNMENT: usize = 64;
 
-/// Named arrays, as `numpy.load` returns them.
+/// Named arrays, which `numpy.load` can read.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct NpzArchive {
-    /// Arrays with distinct names.
+    /// Arrays. Their names must be distinct.
     pub arrays: Vec<NpzArray>,
 }
 
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct NpzArray {
     pub name: String,
-    /// Lengths of the dimensions, slowest first.
+    /// Lengths of the dimensions. The last dimension varies fastest in `values`.
     pub shape: Vec<usize>,
-    /// Numbers of the array, last index fastest.
+    /// Numbers of the array. The last index varies fastest.
     pub values: Vec<f64>,
 }
 
 impl NpzArchive {
-    /// Bytes of the `.npz` file; equal arrays give equal bytes.
+    /// Bytes of the `.npz` file. Equal arrays give equal bytes.
     ///
     /// # Errors
-    /// Fails if the number of values contradicts the shape, or two arrays have the same name.
+    /// Fails if the number of values is wrong for the shape, or if two arrays have the same name.
     pub fn to_bytes(&self) -> Result<Vec<u8>, OutputError> {
         let mut archive = ZipWriter::new(Cursor::new(Vec::new()));
         let options = SimpleFileOptions::default()
@@ -87,7 +87,7 @@ mod tests {
         let array = NpzArray { name: "a".into(), shape: vec![2, 3], values: vec![0.5; 6] };
         let bytes = array.to_npy();
         assert_eq!(bytes.len(), 128 + 48);
-        // Header that numpy.save writes for np.full((2, 3), 0.5), except for the trailing comma of the tuple.
+        // This is the header that numpy.save writes for np.full((2, 3), 0.5), except for the trailing comma of the tuple.
         let header = "\u{93}NUMPY\u{1}\u{0}v\u{0}{'descr': '<f8', 'fortran_order': False, 'shape': (2, 3,), }";
         let header: Vec<u8> = header.chars().map(|letter| letter as u8).collect();
         assert!(bytes.starts_with(&header), "{:?}", String::from_utf8_lossy(&bytes[..80]));

@@ -1,8 +1,9 @@
-//! Number formats for readers: short, without artefacts of binary arithmetic.
+//! Formats of numbers for readers. The texts are short and show no errors of binary arithmetic.
 //!
-//! Decimal notation for `1e-4 ≤ |x| < 1e7`, otherwise powers of ten. The number of digits is the smallest from which the number can be read back.
+//! Numbers with `1e-4 ≤ |x| < 1e7` are written in decimal notation, others with a power of ten. They have the smallest number of digits from which
+//! the number can be read back exactly.
 
-/// Shortest text from which `x` can be read back: `0.05`, `374.28285`, `3`, `1e-12`, `1.5e10`, `inf`, `nan`.
+/// Shortest text from which `x` can be read back exactly, such as `0.05`, `374.28285`, `3`, `1e-12`, `1.5e10`, `inf`, `nan`.
 pub fn format_number(x: f64) -> String {
     if x.is_nan() {
         "nan".into()
@@ -15,14 +16,15 @@ pub fn format_number(x: f64) -> String {
     }
 }
 
-/// Text of `x` rounded to `digits` significant digits (at least one), in the notation of [`format_number`]: `significant(1/3, 3)` is
-/// `0.333`, `significant(2.0, 3)` is `2`.
+/// Text of `x`, rounded to `digits` significant digits (at least one), in the notation of [`format_number`]. For example, `significant(1/3, 3)` is
+/// `0.333`, and `significant(2.0, 3)` is `2`.
 pub fn significant(x: f64, digits: usize) -> String {
     let rounded = format!("{:.*e}", decimals(digits), x).parse();
     format_number(rounded.unwrap_or(x))
 }
 
-/// Text of `x` as a power of ten with exactly `digits` significant digits (at least one): `scientific(3.14e-15, 2)` is `3.1e-15`. Zero is `0`.
+/// Text of `x` with a power of ten and exactly `digits` significant digits (at least one). For example, `scientific(3.14e-15, 2)` is `3.1e-15`.
+/// Zero is `0`.
 pub fn scientific(x: f64, digits: usize) -> String {
     if x == 0.0 || !x.is_finite() {
         format_number(x)
@@ -31,7 +33,7 @@ pub fn scientific(x: f64, digits: usize) -> String {
     }
 }
 
-/// Number of digits after the decimal point for `digits` significant digits. A float has at most 17.
+/// Number of digits after the decimal point for `digits` significant digits. It is limited, because a float has at most 17 digits.
 fn decimals(digits: usize) -> usize {
     digits.clamp(1, 17) - 1
 }

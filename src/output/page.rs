@@ -9,12 +9,12 @@ use super::{
     frame::Margins,
 };
 
-/// A picture or a part of one, which fits itself into a given area.
+/// Picture, or a part of a picture, which adapts itself to a given area.
 pub trait Panel {
-    /// Preferred size as a stand-alone picture [pixels].
+    /// Preferred size as a picture of its own [pixels].
     fn size(&self) -> (f64, f64);
 
-    /// Preferred size on a page with this number of rows and columns, smaller than that of a single picture [pixels].
+    /// Preferred size on a page with this number of rows and columns [pixels]. It is smaller than the size of a single picture.
     fn size_among(&self, rows: usize, columns: usize) -> (f64, f64) {
         let (width, height) = self.size();
         let width = if columns > 1 { width * SIZE_IN_COLUMNS.0 } else { width };
@@ -26,18 +26,18 @@ pub trait Panel {
         (width, height)
     }
 
-    /// Space around the plot in a panel of the given size [pixels].
+    /// Space around the plot, for a panel of the given size [pixels].
     fn margins(&self, width: f64, height: f64) -> Margins;
 
-    /// Draws the panel in `area`, with its plot in `plot`.
+    /// Draws the panel in `area`. Its plot is in `plot`.
     fn draw(&self, canvas: &mut Canvas, area: &Area, plot: &Area);
 
-    /// The panel as a stand-alone picture.
+    /// The panel as a picture of its own.
     fn figure(&self) -> Result<Figure, OutputError> {
         self.figure_of(self.size())
     }
 
-    /// The panel as a stand-alone picture of the given size [pixels].
+    /// The panel as a picture of its own with the given size [pixels].
     fn figure_of(&self, (width, height): (f64, f64)) -> Result<Figure, OutputError> {
         let area = Area { left: 0.0, top: 0.0, right: width.ceil(), bottom: height.ceil() };
         let mut canvas = Canvas::default();
@@ -45,7 +45,7 @@ pub trait Panel {
         Figure::new(canvas, (width, height))
     }
 
-    /// Writes the panel as a stand-alone picture to a `.svg` or `.png` file.
+    /// Writes the panel as a picture of its own to a `.svg` or `.png` file.
     #[cfg(test)]
     fn save(&self, path: impl AsRef<std::path::Path>) -> Result<(), OutputError>
     where
@@ -55,13 +55,13 @@ pub trait Panel {
     }
 }
 
-/// Scale of the height of panels when several rows share a page.
+/// Factor of the height of panels if there are several rows on a page.
 const HEIGHT_IN_ROWS: f64 = 0.6;
-/// Scale of width and height of panels in one row of several columns.
+/// Factors of width and height of panels in a single row of several columns.
 const SIZE_IN_COLUMNS: (f64, f64) = (0.72, 0.85);
 const TITLE: f64 = 18.0;
 
-/// Panels in a grid. The plots of a column have equal widths, the plots of a row equal heights.
+/// Panels in a grid. The plots of a column have the same width, the plots of a row the same height.
 #[derive(Default)]
 pub struct Page {
     title: String,
@@ -70,17 +70,17 @@ pub struct Page {
 }
 
 impl Page {
-    /// An empty page with panels below each other.
+    /// Creates an empty page on which panels are below each other.
     pub fn column() -> Self {
         Self::grid(1)
     }
 
-    /// An empty page with panels next to each other.
+    /// Creates an empty page on which panels are next to each other.
     pub fn row() -> Self {
         Self::grid(usize::MAX)
     }
 
-    /// An empty page, filled row by row with at most `columns` panels each.
+    /// Creates an empty page that is filled row by row, with at most `columns` panels in a row.
     pub fn grid(columns: usize) -> Self {
         Self { title: String::new(), columns: columns.max(1), panels: Vec::new() }
     }

@@ -1,4 +1,4 @@
-//! Apache Parquet files: typed columns in one row group, with the dimensions as file metadata.
+//! Apache Parquet files. Typed columns form one row group, and dimensions are metadata of the file.
 
 use std::sync::Arc;
 
@@ -13,10 +13,10 @@ use parquet::schema::types::{Type, TypePtr};
 use super::{DataColumn, DataTable, DataValues, OutputError};
 
 impl DataTable {
-    /// Bytes of an uncompressed `.parquet` file. The metadata `dimension.NAME` contains the dimension of a column.
+    /// Bytes of an uncompressed `.parquet` file. Its metadata `dimension.NAME` contains the dimension of the column NAME.
     ///
     /// # Errors
-    /// Fails if the columns differ in length, or two have the same name.
+    /// Fails if columns have different lengths, or if two columns have the same name.
     pub fn to_parquet(&self) -> Result<Vec<u8>, OutputError> {
         self.rows()?;
         self.written_to_parquet()

@@ -1,25 +1,25 @@
-//! Visible part of the plane, with equal scales of both axes.
+//! Visible part of the plane, if both axes have the same scale.
 
 use super::{
     axis::{Axis, extent},
     canvas::Point,
 };
 
-/// Preferred width of a single plot, the range of its height, and its minimum width.
+/// Preferred width of a single plot. The range of its height and its smallest width follow [pixels].
 const WIDTH: f64 = 740.0;
 const HEIGHTS: (f64, f64) = (220.0, 700.0);
 const LEAST_WIDTH: f64 = 300.0;
-/// White space around the data, as a fraction of its size.
+/// White space around the data, as a fraction of the size of the data.
 const MARGIN: f64 = 0.05;
 
-/// User-defined ends of the axes.
+/// Ends of the axes that the user has set.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct AxisLimits {
     pub x: Option<(f64, f64)>,
     pub y: Option<(f64, f64)>,
 }
 
-/// A box in the plane: centre, width and height. Width and height are nonzero.
+/// Box in the plane, given by centre, width and height. Width and height are not zero.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct View {
     centre: Point,
@@ -27,7 +27,7 @@ pub struct View {
 }
 
 impl View {
-    /// The box of the limits. An axis without limits is fitted, with some margin, to the points inside the limits of the other axis.
+    /// Box of the limits. If an axis has no limits, it is fitted to the points that are inside the limits of the other axis, with some margin.
     pub fn of(points: impl Iterator<Item = Point> + Clone, limits: &AxisLimits) -> Self {
         let within = |value: f64, ends: Option<(f64, f64)>| {
             ends.is_none_or(|(low, high)| (low..=high).contains(&value))
@@ -46,13 +46,13 @@ impl View {
         };
         let (x, width) = side(|point| point.0, limits.x);
         let (y, height) = side(|point| point.1, limits.y);
-        // A straight line has no height and a point has no size. The box is enlarged, so that the axes are readable.
+        // A straight line may have no height, and a point has no size. The box is enlarged, so that the axes are readable.
         let size = width.max(height).max(1e-6 * x.abs().max(y.abs()));
         let size = if size > 1e-280 { size } else { 1.0 };
         Self { centre: (x, y), needs: (width.max(0.05 * size), height.max(0.05 * size)) }
     }
 
-    /// Enlarges the box, so that symbols around points, whose size is in pixels, are not cut off. Limits take precedence.
+    /// Enlarges the box so that symbols around the points `about`, whose size is in pixels, are not cut off. Limits have precedence.
     pub fn with_room(
         self,
         about: impl Iterator<Item = Point> + Clone,
@@ -90,7 +90,7 @@ impl View {
         AxisLimits { x: ends(self.centre.0, self.needs.0), y: ends(self.centre.1, self.needs.1) }
     }
 
-    /// Axes of a plot of the given size [pixels].
+    /// Axes for a plot of the given size [pixels].
     pub fn axes(&self, width: f64, height: f64) -> (Axis, Axis) {
         let per_pixel = (self.needs.0 / width).max(self.needs.1 / height);
         let axis = |centre: f64, pixels: f64| {

@@ -1,8 +1,8 @@
-//! PNG painter with anti-aliasing: each pixel is blended by the fraction that a shape covers.
+//! Painter of PNG files with anti-aliasing. Each pixel is mixed with the colour of a shape by the fraction that the shape covers.
 //!
-//! The boxes and pixels of plotters are correct, but its thick lines and polygons have ragged edges. Therefore this module computes the coverage of
-//! lines from distances. A pixel at distance `d` from the centre line of half width `r` is covered by `r + ½ − d`. A pixel near several segments is
-//! covered by the nearest one.
+//! Boxes and pixels of the library plotters are correct, but its thick lines and polygons have ragged edges. Therefore this module computes from
+//! distances how much of a pixel a line covers. A pixel at a distance `d` from the centre line of half width `r` is covered by `r + ½ − d`. For a
+//! pixel near several segments, the nearest segment is used.
 
 use plotters::prelude::{BitMapBackend, DrawingBackend, RGBColor};
 use plotters::style::Color;
@@ -19,7 +19,7 @@ pub fn paint(canvas: &Canvas, width: u32, height: u32) -> Result<Vec<u8>, Output
     encode(&pixels(canvas, width, height)?, width, height).map_err(refused)
 }
 
-/// Pixels of `canvas`, row by row from the top, as red, green and blue.
+/// Pixels of `canvas` as red, green and blue, row by row from the top.
 pub fn pixels(canvas: &Canvas, width: u32, height: u32) -> Result<Vec<u8>, OutputError> {
     let Colour(paper, ..) = WHITE;
     let mut pixels = vec![paper; width as usize * height as usize * 3];
@@ -97,7 +97,7 @@ impl PngPage<'_> {
                 covered.push((corner.x as i32 + x as i32, corner.y as i32 + y as i32, amount))
             });
             for (x, y, amount) in covered {
-                // Each pixel is a square. After the rotation of the text by 90°, the pixel to the right of the start point lies above it.
+                // Each pixel is a square. If the text is rotated by 90°, the pixel to the right of the start point becomes the pixel above it.
                 let (x, y) = match text.direction {
                     TextDirection::Level => (start.0 + x, start.1 + y),
                     TextDirection::Upwards => (start.0 + y, start.1 - x - 1),
@@ -151,7 +151,7 @@ impl PixelCoverage {
         let rows = clip(a.1.min(b.1) - reach, a.1.max(b.1) + reach, self.top, self.rows);
         for row in rows {
             let y = (self.top + row) as f64 + 0.5;
-            // Pixels of this row near the segment: around the intersection with the centre line, between the ends.
+            // Pixels of this row that are near the segment: those around the intersection with the centre line, and between its ends.
             let (mut low, mut high) = (a.0.min(b.0), a.0.max(b.0));
             if dy != 0.0 {
                 let crossing = a.0 + (y - a.1) * dx / dy;

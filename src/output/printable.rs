@@ -1,12 +1,12 @@
-//! Replacement of characters in untrusted text that control a terminal or are invisible.
+//! Replacement of characters in foreign text that control a terminal or are invisible.
 
 use std::borrow::Cow;
 
-/// Replacement for characters that must not be written to a terminal.
+/// Character by which characters are replaced that must not be written to a terminal.
 const REPLACEMENT: char = '\u{fffd}';
 
-/// Replaces control characters (such as the start of an escape sequence), bidirectional and zero-width characters.
-/// Line breaks and tabs are kept, and the number of characters does not change.
+/// Replaces control characters (such as the start of an escape sequence), bidirectional characters and characters of zero width.
+/// Line breaks and tabs are kept. The number of characters does not change.
 pub fn printable(text: &str) -> Cow<'_, str> {
     let is_harmful = |(at, letter): (usize, char)| is_harmful(letter) && !is_line_break(text, at);
     if !text.char_indices().any(is_harmful) {

@@ -1,20 +1,20 @@
-//! CSV tables of texts and numbers with `#` comment lines above.
+//! CSV tables of texts and numbers, with `#` comment lines above.
 
 use super::OutputError;
 use super::csv::{comment_line, csv_cell};
 
-/// Rows of texts under named columns.
+/// Table of texts with named columns.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct CsvRecords {
-    /// Lines written above the table, each after a `#`.
+    /// Comment lines above the table, each written after a `#`.
     pub comments: Vec<String>,
     pub names: Vec<String>,
-    /// Rows with one text per column.
+    /// Rows, each with one text for every column.
     pub rows: Vec<Vec<String>>,
 }
 
 impl CsvRecords {
-    /// Text of the CSV file. Rows that are shorter or longer than the header are an error.
+    /// Text of the CSV file. Fails if a row is shorter or longer than the header.
     pub fn to_text(&self) -> Result<String, OutputError> {
         let comments = self.comments.iter().flat_map(|comment| comment.lines());
         let mut bytes: Vec<u8> =

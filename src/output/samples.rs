@@ -1,4 +1,4 @@
-//! Sample pictures with realistic content. Set `WITHY_SAMPLES` to a folder to keep the files.
+//! Sample pictures with realistic content. If `WITHY_SAMPLES` is set to a folder, the files are kept in it.
 
 use super::*;
 

@@ -1,4 +1,4 @@
-//! Diagrams of section forces: values as strips normal to the beams, with equal scales of both axes.
+//! Diagrams of section forces. Values are drawn as strips normal to the beams. Both axes have the same scale.
 
 use super::{
     axis::typeset_number,
@@ -15,16 +15,16 @@ use crate::elementary::hypot;
 const BEAM: f64 = 2.4;
 const EDGE: f64 = 1.5;
 const ORDINATE: f64 = 1.0;
-/// Distance of ordinates [pixels].
+/// Distance between ordinates [pixels].
 const APART: f64 = 7.0;
 const NUMBER: f64 = 12.0;
-/// Largest ordinate, as a fraction of the size of all beams.
+/// Largest ordinate, as a fraction of the total size of the beams.
 const LARGEST: f64 = 0.2;
-/// Extreme value, relative to the largest, below which it is not labelled.
+/// Smallest extreme value that is labelled, as a fraction of the largest value.
 const SMALLEST_LABELLED: f64 = 0.03;
 const DIGITS: usize = 4;
 
-/// Side of a beam, seen along it, for positive values.
+/// Side of a beam on which positive values are drawn, as seen along the beam.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum BeamSide {
     #[default]
@@ -35,7 +35,7 @@ pub enum BeamSide {
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct BeamStrip {
     pub line: Vec<Point>,
-    /// Points along the beam with their values. A point at which the value jumps has two entries.
+    /// Points along the beam with their values. Where the value jumps, the point occurs twice.
     pub values: Vec<(Point, f64)>,
 }
 
@@ -70,7 +70,7 @@ impl StripPicture {
         self
     }
 
-    /// Chooses the side of positive values.
+    /// Sets the side on which positive values are drawn.
     pub fn side(mut self, side: BeamSide) -> Self {
         self.side = side;
         self
@@ -110,7 +110,8 @@ impl StripPicture {
         runs.map(run).collect()
     }
 
-    /// Size of all beams together; if there are many small beams, of the longest one, so that diagrams of neighbouring beams do not overlap.
+    /// Size of all beams together. If there are many small beams, it is the size of the longest one, so that diagrams of neighbouring beams do not
+    /// overlap.
     fn beam_size(&self) -> f64 {
         let points = || self.strips.iter().flat_map(|strip| strip.line.iter().copied());
         let side = |pick: fn(Point) -> f64| {
@@ -169,7 +170,7 @@ impl StripPicture {
         line(canvas, &edge, EDGE, colour);
     }
 
-    /// Points along the drawn beams, dense enough that no label fits between them.
+    /// Points along the drawn beams. They are so dense that no label fits between them.
     fn on_beams(&self, frame: &Frame, plot: &Area) -> Vec<Point> {
         let lines = self.strips.iter().flat_map(|strip| frame.curve(plot, &strip.line));
         let dense = |run: Vec<Point>| {

@@ -6,21 +6,21 @@ use super::{
     curve,
 };
 
-/// Line style, which distinguishes series of the same colour.
+/// Line style. Series with the same colour can be distinguished by it.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum Stroke {
     #[default]
     Solid,
     Dashed,
-    /// Short dashes, nearly dots.
+    /// Very short dashes.
     Dotted,
-    /// An unbroken line with a marker at every point, for few measured or computed points.
+    /// Continuous line with a marker at every point, for few measured or computed points.
     Marked,
     MarkersOnly,
 }
 
 impl Stroke {
-    /// Stroke of the series in the given pass through the palette, counted from 0.
+    /// Line style of a series. `round` is the number of times that the palette has been used completely before.
     pub fn of_palette_pass(round: usize) -> Self {
         [Stroke::Solid, Stroke::Dashed, Stroke::Dotted][round % 3]
     }
@@ -30,7 +30,7 @@ impl Stroke {
         matches!(self, Stroke::Marked | Stroke::MarkersOnly)
     }
 
-    /// Draws one unbroken run of a curve, given in pixels. Markers are drawn separately.
+    /// Draws a piece of a curve without gaps, given in pixels. Markers are drawn separately.
     pub fn draw(self, canvas: &mut Canvas, run: &[Point], width: f64, colour: Colour) {
         let pattern: &[f64] = match self {
             Stroke::Solid | Stroke::Marked => {

@@ -1,6 +1,7 @@
-//! SVG painter, based on plotters. Text is converted to outlines, so that no fonts are needed. The description of the picture contains the texts.
+//! Painter of SVG files, based on the library plotters. Text is converted to outlines, so that no fonts are needed. The description of the picture
+//! contains the texts.
 //!
-//! The coordinates of plotters are integers, so the picture is drawn on a grid of [`GRID`] steps per pixel.
+//! Coordinates of plotters are integers. Therefore the picture is drawn on a grid of [`GRID`] steps per pixel.
 
 use plotters::prelude::{DrawingBackend, RGBColor, SVGBackend, ShapeStyle};
 
@@ -28,11 +29,12 @@ pub fn paint(canvas: &Canvas, width: u32, height: u32) -> Result<String, OutputE
     let opening = opening(size);
     let drawn =
         body.strip_prefix(&opening).ok_or_else(|| refused("the document begins otherwise"))?;
-    // All shapes are opaque and texts are outlines, so this string can only be the attribute.
+    // All shapes are opaque and texts are outlines, so this string occurs only as an attribute.
     Ok(head(canvas, width, height, size) + drawn.replace(" opacity=\"1\"", "").as_str())
 }
 
-/// Start of the document as plotters writes it for a grid of this size. It has a wrong size, no title and no description, so [`head`] replaces it.
+/// Start of the document as plotters writes it for a grid of this size. Its size is wrong, and title and description are missing. [`head`] replaces
+/// it.
 fn opening(grid: (u32, u32)) -> String {
     let mut empty = String::new();
     drop(SVGBackend::with_string(&mut empty, grid));
@@ -69,7 +71,7 @@ fn refused(error: impl std::fmt::Display) -> OutputError {
 fn paint_shape(backend: &mut SVGBackend<'_>, shape: &Shape) -> Result<(), OutputError> {
     match shape {
         Shape::Line { points, width, colour } => {
-            // A dot is a line whose second point equals the first.
+            // A dot is drawn as a line whose second point equals the first.
             let end = points.last().filter(|_| points.len() == 1);
             backend.draw_path(
                 points.iter().chain(end).copied().map(on_grid),
@@ -90,7 +92,7 @@ fn paint_shape(backend: &mut SVGBackend<'_>, shape: &Shape) -> Result<(), Output
     .map_err(refused)
 }
 
-/// Contours of a glyph as one polygon, with zero-width bridges from the first contour to the others.
+/// Combines the contours of a glyph to one polygon. Bridges of zero width connect the first contour to the others.
 fn one_polygon(contours: &[Vec<Point>], text: &Text) -> Vec<(i32, i32)> {
     let home = contours.first().and_then(|contour| contour.first());
     let walk = contours

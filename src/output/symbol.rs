@@ -1,4 +1,4 @@
-//! Symbols of mechanics: supports, joints, sliders and loads, of the same size in every picture.
+//! Symbols of mechanics: supports, joints, sliders and loads. Their size is the same in every picture.
 
 mod symbol_frame;
 
@@ -15,20 +15,20 @@ use super::{
 
 use crate::elementary::hypot;
 
-/// White space around a symbol, so that it is not cut off.
+/// White space that prevents a symbol from being cut off.
 const ROOM: f64 = 20.0;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Symbol {
     /// A support that fixes the position.
     Hinge,
-    /// A support that fixes position and angle. Its direction is that of the beam at the support, away from the support.
+    /// A support that fixes position and angle. Its direction is the direction of the beam, pointing away from the support.
     Clamp,
-    /// A support that fixes the position component along its direction, which points away from the ground.
+    /// A support that fixes the component of the position along its direction. The direction points away from the ground.
     Roller,
     /// A support that fixes one component of the position and the angle.
     Guided,
-    /// A support that fixes the angle only.
+    /// A support that fixes only the angle.
     HeldAngle,
     /// A prescribed rotation of a section as a function of time.
     Motor,
@@ -40,17 +40,17 @@ pub enum Symbol {
     RigidJoint,
     /// A point that slides along a beam.
     Slider,
-    /// A force, along its direction.
+    /// A force in its direction.
     Force,
-    /// A part of a force that is distributed along a beam.
+    /// Part of a force that is distributed along a beam.
     LineForce,
-    /// A moment. It is counter-clockwise if its direction points to the right, clockwise if to the left.
+    /// A moment. It is counter-clockwise if its direction points to the right, and clockwise if it points to the left.
     Moment,
     /// A spring from its point to the end of its direction vector.
     Spring,
     /// A damper, between the same points as a spring.
     Damper,
-    /// A piece of a tendon, between the same points as a spring.
+    /// A segment of a tendon, between the same points as a spring.
     Tendon,
     /// A rotational spring at a section.
     TorsionSpring,
@@ -87,17 +87,18 @@ impl Symbol {
     }
 }
 
-/// A symbol at a point, in data units.
+/// Symbol at a point, in data units.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PlacedSymbol {
     pub symbol: Symbol,
     pub at: Point,
-    /// Direction of the symbol, of any length; zero if the symbol has none. Springs, dampers and tendons end at `at + direction`.
+    /// Direction of the symbol. Its length has no meaning, and it is zero if the symbol has no direction. Springs, dampers and tendons end at `at +
+    /// direction`.
     pub direction: Point,
 }
 
 impl PlacedSymbol {
-    /// Both ends of a spring, a damper or a piece of a tendon.
+    /// Both ends of a spring, a damper or a segment of a tendon; `None` for other symbols.
     pub fn link(&self) -> Option<[Point; 2]> {
         self.end().map(|end| [self.at, end])
     }

@@ -1,4 +1,4 @@
-//! Aligned text tables for the terminal and for logs.
+//! Text tables with aligned columns, for the terminal and for logs.
 
 use std::fmt;
 
@@ -8,9 +8,9 @@ use super::width::{columns, padded};
 
 #[derive(Clone, Debug, PartialEq)]
 pub enum Cell {
-    /// A text, flush left.
+    /// A text, aligned to the left.
     Text(String),
-    /// A number as text, flush right.
+    /// A number as text, aligned to the right.
     Number(String),
 }
 
@@ -52,7 +52,7 @@ impl From<i64> for Cell {
     }
 }
 
-/// Rows under a header, formatted by [`Display`](fmt::Display).
+/// Table of rows below a header. [`Display`](fmt::Display) formats it.
 #[derive(Clone, Debug, Default)]
 pub struct TextTable {
     title: String,
@@ -70,7 +70,7 @@ impl TextTable {
         self
     }
 
-    /// Adds a row. A row shorter than the header is padded with blanks. A longer row widens the table.
+    /// Adds a row. If it is shorter than the header, blanks are added to it. If it is longer, the table becomes wider.
     pub fn row<C: Into<Cell>>(&mut self, cells: impl IntoIterator<Item = C>) -> &mut Self {
         self.rows.push(cells.into_iter().map(Into::into).collect());
         self
@@ -87,7 +87,7 @@ impl TextTable {
         cells.chain(heads).max().unwrap_or(0)
     }
 
-    /// Returns true if a column contains a number. The head of such a column is also flush right.
+    /// Returns true if a column contains a number. The head of such a column is also aligned to the right.
     fn is_numeric(&self, column: usize) -> bool {
         self.rows.iter().any(|row| matches!(row.get(column), Some(Cell::Number(_))))
     }

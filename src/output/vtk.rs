@@ -1,27 +1,27 @@
-//! VTK files for ParaView and other programs: one grid per frame, and a collection with the times of the frames.
+//! VTK files for ParaView and other programs. There is one grid for each frame, and a collection with the times of the frames.
 //!
-//! The files are XML with base64 data after a byte count. This format keeps every bit, including denormal numbers and NaN, which readers of the text
-//! format reject. (VTK User's Guide, "VTK File Formats": XML file formats; uncompressed, `header_type="UInt64"`.)
+//! The files are XML with base64 data that follow a byte count. This format keeps every bit. It can contain denormal numbers and NaN, which
+//! programs reject in the text format. (VTK User's Guide, "VTK File Formats": XML file formats; uncompressed, `header_type="UInt64"`.)
 
 use std::fmt::Write;
 
 use super::base64::base64;
 use super::{OutputError, Point};
 
-/// VTK cell types of a point and of a line segment. A body consists of several such cells, because not all readers support polylines.
+/// VTK cell types of a point and of a line segment. A body consists of several such cells, because not all programs can read polylines.
 const VERTEX: u8 = 1;
 const LINE: u8 = 3;
 
-/// Bodies of one frame, and fields on their points.
+/// Bodies in a frame, and fields of values at their points.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct VtkGrid {
-    /// Bodies. The cell field `body` contains the index of the body for each of its cells.
+    /// Bodies. In the file, the cell field `body` contains for each cell the index of its body.
     pub cells: Vec<VtkCell>,
-    /// Fields over the points of all cells, in order.
+    /// Fields with values at the points of all cells, in the order of the points.
     pub fields: Vec<VtkField>,
 }
 
-/// A body: a polyline, or a dot if there is only one point.
+/// Body: a polyline, or a dot if it has only one point.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct VtkCell {
     /// Name of the body, which is written as a comment.
@@ -38,7 +38,7 @@ pub struct VtkField {
 #[derive(Clone, Debug, PartialEq)]
 pub enum VtkValues {
     Numbers(Vec<f64>),
-    /// Vectors in the plane; the third component in the file is zero.
+    /// Vectors in the plane. Their third component in the file is zero.
     Vectors(Vec<Point>),
 }
 
@@ -57,10 +57,10 @@ impl VtkField {
 }
 
 impl VtkGrid {
-    /// Text of a `.vtu` file: an unstructured grid in one piece.
+    /// Text of a `.vtu` file, which contains an unstructured grid in one piece.
     ///
     /// # Errors
-    /// Fails if a field does not have one value per point.
+    /// Fails if a field does not have one value for each point.
     pub fn to_vtu(&self) -> Result<String, OutputError> {
         let points: Vec<Point> = self.cells.iter().flat_map(|cell| cell.points.clone()).collect();
         if let Some(field) = self.fields.iter().find(|field| field.length() != points.len()) {
@@ -120,7 +120,7 @@ impl VtkGrid {
     }
 }
 
-/// Text of a `.pvd` file: times and file names of the frames.
+/// Text of a `.pvd` file, which contains times and file names of the frames.
 pub fn vtk_collection(frames: &[(f64, String)]) -> String {
     let mut text = heading("frames and their times", "Collection", "");
     text += "<Collection>\n";
@@ -132,7 +132,7 @@ pub fn vtk_collection(frames: &[(f64, String)]) -> String {
 }
 
 fn heading(comment: &str, kind: &str, more: &str) -> String {
-    // Two hyphens would end a comment, and control characters are invalid in XML.
+    // Two hyphens would end the comment, and control characters are invalid in XML.
     let comment = comment.replace('-', "\u{2010}").replace(char::is_control, " ");
     format!(
         "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<!-- {comment} -->\n\
@@ -169,7 +169,7 @@ fn push<const N: usize>(
     let length = (bytes.len() - 8) as u64;
     bytes[..8].copy_from_slice(&length.to_le_bytes());
     let (name, letters) = (escaped(name), base64(&bytes));
-    // Some readers convert an array with one component to a table with one column.
+    // Some programs convert an array with one component to a table with one column.
     let many = match components {
         1 => String::new(),
         many => format!(" NumberOfComponents=\"{many}\""),

@@ -1,20 +1,20 @@
-//! Display width of texts in a terminal, in columns.
+//! Width of texts in a terminal, in columns.
 //!
-//! Widths follow Unicode Standard Annex #11 (East Asian Width), character by character, as terminals do.
+//! Widths follow Unicode Standard Annex #11 (East Asian Width). Each character is treated separately, as in terminals.
 
 use unicode_width::UnicodeWidthChar;
 
-/// Number of columns of a character. Control characters, such as a tab, have none.
+/// Number of columns of a character. Control characters, for example a tab, have none.
 pub fn columns_of(letter: char) -> usize {
     letter.width().unwrap_or(0)
 }
 
-/// Number of columns of a text of one line.
+/// Number of columns of a text that has one line.
 pub fn columns(text: &str) -> usize {
     text.chars().map(columns_of).sum()
 }
 
-/// Longest beginning of a text of at most `most` columns.
+/// Longest beginning of a text that has at most `most` columns.
 pub fn beginning(text: &str, most: usize) -> &str {
     let mut taken = 0;
     let beyond = text.char_indices().find(|(_, letter)| {
@@ -24,7 +24,7 @@ pub fn beginning(text: &str, most: usize) -> &str {
     beyond.map_or(text, |(end, _)| &text[..end])
 }
 
-/// A text of at most `most` columns; a wider text is cut and ends with `mark`.
+/// Text of at most `most` columns. A wider text is shortened and ends with `mark`.
 pub fn cut(text: &str, most: usize, mark: char) -> String {
     match beginning(text, most) {
         whole if whole.len() == text.len() => text.to_owned(),
@@ -33,9 +33,9 @@ pub fn cut(text: &str, most: usize, mark: char) -> String {
     }
 }
 
-/// A text padded with blanks to `width` columns.
+/// Text with blanks added at the end, so that it has `width` columns.
 pub fn padded(text: &str, width: usize) -> String {
-    // The padding of Rust counts characters and is limited to 65 535.
+    // Formatting in Rust would count characters and not columns, and is limited to a width of 65 535.
     format!("{text}{}", " ".repeat(width.saturating_sub(columns(text))))
 }
 

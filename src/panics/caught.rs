@@ -1,4 +1,4 @@
-//! Catching of panics, which are internal errors, with a message and location instead of Rust's output.
+//! Catches panics, which are internal errors, and returns their message and location. Rust's own output of a panic is suppressed.
 
 use std::any::Any;
 use std::cell::RefCell;
@@ -8,7 +8,7 @@ thread_local! {
     static PLACE: RefCell<String> = const { RefCell::new(String::new()) };
 }
 
-/// Silences panics and stores their location. The code that [catches](caught) a panic must report it.
+/// Suppresses Rust's output of panics, and stores the location of each panic instead. Code that [catches](caught) a panic must report it.
 pub fn silence() {
     panic::set_hook(Box::new(|panic| {
         let place = panic.location().map(|place| format!(" ({place})")).unwrap_or_default();
@@ -16,12 +16,12 @@ pub fn silence() {
     }));
 }
 
-/// Calls `work` and catches a panic.
+/// Calls `work`, and catches a panic of it.
 ///
-/// After a panic, data that `work` modifies may be inconsistent. The caller must discard the data or know that it is valid.
+/// After a panic, data that `work` modifies may be inconsistent. The caller must discard such data, or must know that they are still valid.
 ///
 /// # Errors
-/// Panic message, with the location if panics are [silenced](silence).
+/// Returns the message of the panic. It contains the location if panics are [silenced](silence).
 pub fn caught<T>(work: impl FnOnce() -> T) -> Result<T, String> {
     panic::catch_unwind(AssertUnwindSafe(work)).map_err(|panic| message(&*panic))
 }

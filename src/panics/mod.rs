@@ -1,4 +1,4 @@
-//! Panics: catching and reporting of internal errors.
+//! Catches and reports panics, which are internal errors.
 
 mod caught;
 

@@ -1,8 +1,8 @@
-//! Clocks for timing.
+//! Clocks for measuring run times.
 
 use std::time::{Duration, Instant};
 
-/// A clock that measures time since a fixed moment.
+/// Clock that measures the time since a fixed moment.
 pub trait Clock {
     /// Time since the fixed moment of the clock.
     fn now(&self) -> Duration;

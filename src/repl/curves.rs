@@ -25,7 +25,7 @@ impl CurveAbscissa {
         }
     }
 
-    /// Text for the horizontal axis in messages.
+    /// Description of the horizontal axis for messages.
     pub fn in_words(self) -> &'static str {
         match self {
             Self::Time => "time",
@@ -48,19 +48,19 @@ impl PlotCurve {
     }
 }
 
-/// Interpretation of a script value as data of a curve.
+/// Interpretation of a script value as points of curves.
 #[derive(Clone, Debug, PartialEq)]
 pub enum PlotShape {
-    /// All points of a curve, with its horizontal axis.
+    /// All points of a curve, and the type of its horizontal axis.
     Whole(CurveAbscissa, Vec<Point>),
     Number(f64),
-    /// A vector: one point of each of two curves.
+    /// Vector, which is one point of each of two curves.
     Vector(Vec2),
-    /// A value that cannot be drawn, with the reason.
+    /// Value that cannot be drawn. The text contains the reason.
     None(String),
 }
 
-/// Interprets a value of type `of`: an array of numbers, two arrays of equal length, points, a number, or a vector.
+/// Interprets a value of type `of`. Arrays of numbers, two arrays of equal length, arrays of points, numbers and vectors can be drawn.
 pub fn shape(value: &Dynamic, of: &str) -> PlotShape {
     if let Some(number) = number(value) {
         return PlotShape::Number(number);
@@ -112,7 +112,7 @@ fn shape_of_array(array: &Array) -> PlotShape {
 }
 
 fn number(value: &Dynamic) -> Option<f64> {
-    // Variables that closures capture are shared values with a lock.
+    // Variables that closures capture are shared values, which must be locked for reading.
     let value = value.flatten_clone();
     value.as_float().ok().or_else(|| value.as_int().ok().map(|whole| whole as f64))
 }
@@ -121,7 +121,7 @@ fn numbers(array: &Array) -> Option<Vec<f64>> {
     array.iter().map(|value| if value.is_array() { None } else { number(value) }).collect()
 }
 
-/// Splits the operand of a command at commas outside brackets and string literals.
+/// Splits the operand of a command at the commas that are outside brackets and string literals.
 pub fn parts(operand: &str) -> Vec<&str> {
     let mut parts = Vec::new();
     let (mut depth, mut begin, mut is_between_bars, mut before) =
@@ -130,7 +130,7 @@ pub fn parts(operand: &str) -> Vec<&str> {
         match (token.kind, token.of(operand)) {
             (TokenKind::Open(_), _) => depth += 1,
             (TokenKind::Close(_), _) => depth = depth.saturating_sub(1),
-            // Bars enclose the parameters of a closure. After a value, a bar is an operator.
+            // Bars enclose the parameters of a closure. After a value, however, a bar is an operator.
             (TokenKind::Symbol, "|") => {
                 let is_operator =
                     matches!(before, TokenKind::Word | TokenKind::Number | TokenKind::Close(_));
@@ -151,7 +151,7 @@ pub fn parts(operand: &str) -> Vec<&str> {
     parts
 }
 
-/// One-line summary of a curve: first, last, smallest and largest value.
+/// Summary of a curve in one line: first, last, smallest and largest value.
 pub fn summary(curve: &PlotCurve) -> String {
     let values = curve.points.iter().map(|(_, value)| *value);
     let shown = |value: Option<f64>| value.map_or_else(String::new, |x| significant(x, DIGITS));

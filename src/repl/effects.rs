@@ -1,4 +1,4 @@
-//! Side effects of an input other than changes of variables. They show whether repeated evaluation of the input is possible.
+//! Side effects of an input other than changes of variables. They determine whether the input can be evaluated repeatedly.
 
 use rhai::{Array, Dynamic, FnPtr, Map};
 
@@ -6,19 +6,19 @@ use super::session::Session;
 use crate::script::handles::scene::SceneHandle;
 use crate::script::handles::simulation::SimulationHandle;
 
-/// Maximum depth of nested arrays and maps.
+/// Largest nesting depth of arrays and maps that is examined.
 const DEEPEST: usize = 8;
 
-/// State that an input can change, but that is not restored with the variables.
+/// State that an input can change and that is not restored together with the variables.
 pub struct SideEffects {
     simulations: Vec<(SimulationHandle, SimulationPosition)>,
     scenes: Vec<(SceneHandle, String)>,
-    /// Variables shared by closures, with their values as text.
+    /// Variables that closures share, with their values as text.
     shared: Vec<(Dynamic, String)>,
     files: usize,
 }
 
-/// State of a simulation: counters, number of scheduled functions, and snapshot memory.
+/// State of a simulation: counters, number of scheduled functions, and memory for snapshots.
 type SimulationPosition = (usize, u64, usize, usize);
 
 impl SideEffects {
@@ -56,7 +56,7 @@ impl SideEffects {
         }
     }
 
-    /// Description of the change since this state was recorded, which follows "it" in messages.
+    /// Description of what has changed since this state was recorded. It follows the word "it" in messages.
     pub fn change(&self, session: &Session) -> Option<String> {
         let moved = self.simulations.iter().find(|(handle, was)| place(handle) != *was);
         if let Some((handle, _)) = moved {

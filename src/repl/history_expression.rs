@@ -1,4 +1,4 @@
-//! Evaluation of an expression at all earlier states of a simulation, from snapshots or by repeating the run in a copy.
+//! Evaluation of an expression at all earlier states of a simulation. The states are restored from snapshots or computed again in a copy.
 
 use rhai::Dynamic;
 
@@ -11,7 +11,7 @@ use crate::script::handles::simulation::{Revisit, SimulationHandle};
 use crate::script::messages::error::ScriptError;
 use crate::script::state::context::Context;
 
-/// Maximum number of states. A terminal has fewer dots.
+/// Largest number of states. The dots of a terminal cannot show more.
 const MOST_STATES: usize = 1000;
 
 const DIGITS: usize = 6;
@@ -21,10 +21,10 @@ pub struct Followed {
     pub text: String,
 }
 
-/// Evaluates an expression at every earlier state of a simulation that can be reproduced. The state of the simulation is unchanged.
+/// Evaluates an expression at every earlier state of a simulation that can be restored. The simulation itself is not changed.
 ///
 /// # Errors
-/// Fails if the expression fails at a state, advances or rewinds the simulation, or is interrupted. The error has then been printed.
+/// Fails if the expression fails at a state, advances or rewinds the simulation, or is interrupted. The error has been printed already.
 pub fn evaluate_history(
     shell: &mut Shell,
     subject: &SimulationHandle,
@@ -39,7 +39,7 @@ pub fn evaluate_history(
     evaluate_snapshots(shell, subject, text, &kept)
 }
 
-/// Evaluates at the stored snapshots, from last to first, so that the history at each snapshot is that of its time.
+/// Evaluates at the stored snapshots. They are restored from the last to the first, so that at each snapshot the history ends at its time.
 fn evaluate_snapshots(
     shell: &mut Shell,
     subject: &SimulationHandle,
@@ -71,7 +71,7 @@ fn evaluate_snapshots(
     Ok(Followed { points, text: words })
 }
 
-/// Evaluates at the rows of the history by repeating the run; `None` if the repeated run differs.
+/// Evaluates at the rows of the history by repeating the run. `None` if the repeated run differs from the original.
 fn evaluate_rerun(
     shell: &mut Shell,
     subject: &SimulationHandle,
@@ -98,7 +98,7 @@ fn evaluate_rerun(
 
 enum PlaybackStep {
     Back(std::vec::IntoIter<usize>),
-    /// Evaluation at the rows of the history, of which every `every`-th row is used.
+    /// Evaluation at the rows of the history. Every `every`-th row is used.
     NextRow {
         next: usize,
         rows: usize,
@@ -108,7 +108,7 @@ enum PlaybackStep {
 
 enum PlaybackError {
     Moves,
-    /// Evaluation was interrupted, or the copy could not repeat the run.
+    /// The evaluation was interrupted, or the run could not be repeated in the copy.
     Refused(ScriptError),
     Another(String),
     NoPoint(String),

@@ -1,4 +1,4 @@
-//! Paging of long replies, with an external program or built-in keys.
+//! Display of long replies in pages, by an external program or by built-in keys.
 
 mod keyboard;
 mod pages;
@@ -16,28 +16,28 @@ pub enum PagerOutcome {
     Shown,
     /// Ctrl-C was pressed.
     Interrupted,
-    /// The text must be printed normally, because it is short or paging is disabled.
+    /// The text must be printed without pages, because it is short or pages are disabled.
     NotPaged,
 }
 
-/// A pager for long texts.
+/// Pager for long texts.
 pub trait Pager {
     /// Sets the size of the terminal.
     fn resize(&mut self, columns: usize, lines: usize);
 
-    /// Shows a text in pages if it is long. `was_interrupted` returns true once for each Ctrl-C.
+    /// Shows a text in pages if it is long. `was_interrupted` returns true once after each Ctrl-C.
     fn show(&mut self, text: &str, was_interrupted: &dyn Fn() -> bool) -> PagerOutcome;
 }
 
-/// A pager at a terminal.
+/// Pager at a terminal.
 pub struct TerminalPager {
     program: Option<String>,
     size: (usize, usize),
 }
 
 impl TerminalPager {
-    /// A pager with the program in the variable `PAGER`; the built-in pager if it is not set. `None` if the value is `cat` or empty, or if the
-    /// terminal cannot move its cursor.
+    /// Creates a pager with the program in the variable `PAGER`. If the variable is not set, the built-in pager is used. `None` if its value is
+    /// `cat` or empty, or if the terminal cannot move its cursor.
     pub fn of_environment(variable: impl Fn(&str) -> Option<String>) -> Option<Self> {
         let program = variable("PAGER");
         let is_unwanted = program.as_deref().is_some_and(|name| matches!(name.trim(), "" | "cat"));
@@ -58,7 +58,7 @@ impl Pager for TerminalPager {
     }
 
     fn show(&mut self, text: &str, was_interrupted: &dyn Fn() -> bool) -> PagerOutcome {
-        // Keys that were typed ahead belong to the prompt.
+        // Keys that were typed during the evaluation belong to the prompt and not to the pager.
         if !self.is_long(text) || keyboard::has_pending_keys() {
             return PagerOutcome::NotPaged;
         }
@@ -72,7 +72,7 @@ impl Pager for TerminalPager {
             return PagerOutcome::NotPaged;
         };
         let walked = show_pages(text, self.size.1, &mut keys, was_interrupted, &mut stdout());
-        // If the terminal was closed, the next prompt reports it.
+        // If the terminal has been closed, the next prompt reports it.
         walked.unwrap_or(PagerOutcome::Shown)
     }
 }

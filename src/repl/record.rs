@@ -1,4 +1,4 @@
-//! Record of successful inputs, as a script that repeats them.
+//! Record of the successful inputs of a session, as a script that repeats them.
 
 use std::fmt::Write;
 use std::ops::Range;
@@ -18,7 +18,7 @@ const HEADER: &str = "//! A session of withy: its successful inputs.";
 enum RecordedInput {
     Statements(Source),
     Expression(Source),
-    /// Statements that return early, which would end a script.
+    /// Statements that return early. In a script they would end the script.
     EarlyReturn(Source),
     Moved(Source),
 }
@@ -31,14 +31,14 @@ pub struct SimulationPositions {
     steps: usize,
 }
 
-/// Successful inputs of a session, in order.
+/// Successful inputs of a session, in their order.
 #[derive(Clone, Debug, Default)]
 pub struct SessionRecord {
     entries: Vec<RecordedInput>,
 }
 
 impl SessionRecord {
-    /// Records statements without a value.
+    /// Records statements that have no value.
     pub fn worked(&mut self, text: &str) {
         self.entries.push(RecordedInput::Statements(text.trim().into()));
     }
@@ -47,19 +47,20 @@ impl SessionRecord {
         self.entries.push(RecordedInput::Expression(text.trim().into()));
     }
 
-    /// Records an input that ended with an early `return`.
+    /// Records an input that ended early by `return`.
     pub fn returned(&mut self, text: &str) {
         self.entries.push(RecordedInput::EarlyReturn(text.trim().into()));
     }
 
-    /// Records the advances and rewinds of simulations by a failed statement, compared with their positions `before`. Returns true if there were any.
+    /// Records how a failed statement advanced or rewound simulations, by comparison with their positions `before`. Returns true if it did so.
     pub fn record_movement(&mut self, before: &[SimulationPositions]) -> bool {
         let known = self.entries.len();
         for was in before {
             let (time, steps) = (was.handle.time(), was.handle.simulation().counts().steps);
             if steps != was.steps {
                 let method = if time > was.time { "run_to" } else { "rewind" };
-                // A script function that is called during the movement may throw its error again.
+                // When the saved script repeats the movement, it may call the script function that has failed here, and this call may fail again.
+                // Hence the error is caught.
                 let call = format!("{}.{method}({});", was.name, format_number(time));
                 self.entries
                     .push(RecordedInput::Moved(format!("try {{ {call} }} catch {{ }}").into()));
@@ -68,7 +69,7 @@ impl SessionRecord {
         self.entries.len() > known
     }
 
-    /// Record as a script. `engine` must not optimise statements away.
+    /// Converts the record to a script. `engine` must not remove statements by optimisation.
     pub fn script(&self, engine: &Engine) -> String {
         let asked: Vec<bool> =
             self.sources().map(|source| source.is_some_and(uses_answer)).collect();
@@ -76,7 +77,7 @@ impl SessionRecord {
             self.sources().map(|source| source.map(written).unwrap_or_default()).collect();
         let mut script = format!("{HEADER}\n\n");
         for (index, entry) in self.entries.iter().enumerate() {
-            // The value of `ans` is needed until the next expression replaces it.
+            // The value of `ans` is needed until the next expression changes it.
             let later = || self.entries[index + 1..].iter().zip(&asked[index + 1..]);
             let next = later().position(|(entry, _)| matches!(entry, RecordedInput::Expression(_)));
             let is_asked = || {
@@ -108,7 +109,7 @@ impl SessionRecord {
         script
     }
 
-    /// Names of functions defined more than once. A script can contain only one definition of each.
+    /// Names of functions that were defined more than once. A script can contain only one definition of each.
     pub fn redefined(&self) -> Vec<String> {
         let mut seen = Vec::new();
         let mut twice = Vec::new();
@@ -134,7 +135,7 @@ impl SessionRecord {
         self.entries.iter().map(RecordedInput::source)
     }
 
-    /// Returns true if an input returned early and is therefore not repeated.
+    /// Returns true if an input returned early. Such an input is not repeated.
     pub fn has_returned(&self) -> bool {
         self.entries.iter().any(|entry| matches!(entry, RecordedInput::EarlyReturn(_)))
     }
@@ -144,14 +145,14 @@ impl RecordedInput {
     fn source(&self) -> Option<&Source> {
         match self {
             Self::Statements(text) | Self::Expression(text) => Some(text),
-            // Inputs that are not repeated define no functions and do not use `ans`.
+            // An input that is not repeated defines no functions and does not use `ans`.
             Self::EarlyReturn(_) => None,
             Self::Moved(line) => Some(line),
         }
     }
 }
 
-/// Simulations held by variables, and the last simulation, without duplicates.
+/// Simulations in variables and the simulation used last, without duplicates.
 pub fn simulation_positions(
     scope: &Scope,
     latest: Option<SimulationHandle>,
@@ -198,9 +199,9 @@ pub fn functions_of(source: &Source) -> impl Iterator<Item = &str> {
 }
 
 struct FunctionText {
-    /// Name (for a method, preceded by its type) and number of parameters.
+    /// Name and number of parameters. The name of a method includes its type.
     name: (String, usize),
-    /// Range of the text from `private` or the doc comments to the closing brace.
+    /// Byte range of the definition, from its doc comments or `private` to the closing brace.
     bytes: Range<usize>,
 }
 

@@ -1,4 +1,4 @@
-//! Repeated timing: number of repetitions and statistics.
+//! Repeated measurements of a run time: number of repetitions, and statistics.
 
 use std::rc::Rc;
 use std::time::Duration;
@@ -8,15 +8,15 @@ use rhai::Dynamic;
 use super::clock::Clock;
 use super::session::Rounds;
 
-/// Duration of an input above which it is not repeated.
+/// Largest duration of an input that is evaluated repeatedly.
 pub const LONGEST: Duration = Duration::from_secs(1);
-/// Maximum total time of the repetitions.
+/// Largest total time of all repetitions.
 const TOTAL_TIME_LIMIT: Duration = Duration::from_secs(2);
-/// Minimum total time. Sampling ends earlier if the relative error of the median is below [`KNOWN`].
+/// Smallest total time of all repetitions, unless the relative error of the median is below [`KNOWN`].
 const LEAST_TIME: Duration = Duration::from_millis(200);
 const LEAST_RUNS: usize = 7;
 const MOST_RUNS: usize = 10_000;
-/// Target for the relative error of the median.
+/// Relative error of the median that is accurate enough.
 const KNOWN: f64 = 0.01;
 
 pub struct Sampling {
@@ -24,14 +24,14 @@ pub struct Sampling {
     start: Option<Duration>,
     round_start: Duration,
     durations: Vec<Duration>,
-    /// Number of runs after which the error is evaluated next.
+    /// Number of runs after which the error is computed next.
     next_evaluation: usize,
 }
 
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Figures {
     pub runs: usize,
-    /// Shortest run, which other processes have disturbed least.
+    /// Duration of the shortest run. It is the run that other processes have disturbed least.
     pub least: Duration,
     pub median: Duration,
     pub quartiles: (Duration, Duration),
@@ -75,7 +75,7 @@ impl Sampling {
 }
 
 impl Figures {
-    /// Relative standard error of the median, for a normal distribution with the same quartiles.
+    /// Relative standard error of the median. It is the error for a normal distribution that has the same quartiles as the measured durations.
     fn error(&self) -> f64 {
         let (low, high) = self.quartiles;
         let deviation = (high - low).as_secs_f64() / 1.349;

@@ -4,10 +4,10 @@ use std::collections::HashSet;
 
 use rhai::{Dynamic, ImmutableString, Scope};
 
-/// Variables of a scope without shadowed variables; `None` if no variable is shadowed.
+/// Variables of a scope that are not shadowed. `None` if no variable of the scope is shadowed.
 pub fn visible(scope: &Scope<'static>) -> Option<Scope<'static>> {
     let mut names = HashSet::new();
-    // The iteration starts with the newest variables, which shadow older ones.
+    // The newest variables come first. They shadow older ones.
     let seen: Vec<_> = scope.iter_raw().filter(|(name, ..)| names.insert(*name)).collect();
     if seen.len() == scope.len() {
         return None;
@@ -22,7 +22,7 @@ pub fn visible(scope: &Scope<'static>) -> Option<Scope<'static>> {
     Some(visible)
 }
 
-/// Constants that were added to a scope after the first `known` variables, in order.
+/// Constants that were added to a scope after its first `known` variables, in their order.
 pub fn constants_after(
     scope: &Scope,
     known: usize,

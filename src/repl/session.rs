@@ -1,4 +1,4 @@
-//! Sessions without a terminal. Inputs are evaluated in sequence and share their state.
+//! Sessions, which do not depend on a terminal. Inputs are evaluated one after the other and share their state.
 
 mod preview;
 
@@ -24,7 +24,7 @@ use crate::script::state::watchdog::Watchdog;
 
 pub use preview::Rounds;
 
-/// Variable that holds the value of the last expression.
+/// Name of the variable that contains the value of the last expression.
 pub const ANSWER: &str = "ans";
 
 /// Result of an input.
@@ -34,10 +34,10 @@ pub enum Reply {
     Done,
     /// Success with the value of an expression.
     Value(Dynamic),
-    /// A statement failed. The effects of earlier statements of the input remain. Of the failed statement, only changes of scenes, simulations and
-    /// variables shared by closures remain.
+    /// A statement failed. The effects of earlier statements in the same input remain. Of the failed statement, only changes of scenes, of
+    /// simulations and of variables that closures share remain.
     Failed(Diagnostic),
-    /// Ctrl-C interrupted a statement. The effects are those of a failure.
+    /// Ctrl-C interrupted a statement. Its effects are the same as for a failed statement.
     Interrupted,
     /// The reader of the output has closed the pipe.
     PipeClosed,
@@ -51,7 +51,7 @@ struct StatementCheckpoint {
     positions: Vec<SimulationPositions>,
 }
 
-/// Variables, functions, constants and imports, and the script engine.
+/// Session: variables, functions, constants and imports, and the script engine.
 pub struct Session {
     engine: ScriptEngine,
     folder: PathBuf,
@@ -63,10 +63,10 @@ pub struct Session {
 }
 
 impl Session {
-    /// An empty session.
+    /// Creates an empty session.
     ///
     /// # Errors
-    /// Only on internal errors.
+    /// Fails only because of internal errors.
     pub fn new(catalog: Catalog, settings: RunSettings) -> Result<Self, Diagnostic> {
         let folder = settings.folder.clone();
         let host = ScriptEngine::open(catalog, settings)?;
@@ -81,7 +81,7 @@ impl Session {
         })
     }
 
-    /// Clears the session.
+    /// Removes all variables, functions, constants and imports.
     pub fn reset(&mut self) {
         self.scope.clear();
         self.global = self.engine.engine().new_global_runtime_state();
@@ -91,7 +91,8 @@ impl Session {
         self.context().clear_simulations();
     }
 
-    /// Clears a Ctrl-C that was pressed between evaluations. A later Ctrl-C stops every evaluation until this function is called again.
+    /// Forgets a Ctrl-C that was pressed between evaluations. A Ctrl-C that is pressed later stops every evaluation until this function is called
+    /// again.
     pub fn clear_interrupt(&mut self) {
         self.context().interrupt_flag().store(false, Ordering::Relaxed);
     }
@@ -102,7 +103,7 @@ impl Session {
         self.eval_program(program)
     }
 
-    /// Evaluates a program, such as a file, as if it had been typed.
+    /// Evaluates a program, for example a file, as if it had been typed.
     pub fn eval_program(&mut self, program: Program) -> Reply {
         let text = program.text.clone();
         let before = self.transcript.add(program);
@@ -115,7 +116,8 @@ impl Session {
             }
         };
         let returns = statements::returns(&ast);
-        // An input with an early return is evaluated as a whole. In other inputs, statements before an error remain in effect.
+        // An input that may return early is evaluated as a whole. Other inputs are evaluated in pieces, so that statements before an error keep
+        // their effect.
         let pieces = if returns { ast.statements().len().max(1) } else { 1 };
         let mut value = Dynamic::UNIT;
         for (number, piece) in ast.statements().chunks(pieces).enumerate() {
@@ -153,17 +155,17 @@ impl Session {
         self.record.worked(&format!("{before}{functions}"));
     }
 
-    /// Records an input that was evaluated by other code.
+    /// Records an input that other code has evaluated.
     pub fn record_success(&mut self, text: &str) {
         self.record.worked(text);
     }
 
-    /// Records advances and rewinds of simulations by actions that are not recorded themselves. Returns true if there were any.
+    /// Records how simulations were advanced or rewound by actions that are not recorded themselves. Returns true if there were any.
     pub fn record_movement(&mut self, before: &[SimulationPositions]) -> bool {
         self.record.record_movement(before)
     }
 
-    /// Named simulations and their positions.
+    /// Simulations with a name, and their positions.
     pub fn simulation_positions(&self) -> Vec<SimulationPositions> {
         let latest = self.context().latest_simulation();
         simulation_positions(&self.scope, latest.and_then(|latest| latest.try_cast()))
@@ -182,7 +184,7 @@ impl Session {
     fn restore(&mut self, checkpoint: StatementCheckpoint) {
         self.scope = checkpoint.scope;
         self.global = checkpoint.global;
-        // The functions that scenes and simulations store share these constants.
+        // Functions that scenes and simulations have stored share these constants.
         if let Some(constants) = &self.global.constants {
             *constants.borrow_mut() = checkpoint.constants;
         }
@@ -196,7 +198,7 @@ impl Session {
         let parse = |engine: &Engine| parse_piece(engine, &piece, || transcript.variables());
         let ast = host.run(&guard, || transcript.to_program(), parse).map_err(reply)?;
         self.library = self.library.merge(&ast.clone_functions_only());
-        // The name distinguishes errors in functions of the session from errors in functions of imported files.
+        // By this name, errors in functions of the session are distinguished from errors in functions of imported files.
         self.library.set_source(PROMPT);
         self.global.source = Some(PROMPT.into());
         self.global.lib.clear();
@@ -208,7 +210,7 @@ impl Session {
         let Self { engine: host, transcript, scope, global, .. } = self;
         let whole = || transcript.to_program();
         let outcome = host.run(guard, whole, |engine| {
-            // Only this deprecated call keeps imports and constants between inputs. There is no replacement.
+            // Only this deprecated function keeps imports and constants between inputs. There is no other function for it.
             #[allow(deprecated)]
             engine.eval_statements_raw(global, &mut Caches::new(), scope, statements)
         });
@@ -220,7 +222,7 @@ impl Session {
         if value.is_unit() || text.ends_in_semicolon() {
             return Reply::Done;
         }
-        // If the user has defined a constant of this name, it is not changed.
+        // If the user has defined a constant with this name, it is not changed.
         match (self.scope.is_constant(ANSWER), self.scope.get_mut(ANSWER)) {
             (Some(false), Some(answer)) => *answer = value.clone(),
             (None, _) => _ = self.scope.push_dynamic(ANSWER, value.clone()),
@@ -229,13 +231,13 @@ impl Session {
         Reply::Value(value)
     }
 
-    /// Makes the constants after the first `known` variables visible to functions as `global::NAME`, independent of the order of definition.
+    /// Makes the constants after the first `known` variables visible to functions as `global::NAME`, whatever the order of definitions.
     fn publish_constants(&mut self, known: usize) {
         let shared = self.global.constants.get_or_insert_with(Default::default);
         shared.borrow_mut().extend(scope::constants_after(&self.scope, known));
     }
 
-    /// Drops shadowed variables, which cannot be accessed, to save memory in long sessions.
+    /// Drops shadowed variables to save memory in long sessions. They cannot be accessed any more.
     fn drop_shadowed(&mut self) {
         if let Some(visible) = scope::visible(&self.scope) {
             self.scope = visible;
@@ -249,7 +251,7 @@ impl Session {
         self.engine.catalog()
     }
 
-    /// State shared by all calls of the session.
+    /// State that all calls of the session share.
     pub fn context(&self) -> &Context {
         self.engine.context()
     }
@@ -264,12 +266,12 @@ impl Session {
         &self.scope
     }
 
-    /// Functions defined in the session, without closures.
+    /// Functions that the session has defined, without closures.
     pub fn functions(&self) -> impl Iterator<Item = rhai::ScriptFnMetadata<'_>> {
         self.library.iter_functions().filter(|function| !function.name.starts_with("anon$"))
     }
 
-    /// Imported modules with their names, last import first.
+    /// Imported modules with their names. The module that was imported last comes first.
     pub fn modules(&self) -> impl Iterator<Item = (&str, &rhai::Module)> {
         self.global.iter_imports()
     }
@@ -284,7 +286,7 @@ impl Session {
         &self.record
     }
 
-    /// Successful inputs as a script.
+    /// Converts the successful inputs to a script.
     ///
     /// # Errors
     /// Fails if the inputs cannot be combined to a script. The error contains the reason.

@@ -1,4 +1,4 @@
-//! Evaluation of input lines, which contain statements or commands. Replies are written to the output of the session.
+//! Evaluation of inputs, which are statements or commands. Replies are written to the output of the session.
 
 mod refusing;
 mod watched_expressions;
@@ -21,12 +21,12 @@ use crate::script::handles::simulation::SimulationHandle;
 use crate::script::presentation::present::present;
 use crate::script::source::program::{LARGEST_SCRIPT, Program};
 
-/// Result of a line.
+/// Result of an input.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum CommandOutcome {
     /// Success.
     Success,
-    /// Failure that was reported.
+    /// The input failed, and the error was reported.
     Failed,
     /// Interrupted by Ctrl-C.
     Interrupted,
@@ -36,7 +36,7 @@ pub enum CommandOutcome {
     Quit,
 }
 
-/// Destination of the replies.
+/// Where replies are written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ReplyTarget {
     /// A terminal with this style.
@@ -47,21 +47,21 @@ pub enum ReplyTarget {
 
 const WIDTH: usize = 100;
 
-/// A session with commands and watched expressions.
+/// Session with commands and watched expressions.
 pub struct Shell {
     session: Session,
     screen: ReplyTarget,
     watched: Vec<String>,
-    /// Number of written files that were reported to the user.
+    /// Number of written files that have been reported to the user.
     reported_files: usize,
-    /// Scripts saved by this shell, by path.
+    /// Scripts that this shell has saved, with their paths.
     saved: HashMap<PathBuf, String>,
     clock: Rc<dyn Clock>,
     pager: Option<Box<dyn Pager>>,
 }
 
 impl Shell {
-    /// Creates a shell for a session, with replies for `screen`.
+    /// Creates a shell for a session. Its replies are written to `screen`.
     pub fn new(session: Session, screen: ReplyTarget) -> Self {
         Self {
             session,
@@ -80,12 +80,12 @@ impl Shell {
         Self { clock, ..self }
     }
 
-    /// Sets the pager for long replies.
+    /// Sets the pager by which long replies are shown.
     pub fn page_with(&mut self, pager: Box<dyn Pager>) {
         self.pager = Some(pager);
     }
 
-    /// Clock with which the shell measures times.
+    /// Clock by which the shell measures times.
     pub fn clock(&self) -> Rc<dyn Clock> {
         Rc::clone(&self.clock)
     }
@@ -100,7 +100,7 @@ impl Shell {
         &mut self.session
     }
 
-    /// Destination of the replies.
+    /// Where replies are written.
     pub fn screen(&self) -> ReplyTarget {
         self.screen
     }
@@ -115,7 +115,7 @@ impl Shell {
         }
     }
 
-    /// Evaluates a complete input: a command, a help request, or statements.
+    /// Evaluates a complete input, which is a command, a help request, or consists of statements.
     pub fn submit(&mut self, input: &str) -> CommandOutcome {
         self.session.clear_interrupt();
         let text = input.trim();
@@ -168,7 +168,7 @@ impl Shell {
         }
     }
 
-    /// Shows a reply.
+    /// Shows a reply of the session.
     pub fn print_reply(&mut self, reply: Reply) -> CommandOutcome {
         let outcome = match reply {
             Reply::Done => CommandOutcome::Success,
@@ -199,31 +199,31 @@ impl Shell {
         self.reported_files = written.len();
     }
 
-    /// Clears the session.
+    /// Removes all variables, functions and imports of the session.
     pub fn reset(&mut self) {
         self.session.reset();
         self.watched.clear();
     }
 
-    /// Returns true if a file may be written, that is, if it does not exist or is unchanged since this shell wrote it.
+    /// Returns true if a file may be written: if it does not exist, or has not been changed since this shell wrote it.
     pub fn may_write(&self, path: &Path) -> bool {
         let ours = || self.saved.get(path).map(String::as_bytes);
         let is_there = path.symlink_metadata().is_ok();
         !is_there || read_file(path, LARGEST_SCRIPT).is_ok_and(|bytes| Some(&*bytes) == ours())
     }
 
-    /// Records a script that was saved to a file.
+    /// Records that a script was saved to a file.
     pub fn record_saved(&mut self, path: &Path, script: String) {
         self.saved.insert(path.to_owned(), script);
     }
 
-    /// Prints a reply.
+    /// Prints a text as a reply.
     pub fn print(&self, text: &str) {
         self.session.context().print_drawn(text);
         self.session.context().flush();
     }
 
-    /// Prints a reply that may be long, with the pager if there is one.
+    /// Prints a reply that may be long. If there is a pager, it is used.
     pub fn print_in_pages(&mut self, text: &str) -> CommandOutcome {
         let interrupt = self.session.context().interrupt_flag();
         let shown = match &mut self.pager {
@@ -240,7 +240,7 @@ impl Shell {
         }
     }
 
-    /// Prints a note next to the replies.
+    /// Prints a note that is not part of a reply.
     pub fn print_note(&self, text: &str) {
         self.session.context().print_message(text);
     }
@@ -256,7 +256,7 @@ impl Shell {
         CommandOutcome::Failed
     }
 
-    /// Use of colours in replies.
+    /// Whether replies are coloured.
     pub fn colours(&self) -> Colours {
         match self.screen {
             ReplyTarget::Terminal(style) => style.colours,
@@ -264,7 +264,7 @@ impl Shell {
         }
     }
 
-    /// Number of characters per line.
+    /// Number of characters in a line.
     pub fn width(&self) -> usize {
         match self.screen {
             ReplyTarget::Terminal(style) => style.width,
@@ -273,7 +273,7 @@ impl Shell {
     }
 }
 
-/// Removes the position of an error in an input that a command has generated, because the user has not typed this input.
+/// Removes the position of an error in an input that a command has generated. The user has not typed this input.
 fn without_position_in(input: &str, reply: Reply) -> Reply {
     let is_made = |location: &Location| {
         let line = location.program.text.lines().nth(location.line.saturating_sub(1));
@@ -290,12 +290,12 @@ fn without_position_in(input: &str, reply: Reply) -> Reply {
 const LATEST: &str = "latest_simulation()";
 
 impl Shell {
-    /// Simulation that was started, loaded, forked or stepped last.
+    /// Simulation that was started, loaded, copied or stepped last.
     pub fn latest(&self) -> Option<SimulationHandle> {
         self.session.context().latest_simulation()?.try_cast()
     }
 
-    /// Returns true if a variable holds the last simulation.
+    /// Returns true if a variable contains the simulation used last.
     pub fn has_latest_simulation(&self) -> bool {
         self.name_of_latest().is_ok_and(|name| name != LATEST)
     }
@@ -309,13 +309,13 @@ impl Shell {
         };
         let variables = self.session.variables();
         let held = variables.iter_raw().find(|(name, _, value)| {
-            // The value of `ans` is lost at the next expression, so it does not count.
+            // The next expression changes the value of `ans`, so this variable does not count.
             *name != ANSWER && is_it(value)
         });
         Ok(held.map_or_else(|| LATEST.into(), |(name, ..)| name.to_owned()))
     }
 
-    /// Shows the time and step count of the last simulation.
+    /// Shows the time and the number of steps of the simulation used last.
     pub fn print_position(&self) {
         if let Some(latest) = self.latest() {
             let steps = latest.simulation().counts().steps;
@@ -331,7 +331,7 @@ impl Shell {
         self.name_of_latest().map(|name| format!("{name}.{call};"))
     }
 
-    /// Calls a method of the last simulation as if it had been typed.
+    /// Calls a method of the simulation used last, as if the call had been typed.
     pub fn call_latest(&mut self, call: &str) -> CommandOutcome {
         match self.input_for_latest(call) {
             Ok(input) => {
@@ -342,8 +342,8 @@ impl Shell {
         }
     }
 
-    /// Calls a method of the last simulation for a command, and shows the watched expressions. The call is recorded, or the part of it that
-    /// succeeded.
+    /// Calls a method of the simulation used last for a command, and shows the watched expressions. The call is recorded. If it fails, the part of
+    /// it that succeeded is recorded.
     pub fn call_latest_and_watch(&mut self, call: &str) -> CommandOutcome {
         let input = match self.input_for_latest(call) {
             Ok(input) => input,
@@ -366,7 +366,7 @@ impl Shell {
         }
     }
 
-    /// Shows the result of a method of the last simulation.
+    /// Shows the result of a method of the simulation used last.
     pub fn show_latest_result(&mut self, call: &str) -> CommandOutcome {
         match self.preview_latest(call) {
             Ok(reply) => self.print_reply(reply),
@@ -374,7 +374,7 @@ impl Shell {
         }
     }
 
-    /// Evaluates a method of the last simulation, without effects on the session.
+    /// Evaluates a method of the simulation used last, without effects on the session.
     ///
     /// # Errors
     /// Fails if there is no simulation.
@@ -383,7 +383,7 @@ impl Shell {
         Ok(self.session.evaluate_preview(&format!("{name}.{call}")))
     }
 
-    /// End time of the next step of the last simulation; `None` if the simulation has reached `end`.
+    /// End time of the next step of the simulation used last; `None` if the simulation has reached `end`.
     pub fn next_stop(&self, end: f64) -> Option<f64> {
         let latest = self.latest()?;
         let simulation = latest.simulation();
@@ -392,7 +392,7 @@ impl Shell {
     }
 }
 
-/// Error of a command that needs a simulation.
+/// Error of a command that needs a simulation, if there is none.
 pub fn no_simulation() -> Diagnostic {
     Diagnostic::general("there is no simulation yet")
         .with_hint("start one: let sim = scene.start(#{ dt: 0.1 })")

@@ -1,5 +1,5 @@
-//! Transcript of all inputs of a session, which relates error positions to inputs. For example, an error in a function typed at line 3 and called at
-//! line 20 is shown at line 3.
+//! Transcript of all inputs of a session. By means of it, positions of errors are related to inputs. For example, an error in a function that was
+//! typed at line 3 and called at line 20 is shown at line 3.
 
 use std::sync::Arc;
 
@@ -10,7 +10,7 @@ use crate::script::source::program::Program;
 /// Source name of typed inputs in messages.
 pub const PROMPT: &str = "prompt";
 
-/// Maximum number of lines that the engine can count. A longer session starts again from line one.
+/// Largest number of lines that the engine can count. A longer session starts again at line one.
 const MOST_LINES: usize = 60_000;
 
 struct TranscriptInput {
@@ -19,7 +19,7 @@ struct TranscriptInput {
     is_valid: bool,
 }
 
-/// All inputs of a session. For the engine, each input has its own lines in one long text.
+/// All inputs of a session. For the engine they are one long text, in which each input has its own lines.
 pub struct Transcript {
     pieces: Vec<TranscriptInput>,
     lines: usize,
@@ -27,7 +27,7 @@ pub struct Transcript {
 }
 
 impl Transcript {
-    /// Creates an empty transcript. Imports are searched in `folder`.
+    /// Creates an empty transcript. Files to be imported are searched in `folder`.
     pub fn new(folder: std::path::PathBuf) -> Self {
         Self { pieces: Vec::new(), lines: 0, folder }
     }
@@ -36,7 +36,7 @@ impl Transcript {
         self.lines + 1
     }
 
-    /// Appends an input, and returns the number of lines before it.
+    /// Appends an input. Returns the number of lines before it.
     pub fn add(&mut self, program: Program) -> usize {
         let lines = program.text.lines().count().max(1);
         if self.lines + lines > MOST_LINES {
@@ -53,7 +53,7 @@ impl Transcript {
         Program { folder: self.folder.clone(), ..Program::named(PROMPT, text) }
     }
 
-    /// Marks the last input as failed, so that its declarations do not exist.
+    /// Marks the last input as failed. Its declarations then do not exist.
     pub fn mark_last_failed(&mut self) {
         if let Some(last) = self.pieces.last_mut() {
             last.is_valid = false;
@@ -66,7 +66,7 @@ impl Transcript {
         }
     }
 
-    /// All inputs as one program at their line numbers. Failed inputs are blank, except the last one.
+    /// All inputs as one program in which they have their line numbers. The lines of failed inputs are blank, except for the last one.
     pub fn to_program(&self) -> Program {
         let mut text = String::new();
         for (index, piece) in self.pieces.iter().enumerate() {
@@ -84,7 +84,7 @@ impl Transcript {
         self.typed(&text)
     }
 
-    /// Variables declared outside functions, with their lines in [`Transcript::to_program`].
+    /// Variables that are declared outside functions, with their lines in [`Transcript::to_program`].
     pub fn variables(&self) -> Vec<(String, usize)> {
         let shown = self.shown();
         let of_piece = |piece: &TranscriptInput| {
@@ -103,7 +103,7 @@ impl Transcript {
             .map(|(_, piece)| piece)
     }
 
-    /// Diagnostic with positions relative to the original inputs. Loaded files have their own line numbers.
+    /// Changes the positions of an error so that they refer to the original inputs. Loaded files have their own line numbers.
     pub fn relocate(&self, mut diagnostic: Diagnostic) -> Diagnostic {
         for step in &mut diagnostic.trace {
             if step.file.is_none()

@@ -1,16 +1,16 @@
-//! Distributions of parameters.
+//! Probability distributions of parameters.
 
 use super::normal_quantile;
 use crate::elementary::{exp, ln};
 
 #[derive(Clone, Debug, PartialEq)]
 pub enum Distribution {
-    /// Uniform between `from` and `to`.
+    /// Uniform distribution between `from` and `to`.
     Uniform {
         from: f64,
         to: f64,
     },
-    /// Uniform in the logarithm between positive `from` and `to`.
+    /// Distribution whose logarithm is uniform between the positive numbers `from` and `to`.
     LogUniform {
         from: f64,
         to: f64,
@@ -21,7 +21,7 @@ pub enum Distribution {
     },
     LogNormal {
         median: f64,
-        /// Standard deviation of the natural logarithm.
+        /// Standard deviation of the natural logarithm of the parameter.
         deviation: f64,
     },
     Triangular {
@@ -36,7 +36,7 @@ impl Distribution {
         matches!(self, Self::LogUniform { .. } | Self::LogNormal { .. })
     }
 
-    /// Quantile of a probability strictly between 0 and 1.
+    /// Returns the quantile of a probability, which must lie strictly between 0 and 1.
     pub fn quantile(&self, probability: f64) -> f64 {
         let between = |from: f64, to: f64| from * (1.0 - probability) + to * probability;
         match *self {
@@ -56,7 +56,7 @@ impl Distribution {
         }
     }
 
-    /// Script notation of the distribution.
+    /// Returns the distribution as it is written in a script.
     pub fn describe(&self) -> String {
         match self {
             Self::Uniform { from, to } => format!("uniform({from}, {to})"),

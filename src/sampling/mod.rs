@@ -1,13 +1,13 @@
-//! Design of experiments: distributions, sampling, and sensitivity indices.
+//! Random sampling of parameters: distributions, sets of points, and sensitivity indices.
 //!
 //! ```text
 //! latin_hypercube, sobol, saltelli → random
 //! distribution → normal
-//! sensitivity      indices from results at random points or on grids
+//! sensitivity      computes indices from results at random points or on grids
 //! ```
 //!
-//! Equal seeds give equal points on every machine: the generator is ChaCha with twelve rounds, whose stream is defined bit by bit, and the
-//! conversion of its words is implemented here, because library conversions may change.
+//! Equal seeds give equal points on every machine. The random number generator is ChaCha with twelve rounds, whose output is defined bit by bit.
+//! The conversion of its output to numbers is implemented here, because the conversion of a library may change with its version.
 
 #![cfg_attr(test, allow(clippy::unwrap_used))]
 

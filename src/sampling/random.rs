@@ -3,22 +3,23 @@
 use rand_chacha::ChaCha12Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
 
-/// Generator of all random numbers of studies: ChaCha with twelve rounds (D. J. Bernstein, 2008), initialised by a seed. Equal seeds give
+/// Generator of all random numbers of studies. It is ChaCha with twelve rounds (D. J. Bernstein, 2008), initialised by a seed. Equal seeds give
 /// equal numbers on every machine.
 pub struct Random(ChaCha12Rng);
 
-/// Number of random bits: the precision of a double.
+/// Number of random bits of a uniform number, which is the precision of a double.
 const BITS: u32 = 53;
 
 impl Random {
-    /// Generator at the start of the stream of a seed.
+    /// Returns a generator that is initialised by `seed`.
     pub fn seeded(seed: u64) -> Self {
         let mut key = [0; 32];
         key[..8].copy_from_slice(&seed.to_le_bytes());
         Self(ChaCha12Rng::from_seed(key))
     }
 
-    /// Uniform number in the open interval (0, 1): the midpoint of one of 2⁵³ equal intervals, rounded.
+    /// Returns a uniform random number in the open interval (0, 1). The interval is divided into 2⁵³ equal parts; the number is the rounded
+    /// midpoint of one of them.
     pub fn unit(&mut self) -> f64 {
         let part = self.0.next_u64() >> (u64::BITS - BITS);
         ((part as f64 + 0.5) / (1_u64 << BITS) as f64).min(1.0 - f64::EPSILON / 2.0)
@@ -28,7 +29,8 @@ impl Random {
         self.0.next_u32()
     }
 
-    /// Uniform integer below `count`, without modulo bias: words in the incomplete last interval are rejected.
+    /// Returns a uniform random integer below `count`. The largest values of the generator are rejected, because otherwise some integers would be
+    /// slightly more probable than others.
     pub fn below(&mut self, count: u64) -> u64 {
         let whole = u64::MAX - u64::MAX % count.max(1);
         loop {
@@ -39,7 +41,7 @@ impl Random {
         }
     }
 
-    /// Random permutation, uniformly distributed (R. Durstenfeld, 1964).
+    /// Permutes the values at random, so that all permutations are equally probable (R. Durstenfeld, 1964).
     pub fn shuffle<T>(&mut self, values: &mut [T]) {
         for last in (1..values.len()).rev() {
             let other = self.below(last as u64 + 1);
@@ -63,7 +65,7 @@ mod tests {
         assert_ne!(first, drawn(2));
         assert!(first.iter().all(|x| *x > 0.0 && *x < 1.0));
         let mean = first.iter().sum::<f64>() / first.len() as f64;
-        // Five standard deviations of the mean.
+        // The tolerance is five standard deviations of the mean.
         assert!((mean - 0.5).abs() < 5.0 * (1.0_f64 / 12.0 / 1e4).sqrt(), "{mean}");
     }
 

@@ -1,14 +1,16 @@
-//! Sobol' indices: fractions of the variance of a result that each parameter explains.
+//! Sobol' indices: fractions of the variance of a result that are due to each parameter.
 
-/// Minimum number of blocks or points for an estimate. Its uncertainty is about the inverse square root of their number.
+/// Minimum number of blocks or points for an estimate. The uncertainty of the estimate is about the inverse of the square root of this number.
 const FEWEST: usize = 30;
 
-/// Fractions of the variance of a result explained by a parameter.
+/// Sobol' indices of one parameter.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct VarianceShare {
-    /// First-order index (main effect): variance of the mean of the result over all other parameters.
+    /// First-order index (main effect). If the result is averaged over all other parameters, it still varies with this parameter. The index is the
+    /// variance of this average, as a fraction of the variance of the result.
     pub first: f64,
-    /// Total index: remaining variance if all other parameters are known; `None` if it cannot be estimated.
+    /// Total index: the mean variance that remains if all other parameters are known, as a fraction of the variance of the result; `None` if it
+    /// cannot be estimated.
     pub total: Option<f64>,
 }
 
@@ -22,8 +24,9 @@ fn variance(values: &[f64]) -> f64 {
     mean(values.iter().map(|x| (x - middle) * (x - middle)))
 }
 
-/// Indices of the parameters of a full grid, on which the last parameter varies fastest. All levels have the same probability, so the indices are
-/// exact. `None` if the result is constant.
+/// Returns the indices of all parameters from results on a full grid. The last parameter varies fastest, and `lengths` contains the number of
+/// values of each parameter. All values of a parameter have the same probability, so the indices are exact. Returns `None` if the result is
+/// constant.
 pub fn grid_indices(lengths: &[usize], results: &[f64]) -> Option<Vec<VarianceShare>> {
     let whole = variance(results);
     (whole > 0.0).then(|| {
@@ -44,9 +47,10 @@ pub fn grid_indices(lengths: &[usize], results: &[f64]) -> Option<Vec<VarianceSh
     })
 }
 
-/// Indices of the parameters at the points of [`saltelli`](super::saltelli), by the estimators of M. J. W. Jansen, Computer Physics
-/// Communications 117 (1999) 35-43, over the blocks with finite results. `None` if the result is constant, or fewer than 30 blocks are
-/// complete.
+/// Returns the indices of all parameters from results at the points of [`saltelli`](super::saltelli), by the estimators of M. J. W. Jansen,
+/// Computer Physics Communications 117 (1999) 35-43.
+///
+/// Blocks with a result that is not finite are omitted. Returns `None` if fewer than 30 blocks remain or the result is constant.
 pub fn saltelli_indices(parameters: usize, results: &[f64]) -> Option<Vec<VarianceShare>> {
     let is_whole = |block: &&[f64]| block.iter().all(|result| result.is_finite());
     let blocks: Vec<&[f64]> = results.chunks_exact(parameters + 2).filter(is_whole).collect();
@@ -61,9 +65,11 @@ pub fn saltelli_indices(parameters: usize, results: &[f64]) -> Option<Vec<Varian
     (whole > 0.0 && blocks.len() >= FEWEST).then(|| (0..parameters).map(of).collect())
 }
 
-/// First-order index of a parameter for arbitrary independent points. It is the variance of the means over groups of points that are consecutive in
-/// the parameter, minus the contribution of the scatter within groups. The number of groups is the cube root of the number of points. Results that
-/// are not finite are omitted. `None` if there are fewer than 30 points, or the result is constant.
+/// Returns the first-order index of one parameter from results at arbitrary independent points. `values` contains the parameter at these points.
+///
+/// The points are sorted by the parameter and divided into groups. The index follows from the variance of the means of the groups, minus the
+/// contribution of the scatter within the groups. The number of groups is the cube root of the number of points, but at least three. Results that
+/// are not finite are omitted. Returns `None` if fewer than 30 points remain or the result is constant.
 pub fn rank_indices(values: &[f64], results: &[f64]) -> Option<VarianceShare> {
     let pairs = values.iter().copied().zip(results.iter().copied());
     let mut pairs: Vec<(f64, f64)> = pairs.filter(|(_, result)| result.is_finite()).collect();
@@ -97,13 +103,14 @@ mod tests {
     use crate::elementary::{power, sin};
     use std::f64::consts::PI;
 
-    /// T. Ishigami, T. Homma (1990), with a = 7, b = 0.1, on the cube from -π to π.
+    /// Function of T. Ishigami and T. Homma (1990) with a = 7 and b = 0.1, on the cube from -π to π.
     fn ishigami(x: &[f64]) -> f64 {
         let [a, b, c] = [0, 1, 2].map(|at: usize| (2.0 * x[at] - 1.0) * PI);
         sin(a) + 7.0 * sin(b) * sin(b) + 0.1 * power(c, 4.0) * sin(a)
     }
 
-    /// Indices in closed form, from the variances 1/2 (1 + b π⁴/5)², a²/8 and 0, and the interaction 8 π⁸ b²/225.
+    /// Indices in closed form. The contributions to the variance are 1/2 (1 + b π⁴/5)², a²/8 and 0 for the three parameters, and 8 π⁸ b²/225 for
+    /// the interaction of the first and the third.
     fn known() -> ([f64; 3], [f64; 3]) {
         let fourth = power(PI, 4.0);
         let first = 0.5 * power(1.0 + 0.1 * fourth / 5.0, 2.0);

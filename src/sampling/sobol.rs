@@ -1,11 +1,11 @@
-//! Sobol' sequences: low-discrepancy points.
+//! Sobol' sequences, whose points fill the unit cube more evenly than random points.
 
 use super::Random;
 
 const BITS: usize = 32;
 
-/// Primitive polynomials (their inner coefficients as bits) and initial direction numbers from the second coordinate on, from S. Joe, F. Y.
-/// Kuo, SIAM J. Sci. Comput. 30 (2008) 2635-2654, file new-joe-kuo-6.21201.
+/// Primitive polynomial and initial direction numbers of each coordinate, beginning with the second one. The number contains the inner coefficients
+/// of the polynomial as bits. The values are those of the file new-joe-kuo-6.21201 of S. Joe, F. Y. Kuo, SIAM J. Sci. Comput. 30 (2008) 2635-2654.
 const DIRECTIONS: [(u32, &[u32]); 39] = [
     (0, &[1]),
     (1, &[1, 3]),
@@ -50,11 +50,11 @@ const DIRECTIONS: [(u32, &[u32]); 39] = [
 
 pub const MOST_DIMENSIONS: usize = DIRECTIONS.len() + 1;
 
-/// Direction numbers of a coordinate, from 0, as fractions of 2³².
+/// Returns the direction numbers of a coordinate as multiples of 2⁻³². Coordinates are counted from 0.
 fn directions(dimension: usize) -> [u32; BITS] {
     let mut numbers = [0; BITS];
     let Some((coefficients, initial)) = dimension.checked_sub(1).map(|at| DIRECTIONS[at]) else {
-        // Van der Corput's sequence.
+        // The first coordinate is the van der Corput sequence.
         return std::array::from_fn(|bit| 1 << (BITS - 1 - bit));
     };
     let degree = initial.len();
@@ -71,9 +71,11 @@ fn directions(dimension: usize) -> [u32; BITS] {
     numbers
 }
 
-/// First `count` points of a Sobol' sequence (in Gray code order, as I. A. Antonov and V. M. Saleev, 1979) in at most [`MOST_DIMENSIONS`]
-/// dimensions, with each coordinate shifted by random bits of the seed (a digital shift, which preserves the uniformity and avoids 0).
-/// Returns the values of all points for each coordinate.
+/// Returns the first `count` points of a Sobol' sequence, in Gray code order (I. A. Antonov and V. M. Saleev, 1979). At most [`MOST_DIMENSIONS`]
+/// dimensions are possible.
+///
+/// The bits of each coordinate are combined with random bits by exclusive or. This digital shift preserves the uniformity. The coordinates lie
+/// strictly between 0 and 1. The result has one list per coordinate, with the values of all points.
 pub fn sobol(count: usize, dimensions: usize, seed: u64) -> Vec<Vec<f64>> {
     let mut random = Random::seeded(seed);
     (0..dimensions)
@@ -107,7 +109,7 @@ mod tests {
             .collect()
     }
 
-    /// Points given by the program of Joe and Kuo in three dimensions.
+    /// Points that the program of Joe and Kuo gives in three dimensions.
     #[test]
     fn points_are_those_of_joe_and_kuo() {
         assert_eq!(plain(6, 0), [0.0, 0.5, 0.75, 0.25, 0.375, 0.875]);
@@ -130,7 +132,7 @@ mod tests {
         let columns = sobol(4096, 4, 1);
         let product = |at: usize| columns.iter().map(|values| 2.0 * values[at]).product::<f64>();
         let mean = (0..4096).map(product).sum::<f64>() / 4096.0;
-        // Random points would have an error of about 0.023.
+        // With random points, the error would be about 0.023.
         assert!((mean - 1.0).abs() < 2e-3, "{mean}");
     }
 }

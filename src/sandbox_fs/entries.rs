@@ -1,4 +1,4 @@
-//! Listing of an open folder.
+//! Lists the files and subfolders of an open folder.
 
 use std::ffi::{OsStr, OsString};
 use std::io::{self, ErrorKind};
@@ -10,15 +10,16 @@ use super::folder::{Folder, is_plain};
 #[derive(Debug)]
 pub struct FolderEntry {
     pub name: OsString,
-    /// Length [bytes].
+    /// Length of the file [bytes].
     pub length: u64,
-    /// Time of the last change, if the system provides it.
+    /// Time of the last change; `None` if the system does not provide it.
     pub changed: Option<SystemTime>,
     pub is_folder: bool,
 }
 
 impl Folder {
-    /// Entries of this folder, sorted by name. Links are not followed. Entries that cannot be inspected are omitted.
+    /// Returns the files and subfolders of this folder, sorted by name. A link is listed as a link, not as its target. An entry that cannot be
+    /// inspected is omitted.
     ///
     /// # Errors
     /// Fails if the folder cannot be read.
@@ -34,7 +35,7 @@ impl Folder {
         Ok(all)
     }
 
-    /// Opens a subfolder by its name. Links are not followed.
+    /// Opens a subfolder by its name. A link is not followed.
     ///
     /// # Errors
     /// Fails if there is no folder of this name, or if it is a link.

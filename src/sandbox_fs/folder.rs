@@ -1,4 +1,4 @@
-//! An open folder, accessed through its descriptor.
+//! An open folder. Its files are accessed through the file descriptor of the folder, not through its path.
 
 use std::ffi::OsStr;
 use std::fs;
@@ -11,18 +11,18 @@ use cap_std::fs::{Dir, OpenOptions};
 
 use super::reading;
 
-/// An open folder. If the folder is renamed or replaced by a link, this value still refers to the same folder.
+/// An open folder. If the folder is renamed, or a link takes its place, this value still refers to the original folder.
 #[derive(Debug)]
 pub struct Folder(pub(super) Dir);
 
-/// Returns true if a path has no root and no `..`, so that it leads to the folder or below.
+/// Returns true if a path is relative and contains no `..`, so that it cannot leave the folder.
 pub fn is_plain(name: &Path) -> bool {
     let mut parts = name.components();
     name.components().next().is_some() && parts.all(|part| matches!(part, Component::Normal(_)))
 }
 
 impl Folder {
-    /// Opens a folder that the user has given. Links are followed.
+    /// Opens a folder whose path the user has given. Links are followed.
     ///
     /// # Errors
     /// Fails if there is no folder at `path`.
@@ -31,11 +31,11 @@ impl Folder {
         Dir::open_ambient_dir(path, ambient_authority()).map(Self)
     }
 
-    /// Opens a folder for writing, and creates it and its parents if necessary. The folder itself must not be a link, which could lead to another
-    /// place.
+    /// Opens a folder for writing. The folder and its parents are created if necessary. The folder itself must not be a link, because a link could
+    /// lead to another place.
     ///
     /// # Errors
-    /// Fails if the folder cannot be created, or is a link.
+    /// Fails if the folder cannot be created, or if it is a link.
     pub fn open_or_create(path: &Path) -> io::Result<Self> {
         let above = path.parent().filter(|above| !above.as_os_str().is_empty());
         let above = above.unwrap_or(Path::new("."));
@@ -48,10 +48,10 @@ impl Folder {
         }
     }
 
-    /// Opens a folder as [`open_or_create`](Self::open_or_create), without creating it.
+    /// Opens an existing folder under the same conditions as [`open_or_create`](Self::open_or_create), but never creates it.
     ///
     /// # Errors
-    /// Fails if there is no folder at `path`, or it is a link.
+    /// Fails if there is no folder at `path`, or if it is a link.
     pub fn find(path: &Path) -> io::Result<Self> {
         match path.components().next_back() {
             Some(Component::Normal(name)) => {
@@ -103,10 +103,10 @@ impl Folder {
         Ok((folder, name.file_name().ok_or_else(refused)?))
     }
 
-    /// Reads a regular file of at most `most` bytes below this folder. Links are not followed.
+    /// Reads a regular file below this folder. `most` is the maximum length [bytes]. Links are not followed.
     ///
     /// # Errors
-    /// Fails if the file does not exist, is longer, or is a link, a pipe, a device or a folder.
+    /// Fails if the file does not exist, is longer than `most`, or is a link, a pipe, a device or a folder.
     pub fn read(&self, name: &Path, most: u64) -> io::Result<Vec<u8>> {
         reading::read(self.open_file(name)?, most)
     }
@@ -127,13 +127,13 @@ impl Folder {
         Ok(file.into_std())
     }
 
-    /// Returns true if this name exists below this folder, including broken links.
+    /// Returns true if a file, a folder or a link of this name exists below this folder. The target of the link need not exist.
     pub fn has(&self, name: &Path) -> bool {
         let found = self.parent_of(name, Self::enter);
         found.is_ok_and(|(folder, name)| folder.0.symlink_metadata(name).is_ok())
     }
 
-    /// Returns true if a regular file below this folder is not locked.
+    /// Returns true if no other program has locked this regular file below the folder.
     ///
     /// # Errors
     /// Fails if the file does not exist or cannot be opened.
@@ -141,10 +141,10 @@ impl Folder {
         Ok(self.open_file(name)?.try_lock().is_ok())
     }
 
-    /// Creates a new file for writing, and missing parent folders.
+    /// Creates a new file for writing. Missing parent folders are created too.
     ///
     /// # Errors
-    /// Fails if the name exists.
+    /// Fails if a file of this name exists or the file cannot be created.
     pub fn create(&self, name: &Path) -> io::Result<fs::File> {
         let (folder, name) = self.parent_of(name, Self::enter_or_create)?;
         folder.create_here(name)
@@ -156,10 +156,10 @@ impl Folder {
         self.0.open_with(name, &options).map(|file| file.into_std())
     }
 
-    /// Opens a regular file for appending, and creates it if necessary.
+    /// Opens a regular file for appending. The file is created if it does not exist.
     ///
     /// # Errors
-    /// Fails if it is a link, a pipe, a device or a folder.
+    /// Fails if `name` is a link, a pipe, a device or a folder.
     pub fn append(&self, name: &Path) -> io::Result<fs::File> {
         let (folder, name) = self.parent_of(name, Self::enter_or_create)?;
         let mut options = OpenOptions::new();
@@ -169,24 +169,25 @@ impl Folder {
         Ok(file.into_std())
     }
 
-    /// Renames a file in this folder, replacing the target.
+    /// Renames a file in this folder. An existing file with the new name is replaced.
     ///
     /// # Errors
-    /// Fails if renaming fails.
+    /// Fails if the file cannot be renamed.
     pub fn replace(&self, name: &Path, new: &Path) -> io::Result<()> {
         self.0.rename(name, &self.0, new)?;
         self.sync()
     }
 
-    /// Removes a file or link in this folder.
+    /// Removes a file or a link in this folder.
     ///
     /// # Errors
-    /// Fails if removing fails.
+    /// Fails if the file cannot be removed.
     pub fn remove(&self, name: &Path) -> io::Result<()> {
         self.0.remove_file_or_symlink(name)
     }
 
-    /// Makes renamed files durable. On systems that cannot write folders to disk, nothing happens.
+    /// Writes the folder to disk, so that renamed files keep their new names after a power failure. On systems that cannot write folders to disk,
+    /// nothing happens.
     pub(super) fn sync(&self) -> io::Result<()> {
         #[cfg(unix)]
         {
@@ -278,7 +279,7 @@ mod tests {
         assert_eq!(fs::read(own.join("a.2")).unwrap(), b"old");
     }
 
-    /// Folders and files are repeatedly replaced by links while files are read and written.
+    /// While files are read and written, another thread repeatedly replaces their folders and files by links.
     #[test]
     fn races_do_not_lead_out() {
         let (home, own, other) = home();
@@ -292,7 +293,7 @@ mod tests {
                 let (way, aside, link) =
                     (own.join("way"), home.path().join("aside"), home.path().join("link"));
                 while !stop.load(Ordering::Relaxed) {
-                    // The writer may have created a folder between two renames.
+                    // The writing thread may create the folder between two renames.
                     if aside.exists() {
                         let _ = fs::remove_dir_all(&way).and_then(|()| fs::rename(&aside, &way));
                     }

@@ -1,4 +1,4 @@
-//! Reading of regular files of bounded length.
+//! Reads regular files up to a maximum length.
 
 use std::io::{self, Read};
 use std::path::Path;
@@ -13,22 +13,22 @@ pub(super) fn options(follow: FollowSymlinks) -> OpenOptions {
     options
 }
 
-/// Content of a file that the user has given, of at most `most` bytes. Links are followed.
+/// Reads a file whose path the user has given. `most` is the maximum length [bytes]. Links are followed.
 ///
 /// # Errors
-/// Fails if the path is not that of a regular file, or if the file is too long or unreadable.
+/// Fails if `path` does not lead to a regular file, or if the file is too long or unreadable.
 pub fn read_file(path: &Path, most: u64) -> io::Result<Vec<u8>> {
-    // The kind is checked before opening, because opening some devices has side effects.
+    // The type of the file is checked before the file is opened, because opening a device may have side effects.
     expect_ordinary(std::fs::metadata(path)?.is_file())?;
     let options = options(FollowSymlinks::Yes);
     let file = File::open_ambient_with(path, &options, ambient_authority())?;
     read(file.into_std(), most)
 }
 
-/// Text of a UTF-8 file that the user has given, of at most `most` bytes. Links are followed.
+/// Reads a UTF-8 text file whose path the user has given. `most` is the maximum length [bytes]. Links are followed.
 ///
 /// # Errors
-/// Fails if the path is not that of a regular file, or if the file is too long, unreadable or not UTF-8.
+/// Fails if `path` does not lead to a regular file, or if the file is too long, unreadable or not UTF-8.
 pub fn read_text(path: &Path, most: u64) -> io::Result<String> {
     let bytes = read_file(path, most)?;
     String::from_utf8(bytes).map_err(|_| io::Error::other("it is not UTF-8 text"))
@@ -39,7 +39,7 @@ pub(super) fn read(file: std::fs::File, most: u64) -> io::Result<Vec<u8>> {
     expect_ordinary(about.is_file())?;
     expect_length(about.len(), most)?;
     let mut bytes = Vec::new();
-    // The reported length may be wrong, as for files in /proc.
+    // The length that the system reports may be wrong, for example for files in /proc. Therefore the number of bytes is limited while reading.
     file.take(most.saturating_add(1)).read_to_end(&mut bytes)?;
     expect_length(bytes.len() as u64, most)?;
     Ok(bytes)

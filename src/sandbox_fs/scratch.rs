@@ -1,4 +1,4 @@
-//! Temporary folders with unpredictable names. Folders of killed processes are removed later.
+//! Temporary folders with unpredictable names. The folder of a process that was killed is removed by a later process.
 
 use std::fs::{self, File};
 use std::io;
@@ -10,31 +10,31 @@ use tempfile::TempDir;
 use super::Folder;
 
 const PREFIX: &str = "withy-scratch-";
-/// File in each folder that is locked until its process ends.
+/// Name of a file in each temporary folder. The file is locked until the process ends, so that other processes see that the folder is in use.
 const HELD: &str = ".held";
-/// Age above which a folder without that file is abandoned. A younger folder may belong to a starting process.
+/// Age after which a folder without this file counts as abandoned. A younger folder may belong to a process that is starting.
 const BEGINNING: Duration = Duration::from_secs(3600);
 
-/// A new folder in the system's temporary folder, removed on drop.
+/// A new folder in the temporary folder of the system. It is removed when this value is dropped.
 #[derive(Debug)]
 pub struct Scratch {
     folder: TempDir,
-    /// Locked file; the lock ends with the process.
+    /// The locked file. The lock ends when the process ends, even if it is killed.
     _held: File,
 }
 
 impl Scratch {
-    /// Creates a temporary folder, and removes the folders of killed processes.
+    /// Creates a temporary folder, and removes the folders of processes that were killed.
     ///
     /// # Errors
-    /// Fails if it cannot be created.
+    /// Fails if the folder cannot be created.
     pub fn new() -> io::Result<Self> {
         Self::within(&std::env::temp_dir())
     }
 
     fn within(home: &Path) -> io::Result<Self> {
         let folder = tempfile::Builder::new().prefix(PREFIX).tempdir_in(home)?;
-        // The file is renamed after it is locked, because other processes may inspect it at any time.
+        // The file is locked before it gets its name, because other processes may look for an unlocked file of this name at any time.
         let open = Folder::open(folder.path())?;
         let (begun, held) = (Path::new(".begun"), Path::new(HELD));
         let file = open.create(begun)?;
@@ -49,15 +49,15 @@ impl Scratch {
         self.folder.path()
     }
 
-    /// Creates a subfolder.
+    /// Creates a new folder inside this folder.
     ///
     /// # Errors
-    /// Fails if it cannot be created.
+    /// Fails if the folder cannot be created.
     pub fn part(&self) -> io::Result<TempDir> {
         tempfile::Builder::new().prefix("part-").tempdir_in(self.path())
     }
 
-    /// Removes abandoned folders. Failures are ignored, because the folders may belong to other users.
+    /// Removes the temporary folders of processes that were killed. A folder that cannot be removed is ignored.
     fn remove_stale(&self, home: &Path) {
         for path in stale(home, self.path()).unwrap_or_default() {
             let _ = fs::remove_dir_all(path);
@@ -112,12 +112,12 @@ mod tests {
         let home = tempfile::tempdir().unwrap();
         let living = Scratch::within(home.path()).unwrap();
         fs::create_dir(living.path().join("deep")).unwrap();
-        // Simulates a kill: the folder stays, but the lock is released.
+        // Simulates that the process was killed: the folder stays, but the lock is released.
         let Scratch { folder, _held } = Scratch::within(home.path()).unwrap();
         fs::write(folder.path().join("big"), "left behind").unwrap();
         let left = folder.keep();
         drop(_held);
-        // A folder of a starting process, and a file with a similar name.
+        // A folder of a process that is starting, and a file with a similar name, must not be removed.
         fs::create_dir(home.path().join("withy-scratch-begun")).unwrap();
         fs::write(home.path().join("withy-scratch-file"), "").unwrap();
         let next = Scratch::within(home.path()).unwrap();

@@ -1,4 +1,4 @@
-//! Atomic and durable writing of files, and renaming of foreign files that would be replaced.
+//! Writes files atomically and durably, and renames files of others that would otherwise be replaced.
 
 use std::ffi::{OsStr, OsString};
 use std::fs;
@@ -10,13 +10,14 @@ use std::time::Duration;
 use super::folder::Folder;
 use super::reading;
 
-/// Number of names that are tried for a temporary file.
+/// Maximum number of names that are tried for a temporary file.
 pub(super) const TRIES: usize = 100;
 
-/// Age above which an unlocked temporary file is abandoned. A new file is unlocked for a moment.
+/// Age after which an unlocked temporary file counts as abandoned. A younger file may belong to a process that has created it but not yet locked
+/// it.
 const ABANDONED: Duration = Duration::from_secs(60);
 
-/// Complete file under a temporary name. Dropping it removes the file, unless the file was [renamed](Self::rename_to_final).
+/// A complete file under a temporary name. It is removed when this value is dropped, unless it was [renamed](Self::rename_to_final).
 #[derive(Debug)]
 pub struct Prepared {
     folder: Folder,
@@ -25,7 +26,7 @@ pub struct Prepared {
 }
 
 impl Prepared {
-    /// Renames the file to its final name, durably. An existing file of that name is replaced.
+    /// Gives the file its final name, and writes the folder to disk. An existing file of that name is replaced.
     ///
     /// # Errors
     /// Fails if the file cannot be renamed. Nothing is then changed.
@@ -37,25 +38,25 @@ impl Prepared {
 
 impl Drop for Prepared {
     fn drop(&mut self) {
-        // After `rename_to_final` the temporary name does not exist.
+        // If `rename_to_final` succeeded, no file has the temporary name, and this error is ignored.
         let _ = self.folder.0.remove_file(&self.partial);
     }
 }
 
 impl Folder {
-    /// Writes a file below this folder atomically and durably. An existing file or link is replaced; links are not followed. Missing parent folders
-    /// are created.
+    /// Writes a file below this folder atomically and durably. An existing file of this name is replaced. An existing link is replaced too and is
+    /// not followed. Missing parent folders are created.
     ///
     /// # Errors
-    /// Fails if writing fails, or the name is that of a folder, a pipe or a device. Nothing is then changed.
+    /// Fails if writing fails, or if `name` is the name of a folder, a pipe or a device. Existing files are then unchanged.
     pub fn write_atomic(&self, name: &Path, bytes: &[u8]) -> io::Result<()> {
         self.prepare(name, |file| file.write_all(bytes))?.rename_to_final()
     }
 
-    /// Writes the content of `write` to a temporary file. [`Prepared::rename_to_final`] then replaces an existing file of that name.
+    /// Calls `write` to write the content of a file under a temporary name. [`Prepared::rename_to_final`] then gives the file the name `name`.
     ///
     /// # Errors
-    /// Fails as [`write_atomic`](Self::write_atomic), or with an error of `write`.
+    /// Fails for the same reasons as [`write_atomic`](Self::write_atomic), or with an error of `write`.
     pub fn prepare(
         &self,
         name: &Path,
@@ -68,14 +69,14 @@ impl Folder {
             reading::expect_ordinary(about.is_file())?;
         }
         let (mut file, partial) = folder.create_partial(name)?;
-        // Dropping `prepared` removes the file if a later call fails.
+        // If a later call fails, `prepared` is dropped, which removes the file.
         let prepared = Prepared { folder, partial, name: name.to_owned() };
         write(&mut file)?;
         file.sync_all()?;
         Ok(prepared)
     }
 
-    /// Creates a hidden file beside `name` that is locked while it is open.
+    /// Creates a hidden temporary file beside `name`. The file is locked while it is open.
     fn create_partial(&self, name: &OsStr) -> io::Result<(fs::File, OsString)> {
         static COUNTER: AtomicU64 = AtomicU64::new(0);
         let mut tries = TRIES;
@@ -87,7 +88,7 @@ impl Folder {
             partial.push(format!(".{}-{count}.part", std::process::id()));
             match self.create_here(&partial) {
                 Ok(file) => {
-                    // On file systems without locks no file counts as abandoned.
+                    // A failure is ignored: on a file system without locks, no temporary file ever counts as abandoned.
                     let _ = file.try_lock();
                     return Ok((file, partial));
                 }
@@ -97,7 +98,7 @@ impl Folder {
         }
     }
 
-    /// Removes temporary files that killed programs have left beside `name`.
+    /// Removes temporary files beside `name` that remain from programs that were killed.
     pub fn remove_abandoned(&self, name: &Path) {
         let Ok((folder, _)) = self.parent_of(name, Self::enter) else { return };
         for entry in folder.entries().unwrap_or_default() {
@@ -107,22 +108,22 @@ impl Folder {
             };
             let name = Path::new(&entry.name);
             if is_partial(&entry.name) && is_old() && folder.is_unlocked(name).unwrap_or(false) {
-                // Another process may have removed it already.
+                // A failure is ignored, because another process may have removed the file already.
                 let _ = folder.remove(name);
             }
         }
     }
 
-    /// Renames a file below this folder to the first unused name of `free`.
+    /// Renames a file below this folder. `free` returns the possible new names in turn, and the first unused one is taken. Returns the new name.
     ///
     /// # Errors
-    /// Fails when it cannot be renamed.
+    /// Fails if the file cannot be renamed.
     pub fn keep_as(&self, name: &Path, free: impl Fn(usize) -> PathBuf) -> io::Result<PathBuf> {
         let (folder, own) = self.parent_of(name, Self::enter)?;
         for number in 1..TRIES * TRIES {
             let new = free(number);
             let Some(kept) = new.file_name() else { break };
-            // The name is reserved first, so that no file is replaced.
+            // The new name is reserved by an empty file before the file is renamed, so that no other file is replaced.
             match folder.create_here(kept) {
                 Ok(_) => {
                     folder.0.rename(own, &folder.0, kept)?;
@@ -136,10 +137,10 @@ impl Folder {
         Err(io::Error::new(ErrorKind::AlreadyExists, "no unused file name was found for the copy"))
     }
 
-    /// Renames a file that was kept under another name to its original name, unless that name is in use.
+    /// Gives a file that was kept under the name `kept` its original name `name` again, unless that name is in use.
     ///
     /// # Errors
-    /// Fails when it cannot be renamed.
+    /// Fails if the file cannot be renamed.
     pub fn restore_name(&self, kept: &Path, name: &Path) -> io::Result<()> {
         let (folder, own) = self.parent_of(name, Self::enter)?;
         let (_, kept) = self.parent_of(kept, Self::enter)?;
@@ -150,7 +151,7 @@ impl Folder {
     }
 }
 
-/// Returns true for names of temporary files: `.NAME.PROCESS-COUNT.part`.
+/// Returns true if `name` is the name of a temporary file: `.NAME.PROCESS-COUNT.part`.
 fn is_partial(name: &OsStr) -> bool {
     let middle = || name.to_str()?.strip_prefix('.')?.strip_suffix(".part")?.rsplit_once('.');
     let is_number = |text: &str| !text.is_empty() && text.bytes().all(|byte| byte.is_ascii_digit());

@@ -1,4 +1,5 @@
-//! Record of the files that this program wrote into a folder. It distinguishes them from other files and from files edited since.
+//! Record of the files that this program wrote into a folder. The record distinguishes these files from files of others, and from files that were
+//! edited after they were written.
 
 use std::collections::BTreeMap;
 use std::io::{self, Read, Write};
@@ -6,25 +7,25 @@ use std::path::Path;
 
 use super::Folder;
 
-/// Name of the record. It is hidden, because users do not need it.
+/// Name of the file that contains the record. It is hidden, because users do not need it.
 const FILE: &str = ".withy-written";
-/// Maximum size of a record [bytes]. Without a record, all files count as foreign and are kept.
+/// Maximum size of the record [bytes]. If the record is larger, it is not read; all files then count as files of others and are not replaced.
 const LARGEST: u64 = 16 << 20;
-/// Buffer size [bytes].
+/// Number of bytes that are read at a time to compute a checksum.
 const PIECE: usize = 1 << 16;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct FileChecksum {
     pub checksum: u32,
-    /// Length [bytes].
+    /// Length of the file [bytes].
     pub length: u64,
 }
 
 impl FileChecksum {
-    /// Checksum of a stream.
+    /// Computes the checksum and the length of a content.
     ///
     /// # Errors
-    /// Fails if reading fails.
+    /// Fails if the content cannot be read.
     pub fn of(mut content: impl Read) -> io::Result<Self> {
         let (mut hasher, mut length, mut piece) = (crc32fast::Hasher::new(), 0, vec![0; PIECE]);
         loop {
@@ -68,19 +69,19 @@ impl<W: Write> Write for ChecksumWriter<W> {
     }
 }
 
-/// Checksums and lengths of the files that this program has written into a folder, by name. The last two contents of each file are kept, because a
-/// new content is recorded before it replaces the old one.
+/// Checksums and lengths of the files that this program has written into a folder, by name. For each file, the last two contents are known: a new
+/// content is recorded before it replaces the old content, so that the file may still have the old one.
 #[derive(Debug, Default)]
 pub struct WrittenFiles {
     files: BTreeMap<String, [Option<FileChecksum>; 2]>,
-    /// True if the last line of the record file is incomplete.
+    /// True if the last line of the record is incomplete.
     is_truncated: bool,
 }
 
 impl WrittenFiles {
     /// Reads the record of a folder. Damaged lines are ignored.
     pub fn of(folder: &Folder) -> Self {
-        // Without a readable record, all files count as foreign and are kept.
+        // If the record cannot be read, all files count as files of others and are not replaced.
         let text = folder.read(Path::new(FILE), LARGEST).unwrap_or_default();
         let text = String::from_utf8_lossy(&text);
         let is_torn = !text.is_empty() && !text.ends_with('\n');
@@ -91,8 +92,8 @@ impl WrittenFiles {
         record
     }
 
-    /// Returns true if the name is unused, or its file is unchanged since this program wrote it. If another run may have changed the record, it is
-    /// read again.
+    /// Returns true if no file has this name, or if the file is unchanged since this program wrote it. Another run may have added a line to the
+    /// record; therefore the record is read again before the answer is false.
     pub fn may_replace(&mut self, folder: &Folder, name: &str) -> bool {
         let path = Path::new(name);
         if !folder.has(path) {
@@ -116,7 +117,7 @@ impl WrittenFiles {
         }
     }
 
-    /// Records the content of a file before the file is renamed to its name. The record is written immediately.
+    /// Records the content of a file. This must be done before the file gets its final name. The record is written to its file at once.
     ///
     /// # Errors
     /// Fails if the record cannot be written.
@@ -134,7 +135,7 @@ impl WrittenFiles {
     }
 }
 
-/// Parses a line `checksum length name`. For each name, the last two lines are valid.
+/// Parses a line `checksum length name` of the record. If several lines have the same name, the last two are valid.
 fn entry(line: &str) -> Option<(String, FileChecksum)> {
     let (checksum, rest) = line.split_once(' ')?;
     let (length, name) = rest.split_once(' ')?;
@@ -180,7 +181,7 @@ mod tests {
                 assert!(WrittenFiles::of(&folder).may_replace(&folder, "a"));
             }
         }
-        // The next entry terminates an incomplete line.
+        // The next line that is added must first complete the incomplete line.
         folder.append(Path::new(FILE)).unwrap().write_all(b"0123").unwrap();
         let mut record = WrittenFiles::of(&folder);
         record.record(&folder, "a", checksum(b"three")).unwrap();

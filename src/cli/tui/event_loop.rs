@@ -1,4 +1,4 @@
-//! Event loop of `withy learn watch`: keys, saved files, and finished runs.
+//! Event loop of `withy learn watch`. It handles keys, saved files and finished runs.
 
 use std::io;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -23,17 +23,17 @@ use crate::panics::caught;
 
 const POLLING_INTERVAL: Duration = Duration::from_millis(50);
 
-/// Watches the attempts of a student, and judges each attempt when it is saved, until the user quits or `stop` is set.
+/// Watches the attempts of a student until the user quits or `stop` is set. An attempt is judged each time its file is saved.
 ///
 /// # Errors
-/// Fails if the folder or the terminal cannot be used. The terminal is then restored.
+/// Fails if the folder or the terminal cannot be used. The terminal is restored before the function returns.
 pub(in crate::cli) fn watch(
     workbook: &Workbook,
     limits: &LimitOptions,
     stop: &AtomicBool,
 ) -> Result<(), ExerciseError> {
     let mut desk = EventLoop::open(workbook, limits)?;
-    // A panic is reported after the terminal is restored.
+    // A panic is caught here, so that the terminal can be restored before the panic is reported.
     let done = caught(|| {
         let mut terminal = RawTerminal::enter()?;
         desk.work(&mut terminal, stop)
@@ -132,7 +132,7 @@ impl<'a> EventLoop<'a> {
                 }
             }
             self.state.set_report(report);
-            // Another window may have changed the progress.
+            // The same program in another window may have changed the progress file.
             if let Ok(progress) = self.workbook.progress() {
                 self.state.progress = progress;
             }
@@ -140,7 +140,7 @@ impl<'a> EventLoop<'a> {
     }
 
     fn select_exercise(&mut self, exercise: &'static Exercise) {
-        // If the progress file is unreadable, the next write reports it.
+        // An unreadable progress file is not reported here, because the next attempt to write it reports the error.
         let progress = self.workbook.progress().unwrap_or_else(|_| self.state.progress.clone());
         self.state = TuiState::open(exercise, shown(&self.workbook.file(exercise)), progress);
         self.solution = self.painter.solution(exercise);

@@ -1,4 +1,4 @@
-//! Judging of an attempt in a separate process, so that keys are handled in the meantime and the attempt can be killed.
+//! Judges an attempt in a separate process, so that keys are handled in the meantime and the attempt can be killed.
 
 use std::io::{self, Read};
 use std::process::{self, Child, Command, ExitStatus, Stdio};
@@ -20,12 +20,12 @@ use crate::script::messages::stop::Stop;
 use crate::script::state::limits::Limits;
 use crate::script::state::settings::{RunMode, RunSettings};
 
-/// Time allowed for the process to react to its limits.
+/// Time that the process may take beyond its time limits before it is killed.
 const SLACK: Duration = Duration::from_secs(12);
 /// Maximum size of the report [bytes].
 const LONGEST: u64 = 1 << 20;
 
-/// A judging process; killed on drop.
+/// A process that judges one attempt. It is killed when this value is dropped.
 pub struct JudgeProcess {
     process: Child,
     messages: Receiver<String>,
@@ -34,15 +34,15 @@ pub struct JudgeProcess {
 }
 
 impl JudgeProcess {
-    /// Starts judging the attempt in the student's folder.
+    /// Starts a process that judges the attempt in the student's folder.
     ///
     /// # Errors
-    /// Fails if no process can be started.
+    /// Fails if the process cannot be started.
     pub fn begin(exercise: &Exercise, options: &LimitOptions) -> io::Result<Self> {
         let mut command = Command::new(env::current_exe()?);
         command.args(["learn", "try"]).args(options.to_arguments()).args(["--", &exercise.id()]);
         command.stdin(Stdio::null()).stdout(Stdio::piped()).stderr(Stdio::null());
-        // Signals of keys, such as Ctrl-C, are sent to the watching process only.
+        // The process gets its own process group, so that signals from keys, such as Ctrl-C, reach only the watching process.
         #[cfg(unix)]
         std::os::unix::process::CommandExt::process_group(&mut command, 0);
         let mut process = command.spawn()?;
@@ -64,7 +64,7 @@ impl JudgeProcess {
         self.start.elapsed().as_secs()
     }
 
-    /// Result of the attempt, once it is known.
+    /// Returns the report on the attempt; `None` while the process is running.
     pub fn result(&mut self) -> Option<AttemptReport> {
         let longest = self.limits.time.unwrap_or(DEFAULT_TIME_LIMIT) * 2 + SLACK;
         match self.messages.try_recv() {
@@ -95,7 +95,7 @@ impl Drop for JudgeProcess {
     }
 }
 
-/// Report of an attempt whose process could not be started.
+/// Returns the report on an attempt whose process could not be started because of `error`.
 pub fn cannot(error: &io::Error) -> AttemptReport {
     let message = format!("cannot start a process for it: {error}");
     let why = AttemptError { message, ..AttemptError::default() };
@@ -116,7 +116,8 @@ fn killed_report(status: ExitStatus, limits: &Limits) -> AttemptReport {
     }
 }
 
-/// A failed allocation aborts the process. The system kills processes that use too much memory.
+/// Returns true if the process was probably ended because of its memory use: it aborts when an allocation fails, and the system kills a process
+/// that uses too much memory.
 #[cfg(unix)]
 fn is_out_of_memory(status: ExitStatus) -> bool {
     use nix::libc::{SIGABRT, SIGKILL};
@@ -135,12 +136,12 @@ fn stopped(stop: Stop, printed: CapturedOutput) -> AttemptReport {
     AttemptReport { outcome: AttemptOutcome::Stopped(why), printed }
 }
 
-/// Judges an attempt in this process, which runs nothing else, and prints the report.
+/// Judges an attempt in this process, which was started for this purpose only, and prints the report.
 pub fn try_here(workbook: &Workbook, exercise: &Exercise, options: &LimitOptions) -> Exit {
     exit_with_parent();
     let output = CaptureWriter::default();
     let captured = output.clone();
-    // Only one report may be printed.
+    // This lock ensures that only one report is printed, because the report on an exceeded limit comes from another thread.
     let turn = Arc::new(Mutex::new(()));
     let last_turn = Arc::clone(&turn);
     let resort = move |stop: Stop| {
@@ -162,7 +163,7 @@ pub fn try_here(workbook: &Workbook, exercise: &Exercise, options: &LimitOptions
     };
     let _turn = turn.lock().unwrap_or_else(PoisonError::into_inner);
     send_report(&AttemptReport { outcome: verdict.into(), printed: output.captured() });
-    // Data of the attempt are not dropped, because this may take long.
+    // The process exits without dropping the data of the attempt, because dropping may take long.
     process::exit(0)
 }
 
@@ -173,7 +174,7 @@ fn send_report(report: &AttemptReport) {
     }
 }
 
-/// Ends this process when its parent, which reads the output, ends.
+/// Requests that the system kills this process when its parent ends, because only the parent reads the report.
 #[cfg(target_os = "linux")]
 fn exit_with_parent() {
     use nix::sys::signal::Signal;

@@ -1,4 +1,4 @@
-//! Key events of the screen.
+//! Translates terminal events to the keys that the screen uses.
 
 use crossterm::event::{KeyCode, KeyEvent, KeyEventKind, KeyModifiers};
 
@@ -20,7 +20,7 @@ pub enum Key {
     Other,
 }
 
-/// Key of a terminal event; `None` for the release of a key.
+/// Returns the key of a terminal event; `None` if the event is the release of a key.
 pub fn key(event: KeyEvent) -> Option<Key> {
     if event.kind == KeyEventKind::Release {
         return None;

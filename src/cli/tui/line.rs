@@ -1,4 +1,4 @@
-//! A line of styled text on the screen. A long line is wrapped or cut.
+//! A line of styled text on the screen. A line that is too long is wrapped or cut.
 
 use std::borrow::Cow;
 use std::fmt::Write;
@@ -7,7 +7,7 @@ use textwrap::{Options, WordSplitter};
 
 use crate::output::{Colours, columns_of, printable_line};
 
-/// ANSI codes of a piece of a line.
+/// ANSI codes that style a piece of a line.
 pub type LineStyle = Cow<'static, str>;
 
 pub const PLAIN: LineStyle = Cow::Borrowed("");
@@ -18,7 +18,7 @@ pub const BAD: LineStyle = Cow::Borrowed("1;31");
 pub const HEADING: LineStyle = Cow::Borrowed("1;36");
 pub const WARNING: LineStyle = Cow::Borrowed("33");
 
-/// A line without control characters.
+/// A line as pieces of text with their styles. It contains no control characters.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct ScreenLine(Vec<(String, LineStyle)>);
 
@@ -69,7 +69,7 @@ impl ScreenLine {
         Self::from_characters(&characters[..kept]).and("…", FAINT)
     }
 
-    /// Lines of code wrapped at a width, after blanks if possible.
+    /// Wraps a line of code at a width of `columns`, after a blank if possible.
     pub fn wrapped(self, columns: usize) -> Vec<Self> {
         let characters = self.characters();
         let margin = characters.iter().take_while(|(character, _)| !character.is_alphanumeric());
@@ -124,7 +124,7 @@ fn push(lines: &mut [ScreenLine], piece: String, style: &LineStyle) {
     }
 }
 
-/// Wraps a text at a width between words. Further lines begin with `indent`.
+/// Wraps a text between words at a width of `columns`. All lines after the first begin with `indent`.
 pub fn wrapped(text: &str, indent: &str, columns: usize) -> Vec<String> {
     let options = Options::new(columns.max(1))
         .subsequent_indent(if crate::output::columns(indent) * 2 < columns { indent } else { "" })
@@ -157,7 +157,7 @@ pub fn labelled(
     lines
 }
 
-/// Lines of text with ANSI colours. Other escape sequences are removed.
+/// Converts text with ANSI colour codes to lines. Other escape sequences are removed.
 pub fn coloured(text: &str) -> Vec<ScreenLine> {
     let mut style = PLAIN;
     let mut lines = vec![ScreenLine::default()];

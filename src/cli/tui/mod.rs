@@ -1,10 +1,11 @@
-//! `withy learn watch` in a terminal: one screen with task, file, result and hints; key bindings; each attempt in its own process.
+//! `withy learn watch` in a terminal. One screen shows the task, the file, the result and the hints, and the user presses keys. Each attempt runs
+//! in its own process.
 //!
 //! ```text
 //! event_loop → terminal → keys
-//!            → judge_process                              one process per run
-//!            → screen → result_page, solution → line      lines from the state only
-//!            → state                                      effects of keys
+//!            → judge_process                              starts one process per run
+//!            → screen → result_page, solution → line      converts the state to lines
+//!            → state                                      changes the state after a key
 //! ```
 
 mod event_loop;

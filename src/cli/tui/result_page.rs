@@ -1,4 +1,4 @@
-//! Result of an attempt as lines.
+//! Converts the result of an attempt to lines.
 
 use super::line::{BAD, FAINT, GOOD, HEADING, PLAIN, ScreenLine, WARNING, labelled, paragraph};
 use super::state::TuiState;
@@ -8,7 +8,7 @@ use crate::exercises::report::{AttemptError, AttemptOutcome, AttemptReport, Scri
 use crate::output::columns_of;
 
 const PRINTED: usize = 12;
-/// Duration of a run below which it is not shown as running [s].
+/// Duration after which a run is shown as running [s].
 const SHORTEST_SHOWN: u64 = 1;
 
 pub fn outcome(state: &TuiState, columns: usize) -> Vec<ScreenLine> {
@@ -81,7 +81,7 @@ fn trouble(state: &TuiState, why: &AttemptError, columns: usize) -> Vec<ScreenLi
 
 const TAB: usize = 4;
 
-/// Source line with a mark below the location. The line is cut to the part around the location.
+/// Returns a source line and a line of marks below the location of an error. A long source line is cut around the location.
 fn excerpt(place: &ScriptPosition, columns: usize) -> Vec<ScreenLine> {
     let mut text = String::new();
     let (mut at, mut length) = (0, 0);
@@ -94,7 +94,7 @@ fn excerpt(place: &ScriptPosition, columns: usize) -> Vec<ScreenLine> {
     }
     let number = format!("{:>5} │ ", place.line);
     let room = columns.saturating_sub(crate::output::columns(&number) + 1).max(8);
-    // If the location would not be visible, the beginning of the line is cut.
+    // The beginning of the source line is cut if the location would otherwise not be visible.
     let skipped = if at + length.max(1) <= room { 0 } else { at.saturating_sub(room / 3) };
     let (before, seen) =
         if skipped > 0 { ("…", text_from_column(&text, skipped + 1)) } else { ("", text) };
@@ -104,7 +104,7 @@ fn excerpt(place: &ScriptPosition, columns: usize) -> Vec<ScreenLine> {
     vec![line, ScreenLine::of("      │ ", FAINT).and(&mark, BAD).cut(columns)]
 }
 
-/// Text after the first columns. A wide character across the cut is replaced by a blank.
+/// Returns the text after the first `columns` columns. If the cut divides a wide character, a blank replaces its visible half.
 fn text_from_column(text: &str, columns: usize) -> String {
     let (mut left_out, mut rest) = (0, text.chars());
     while left_out < columns {

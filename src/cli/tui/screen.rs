@@ -1,14 +1,14 @@
-//! Conversion of the state to lines, without side effects.
+//! Converts the state to the lines of the screen, without side effects. Example of a screen:
 //!
 //! ```text
-//! Exercise 2 of 23: title                 the header is fixed
+//! Exercise 2 of 23: title                 the header does not scroll
 //! [##----------------] 1 of 23 passed
 //! Edit beams/rectangle.rhai
 //! ───────────────────────────────────
-//! task, result, hints                     the page scrolls if it is longer than the screen
+//! task, result, hints                     this part scrolls if it is longer than the screen
 //! ───────────────────────────────────
 //! notice after a key
-//! h hint   l list   …                     the keys
+//! h hint   l list   …                     the available keys
 //! ```
 
 use super::line::{
@@ -39,16 +39,16 @@ impl PageLayout {
     }
 }
 
-/// Maximum text width. Wider text is harder to read.
+/// Maximum width of text, because wider text is harder to read [columns].
 const WIDEST: usize = 100;
 
-/// Lines of the state for a screen of the given columns and rows. `solution` contains the lines of the model solution.
+/// Returns the lines that show the state on a screen of the given size. `solution` contains the lines of the model solution.
 pub fn screen(
     state: &TuiState,
     (columns, rows): (usize, usize),
     solution: &[ScreenLine],
 ) -> Screen {
-    // The last column is left empty, because some terminals wrap there.
+    // The last column stays empty, because some terminals wrap a line that reaches it.
     let columns = columns.saturating_sub(1).max(10);
     let mut head = head(state, columns);
     let mut body = body(state, columns, solution);
@@ -159,7 +159,7 @@ fn progress(state: &TuiState, columns: usize) -> ScreenLine {
     let (passed, count) = (state.passed(), EXERCISES.len());
     let word = format!(" {passed} of {count} passed");
     let room = columns.saturating_sub(word.len() + 2).clamp(4, BAR);
-    // The bar is full only if all exercises were passed.
+    // The division rounds down, so that the bar is full only when all exercises are passed.
     let full = room * passed / count;
     let bar = ScreenLine::of("[", PLAIN)
         .and(&"#".repeat(full), GOOD)

@@ -1,4 +1,4 @@
-//! Model solution as coloured lines, with marks where it differs from the start file.
+//! Converts a model solution to coloured lines, and marks the lines that differ from the start file.
 
 use std::collections::HashSet;
 

@@ -1,4 +1,4 @@
-//! State of the screen, and the effects of keys on it. Plain data without side effects.
+//! State of the screen, and the effect of each key on the state. It is plain data without side effects.
 
 use std::mem;
 
@@ -11,20 +11,20 @@ use crate::exercises::report::{AttemptOutcome, AttemptReport};
 #[derive(Clone, Debug)]
 pub struct TuiState {
     pub exercise: &'static Exercise,
-    /// File of the exercise, as typed by the user.
+    /// Path of the exercise file, as the user would type it.
     pub file: String,
     pub progress: StudentProgress,
     pub last: Option<AttemptReport>,
-    /// Seconds since the start of the current run.
+    /// Seconds since the current run started; `None` if nothing is running.
     pub running: Option<u64>,
     pub runs: usize,
     pub hints: usize,
     pub page: ScreenPage,
     pub top: ScrollPosition,
     pub notice: Option<String>,
-    /// Open question. The same key confirms it.
+    /// Question that waits for a confirmation by pressing the same key again.
     pub confirmation: Option<Confirmation>,
-    /// Number of the exercise that is being typed in the list; 0 if none.
+    /// Exercise number that the user is typing in the list; 0 if none.
     pub typed: usize,
 }
 
@@ -37,7 +37,7 @@ pub enum ScreenPage {
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ScrollPosition {
-    /// Scrolled so that this part is visible.
+    /// The page is scrolled so that this section is visible.
     Part(TaskSection),
     Line(usize),
 }
@@ -51,9 +51,9 @@ pub enum TaskSection {
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Confirmation {
-    /// Leave an exercise that was not passed.
+    /// Leaving an exercise that has not been passed.
     Skip,
-    /// Show a solution after all hints.
+    /// Showing the solution after all hints were given.
     Solution,
 }
 
@@ -70,7 +70,7 @@ pub enum KeyAction {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct ScrollWindow {
     pub top: usize,
-    /// Last possible first line.
+    /// Largest possible value of `top`, at which the end of the page is visible.
     pub last: usize,
     pub rows: usize,
 }
@@ -108,7 +108,8 @@ impl TuiState {
         }
     }
 
-    /// Next exercise: the first after the current one that was not passed; if there is none, the first of all that was not passed.
+    /// Returns the first exercise after the current one that has not been passed. If there is none, the search continues from the beginning of the
+    /// catalogue.
     pub fn next(&self) -> Option<&'static Exercise> {
         let (before, from) = EXERCISES.split_at(index(self.exercise));
         let others = from.iter().skip(1).chain(before);
@@ -208,7 +209,7 @@ impl TuiState {
             Key::PageDown | Key::Letter(' ') => (chosen + window.rows).min(last),
             Key::Home => 0,
             Key::End => last,
-            // Consecutive digits form a number.
+            // Consecutive digits form one number.
             Key::Letter(digit) if digit.is_ascii_digit() => {
                 let digit = digit as usize - '0' as usize;
                 let numbers = [typed * 10 + digit, digit];

@@ -1,4 +1,4 @@
-//! Terminal of `withy learn watch`: alternate screen, raw mode, and restoration.
+//! Controls the terminal for `withy learn watch`: switches to the alternate screen and raw mode, and restores the terminal.
 
 use std::io::{self, IsTerminal, Write, stdin, stdout};
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -17,7 +17,7 @@ use super::keys::{Key, key};
 use super::line::ScreenLine;
 use crate::output::{Colours, TerminalStyle};
 
-/// Default size [columns, rows].
+/// Size that is assumed if the terminal does not report one [columns, rows].
 const USUAL: (u16, u16) = (80, 24);
 
 /// True while the terminal is in raw mode.
@@ -28,7 +28,7 @@ pub fn is_there() -> bool {
     stdin().is_terminal() && stdout().is_terminal() && can_draw
 }
 
-/// Terminal in raw mode. The mode is restored on drop.
+/// A terminal in raw mode. Dropping this value restores the previous mode.
 pub struct RawTerminal {
     colours: Colours,
     drawn: Vec<u8>,
@@ -36,10 +36,10 @@ pub struct RawTerminal {
 }
 
 impl RawTerminal {
-    /// Switches to the alternate screen and raw mode.
+    /// Switches the terminal to the alternate screen and raw mode.
     ///
     /// # Errors
-    /// Fails if the terminal does not support this.
+    /// Fails if the terminal does not support the alternate screen or raw mode.
     pub fn enter() -> io::Result<Self> {
         enter_raw_mode()?;
         let style = TerminalStyle::of_environment(|name| std::env::var(name).ok());
@@ -52,15 +52,15 @@ impl RawTerminal {
         (usize::from(columns), usize::from(rows))
     }
 
-    /// Draws lines in one write. An unchanged screen is not drawn again.
+    /// Draws all lines in one write. Nothing is written if the screen has not changed.
     ///
     /// # Errors
-    /// Fails if writing fails.
+    /// Fails if writing to the terminal fails.
     pub fn show(&mut self, lines: &[ScreenLine], size: (usize, usize)) -> io::Result<()> {
         let mut drawing = Vec::new();
         queue!(drawing, BeginSynchronizedUpdate)?;
         for (row, line) in (0..).zip(lines) {
-            // Lines are overwritten without clearing them first, to avoid flicker.
+            // Each line is overwritten without being cleared first, which avoids flicker.
             let drawn = line.drawn(self.colours);
             queue!(drawing, MoveTo(0, row), Print(drawn), Clear(ClearType::UntilNewLine))?;
         }
@@ -82,10 +82,11 @@ impl RawTerminal {
         Ok(())
     }
 
-    /// Next key; `None` after the timeout or if the size has changed.
+    /// Waits for the next key, at most for `patience`. Returns `None` if no key was pressed in this time or another event arrived, for example a
+    /// change of the window size.
     ///
     /// # Errors
-    /// Fails if reading fails.
+    /// Fails if reading from the terminal fails.
     pub fn key(&self, patience: Duration) -> io::Result<Option<Key>> {
         if !event::poll(patience)? {
             return Ok(None);
@@ -96,10 +97,10 @@ impl RawTerminal {
         })
     }
 
-    /// Restores the terminal, suspends the process, and sets the terminal up again.
+    /// Restores the terminal and suspends the process. When the process continues, the terminal is switched to raw mode again.
     ///
     /// # Errors
-    /// See [`enter`](Self::enter).
+    /// Fails if the process cannot be suspended, or as described for [`enter`](Self::enter).
     pub fn suspend(&mut self) -> io::Result<()> {
         restore();
         #[cfg(unix)]
@@ -121,10 +122,10 @@ fn enter_raw_mode() -> io::Result<()> {
     execute!(stdout(), EnterAlternateScreen, Hide)
 }
 
-/// Restores the terminal if necessary. Code that ends the process without unwinding must call it, too.
+/// Restores the terminal if it is in raw mode. Code that ends the process without unwinding must call this function.
 pub fn restore() {
     if HELD.swap(false, Ordering::Relaxed) {
-        // An error means that the terminal was closed.
+        // Restoring fails only if the terminal was closed, so the error is ignored.
         let _ = execute!(stdout(), Show, LeaveAlternateScreen);
         let _ = terminal::disable_raw_mode();
     }

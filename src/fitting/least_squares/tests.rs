@@ -20,7 +20,7 @@ fn solved(ranges: Vec<SearchRange>, function: impl Fn(&[f64]) -> Evaluation) -> 
     found.unwrap()
 }
 
-/// J. J. Moré, B. S. Garbow, K. E. Hillstrom (1981), problem 1.
+/// Problem 1 of J. J. Moré, B. S. Garbow, K. E. Hillstrom (1981).
 #[test]
 fn rosenbrock_s_valley_is_walked_to_its_end() {
     let found =
@@ -29,7 +29,7 @@ fn rosenbrock_s_valley_is_walked_to_its_end() {
     assert!(found.parameters.iter().all(|x| (x - 1.0).abs() < 1e-6), "{found:?}");
 }
 
-/// NIST, Statistical Reference Datasets, Misra1a (lower difficulty): certified values and standard errors.
+/// Data set Misra1a (lower difficulty) of the NIST Statistical Reference Datasets, with certified parameters and standard errors.
 #[test]
 fn certified_values_of_misra_are_found_with_their_errors() {
     let y = [

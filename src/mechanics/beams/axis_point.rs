@@ -6,7 +6,7 @@ use super::simd::{LANES, Lanes};
 use super::span_points::window;
 use crate::geometry::{Basis, Span, Vec2};
 
-/// Derivative of the axis with respect to its parameter that counts as zero, as a fraction of its mean.
+/// Length of the derivative of the axis with respect to its parameter, below which it counts as zero, as a fraction of the mean length.
 const STANDSTILL: f64 = 1e-9;
 
 #[derive(Debug, Clone)]
@@ -23,7 +23,7 @@ impl<const N: usize> AxisPoint<N> {
     pub(super) const EMPTY: Self = Self { shape: [0.0; N], slope: [0.0; N], weight: 0.0 };
 }
 
-/// Consecutive points of the axis, one per vector lane, each with the first control point of its span.
+/// Consecutive points of the axis, one per vector lane. For each point, the first control point of its span is stored.
 #[derive(Debug, Clone)]
 pub(super) struct AxisPoints<const N: usize> {
     pub(super) shape: [Lanes; N],
@@ -64,7 +64,8 @@ impl<const N: usize> AxisPoints<N> {
     }
 }
 
-/// For each vector lane, the increments of the control points of the span of its point.
+/// Increments of control points, arranged in vector lanes. Each lane belongs to a quadrature point and contains the increments of all control
+/// points of its span.
 pub(super) struct Windows<'a, const N: usize>([&'a [Movement; N]; LANES]);
 
 impl<const N: usize> Windows<'_, N> {
@@ -82,7 +83,8 @@ impl<const N: usize> Windows<'_, N> {
 pub(super) struct BeamAxis<'a> {
     basis: &'a Basis,
     control_points: &'a [Vec2],
-    /// Smallest derivative with respect to the parameter [length]. If it is smaller, the direction of the axis is due to rounding.
+    /// Smallest length of the derivative with respect to the parameter for which the axis has a direction [length]. The direction of a shorter
+    /// derivative is due to rounding.
     least_speed: f64,
 }
 

@@ -50,7 +50,8 @@ impl Relaxation {
 /// in the previous step.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RateCollocation {
-    /// Fraction `s` of the step at which directions are taken: `(1-s)(x0, Λ0) + s (x1, Λ1)` [-].
+    /// Fraction `s` of the step at which directions are taken [-]. Position and rotation are interpolated linearly between the start and the end of
+    /// the step.
     pub fraction: f64,
     /// Factor of the change `Δq` in the step [1/time].
     pub by_change: f64,
@@ -69,7 +70,8 @@ pub(super) struct Functions {
 }
 
 impl Functions {
-    /// Interpolates increments of the control points of the span. Returns `(Δx', Δω, Δω')` at the point.
+    /// Interpolates increments of the control points of the span. Returns, at the point, the increment of the derivative of the axis, the rotation
+    /// increment, and its derivative.
     pub(super) fn interpolate(&self, moved: &[Movement]) -> (Vec2, f64, f64) {
         let (mut gradient, mut rotation, mut bend) = (Vec2::zeros(), 0.0, 0.0);
         for ((shape, slope), [x, y, omega]) in self.shape.iter().zip(&self.slope).zip(moved) {
@@ -165,12 +167,13 @@ impl Dashpots {
         }
     }
 
-    /// Forgets the rates of the last steps, after a jump of the rates.
+    /// Discards the rates of the last steps. It is called after a jump of the rates.
     pub(crate) fn clear_rate_history(&mut self) {
         self.resolution = RateResolution::default();
     }
 
-    /// Calls `give` with the present dashpot forces on control points. Returns the largest force and the mismatch.
+    /// Calls `give` with the forces of the dashpots on control points in the present iterate. Returns the largest force, and the largest mismatch
+    /// between a dashpot force and its damping law.
     pub fn add_forces(
         &mut self,
         at: RateCollocation,
@@ -190,8 +193,8 @@ impl Dashpots {
         summary
     }
 
-    /// Calls `give` with the dashpot forces on control points, mismatches condensed out. Calls `tangent` with the first control point of each span
-    /// and the derivatives of the forces of the span, row by row.
+    /// Calls `give` with the dashpot forces on control points. The mismatches of the dashpot forces are condensed out. Calls `tangent` with the
+    /// first control point of each span and the derivatives of the forces of the span, row by row.
     pub fn add_linearised_forces(
         &mut self,
         at: RateCollocation,

@@ -12,9 +12,9 @@ pub type Movement = [f64; 3];
 /// Times between start (0) and end (1) of a step at which internal forces are evaluated.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Collocation {
-    /// Fraction `τ` of the step at which the configuration is taken: `(1-τ)(x0, Λ0) + τ (x1, Λ1)` [-].
+    /// Fraction `τ` of the step at which the configuration is taken [-]: positions `(1-τ) x0 + τ x1` and rotations `(1-τ) Λ0 + τ Λ1`.
     pub configuration: f64,
-    /// Fraction `σ` of the step at which the strain for the section forces is taken: `(1-σ) Γ0 + σ Γ1` [-].
+    /// Fraction `σ` of the step at which the strain that determines the section forces is taken [-]: `(1-σ) Γ0 + σ Γ1`.
     pub stress: f64,
     /// Type of rotation increments.
     pub rotations: RotationIncrement,
@@ -79,8 +79,8 @@ pub trait BodyDynamics: Send + Sync {
         forces: &mut [Movement],
     ) -> ForceSummary;
 
-    /// Adds `weight` times the internal forces, strain mismatches condensed out. Calls the sink of each part with `weight` times their derivatives,
-    /// span by span.
+    /// Adds `weight` times the internal forces, in which the strain mismatches are condensed out. Calls the sink of each part with `weight` times
+    /// the derivatives of these forces, span by span.
     ///
     /// A span across the cut between two parts is given to the sinks of both parts. The part after the cut receives it before its own spans, the
     /// part before the cut after its own spans. Each sink must use only the rows of the control points of its part.
@@ -127,10 +127,12 @@ pub trait BodyDynamics: Send + Sync {
     /// Calls `take` with the static tangent stiffness of each span in the configuration at the start of the step.
     fn for_each_static_span(&self, take: &mut dyn FnMut(&SpanStiffness));
 
-    /// Section of a beam and initial length of its axis [length]. The section of a tapered beam is its mean. `None` for bodies of points.
+    /// Section of a beam, and initial length of its axis [length]; `None` for particles and rigid bodies. For a tapered beam, the mean section is
+    /// returned.
     fn extent(&self) -> Option<(Section, f64)>;
 
-    /// Appends the unit normals of the sections at all points for `Γ` at the start of the step [-], as vectors in space.
+    /// Appends the unit normals of the sections at the start of the step, as vectors in space [-]. There is one normal for each quadrature point
+    /// for the strain `Γ`.
     fn write_normals(&self, normals: &mut Vec<Vec2>);
 
     /// Strain energy at the start of the step [energy].

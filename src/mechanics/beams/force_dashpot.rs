@@ -39,7 +39,7 @@ pub(super) struct ForceDashpot {
 #[derive(Debug, Clone, Copy)]
 struct DashpotKinematics {
     end_rotation: Rotation,
-    /// Vector `Γ1 + e1` at the end of the step.
+    /// Vector `Γ1 + e1` at the end of the step: strain plus the first unit vector.
     end_stretch: Vec2,
     /// Strain change `ΔΓ` in the step.
     change: Vec2,
@@ -94,8 +94,8 @@ impl ForceDashpot {
         self.last_rate + (self.last_rate - self.rate_before) * late
     }
 
-    /// Mismatch of the axial and shear rates in the last accepted step. `share` is the place of the start of that step between the middle of the
-    /// step before (0) and its own middle (1).
+    /// Returns the mismatch of the axial and shear rates in the last accepted step. `share` is the position of the start of that step on the time
+    /// axis, on which the middle of the step before it is 0 and its own middle is 1.
     pub(super) fn last_rate_mismatch(&self, share: f64) -> [RateMismatch; 2] {
         let of = |axis: usize| {
             let means = [self.rate_before[axis], self.last_rate[axis]];
@@ -245,7 +245,8 @@ impl ForceDashpot {
         self.rotation.to_section(gradient - perpendicular(self.gradient) * spin)
     }
 
-    /// Strain rates at the start of the step. As selected, they are computed from the present rates or extrapolated from the last two steps.
+    /// Returns the strain rates at the start of the step. For each component, `selected` determines whether the present rate is used, or a rate
+    /// extrapolated from the last two steps.
     fn selected_rates(&self, selected: DashpotRates<'_>) -> Vec2 {
         let (present, carried) =
             (self.rate(selected.present), self.carried(selected.extrapolation));
@@ -256,7 +257,8 @@ impl ForceDashpot {
         )
     }
 
-    /// Force in space at the start of the step [force], and its contribution `w x' × n` to the moment [force·length].
+    /// Returns the force of the dashpot in space at the start of the step [force], and its contribution to the moment [force·length]. The
+    /// contribution is `w x' × n`, with the quadrature weight `w` and the derivative `x'` of the axis.
     pub(super) fn transmitted(&self, rates: DashpotRates<'_>) -> (Vec2, f64) {
         let force = self.rotation.to_space(self.damping.component_mul(&self.selected_rates(rates)));
         (force, self.functions.weight * cross(self.gradient, force))

@@ -27,7 +27,7 @@ impl ForceMaxima<Lanes> {
         self.force.put(part, self.force.get(part).larger(force));
     }
 
-    /// Includes points for the curvature, which have a moment but no section force.
+    /// Includes the strain mismatch and the moment of a point. Quadrature points for the curvature have a moment but no section force.
     #[inline(always)]
     pub(super) fn join_moment<V: Simd>(
         &mut self,

@@ -77,7 +77,8 @@ impl<const N: usize> ForcePoint<N> {
         (if is_known { self.last_force } else { force_of(section, self.strain) }, is_known)
     }
 
-    /// Section force `n` in space [force] and its contribution `w x' × n` to the moment [force·length] at the start of the step.
+    /// Returns the section force `n` in space [force] and its contribution to the moment [force·length] at the start of the step. The contribution
+    /// is `w x' × n`, with the quadrature weight `w` and the derivative `x'` of the axis.
     pub(super) fn transmitted(&self, section: &Section) -> (Vec2, f64) {
         let force = self.rotation.to_space(self.present_force(section).0);
         (force, self.axis.weight * cross(self.gradient, force))

@@ -36,10 +36,10 @@ pub(super) struct ForcePoints<const N: usize> {
     strain: Pair<Lanes>,
     /// Section force `N` of the present iterate.
     force: Pair<Lanes>,
-    /// Section force of the last step, with which the iteration of the next step starts. In fast vibration it is closer to the solution than `C
-    /// Γ0`, whose sign may alternate from step to step.
+    /// Section force of the last step, with which the iteration of the next step starts. In fast vibration it is closer to the solution than the
+    /// section force computed from the strain at the start of the step, whose sign may alternate from step to step.
     last_force: Pair<Lanes>,
-    /// Mismatch `m = Γσ - C⁻¹ N` at the last evaluation.
+    /// Mismatch `m = Γσ - C⁻¹ N` at the last evaluation: the strain of the configuration minus the strain of the section force.
     mismatch: Pair<Lanes>,
     linearised_at: StrainKinematics<Lanes>,
     /// Fraction `σ` of the step at the last linearisation.
@@ -57,20 +57,21 @@ struct StrainKinematics<T> {
     inverse_q: T,
 }
 
-/// Weighted section force `w n` and moment `w gτ × n`, to be distributed to the control points.
+/// Section force `w n` and moment `w gτ × n`, multiplied by the quadrature weight `w`. They are distributed to the control points.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Resultant {
     force: Pair<Lanes>,
     torque: Lanes,
 }
 
-/// Derivatives of the forces on control points: `rows[i] · (δg, δω)`, to be multiplied by weight and basis functions.
+/// Derivatives of the forces on control points. `rows[i]` contains the derivatives of force component `i` with respect to the gradient and the
+/// rotation; they are multiplied by the quadrature weight and the basis functions.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct ForceTangent<const N: usize> {
     rows: [[Lanes; 3]; 3],
-    /// Factors `w N_a'`.
+    /// Factors `w N_a'`, with the quadrature weight `w` and the derivatives of the basis functions.
     weighted_slope: [Lanes; N],
-    /// Factors `-w N_a`.
+    /// Factors `-w N_a`, with the quadrature weight `w` and the basis functions.
     weighted_shape: [Lanes; N],
 }
 
@@ -127,7 +128,7 @@ impl<const N: usize> ForcePoints<N> {
         self.force = self.last_force;
     }
 
-    /// Interpolates increments of the control points. Returns `(Δg, Δω)`.
+    /// Interpolates increments of the control points. Returns the increment of the gradient, `Δg`, and the rotation increment, `Δω`.
     #[inline(always)]
     fn interpolate<V: Simd>(
         &self,
@@ -145,7 +146,8 @@ impl<const N: usize> ForcePoints<N> {
         (gradient, rotation)
     }
 
-    /// Configuration of an iterate, the strain `Γσ = (1-σ) Γ0 + σ Γ1`, and `Δω`.
+    /// Returns the configuration of an iterate, the strain `Γσ = (1-σ) Γ0 + σ Γ1` that determines the section force, and the rotation increment
+    /// `Δω`.
     #[inline(always)]
     fn configuration<V: Simd>(
         &self,
@@ -321,7 +323,8 @@ impl<const N: usize> ForcePoints<N> {
         self.apply_weights(part, weight, (collocated_gradient.get(part), force), resultant);
     }
 
-    /// Corrects the section forces: `N ← N + C (m + σ δΓ1)`, with `δΓ1 = Λ1ᵀ δg - J (Γ1 + e1) δω/q`.
+    /// Corrects the section forces after a correction of the increments: `N ← N + C (m + σ δΓ1)`, with the mismatch `m` and the strain correction
+    /// `δΓ1 = Λ1ᵀ δg - J (Γ1 + e1) δω/q`.
     #[inline(always)]
     pub(super) fn correct_section_forces<V: Simd>(
         &mut self,

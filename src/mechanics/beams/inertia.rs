@@ -18,7 +18,8 @@ pub(super) struct InertiaMatrix<const N: usize, I> {
     gram: Vec<[I; N]>,
     /// For each k, the integrals of all control points and components.
     diagonals: [Vec<f64>; N],
-    /// Factors that convert the integrals to inertia, for all control points and components: inertia per length, or one.
+    /// Factors by which the integrals are multiplied to obtain the inertia, for all control points and components. A factor is the inertia per
+    /// length, or one if the integrals contain the inertia already.
     shares: Vec<f64>,
     section: Section,
 }

@@ -80,8 +80,8 @@ fn control_polygon_length(control_points: &[Vec2], span: &Span, degree: usize) -
     own.windows(2).map(|pair| (pair[1] - pair[0]).norm()).sum()
 }
 
-/// Integrals of the B-splines of degree p-1 from the start of a span, `Σ_(a > t) N_a`, as coefficients of a polynomial. Its coordinate runs from -1
-/// to 1 over the span.
+/// Returns, for each B-spline of degree p-1 on a span, the integral from the start of the span, as coefficients of a polynomial. The coordinate of
+/// the polynomial runs from -1 to 1 over the span. The integrals are the sums `Σ_(a > t) N_a` of splines of degree p.
 fn fractions(mesh: &Mesh, span: &Span) -> Vec<Vec<f64>> {
     let degree = mesh.basis().degree();
     let half = 0.5 * (span.end - span.start);
@@ -99,7 +99,7 @@ struct SplineString {
     degree: usize,
     products: PositiveBand,
     factors: PositiveFactors,
-    /// Coefficients of the strains of the string under a constant force: the solution of `M a = 1`.
+    /// Solution of `M a = 1`. It contains the coefficients of the strains of the string under a constant force.
     stretched: Vec<f64>,
     inverse: PositiveBand,
 }
@@ -113,8 +113,9 @@ impl SplineString {
         Some(Self { degree, products, factors, stretched, inverse })
     }
 
-    /// Residual of a load of ones on all splines before index `cut`, if these splines have the strains under a constant force and all others have
-    /// none. It is nonzero only in a few entries around the cut. Returns the index of the first of these entries, and the entries.
+    /// Residual of a load on the string that is one for all splines before index `cut`. As an approximate response to this load, these splines have
+    /// the strains under a constant force, and all others have none. The residual is nonzero only in a few entries around `cut`. Returns the index
+    /// of the first of these entries, and the entries.
     fn load_residual(&self, cut: usize) -> (usize, Vec<f64>) {
         let (size, reach) = (self.stretched.len(), self.degree - 1);
         let first = cut.saturating_sub(reach);
@@ -130,7 +131,7 @@ impl SplineString {
         (first, (first..(cut + reach).min(size)).map(entry).collect())
     }
 
-    /// Entry `Σ_j (M⁻¹)_ij r_j` of the response to a load.
+    /// Returns the entry `row` of the response `M⁻¹ r` to a load `r`.
     fn response(&self, row: usize, (first, load): &(usize, Vec<f64>)) -> f64 {
         (*first..).zip(load).map(|(at, r)| self.inverse.get(row, at) * r).sum()
     }

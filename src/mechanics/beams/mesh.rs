@@ -179,8 +179,8 @@ impl Mesh {
         run[run.len() - 1].first - run[0].first + self.basis.degree()
     }
 
-    /// Number of points for `Γ` minus the number of linearly independent derivatives of basis functions. A positive number causes locking. Each
-    /// missing point leaves two zero-energy modes.
+    /// Number of quadrature points for the strain `Γ`, minus the number of linearly independent derivatives of the basis functions. A positive
+    /// result means that the mesh locks. If the result is negative, each missing point leaves two zero-energy modes.
     fn excess_points(&self) -> isize {
         let wanted: usize = self.runs().iter().map(|run| self.derivatives(run)).sum();
         self.point_counts().force as isize - wanted as isize
@@ -233,8 +233,8 @@ impl Mesh {
         }
     }
 
-    /// Number of points for `κ` per span of a smooth piece. With full continuity it is one fewer than for a single polynomial, and these points
-    /// still capture all curvatures.
+    /// Number of quadrature points for the curvature `κ` per span of a smooth piece. If the piece has full continuity, one point fewer than for a
+    /// single polynomial is sufficient.
     fn moment_points(&self, run: &[Span]) -> usize {
         let degree = self.basis.degree();
         let is_fully_smooth = run.windows(2).all(|pair| pair[1].first == pair[0].first + 1);

@@ -43,7 +43,7 @@ struct CurvatureKinematics<T> {
 }
 
 impl<T: Number> CurvatureKinematics<T> {
-    /// Factors of `δω'` and `δω` in the curvature correction `δκ1 = δω'/q + Δω' δ(1/q)`.
+    /// Factors of `δω'` and `δω` in the correction of the curvature, `δκ1 = δω'/q + Δω' δ(1/q)`.
     #[inline(always)]
     fn curvature_by(&self) -> (T, T) {
         (self.inverse_q, self.slope * self.inverse_q_slope)
@@ -111,7 +111,7 @@ impl<const N: usize> MomentPoints<N> {
         self.moment = self.last_moment;
     }
 
-    /// Interpolates increments of the control points. Returns `(Δω', Δω)`.
+    /// Interpolates increments of the control points. Returns the derivative of the rotation increment, `Δω'`, and the rotation increment, `Δω`.
     #[inline(always)]
     fn interpolate<V: Simd>(
         &self,
@@ -127,7 +127,7 @@ impl<const N: usize> MomentPoints<N> {
         (slope, rotation)
     }
 
-    /// Rotation derivatives of an iterate, and the curvature `κσ = (1-σ) κ0 + σ κ1`.
+    /// Returns the rotation derivatives of an iterate, and the curvature `κσ = (1-σ) κ0 + σ κ1` that determines the moment.
     #[inline(always)]
     fn bend<V: Simd>(
         &self,
@@ -235,7 +235,8 @@ impl<const N: usize> MomentPoints<N> {
         weighted_moment.put(part, w * moment);
     }
 
-    /// Updates the moments after an iteration has corrected the increments: `M ← M + EI (m + σ δκ1)`.
+    /// Corrects the moments after a correction of the increments: `M ← M + EI (m + σ δκ1)`, with the mismatch `m` and the curvature correction
+    /// `δκ1`.
     #[inline(always)]
     pub(super) fn correct_moments<V: Simd>(
         &mut self,

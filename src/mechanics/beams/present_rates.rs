@@ -25,8 +25,9 @@ pub(super) struct RateMismatch {
 }
 
 impl RateMismatch {
-    /// Mismatch of a rate with the given damping [force·time; energy/time]. `start` is the rate at the start of a step; the following values are
-    /// the means of the previous step and of this one. `fraction` is the place of the start between the middles of both steps.
+    /// Mismatch of a rate with the given damping [force·time; energy/time]. `start` is the rate at the start of a step, `before` and `now` are the
+    /// mean rates of the previous step and of this step. `fraction` is the position of the start of the step on the time axis, on which the middles
+    /// of these steps are 0 and 1.
     pub(super) fn of(damping: f64, start: f64, [before, now]: [f64; 2], fraction: f64) -> Self {
         let (change, off) = (now - before, start - before);
         let off = off - fraction * change;
@@ -42,8 +43,8 @@ impl RateMismatch {
 /// Factor by which the weight of earlier steps decreases in each step.
 const KEPT: f64 = 0.8;
 
-/// Largest deviation of resolved rates at the ends of steps, as a fraction of their change in a step. Vibrations with `ω h < 2` have smaller
-/// deviations.
+/// Largest deviation of the rates at the ends of steps that counts as resolved, as a fraction of the change of the rates in a step. Vibrations with
+/// the frequency `ω` have smaller deviations if `ω h < 2`, where `h` is the step length.
 const MOST_OFF: f64 = 0.5;
 
 /// Measure of how well the recent steps resolve the dashpot rates.
@@ -59,8 +60,8 @@ pub(super) struct RateResolution {
 }
 
 impl RateResolution {
-    /// Place of the start of a step of a duration [time] between the middle of the previous step (0) and the middle of this step (1). `None` without
-    /// a previous step.
+    /// Position of the start of a step on the time axis, on which the middle of the previous step is 0 and the middle of this step is 1. `duration`
+    /// is the length of this step [time]. Returns `None` if there is no previous step.
     pub(super) fn fraction(&self, duration: f64) -> Option<f64> {
         let between = duration + self.before;
         // A substep of the fourth-order method runs backwards in time. The middles of two substeps may then coincide, so that there is no

@@ -117,7 +117,7 @@ impl SectionPlace {
     }
 }
 
-/// Weights of a quadrature point for `Γ` in the section forces of a place.
+/// Weights with which a quadrature point for the strain `Γ` contributes to the section forces of a place.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct ForceShare {
     pub(super) span: usize,
@@ -130,7 +130,7 @@ pub(super) struct ForceShare {
     pub(super) of_couple: f64,
 }
 
-/// Weight of a quadrature point for `κ` in the moment of a place.
+/// Weight with which a quadrature point for the curvature `κ` contributes to the moment of a place.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct MomentShare {
     pub(super) span: usize,
@@ -142,7 +142,7 @@ pub(super) struct MomentShare {
 #[derive(Debug, Clone)]
 pub struct SectionPoints {
     runs: Vec<SmoothRun>,
-    /// Largest number of points from which the normal is interpolated. Half of them are on either side of the place.
+    /// Largest number of points from which the normal is interpolated. Half of these points are in front of the place, the others behind it.
     most: usize,
 }
 
@@ -154,7 +154,7 @@ struct SmoothRun {
     of_moment: Vec<PointAt>,
 }
 
-/// Quadrature point: its parameter and weight, the index of its span in the run and in the beam, and its index in the span.
+/// Quadrature point. It is described by its parameter, its weight, the index of its span in the run and in the beam, and its index in the span.
 #[derive(Debug, Clone, Copy)]
 struct PointAt {
     xi: f64,

@@ -114,7 +114,7 @@ impl<const N: usize, S: Sections> SpanLoop<N, S> for ForceAssembly<'_> {
     }
 }
 
-/// Adds the internal forces, strain mismatches condensed out, and calls the sink with the tangent matrix of each span.
+/// Adds the internal forces, in which the strain mismatches are condensed out, and calls the sink with the tangent matrix of each span.
 pub(super) struct Linearisation<'a> {
     pub(super) iterate: SpanInputs<'a>,
     pub(super) forces: ForcesFrom<'a>,

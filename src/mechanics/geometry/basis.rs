@@ -43,7 +43,7 @@ impl Basis {
         }
     }
 
-    /// Intervals between the breaks, in order. The functions are polynomials on each.
+    /// Intervals between the breaks, in order. On each interval the functions are polynomials.
     pub fn spans(&self) -> Vec<Span> {
         match self {
             Self::BSpline(knots) => knots.spans(),
@@ -51,7 +51,7 @@ impl Basis {
         }
     }
 
-    /// Ends of the spans [-] in order, including those of the domain.
+    /// Ends of the spans, in order, including the ends of the domain [-].
     pub fn breaks(&self) -> Vec<f64> {
         match self {
             Self::BSpline(knots) => knots.breaks(),

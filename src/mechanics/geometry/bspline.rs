@@ -45,7 +45,8 @@ pub(super) fn fill<const WIDTH: usize>(
     }
 }
 
-/// Values at `xi` of the functions of one degree more, computed from the `lower` functions and the ends of their supports.
+/// Returns the values of the basis functions at `xi` whose degree is higher by one than that of the functions `lower`. `supports` contains the ends
+/// of the supports of `lower`.
 #[inline(always)]
 fn raise<const WIDTH: usize>(
     lower: &[f64; WIDTH],
@@ -61,7 +62,8 @@ fn raise<const WIDTH: usize>(
     higher
 }
 
-/// Derivatives of one order more of the functions of degree `q`, computed from the derivatives of the functions of degree `q - 1`.
+/// Computes the derivatives of one order of the splines of degree `q`, from the derivatives of the next lower order of the splines of degree `q -
+/// 1`.
 #[inline(always)]
 fn differentiate<const WIDTH: usize>(
     lower: &[f64; WIDTH],

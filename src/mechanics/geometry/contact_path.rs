@@ -20,7 +20,7 @@ pub struct ContactPath {
     /// Data that all copies for the same beam share.
     line: Arc<PathSupport>,
     interval: PathInterval,
-    /// Functions at the start of the path in its first span. They are cached for consecutive paths with the same start.
+    /// Basis functions at the start of the path, on the first span of the path. They are kept for later paths with the same start.
     departing: Option<(f64, usize, FunctionRow)>,
     first: usize,
     length: usize,
@@ -345,8 +345,8 @@ impl PathInterval {
     }
 }
 
-/// For each span, the number of breaks at or before its start at which derivatives jump. At such a break, at most one function is nonzero on both
-/// sides.
+/// For each span, counts the breaks at or before its start at which first derivatives of the basis jump. At such a break, at most one function is
+/// nonzero on both sides.
 fn kinks(spans: &[Span], degree: usize) -> Vec<usize> {
     let jumps = spans.windows(2).map(|pair| usize::from(pair[1].first - pair[0].first >= degree));
     std::iter::once(0)

@@ -64,8 +64,9 @@ fn tangents(chords: &[Vec2]) -> Vec<Vec2> {
     all.windows(4).map(|chords| akima_tangent(chords[0], chords[1], chords[2], chords[3])).collect()
 }
 
-/// Two chords beyond an end that continue the rotation of the last two chords. In the book they are `2 near - far`; here `far` is first scaled to
-/// the length of `near`. For equally spaced points both are the same. For other points the scaling prevents a curve that starts backwards.
+/// Returns two chords beyond an end, which continue the rotation of the last two chords. The book uses the chord `2 near - far`; here `far` is
+/// first scaled to the length of `near`. For equally spaced points the result is the same. For other points the scaling prevents a curve that
+/// starts backwards.
 fn continued(near: Vec2, far: Vec2) -> [Vec2; 2] {
     let next = |near: Vec2, far: Vec2| 2.0 * near - near.norm() / far.norm() * far;
     let first = next(near, far);

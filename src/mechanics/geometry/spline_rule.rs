@@ -87,7 +87,7 @@ fn orthogonal_spline(basis: &Basis, run: &[Span]) -> Option<Vec<f64>> {
     let (degree, offset) = (basis.degree(), run.first()?.first);
     let unknowns = lower_count(basis, run)?;
     let mut rows = empty_rows(unknowns, 2 * degree + 1);
-    // The products have degree 2p - 1.
+    // The integrands are products of splines of degree p and p - 1, so their degree is 2p - 1.
     let gauss = GaussRule::new(degree).ok()?;
     for span in run {
         let from = span.first - offset;

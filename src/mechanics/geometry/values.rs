@@ -17,7 +17,7 @@ pub struct BasisValues {
     /// Index in the basis of the first nonzero function.
     pub first: usize,
     degree: usize,
-    /// Derivatives with respect to ξ. Row `k` contains those of order `k`.
+    /// Derivatives with respect to ξ. Row `k` contains the derivatives of order `k`.
     rows: [FunctionRow; WIDTH],
 }
 

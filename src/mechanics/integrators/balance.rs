@@ -6,7 +6,8 @@ use crate::elementary::square;
 use crate::linalg::BorderedMatrix;
 use crate::newton::{Equations, Newton, NewtonError, NewtonReport, ResidualNorms, Tolerance};
 
-/// Largest rotation increment `Δω`, which is mean rate times step. For larger increments the direction of rotation is ambiguous.
+/// Largest rotation increment `Δω`, which is the mean angular velocity times the step length. For larger increments the direction of rotation is
+/// ambiguous.
 const LARGEST_INCREMENT: f64 = std::f64::consts::PI;
 
 /// Smallest chord of the path of a slider in the mean configuration, as a fraction of the length of the path. If a rotation of about π folds the
@@ -69,7 +70,7 @@ impl StepBalance<'_> {
         self.mechanism.worst(part, residual)
     }
 
-    /// Factor `ι/Δt²` of the inertia.
+    /// Factor of the inertia in the balance of the step, `ι/Δt²`.
     fn inertia(&self) -> f64 {
         self.rule.inertia / square(self.duration)
     }
@@ -115,7 +116,7 @@ impl Equations for StepBalance<'_> {
 #[derive(Debug, Clone)]
 pub(super) struct StepSolver {
     newton: Newton,
-    /// Increments `Δt v0` of a motion with constant velocity.
+    /// Increments that a motion with constant velocity would have, `Δt v0`.
     free_increments: Vec<f64>,
     unknowns: Vec<f64>,
     increments: Vec<f64>,
@@ -124,7 +125,7 @@ pub(super) struct StepSolver {
     rates: Vec<f64>,
     residual: Vec<f64>,
     balanced: Vec<(Stage, f64)>,
-    /// True if the integrator balances the change of momentum.
+    /// True if the integrator balances changes of momentum and not accelerations.
     balances_rates: bool,
 }
 
@@ -201,7 +202,7 @@ impl StepSolver {
         self.unknowns.copy_from_slice(solution);
     }
 
-    /// Solves the balance of the step by a callback. The callback receives the Newton solver, the equations, their unknowns and their residual.
+    /// Solves the balance of the step by the function `way`. It receives the Newton solver, the equations, their unknowns and their residual.
     pub(super) fn solve_by(
         &mut self,
         mechanism: &mut dyn Mechanism,

@@ -24,15 +24,15 @@ use crate::newton::{NewtonReport, Tolerance};
 pub struct GeneralizedAlpha {
     solver: StepSolver,
     weights: Weights,
-    /// Accelerations `a`: before the solution of a step those at its start, afterwards those at its end.
+    /// Accelerations in the state. Before a step is solved, they belong to its start; afterwards, they belong to its end.
     accelerations: Vec<f64>,
 }
 
 #[derive(Debug, Clone, Copy)]
 struct Weights {
-    /// Coefficient `αm`.
+    /// Coefficient `αm`: weight of the accelerations at the start of the step.
     inertia_before: f64,
-    /// Coefficient `αf`.
+    /// Coefficient `αf`: weight of the forces at the start of the step.
     forces_before: f64,
     gamma: f64,
     beta: f64,
@@ -47,7 +47,7 @@ impl Weights {
         Self { inertia_before, forces_before, gamma, beta }
     }
 
-    /// Coefficient `½/β - 1` of `a0` in `a1`.
+    /// Coefficient `½/β - 1` of the acceleration at the start of a step in the formula for the acceleration at its end.
     fn carried(&self) -> f64 {
         0.5 / self.beta - 1.0
     }

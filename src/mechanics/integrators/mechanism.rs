@@ -7,20 +7,20 @@ use crate::newton::ResidualPart;
 /// Time within a step at which forces are evaluated. Increments are relative to the start of the step.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Stage {
-    /// Start of the step. The loads are those at the start of a straight line that has the mean of the loads over the step and their change in the
-    /// step.
+    /// Start of the step. Loads are replaced by a linear function of time that has the same mean over the step and the same change in the step.
+    /// Their value is the value of this function at the start.
     Start,
     /// Middle of the step: mean configuration, averaged section forces, mean loads.
     ///
     /// The internal forces then do exactly the work by which the strain energy changes (Stander & Stein 1996; Simo, Tarnow & Doblaré 1995).
     Midpoint,
-    /// Middle of the step as for [`Midpoint`](Self::Midpoint), but the section forces are those of the mean strain plus `χ/2` times the change of
-    /// strain. The value is `χ`.
+    /// Middle of the step as for [`Midpoint`](Self::Midpoint), but the section forces belong to a later strain: the mean strain plus `χ/2` times
+    /// the change of the strain in the step. The contained value is `χ`.
     ///
-    /// The internal forces then do additional work of `χ/2` times the integral of `ΔΓ·C ΔΓ + EI Δκ²`.
+    /// The internal forces then do additional work, which is `χ/2` times the integral of `ΔΓ·C ΔΓ + EI Δκ²`.
     DampedMidpoint(f64),
-    /// End of the step. The loads are those at the end of a straight line that has the mean of the loads over the step and their change in the
-    /// step.
+    /// End of the step. Loads are replaced by a linear function of time that has the same mean over the step and the same change in the step. Their
+    /// value is the value of this function at the end.
     End,
 }
 
@@ -48,8 +48,8 @@ pub trait Forces {
     fn add_forces(&mut self, stage: Stage, increments: &[f64], weight: f64, out: &mut [f64])
     -> f64;
 
-    /// Adds `weight` times the forces of a stage to `out`, strain mismatches condensed out, and their derivatives with respect to the increments to
-    /// the tangent.
+    /// Adds `weight` times the forces of a stage to `out`, and their derivatives with respect to the increments to the tangent. The strain
+    /// mismatches are condensed out of the forces.
     fn add_linearised_forces(
         &mut self,
         stage: Stage,
@@ -196,8 +196,8 @@ pub struct Solution<'a> {
     pub rates: &'a [f64],
     /// Residual of the equations [force, force·length]. At supported degrees of freedom it is the reaction.
     pub residual: &'a [f64],
-    /// Stages of the forces with their weights [-]. The forces, constraints and supports at these stages give the change of the momenta. Empty if
-    /// the method balances accelerations instead of momenta.
+    /// Stages at which forces are evaluated, with their weights [-]. The weighted sum of the forces at these stages is the rate of change of the
+    /// momenta. The list is empty if the method balances accelerations instead of momenta.
     pub balanced: &'a [(Stage, f64)],
 }
 

@@ -3,7 +3,7 @@
 use super::block::{Block, MOST_DELAYED, UNTOUCHED};
 use super::{BlockLayout, reverse_cuthill_mckee};
 
-/// Largest ratio of the work of the elimination to the work for the band without blocks, for which the order of the band is kept.
+/// Largest ratio of the work of the elimination to the work for the same band without blocks. Up to this ratio, the order of the band is kept.
 const LARGEST_WORK: usize = 4;
 
 /// Order of the unknowns of a band that are not eliminated in blocks, including delayed unknowns, and the resulting profile of the matrix.
@@ -15,7 +15,7 @@ pub(super) struct Arrangement {
     layout: BlockLayout,
     /// Place of each unknown of the band in this order; `UNTOUCHED` if it is eliminated in a block.
     pub(super) position: Vec<usize>,
-    /// For each unknown of the band, the end of the run of consecutive places that contains it.
+    /// For each unknown of the band, the end of the sequence of consecutive places to which its place belongs.
     pub(super) run_ends: Vec<usize>,
     /// First place of the delayed unknowns of each block; `UNTOUCHED` if the block delays none.
     pub(super) delayed: Vec<usize>,
@@ -84,7 +84,7 @@ impl Arrangement {
         of_band.enumerate().for_each(|(next, position)| *position = next);
     }
 
-    /// Uses an order of the band that has a small bandwidth, including the couplings by blocks.
+    /// Replaces the order by one with a small bandwidth. It takes the couplings of unknowns by blocks into account.
     fn use_level_order(&mut self, blocks: &[Block]) {
         self.use_natural_order();
         let position = |&at: &usize| Some(self.position[at]).filter(|&place| place != UNTOUCHED);
@@ -112,7 +112,7 @@ impl Arrangement {
         for block in blocks.iter().filter(delaying) {
             self.delayed_after[last(block, &self.position)] += MOST_DELAYED;
         }
-        // Converts the numbers of delayed unknowns to the places at which they start.
+        // Replaces the number of delayed unknowns after each place by the place at which they start.
         let mut shift = 0;
         for (place, behind) in self.delayed_after.iter_mut().enumerate() {
             shift += std::mem::replace(behind, place + 1 + shift);

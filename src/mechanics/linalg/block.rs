@@ -11,7 +11,7 @@ use pulp::{Simd, WithSimd};
 
 use super::{BandedMatrix, BorderUnit, LinearError};
 
-/// Number of unknowns of a block outside the band: those of a sliding contact.
+/// Number of unknowns of a block outside the band. It equals the number of unknowns of a sliding contact.
 pub(super) const BLOCK: usize = 5;
 
 /// Vector length.
@@ -20,7 +20,8 @@ const LANES: usize = 4;
 /// Largest number of delayed unknowns of a block.
 pub(super) const MOST_DELAYED: usize = 2;
 
-/// Largest contribution of a pivot to a diagonal entry of the band, as a multiple of the largest diagonal entry at the touched unknowns.
+/// Largest contribution of the elimination of a pivot to a diagonal entry of the band, as a multiple of the largest diagonal entry at the touched
+/// unknowns.
 const LARGEST_FILL: f64 = 100.0;
 
 /// Index for an unknown of the band that a block does not touch.
@@ -169,12 +170,13 @@ impl Block {
         self.candidates() + self.touched.len()
     }
 
-    /// Length of a row of the dense matrix: whole vectors. The entries behind the last column are zero.
+    /// Length of a row of the dense matrix, in whole vectors. The entries after the last column are zero.
     fn stride(&self) -> usize {
         self.size().next_multiple_of(LANES)
     }
 
-    /// Scale of a row of the Schur complement. The equations of delayed unknowns are scaled to the size of the equations of the band.
+    /// Returns the factor by which a row of the Schur complement is multiplied. It gives the equations of delayed unknowns the same magnitude as
+    /// the equations of the band.
     pub(super) fn scale(&self, left: usize) -> f64 {
         if left < self.delayed() { self.row_factors[self.pivots + left] } else { 1.0 }
     }
@@ -266,7 +268,8 @@ impl Block {
         unknowns.for_each(|(factor, (_, unknown))| *factor = unknown.column_factor(*stiffness));
     }
 
-    /// Largest scaled entry among the candidates from index `first` on; NaN if an entry is NaN.
+    /// Row, column and magnitude of the largest scaled entry that may become a pivot, starting at index `first`. The magnitude is NaN if an entry
+    /// is NaN.
     #[inline(always)]
     fn largest_from(&self, first: usize) -> (usize, usize, f64) {
         let (stride, candidates) = (self.stride(), self.candidates());
@@ -356,8 +359,8 @@ impl Block {
         rows.map(move |row| &row[first..]).enumerate()
     }
 
-    /// Eliminates a right-hand side. `own` contains its entries for the own unknowns and the block, in the order of pivots. `subtract` receives the
-    /// contributions to the entries of touched unknowns.
+    /// Applies the elimination to a right-hand side. `own` contains the entries that belong to the own unknowns and to the block, in the order of
+    /// the pivots. `subtract` receives the contributions to the entries of touched unknowns.
     pub(super) fn substitute(&self, own: &mut [f64], mut subtract: impl FnMut(usize, f64)) {
         let rows = self.front.chunks_exact(self.stride());
         for (at, row) in rows.enumerate() {

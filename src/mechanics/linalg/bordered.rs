@@ -119,8 +119,8 @@ impl Border {
         }
     }
 
-    /// Adds the couplings of an unknown of the band with consecutive unknowns of the border from `first` on: its row of `B` and its column of `C`. In
-    /// a border of blocks, they must be those of one block.
+    /// Adds the couplings of an unknown of the band with consecutive unknowns of the border, starting with `first`: entries in a row of `B` and in
+    /// a column of `C`. In a border of blocks, all these unknowns of the border must belong to the same block.
     pub(crate) fn add_couplings(
         &mut self,
         at: usize,

@@ -2,7 +2,7 @@
 
 use super::{BandedMatrix, LinearError};
 
-/// Condition on a pair of an unknown and its response.
+/// Condition on an unknown and the response that belongs to it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Pairing {
     /// Equality: the response is zero, and the unknown may have any value.

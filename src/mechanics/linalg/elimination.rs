@@ -54,8 +54,9 @@ impl WithSimd for Elimination<'_> {
     }
 }
 
-/// Elimination of a matrix with a profile. For each index, the profile gives the last row with an entry in the column, which is also the last
-/// column with an entry in the row. It does not decrease from one index to the next, and continues for one panel after the last row.
+/// Elimination of a matrix whose profile is symmetric. For each index `i`, the profile contains the last row with an entry in column `i`, which is
+/// also the last column with an entry in row `i`. The values of the profile never decrease. The profile is longer than the matrix by one panel of
+/// rows.
 pub(super) struct ProfileElimination<'a>(pub(super) ActiveRows<'a>, pub(super) &'a [usize]);
 
 impl WithSimd for ProfileElimination<'_> {

@@ -18,7 +18,7 @@ const STRIP: usize = 5;
 /// as long as this loses at most four digits. Then a zero force is exactly zero.
 const LENGTHS: f64 = 1e-4;
 
-/// Some columns of `B`. After the factorisation they contain columns of `Z`.
+/// Some columns of the border part `B`. After the factorisation they contain columns of the solution `Z = A⁻¹ B`.
 #[derive(Debug, Clone)]
 struct BorderStrip {
     rows: Vec<[f64; STRIP]>,
@@ -163,7 +163,7 @@ impl FullBorder {
         Ok(FullLu { width: *width, band, solved: strips, rows, complement })
     }
 
-    /// Replaces `B` by `Z` and `D` by `D - C Z`.
+    /// Replaces `B` by `Z = A⁻¹ B`, and `D` by `D - C Z`.
     fn eliminate(&mut self, band: &BandedLu<'_>) {
         for strip in &mut self.strips {
             if let Some(first) = strip.first_row {

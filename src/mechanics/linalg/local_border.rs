@@ -253,7 +253,7 @@ mod tests {
         (BlockLayout { own, groups: groups.into(), block_entries: 10 }, next)
     }
 
-    /// Fills a matrix like that of a band with contacts whose forces do not depend on each other.
+    /// Fills a matrix as for a band with contacts whose forces are independent of each other.
     fn fill(
         matrix: &mut BorderedMatrix,
         layout: &BlockLayout,

@@ -15,7 +15,7 @@ use super::substitution::ProfileSubstitution;
 #[derive(Debug, Clone)]
 pub(super) struct ProfileMatrix {
     storage: Storage,
-    /// Profile. It does not decrease from one index to the next, and continues for one panel after the last row.
+    /// Values of the profile. They never decrease from one index to the next. The list is longer than the matrix by one panel of rows.
     ends: Vec<usize>,
 }
 

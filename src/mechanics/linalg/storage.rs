@@ -21,8 +21,8 @@ pub(super) struct Storage {
     pub(super) last_columns: Vec<usize>,
     /// Multipliers of the rows below a panel. They are stored here until the panel is accepted.
     pub(super) multipliers: Vec<[f64; PANEL]>,
-    /// Squared sizes of the rows. Entries of equations with different units are compared by means of them. By default they are equal. Row exchanges
-    /// exchange them too.
+    /// Squared sizes of the rows, which make rows with different units comparable in the choice of pivots. By default all sizes are equal. A row
+    /// exchange exchanges the sizes too.
     pub(super) sizes: Vec<f64>,
 }
 
@@ -31,8 +31,8 @@ pub(super) struct Storage {
 pub(super) struct ActiveRows<'a> {
     /// Number of rows, without the identity rows.
     pub(super) size: usize,
-    /// Number of columns to be eliminated: all columns, or a multiple of the panel width. In the second case, as many rows follow as a column can
-    /// reach.
+    /// Number of columns to be eliminated: all columns, or a multiple of the panel width. If not all columns are eliminated, the rows that the last
+    /// column can reach are present too.
     pub(super) columns: usize,
     pub(super) reach: usize,
     pub(super) rows: &'a mut [f64],

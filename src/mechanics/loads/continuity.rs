@@ -14,8 +14,8 @@ const ROUNDINGS: f64 = 1e3;
 /// Exponents `i` of the two sampling times `8⁻ⁱ` close to the start.
 const CLOSE: [i32; 2] = [12, 13];
 
-/// Ratio of the changes from the start value up to these two times, above which the function jumps. It is 1 for a jump, 0.35 for `√t`, and 0.125
-/// for smooth functions.
+/// Ratio of the two changes of the function from its start value to its values at these two times. Above this value, the function jumps. The ratio
+/// is 1 for a jump, 0.35 for `√t`, and 0.125 for smooth functions.
 const LEFT_OF_A_JUMP_AT_START: f64 = 0.7;
 const LEFT_OF_A_POWER_AT_START: f64 = 0.16;
 

@@ -133,8 +133,8 @@ pub(super) fn extra_columns(scene: &Scene) -> Vec<ExtraColumn> {
         .collect()
 }
 
-/// Returns true for columns that contain means over the last step: forces of sliders and drives, sensors of means, and forces of springs with
-/// methods whose spring forces are means.
+/// Returns true if a column contains means over the last step. These are the forces of sliders and drives, the sensors of mean values, and, for
+/// some methods, the forces of springs.
 pub(super) fn is_step_mean(scene: &Scene, method: Method, column: &str) -> bool {
     let is_of = |name: &str, quantity: &str| {
         column.strip_prefix(name).is_some_and(|rest| rest.strip_prefix('.') == Some(quantity))

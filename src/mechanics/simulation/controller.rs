@@ -119,7 +119,7 @@ impl StepController {
 
     fn shorten(&self, state: &mut StepSizeState, duration: f64, part: f64) {
         state.tries += 1;
-        // The end of a step may overflow. Its duration is then infinite, and the requested size is used.
+        // The end time of a step may exceed the largest number. The duration is then infinite, and the requested step size is used instead.
         state.unconstrained_size = self.bounded(duration.min(state.unconstrained_size) * part);
     }
 
@@ -135,7 +135,8 @@ mod tests {
     const CONTROLLER: StepController =
         StepController { order: 3.0, first: 0.1, smallest: 1e-3, largest: 10.0 };
 
-    /// Sizes of accepted steps up to t = 1, for an error of `(size/right)³`.
+    /// Sizes of the accepted steps up to t = 1. A step has the allowed error if its size is `right`, and its error is proportional to the third
+    /// power of the size.
     fn sizes(first: f64, right: impl Fn(usize) -> f64) -> (Vec<f64>, usize) {
         let mut state = StepSizeState { unconstrained_size: first, ..CONTROLLER.start() };
         let (mut sizes, mut rejected) = (Vec::new(), 0);

@@ -93,8 +93,8 @@ impl StepDoubling {
         Ok(DoubledStep { report, tried_step: trial, position_error: of_places })
     }
 
-    /// Takes a step that follows successful steps since [`step`](Self::step) began. On failure, the model is restored to the start of the first of
-    /// them.
+    /// Takes a step after earlier steps of the same call of [`step`](Self::step). If it fails, the model is restored to the start of the first of
+    /// these steps.
     pub(super) fn take_or_restore(
         &self,
         integrator: &mut dyn Integrator,

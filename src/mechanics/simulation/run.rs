@@ -293,7 +293,7 @@ impl Simulation {
     ) -> Result<(), SimulationError> {
         self.check_end(end)?;
         self.clock.goal = end;
-        // The perturbed runs make dry runs themselves, which add their own rows.
+        // Dry runs of the perturbed simulations are done separately below, because they add rows to their own histories.
         let mut beside = self.stepper.sensitivities.take();
         let pretended = self.dry_run_alone_to(end, monitor);
         if let Some(sensitivities) = &mut beside {

@@ -7,7 +7,7 @@ const MOST_HALVINGS: u32 = 12;
 /// Number of parts of a step if all of them have the smallest size.
 const PARTS: u64 = 1 << MOST_HALVINGS;
 
-/// Step of which a part may be completed. Its parts are halved on failure, and become longer again after success.
+/// Step that may be partially completed. It is divided into parts, which are halved after a failure and become longer again after a success.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct StepRetry {
     pub(super) whole: Interval,

@@ -32,12 +32,12 @@ impl TimeGrid {
         Self { start, dt, slack, cuts: Vec::new(), clocks: Vec::new(), passed: 0 }.with_cuts(cuts)
     }
 
-    /// Creates a grid of cuts only, for variable steps. `first` is the size of the first step [time].
+    /// Creates a grid without regular times, for variable steps: steps must end at the `cuts` only. `first` is the size of the first step [time].
     pub(crate) fn of_cuts(start: f64, first: f64, cuts: Vec<f64>) -> Self {
         Self { dt: f64::INFINITY, ..Self::new(start, first, cuts) }
     }
 
-    /// Adds cuts at the samples and actions of digital controllers.
+    /// Adds cuts at the times at which digital controllers take samples and act.
     pub(crate) fn with_beats(self, beats: impl Iterator<Item = SampleClock>) -> Self {
         Self { clocks: beats.collect(), ..self }
     }

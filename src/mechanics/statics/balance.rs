@@ -38,7 +38,7 @@ impl Balance<'_> {
 pub(super) struct UnderLoad<'a> {
     pub(super) balance: Balance<'a>,
     pub(super) factor: f64,
-    /// Rate `σ` [1/time²].
+    /// Factor `σ` of the viscous damping in the equations; zero for an equilibrium [1/time²].
     pub(super) rate: f64,
 }
 
@@ -81,10 +81,11 @@ impl Equations for UnderLoad<'_> {
     }
 }
 
-/// Equations `F(u) - λ P(u) = 0` and `t·u = Δs`. The load factor `λ` is the last unknown; the distance to a plane determines it.
+/// Equations `F(u) - λ P(u) = 0` and `t·u = Δs`. The load factor `λ` is the last unknown. The second equation, which describes a plane, determines
+/// it.
 pub(super) struct AlongPath<'a, 'b> {
     pub(super) balance: &'a mut Balance<'b>,
-    /// Normal `t` of the plane in the metric of the path. Contact unknowns, which follow the degrees of freedom, do not enter.
+    /// Normal `t` of the plane in the metric of the path. Contact unknowns, which follow the degrees of freedom, have no weight in it.
     pub(super) normal: &'a [f64],
     /// Distance `Δs` of the plane from the last equilibrium, in the metric of the path.
     pub(super) distance: f64,

@@ -16,7 +16,8 @@ use crate::system::{MasterEnd, Scene, System, UnknownKind};
 /// Largest number of times that a step is halved because it does not reach an equilibrium.
 const MOST_HALVINGS: u32 = 8;
 
-/// Largest distance between two consecutive equilibria on the same part of the path, as a multiple of the longest step along the path.
+/// Largest distance between two consecutive equilibria, as a multiple of the step length. Equilibria that are farther apart may lie on different
+/// parts of the path.
 const FAR: f64 = 2.0;
 
 /// Displacement per load increment above which the structure has snapped through, as a multiple of the displacement per load increment in the last

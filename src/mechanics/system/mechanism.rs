@@ -85,7 +85,7 @@ impl System {
         self.exchanged.total = WorkAndImpulse::default();
         let inertia = self.diagonal_of_inertia();
         self.motion.begin(inertia);
-        // If there is only one body, the resolution of the whole mechanism is its resolution, so it is not measured separately.
+        // If there is only one body, its resolution is the resolution of the whole mechanism. Therefore it is not measured separately.
         let bodies = &self.bodies;
         let damped = self.elements.resistances().filter_map(InternalForce::damped_beam);
         let apart = damped.filter(|_| bodies.len() > 1);

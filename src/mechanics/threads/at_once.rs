@@ -11,7 +11,6 @@ const MOST_POLLS: usize = 2000;
 
 /// Runs all tasks concurrently: the first task on this thread, each other task on a thread of the pool. Tasks that no thread of the pool has
 /// started also run on this thread.
-/// thread.
 ///
 /// Returns when every task is completed. Each call allocates a few hundred bytes, so the function is suitable for tasks that take much longer than
 /// this.

@@ -22,7 +22,8 @@ const MOST_SWEEPS: usize = 60;
 /// Remainder of a diagonal entry of the inertia that is due to rounding, as a fraction of the entry.
 const WITHOUT_INERTIA: f64 = 1e-13;
 
-/// All pairs `(μ, φ)` of a small scene with inertia, in decreasing order of `μ`. For degrees of freedom without inertia, `μ = 0`.
+/// Computes all pairs of an eigenvalue `μ` and a shape `φ` of a small scene with inertia, in decreasing order of `μ`. For degrees of freedom
+/// without inertia, `μ = 0`.
 ///
 /// # Errors
 /// Fails if the search is stopped.

@@ -102,13 +102,14 @@ impl Elastic {
         self.correct(shapes, movements)
     }
 
-    /// Corrects four shapes: `x ← x + δ`, `n ← n + k (m + B δ)`. Returns their energies.
+    /// Corrects four shapes by the displacements `δ`: `x ← x + δ` and, for the section forces with the stiffness `k` and the mismatch `m`, `n ← n +
+    /// k (m + B δ)`. Returns the energies of the shapes.
     pub(super) fn correct(&self, shapes: &mut Shapes, by: &VectorStrip) -> Energies {
         Arch::new().dispatch(ShapeCorrection { elastic: self, shapes, by })
     }
 
-    /// Rounding error of twice the energy for given displacements. It contains `Σ k (ε Σ |B| |x|)²` and the rounding error of section forces in `xᵀ
-    /// K_g x`.
+    /// Returns the rounding error of twice the energy for given displacements `x`. It consists of `Σ k (ε Σ |B| |x|)²`, with the stiffnesses `k`
+    /// and the machine precision `ε`, and the rounding error of section forces in `xᵀ K_g x`.
     pub(super) fn rounding_of(&self, movements: &VectorStrip) -> FourVectors {
         Arch::new().dispatch(Rounding { elastic: self, movements })
     }

@@ -43,9 +43,9 @@ pub(super) struct Lanczos<'a> {
     pencil: &'a Pencil,
     factors: &'a SymmetricFactors,
     basis: Vec<Vec<FourVectors>>,
-    /// Projection `Vᵀ M A⁻¹ M V`.
+    /// Projection `Vᵀ M A⁻¹ M V` of the problem to the basis `V`.
     projected: DMatrix<f64>,
-    /// Next block of vectors, its product with the inertia, and its coupling to the previous block.
+    /// Next block of vectors. The next fields contain the product of this block with the inertia, and its coupling to the previous block.
     next: Vec<FourVectors>,
     next_momenta: Vec<FourVectors>,
     coupling: Square4,

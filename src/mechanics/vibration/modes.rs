@@ -21,9 +21,9 @@ pub struct Mode {
     pub square: f64,
     /// Rounding error of the square `ω²` [1/time²].
     pub rounding: f64,
-    /// Residual [-]: energy of the next correction of shape and section forces, as a fraction of the energy that belongs to `ω² + σ`. Here `σ` is
-    /// about the square of the lowest bending frequency. The relative error of `ω² + σ` is at most this residual. It is also at most the squared
-    /// residual divided by the relative distance to the next mode.
+    /// Measure of the accuracy of the mode [-]: energy of the next correction of the shape and its section forces, as a fraction of the energy of
+    /// the shape. The relative error of `ω² + σ`, where `σ` is about the square of the lowest bending frequency, is at most this residual. It is
+    /// also at most the square of the residual, divided by the relative distance to the next mode.
     pub residual: f64,
     /// Mode shape: values of the unknowns, normalised to `φᵀ M φ = 1` [length, rad over the square root of a mass].
     pub shape: Vec<f64>,

@@ -107,8 +107,8 @@ impl Quadratic {
             .collect())
     }
 
-    /// Shift that is not far above any eigenvalue [1/time]. If `x` is scaled by `Ω`, restrained modes satisfy `ẏ = A y` with `|A⁻¹| ≤ |Ω⁻¹ B|² +
-    /// |Ω⁻¹|`.
+    /// First shift of the search [1/time]. It is not far above the magnitude of any eigenvalue. If displacements are scaled by `Ω`, restrained
+    /// modes satisfy `ẏ = A y` with `|A⁻¹| ≤ |Ω⁻¹ B|² + |Ω⁻¹|`.
     fn slowest_shift(&self) -> f64 {
         let modes = || self.squares.iter().enumerate();
         let held = modes().filter(|(_, square)| **square != 0.0);

@@ -15,7 +15,7 @@ const MOST_CORRECTIONS: usize = 8;
 /// Ratio of two successive residuals above which further corrections have no effect.
 const FALLING: f64 = 0.3;
 
-/// Ratio of the largest to the smallest `μ` above which each pair is refined separately.
+/// Ratio of the largest to the smallest eigenvalue `μ` above which each pair is refined separately.
 const WIDE: f64 = 1e7;
 
 pub(super) struct RefinedPair {
@@ -237,7 +237,7 @@ impl OtherPairs<'_> {
     }
 }
 
-/// Converts inertia forces `r` to residual forces: `r ← ω² r - Bᵀ (n + k m) - K_g x`.
+/// Converts inertia forces `r` to residual forces, by subtracting the internal forces of the shape: `r ← ω² r - Bᵀ (n + k m) - K_g x`.
 fn subtract_restoring(r: &mut [FourVectors], squares: &FourVectors, shapes: &Shapes) {
     for (r, resisting) in r.iter_mut().zip(&shapes.internal_forces) {
         for ((r, resisting), square) in r.iter_mut().zip(resisting).zip(squares) {

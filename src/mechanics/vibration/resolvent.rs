@@ -48,13 +48,13 @@ const STRONG: f64 = 1e4;
 pub(super) struct Resolvent {
     /// Shift `σ` [1/time].
     pub(super) shift: f64,
-    /// For each mode: `w = |ω|/√(σ² + ω²)`, `t = σ/√(σ² + ω²)` and the sign of `ω²` [-].
+    /// Scales `w = |ω|/√(σ² + ω²)` and `t = σ/√(σ² + ω²)` of each mode, and the sign of its `ω²` [-].
     scales: Vec<(f64, f64, f64)>,
-    /// Modes whose displacements are variables, which are the restrained modes. The next field contains the modes whose velocities are variables:
-    /// all except those that are neither restrained nor damped.
+    /// Modes whose displacements are variables. These are the restrained modes. The next field contains the modes whose velocities are variables:
+    /// all modes that are restrained or damped.
     places: Vec<usize>,
     velocities: Vec<usize>,
-    /// Singular vectors `U`, one column for each `s²`.
+    /// Singular vectors `U`, one column for each squared singular value `s²`.
     directions: DMatrix<f64>,
     damping: Vec<f64>,
 }
@@ -145,7 +145,7 @@ impl Resolvent {
         })
     }
 
-    /// Matrix `U f(s²) Uᵀ`.
+    /// Returns the matrix `U f(s²) Uᵀ`. The function `of` returns `f` for a squared singular value.
     fn weighted(&self, of: impl Fn(f64) -> f64) -> DMatrix<f64> {
         let mut weighted = self.directions.clone();
         for (mut column, square) in weighted.column_iter_mut().zip(&self.damping) {

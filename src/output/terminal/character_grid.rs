@@ -1,4 +1,4 @@
-//! A grid of coloured characters, and its conversion to lines of text.
+//! Grid of coloured characters, and its conversion to lines of text.
 
 use super::{Colours, TerminalStyle};
 use crate::output::width::columns_of;
@@ -14,10 +14,10 @@ pub enum TerminalColour {
 /// Colours of series that are readable on dark and light terminals: cyan, yellow, magenta, green, blue, red.
 const HUES: [u8; 6] = [36, 33, 35, 32, 34, 31];
 
-/// Placeholder after a character of two columns.
+/// Placeholder after a character that is two columns wide.
 const WIDE_PLACEHOLDER: char = '\0';
 
-/// Characters in lines and columns. Characters written outside are ignored.
+/// Characters in lines and columns. Characters that are written outside the grid are ignored.
 #[derive(Clone, Debug)]
 pub struct CharacterGrid {
     style: TerminalStyle,
@@ -38,14 +38,14 @@ impl CharacterGrid {
         }
     }
 
-    /// Writes a text to the right from a position, in the glyphs of the style.
+    /// Writes a text to the right, starting at a position. It uses the character set of the style.
     pub fn write(&mut self, column: usize, row: usize, text: &str, ink: TerminalColour) {
         let mut column = column;
         for letter in self.style.glyphs.typeset(text).chars() {
             match columns_of(letter) {
-                // A cell contains one character, so combining accents are dropped.
+                // A cell contains one character, so combining accents are omitted.
                 0 => continue,
-                // A wide character needs both columns.
+                // A wide character must have both of its columns.
                 wide if column + wide > self.style.width => return,
                 wide => {
                     self.put(column, row, letter, ink);
@@ -57,7 +57,7 @@ impl CharacterGrid {
         }
     }
 
-    /// Lines of the grid, joined by line breaks, without trailing blanks.
+    /// Lines of the grid without trailing blanks, joined by line breaks.
     pub fn render(&self) -> String {
         if self.style.width == 0 {
             return String::new();

@@ -1,4 +1,5 @@
-//! A raster of two by four dots per character. The dots are approximately square, because terminal characters are about twice as high as wide.
+//! Raster of dots for curves in a terminal. Each character has two by four dots. They are approximately square, because characters are about twice
+//! as high as wide.
 
 use super::Glyphs;
 use super::character_grid::TerminalColour;
@@ -8,18 +9,18 @@ use crate::output::curve::pieces;
 pub const ACROSS: usize = 2;
 pub const DOWN: usize = 4;
 
-/// Bit of each dot in the code of its Braille character: first column from the top, then the second.
+/// Bit of each dot in the code of its Braille character, for the first and the second column from the top.
 const BITS: [[u8; DOWN]; ACROSS] = [[0x01, 0x02, 0x04, 0x40], [0x08, 0x10, 0x20, 0x80]];
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Trace {
-    /// Every dot.
+    /// Every dot of a line is drawn.
     Solid,
-    /// Every third dot.
+    /// Every third dot of a line is drawn.
     Dotted,
 }
 
-/// A raster of dots in characters, for curves in a terminal.
+/// Raster of dots in characters.
 #[derive(Clone, Debug)]
 pub struct Dots {
     columns: usize,
@@ -32,14 +33,14 @@ impl Dots {
         Self { columns, rows, cells: vec![(0, TerminalColour::Plain); columns * rows] }
     }
 
-    /// Coordinates of the last dot of the raster, counted from zero.
+    /// Coordinates of the last dot of the raster. They start at zero.
     pub fn last(&self) -> Point {
         let last = |dots: usize| dots.saturating_sub(1) as f64;
         (last(ACROSS * self.columns), last(DOWN * self.rows))
     }
 
-    /// Draws a curve through points in units of dots, from the upper left dot. Points that are not finite leave a gap. Parts outside the raster are
-    /// clipped.
+    /// Draws a curve through points. Coordinates are in dots, starting at the upper left dot. Points that are not finite leave a gap. Parts outside
+    /// the raster are not drawn.
     pub fn curve(
         &mut self,
         points: impl IntoIterator<Item = Point>,
@@ -73,7 +74,7 @@ impl Dots {
         }
     }
 
-    /// Characters with dots: column, row, dots and ink.
+    /// Characters that have dots, with column, row, dots and colour.
     pub fn drawn(&self) -> impl Iterator<Item = (usize, usize, u8, TerminalColour)> {
         let of_cell = |(at, (mask, ink)): (usize, &(u8, TerminalColour))| {
             (*mask != 0).then(|| (at % self.columns, at / self.columns, *mask, *ink))
@@ -82,7 +83,7 @@ impl Dots {
     }
 }
 
-/// Dots after the first on the straight line between two dots (Bresenham 1965).
+/// Dots on the straight line between two dots, without the first one (Bresenham 1965).
 fn line_dots(from: (i64, i64), to: (i64, i64)) -> impl Iterator<Item = (i64, i64)> {
     let (dx, dy) = (to.0 - from.0, to.1 - from.1);
     let steps = dx.abs().max(dy.abs());
@@ -102,7 +103,7 @@ impl Glyphs {
     }
 }
 
-/// ASCII character whose ink is closest to the dots.
+/// ASCII character that looks most similar to the dots.
 fn ascii_of_dots(mask: u8) -> char {
     let rows = |column: usize| (0..DOWN).filter(move |&row| mask & BITS[column][row] != 0);
     let (left, right) = (rows(0).count(), rows(1).count());
@@ -122,7 +123,7 @@ fn ascii_of_dots(mask: u8) -> char {
             _ => '_',
         },
         _ if left == 0 || right == 0 => '|',
-        // Compares the mean rows of both columns without a division. Rows count downwards.
+        // Compares the mean rows of both columns without division. Rows are counted downwards.
         _ => match (sum(0) * right).cmp(&(sum(1) * left)) {
             std::cmp::Ordering::Less => '\\',
             std::cmp::Ordering::Greater => '/',

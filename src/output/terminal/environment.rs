@@ -1,4 +1,4 @@
-//! Terminal style from environment variables.
+//! Style of a terminal, determined from environment variables.
 
 use super::{Colours, Glyphs, TerminalStyle};
 
@@ -8,15 +8,16 @@ const USUAL: (usize, usize) = (80, 24);
 const WIDTHS: (usize, usize) = (20, 240);
 const HEIGHTS: (usize, usize) = (8, 60);
 
-/// Number of lines left free below a picture, so that the picture and the prompt are visible together.
+/// Number of lines that remain free below a picture. Picture and prompt are then visible together.
 const FREE_LINES: usize = 3;
 
 impl TerminalStyle {
-    /// Style for the terminal that environment variables describe. `variable` returns the value of a variable.
+    /// Style of the terminal that environment variables describe. `variable` returns the value of an environment variable.
     ///
-    /// Colours are disabled if `NO_COLOR` is set and not empty, or if `TERM` is `dumb` or unknown. Braille is used if the character set of `LC_ALL`,
-    /// or else of `LC_CTYPE`, or else of `LANG` is UTF-8, unless `TERM` is `dumb` or `linux` (the console, which has no such font). The size is that
-    /// of `COLUMNS` and `LINES`, or 80 by 24; the height of a picture is a few lines less.
+    /// Colours are not used if `NO_COLOR` is set and not empty, or if `TERM` is `dumb` or not set. Braille characters are used if the character set
+    /// is UTF-8, unless `TERM` is `dumb` or `linux` (the console, whose font does not contain them). The character set is given by `LC_ALL`,
+    /// otherwise by `LC_CTYPE`, otherwise by `LANG`. The size is that of `COLUMNS` and `LINES`, or 80 by 24. The height of a picture is a few lines
+    /// less.
     pub fn of_environment(variable: impl Fn(&str) -> Option<String>) -> Self {
         let given = |name: &str| variable(name).filter(|value| !value.is_empty());
         let terminal = given("TERM").unwrap_or_default();

@@ -1,4 +1,4 @@
-//! Heat maps as text: a table whose cells begin with a block character, darker for larger numbers.
+//! Heat maps as text. Each cell of the table starts with a block character, which is darker for larger numbers.
 
 use super::character_grid::{CharacterGrid, TerminalColour};
 use super::{Glyphs, TerminalStyle};
@@ -9,7 +9,7 @@ const BETWEEN: usize = 2;
 const BLOCK: usize = 3;
 
 impl HeatMap {
-    /// Text of the heat map for a terminal. No line is wider than the width of `style`; the height is not limited.
+    /// Text of the heat map for a terminal. Lines are not wider than `style` allows. The height is not limited.
     pub fn text(&self, style: &TerminalStyle) -> String {
         let glyphs = style.glyphs;
         let cells: Vec<Vec<(char, TerminalColour, String)>> = self

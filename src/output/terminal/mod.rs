@@ -1,4 +1,4 @@
-//! Charts and pictures as text for a terminal: braille dots or plain ASCII, with or without colours.
+//! Charts and pictures as text for a terminal, drawn with Braille dots or ASCII characters, with or without colours.
 //!
 //! ```text
 //! chart, picture → dots → character_grid → style

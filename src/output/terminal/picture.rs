@@ -1,4 +1,4 @@
-//! Configurations as text with equal scales of both axes. Beams are lines; point masses, sliders and supports are characters.
+//! Configurations as text. Both axes have the same scale. Beams are lines; point masses, sliders and supports are characters.
 
 use super::TerminalStyle;
 use super::character_grid::{CharacterGrid, TerminalColour};
@@ -34,14 +34,14 @@ impl PictureMark {
     }
 }
 
-/// Sizes below this fraction of the coordinates, or below this length, count as zero.
+/// Sizes that count as zero: as a fraction of the coordinates, and as a length.
 const ROUNDING: (f64, f64) = (1e-10, 1e-290);
-/// Size of the smallest picture with a frame, in columns and lines.
+/// Smallest size of a picture that has a frame, in columns and lines.
 const LEAST: (usize, usize) = (12, 5);
-/// Blank dots between the drawing and its frame.
+/// Number of empty dots between the drawing and its frame.
 const MARGIN: f64 = 2.0;
 
-/// A picture of a configuration as text for a terminal: beams and marks.
+/// Picture of a configuration as text for a terminal: beams and marks.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ConfigurationPicture {
     title: String,
@@ -54,7 +54,7 @@ pub struct ConfigurationPicture {
 
 struct PlaneWindow {
     middle: Point,
-    /// Length of a dot in data units.
+    /// Distance between two dots in data units.
     dot: f64,
     last: Point,
 }
@@ -74,7 +74,7 @@ impl ConfigurationPicture {
         self
     }
 
-    /// Adds a beam in a reference configuration: dotted, and dimmer if there are colours.
+    /// Adds a beam in a reference configuration. It is dotted, and dimmer if there are colours.
     pub fn reference_beam(mut self, points: Vec<Point>) -> Self {
         self.reference_beams.push(points);
         self
@@ -85,13 +85,13 @@ impl ConfigurationPicture {
         self
     }
 
-    /// Sets limits that must be visible. Both axes keep the same scale.
+    /// Sets limits of the axes that must be visible. Both axes have the same scale.
     pub fn limits(mut self, limits: AxisLimits) -> Self {
         self.limits = limits;
         self
     }
 
-    /// Text of the picture for a terminal, of at most the width and the height of `style`; fewer lines if the drawing is flat.
+    /// Text of the picture for a terminal. It is at most as wide and as high as `style` allows. If the drawing is flat, it has fewer lines.
     pub fn text(&self, style: &TerminalStyle) -> String {
         let has_frame = style.width >= LEAST.0 && style.height >= LEAST.1;
         let border = usize::from(has_frame);
@@ -190,7 +190,7 @@ impl ConfigurationPicture {
         self.write_into(sheet, style, last_row, &edges, &self.signs(style));
     }
 
-    /// Writes two texts into a line of the frame. The second text is written only if the first keeps its width or half a line.
+    /// Writes two texts into a line of the frame. The second text is written only if the first keeps its whole width or at least half of the line.
     fn write_into(
         &self,
         sheet: &mut CharacterGrid,
@@ -239,7 +239,7 @@ impl PlaneWindow {
         let ends = |middle: f64, dots: f64| {
             [-1.0, 1.0].map(|side| {
                 let end = middle + side * 0.5 * dots * self.dot;
-                // A value near zero is due to rounding.
+                // A value close to zero is due to rounding.
                 if end.abs() < 1e-9 * dots * self.dot { 0.0 } else { end }
             })
         };

@@ -1,18 +1,18 @@
-//! Viewer data as plain structs.
+//! Data of the viewer, as plain structs.
 
 use crate::output::canvas::Point;
 use crate::output::symbol::Symbol;
 
-/// A linear combination of points of a frame, such as control points.
+/// Linear combination of points in a frame, for example of control points.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct PointCombination {
     pub first: usize,
-    /// Weights of the points from `first` on.
+    /// Weights of the points, starting with the point `first`.
     pub weights: Vec<f64>,
 }
 
 impl PointCombination {
-    /// Evaluates the place for the points of a frame.
+    /// Evaluates the combination for the points of a frame.
     pub fn among(&self, points: &[Point]) -> Point {
         let sum = |pick: fn(&Point) -> f64| {
             self.weights.iter().zip(&points[self.first..]).map(|(w, point)| w * pick(point)).sum()
@@ -26,9 +26,9 @@ pub struct BeamShape {
     pub name: String,
     /// Centre line of the beam, from start to end.
     pub line: Vec<PointCombination>,
-    /// Knots or nodes, as indices of `line`.
+    /// Knots or nodes of the beam, as indices in `line`.
     pub marks: Vec<usize>,
-    /// Positions of the field values, as increasing indices of `line`.
+    /// Places at which fields have values, as increasing indices in `line`.
     pub stations: Vec<usize>,
 }
 
@@ -43,14 +43,14 @@ pub struct BodyShape {
     pub name: String,
     pub centre: PointCombination,
     pub points: Vec<(String, PointCombination)>,
-    /// Outline of the body: closed if it ends at its start, otherwise a line; empty without points.
+    /// Outline of the body. It is closed if it ends at its start, otherwise it is a line. It is empty for a body without points.
     pub outline: Vec<PointCombination>,
-    /// Corners of the polygon of the body, if it has one. `outline` is then the line from the centre to one of its points. The corners are given
-    /// along that line and to its left, in units of its length. The last corner repeats the first.
+    /// Corners of the polygon of the body, if it has one. In this case `outline` is the line from the centre to one of its points. The coordinates
+    /// of the corners are along this line and to its left, in units of its length. The last corner repeats the first.
     pub corners: Vec<(f64, f64)>,
 }
 
-/// A symbol at a point: a support, joint, slider or drive.
+/// Symbol at a point, for a support, joint, slider or drive.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SymbolMark {
     pub symbol: Symbol,
@@ -58,7 +58,7 @@ pub struct SymbolMark {
     pub at: PointCombination,
     /// Direction of the symbol [rad].
     pub angle: f64,
-    /// Time at which the symbol disappears, because a slider has left its beam or a joint was released.
+    /// Time at which the symbol disappears, because a slider has left its beam or a joint has been released; `None` if it remains.
     pub until: Option<f64>,
 }
 
@@ -73,43 +73,44 @@ pub struct SpringShape {
     pub symbol: Symbol,
     pub name: String,
     pub anchors: Vec<SpringEnd>,
-    /// Time at which the element is released.
+    /// Time at which the element is released; `None` if it is not released.
     pub until: Option<f64>,
 }
 
-/// A load over time.
+/// Load as a function of time.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Arrow {
-    /// Kind of symbol. For a moment, only the first component of the value is used, positive counter-clockwise.
+    /// Symbol of the load. For a moment only the first component of the value is used, positive counter-clockwise.
     pub symbol: Symbol,
     pub name: String,
     pub at: PointCombination,
     pub values: Vec<Point>,
 }
 
-/// A point whose path is drawn.
+/// Point whose path is drawn.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Trail {
     pub name: String,
-    /// Point that draws the path.
+    /// Point that moves along the path.
     pub at: PointCombination,
 }
 
-/// A quantity along all beams that sets their colours.
+/// Quantity along all beams that determines their colours.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ColourField {
     pub name: String,
-    /// Unit or dimension of the field; empty for a pure number.
+    /// Unit or dimension of the field. It is empty for a pure number.
     pub unit: String,
-    /// Values in each frame: at the stations of the first beam, then of the next one. Places whose values are not finite are not coloured.
+    /// Values in each frame, at the stations of the first beam, then of the next beam, and so on. Places whose values are not finite are not
+    /// coloured.
     pub values: Vec<Vec<f64>>,
 }
 
-/// A quantity over time, plotted below the motion.
+/// Quantity as a function of time, which is plotted below the motion.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TimeCurve {
     pub name: String,
-    /// Unit or dimension of the column. Columns with the same unit share a plot.
+    /// Unit or dimension of the column. Columns with the same unit are in the same plot.
     pub unit: String,
     pub values: Vec<f64>,
 }
@@ -118,7 +119,7 @@ pub struct TimeCurve {
 pub struct ViewerData {
     pub label: String,
     pub times: Vec<f64>,
-    /// Points of all bodies in each frame, in a fixed order.
+    /// Points of all bodies in each frame. Their order is the same in all frames.
     pub points: Vec<Vec<Point>>,
     pub beams: Vec<BeamShape>,
     pub particles: Vec<ParticleShape>,
@@ -130,8 +131,8 @@ pub struct ViewerData {
     pub trails: Vec<Trail>,
     /// Quantities that can colour the beams.
     pub fields: Vec<ColourField>,
-    /// Times of the rows of the columns.
+    /// Times of the rows of `columns`.
     pub rows: Vec<f64>,
-    /// Quantities plotted over `rows`.
+    /// Quantities that are plotted over `rows`.
     pub columns: Vec<TimeCurve>,
 }

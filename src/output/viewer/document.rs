@@ -1,4 +1,4 @@
-//! The HTML page: a template with style, scripts and the motions as data.
+//! HTML page of the viewer: a template with style, scripts and the motions as data.
 
 use serde_json::{Value, json};
 
@@ -15,7 +15,7 @@ use crate::output::symbol::Symbol;
 
 const TEMPLATE: &str = include_str!("page/template.html");
 const STYLE: &str = include_str!("page/style.css");
-/// In the order of their dependencies.
+/// Scripts of the page, in the order of their dependencies.
 const PROGRAMS: [&str; 9] = [
     include_str!("page/reading.js"),
     include_str!("page/film.js"),
@@ -28,24 +28,24 @@ const PROGRAMS: [&str; 9] = [
     include_str!("page/controls.js"),
 ];
 
-/// Number of steps between the smallest and the largest value of a field. A screen shows fewer shades.
+/// Number of steps between the smallest and the largest value of a field. It is sufficient, because a screen shows fewer shades.
 const SHADES: u16 = 255;
 /// Number of steps between the smallest and the largest value of a load.
 const LOAD_STEPS: u16 = 4095;
 /// Number of steps between 0 and 1 to which weights are rounded. The rounding error is far below the resolution of the points.
 const WEIGHT_PARTS: f64 = 1e7;
 
-/// An HTML page with one or several motions side by side.
+/// HTML page with one motion or several motions side by side.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Viewer {
     /// Title of the page.
     pub title: String,
-    /// Motions shown.
+    /// Motions that the page shows.
     pub films: Vec<ViewerData>,
 }
 
 impl Viewer {
-    /// Text of the page. Equal data gives equal bytes.
+    /// Text of the page. Equal data give equal bytes.
     ///
     /// # Errors
     /// Fails if the data cannot be compressed.
@@ -58,7 +58,7 @@ impl Viewer {
             })
             .collect();
         let data = json!({ "title": self.title, "hues": hues, "films": films });
-        // In a script element, only a `<` could end the data.
+        // Within a script element, the data could only be ended by a `<`.
         let data = data.to_string().replace('<', "\\u003c");
         let title = escaped(&self.title);
         Ok(filled(
@@ -141,7 +141,7 @@ fn packed_sign(sign: &SymbolMark) -> Value {
     })
 }
 
-/// An anchor on the ground is a point without weights.
+/// Packs a spring. An anchor on the ground is stored as a point without weights.
 fn packed_spring(spring: &SpringShape) -> Value {
     let anchor = |anchor: &SpringEnd| match anchor {
         SpringEnd::Moving(at) => place(at, 0),
@@ -151,7 +151,7 @@ fn packed_spring(spring: &SpringShape) -> Value {
     json!({ "kind": spring.symbol.name(), "name": spring.name, "anchors": anchors, "until": spring.until })
 }
 
-/// A beam as the index of its first point and its shape. Beams with the same mesh share a shape.
+/// Packs a beam as the index of its first point and its shape. Beams with the same mesh share a shape.
 fn packed_beam(beam: &BeamShape, shapes: &mut Vec<Value>) -> Value {
     let first = beam.line.iter().map(|place| place.first).min().unwrap_or(0);
     let shape = json!({
@@ -167,14 +167,14 @@ fn packed_beam(beam: &BeamShape, shapes: &mut Vec<Value>) -> Value {
     json!({ "name": beam.name, "first": first, "shape": shape })
 }
 
-/// A place as the index of its first point relative to `from`, and its weights.
+/// Packs a place as its weights and the index of its first point, counted from `from`.
 fn place(place: &PointCombination, from: usize) -> Value {
     let rounded = |weight: &f64| (weight * WEIGHT_PARTS).round() / WEIGHT_PARTS;
     let weights: Vec<f64> = place.weights.iter().map(rounded).collect();
     json!([place.first - from, weights])
 }
 
-/// Coordinates of all points, with the same resolution along both axes.
+/// Packs the coordinates of all points, with the same resolution along both axes.
 fn packed_points(film: &ViewerData) -> Result<(Value, Value), OutputError> {
     let along = |pick: fn(&Point) -> f64| {
         Quantisation::over(film.points.iter().flatten().map(pick), FINEST)

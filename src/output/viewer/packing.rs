@@ -1,4 +1,4 @@
-//! Compact text encoding of time series: quantised, differenced, deflated, base64.
+//! Packing of time series as short texts: numbers are rounded to steps, replaced by differences, compressed by DEFLATE, and encoded in base64.
 
 use std::io::Write;
 
@@ -9,22 +9,22 @@ use serde_json::{Value, json};
 use crate::output::OutputError;
 use crate::output::base64::base64;
 
-/// Code of values that are not finite. All other codes are smaller.
+/// Code for values that are not finite. All other codes are smaller.
 const MISSING: u16 = u16::MAX;
-/// Largest number of quantisation steps. The error is at most half a step.
+/// Largest number of rounding steps. The rounding error is at most half a step.
 pub const FINEST: u16 = MISSING - 1;
 
-/// Quantisation: `number = origin + step · code`.
+/// Rounding of numbers to steps: `number = origin + step · code`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Quantisation {
     /// Number for code 0.
     pub origin: f64,
-    /// Difference of the numbers of neighbouring codes; zero if all numbers are equal.
+    /// Difference between the numbers of consecutive codes. It is zero if all numbers are equal.
     pub step: f64,
 }
 
 impl Quantisation {
-    /// Scale from the smallest to the largest finite number in the given number of steps.
+    /// Scale from the smallest to the largest finite number with the given number of steps.
     pub fn over(numbers: impl Iterator<Item = f64>, steps: u16) -> Self {
         let finite = numbers.filter(|number| number.is_finite());
         let (least, greatest) = finite
@@ -32,7 +32,7 @@ impl Quantisation {
                 (a.min(number), b.max(number))
             });
         match least <= greatest {
-            // The numbers are halved, so that the difference of any two is finite.
+            // The numbers are halved first, so that the difference of any two of them is finite.
             true => Self {
                 origin: least,
                 step: (greatest / 2.0 - least / 2.0) / f64::from(steps) * 2.0,
@@ -52,7 +52,7 @@ impl Quantisation {
     }
 }
 
-/// Packs `numbers` time series of `frames` values each in the format of the page. `value` is called with the series and the frame.
+/// Packs `numbers` time series of `frames` values each, in the format that the page reads. The arguments of `value` are the series and the frame.
 ///
 /// # Errors
 /// Fails if the compression fails, which would be an internal error.
@@ -64,7 +64,7 @@ pub fn pack(
     let codes: Vec<Vec<u16>> = (0..numbers)
         .map(|number| (0..frames).map(|frame| scale.code(value(number, frame))).collect())
         .collect();
-    // Second differences are small for smooth motions, first differences for rough ones.
+    // Second differences are smaller for smooth motions, first differences for others. The shorter result is used.
     let cost = |order: u32| -> u64 {
         let all = codes.iter().flat_map(|series| differences(series, order));
         all.map(|difference| u64::from(u16::BITS - difference.leading_zeros())).sum()
@@ -87,7 +87,7 @@ pub fn pack(
     }))
 }
 
-/// First or second differences modulo 2¹⁶, zigzag-encoded.
+/// First or second differences modulo 2¹⁶ in zigzag encoding, which makes small negative numbers small.
 fn differences(codes: &[u16], order: u32) -> impl Iterator<Item = u16> + '_ {
     let (mut last, mut last_change) = (0u16, 0u16);
     codes.iter().map(move |&code| {

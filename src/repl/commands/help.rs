@@ -1,4 +1,4 @@
-//! Command `:help` and `?`.
+//! Commands `:help` and `?`.
 
 use super::names::{NameInfo, in_language, known};
 use super::{COMMANDS, Command, find};
@@ -69,7 +69,7 @@ fn explained(command: &Command) -> HelpPage {
     page
 }
 
-/// Lists the commands and the ways to further help. The list is short, so that it fits on the screen.
+/// Lists the commands, and how to get further help. The list is short, so that it fits on the screen.
 fn commands(shell: &mut Shell) -> CommandOutcome {
     let mut page = HelpPage::default();
     page.heading("Commands of the prompt");

@@ -1,4 +1,4 @@
-//! Commands of the prompt: one table, and their implementations.
+//! Commands of the prompt: a table, and their implementations.
 
 mod help;
 mod inspection;

@@ -1,4 +1,4 @@
-//! Help on names of the session: variables with their values, functions, modules, and members of values.
+//! Help for names of the session: variables with their values, functions, modules, and members of values.
 
 use rhai::{Array, Dynamic, FnAccess, Map, Module, ScriptFnMetadata};
 
@@ -13,7 +13,7 @@ use crate::script::presentation::present::present;
 
 const DIGITS: usize = 6;
 
-/// Help on a name of the session: text that is shown unchanged, and a help page.
+/// Help for a name of the session: a text that is shown unchanged, and a help page.
 pub struct NameInfo {
     pub shown: Option<String>,
     pub page: HelpPage,
@@ -51,14 +51,14 @@ pub fn known(shell: &mut Shell, name: &str) -> Option<NameInfo> {
     (!page.parts.is_empty()).then(|| NameInfo { shown: text_of(shell, name), page })
 }
 
-/// Source text of a function of the session, without its doc comments, which the help shows separately.
+/// Source text of a function of the session. Its doc comments are left out, because the help shows them separately.
 fn text_of(shell: &Shell, name: &str) -> Option<String> {
     let text = shell.session().record().definition(name)?;
     let lines = text.lines().skip_while(|line| line.trim_start().starts_with("///"));
     Some(lines.collect::<Vec<_>>().join("\n"))
 }
 
-/// Help topic of a name: the member of a variable's value, or the imported library function.
+/// Help topic for a name: the member of the type of a variable, or an imported library function.
 pub fn in_language(shell: &Shell, name: &str) -> String {
     let surroundings = shell.surroundings();
     if let Some((owner, member)) = name.rsplit_once('.')

@@ -1,9 +1,9 @@
-//! Words for leaving and for help that are accepted without the colon of a command.
+//! Words for help and for leaving the session that are accepted without the colon of a command.
 
 use super::{Command, HELP, QUIT};
 
-/// Command and operand of an input without a colon: `quit`, `exit()`, `help`, `help sine`, `sim?`. Names of variables, for which `is_variable` is
-/// true, are not commands.
+/// Command and operand of an input without a colon, such as `quit`, `exit()`, `help`, `help sine` or `sim?`; `None` for other inputs. The name of a
+/// variable, for which `is_variable` returns true, is not a command.
 pub fn meant(text: &str, is_variable: impl Fn(&str) -> bool) -> Option<(&'static Command, &str)> {
     let text = text.trim_end_matches(';').trim_end();
     let asked = text.trim_end_matches('?').trim_end();
@@ -24,7 +24,7 @@ pub fn meant(text: &str, is_variable: impl Fn(&str) -> bool) -> Option<(&'static
     }
 }
 
-/// Returns true if a text may name a help topic, such as `sim.run_to` or `std/sections`.
+/// Returns true if a text may be the name of a help topic, such as `sim.run_to` or `std/sections`.
 fn is_name(text: &str) -> bool {
     let begins = text.starts_with(|letter: char| letter.is_alphabetic() || letter == '_');
     begins && text.chars().all(|letter| letter.is_alphanumeric() || "_.:/".contains(letter))

@@ -1,10 +1,10 @@
-//! Commands that advance or rewind the last simulation.
+//! Commands that advance or rewind the simulation used last.
 
 use crate::repl::shell::{CommandOutcome, Shell};
 use crate::script::diagnose::Diagnostic;
 use crate::script::messages::numbers::format_number;
 
-/// Limit below which integers are exact as floats.
+/// Upper limit of numbers of steps. Integers below it are exact as floats.
 const MOST_STEPS: f64 = 9e15;
 
 pub fn step(shell: &mut Shell, operand: &str) -> CommandOutcome {
@@ -72,7 +72,7 @@ fn whole(operand: &str, command: &str) -> Result<u64, Diagnostic> {
     }
     let hint = format!("write :{command} or, for example, :{command} 10");
     let refused = || not_a_number(operand, "a number of steps").with_hint(hint);
-    // `1e3` is accepted as an integer.
+    // Numbers such as `1e3` are accepted as integers.
     match operand.parse::<f64>() {
         Ok(count) if count >= 0.0 && count.fract() == 0.0 && count < MOST_STEPS => Ok(count as u64),
         _ => Err(refused()),

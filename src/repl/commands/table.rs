@@ -1,4 +1,4 @@
-//! Table of commands, used for dispatch, `:help` and completion.
+//! Table of the commands, from which inputs are dispatched and help and completion are generated.
 
 use super::{help, inspection, plotting, session, stepping, timing};
 use crate::repl::editor::surroundings::CommandOperand;
@@ -11,7 +11,7 @@ pub struct Command {
     /// Name of the command, including the colon.
     pub name: &'static str,
     pub operand: CommandOperand,
-    /// Operand as shown in the help; empty if there is none.
+    /// Operand in the form that the help shows; empty if there is none.
     pub placeholder: &'static str,
     pub summary: &'static str,
     /// Further help text; may be empty.
@@ -20,7 +20,7 @@ pub struct Command {
     pub body: fn(&mut Shell, &str) -> CommandOutcome,
 }
 
-/// The help command, also written `?`.
+/// Help command, which can also be written `?`.
 pub const HELP: Command = Command {
     name: ":help",
     operand: CommandOperand::Name,
@@ -175,16 +175,16 @@ pub const COMMANDS: &[Command] = &[
 ];
 
 impl Command {
-    /// Usage line of the command: `:run TIME`.
+    /// Usage line of the command, such as `:run TIME`.
     pub fn usage(&self) -> String {
         format!("{} {}", self.name, self.placeholder).trim_end().to_owned()
     }
 }
 
-/// Command with this name or unambiguous prefix, including the colon.
+/// Finds the command with this name or with this unambiguous beginning of a name. It includes the colon.
 ///
 /// # Errors
-/// Fails if no command, or more than one, starts with this prefix.
+/// Fails if no command, or more than one command, has a name that begins like this.
 pub fn find(name: &str) -> Result<&'static Command, Diagnostic> {
     if let Some(exact) = COMMANDS.iter().find(|command| command.name == name) {
         return Ok(exact);

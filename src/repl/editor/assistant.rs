@@ -1,4 +1,4 @@
-//! Implementation of rustyline's helper traits: completion, hints and highlighting.
+//! Implementation of the helper traits of rustyline: completion, hints and highlighting.
 
 use std::borrow::Cow;
 use std::cell::Cell;
@@ -16,7 +16,7 @@ use super::highlight::{SessionNames, highlight};
 use super::hints::{self, Hint};
 use crate::output::{Colours, columns, cut, padded};
 
-/// Maximum number of candidates that are listed with their summaries, one per line.
+/// Largest number of candidates that are listed with their summaries, one per line.
 const SHORT_LIST: usize = 12;
 
 pub struct Assistant {
@@ -25,12 +25,12 @@ pub struct Assistant {
     prompt_width: usize,
     colours: Colours,
     from_history: HistoryHinter,
-    /// True while the completed line is drawn for the last time, without hints.
+    /// True while the completed line is drawn for the last time. Hints are not shown then.
     is_final: Cell<bool>,
 }
 
 impl Assistant {
-    /// A helper for a terminal of `columns` columns and a prompt of `prompt_width`.
+    /// Creates the helper for a terminal of `columns` columns and a prompt of width `prompt_width`.
     pub fn new(
         vocabulary: SessionNames,
         columns: usize,
@@ -61,7 +61,7 @@ impl Assistant {
 
 impl Helper for Assistant {}
 
-/// A completion candidate in the form that rustyline needs.
+/// Completion candidate in the form that rustyline requires.
 pub struct Listed {
     display: String,
     replacement: String,
@@ -125,13 +125,13 @@ impl Hinter for Assistant {
         let known = hints::hint(line, position, self.vocabulary.surroundings());
         let hint = known.and_then(|hint| self.fit(line, hint));
         let remembered = || self.from_history.hint(line, position, context).map(remembered);
-        // Without colours, a hint that can be inserted would look like typed text.
+        // Without colours, a hint that can be inserted could not be distinguished from typed text.
         hint.or_else(remembered)
             .filter(|hint| self.colours == Colours::Ansi || hint.insertable.is_none())
     }
 }
 
-/// Rest of a history entry. Only its first line is shown, so that the height of the input does not change.
+/// Hint with the rest of a history entry. Only its first line is shown, so that the height of the input does not change.
 fn remembered(rest: String) -> Hint {
     let shown = match rest.split_once('\n') {
         Some((first, _)) => format!("{first} …"),

@@ -1,4 +1,4 @@
-//! Completion candidates and their matching.
+//! Completion candidates, and their comparison with the typed text.
 
 use crate::script::bindings::built_in::{BuiltIn, FunctionForm, NameSuffix};
 use crate::script::bindings::parameter::Parameter;
@@ -6,7 +6,7 @@ use crate::script::bindings::table::{CallSyntax, FunctionBinding};
 
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Candidate {
-    /// Text shown in the list.
+    /// Text shown in the list of candidates.
     pub display: String,
     /// Text that replaces the typed text.
     pub replacement: String,
@@ -19,8 +19,8 @@ impl Candidate {
         Self { display: word.to_owned(), replacement: word.to_owned(), summary: summary.to_owned() }
     }
 
-    /// Candidate of a function with its arguments in parentheses, `(from, to)`. Accepting it inserts the opening parenthesis, or both if there are no
-    /// arguments.
+    /// Candidate for a function, shown with its arguments in parentheses such as `(from, to)`. Accepting it inserts the opening parenthesis. If
+    /// there are no arguments, both parentheses are inserted.
     pub fn call(name: &str, arguments: &str, summary: &str) -> Self {
         let brackets = if arguments == "()" { "()" } else { "(" };
         Self {
@@ -30,7 +30,7 @@ impl Candidate {
         }
     }
 
-    /// Candidate of a function or property of the language. `before_dot` parameters precede the dot.
+    /// Candidate for a function or property of the language. `before_dot` is the number of parameters before the dot.
     pub fn row(row: &'static FunctionBinding, before_dot: usize) -> Self {
         match row.form {
             CallSyntax::Property(_) | CallSyntax::Operator => Self::word(row.name, row.summary),
@@ -71,7 +71,7 @@ impl Candidate {
     }
 }
 
-/// Parameters of a function as arguments in parentheses, optional ones in brackets.
+/// Parameters of a function as arguments in parentheses. Optional ones are in brackets.
 pub fn arguments(parameters: &[Parameter]) -> String {
     let names = parameters.iter().map(|parameter| match parameter.is_required() {
         true => parameter.name.to_owned(),
@@ -80,8 +80,8 @@ pub fn arguments(parameters: &[Parameter]) -> String {
     format!("({})", names.collect::<Vec<_>>().join(", "))
 }
 
-/// Candidates that match `typed`, sorted and without duplicates. They are those with this prefix. If there are none, they are those with the prefix
-/// in other case or with the typed letters in this order.
+/// Candidates that match `typed`, sorted and without duplicates. These are the candidates that begin with it. If there are none, these are the
+/// candidates that begin with it in other case, or contain its letters in the same order.
 pub fn fitting(typed: &str, candidates: impl IntoIterator<Item = Candidate>) -> Vec<Candidate> {
     let mut all: Vec<Candidate> = candidates.into_iter().collect();
     all.sort_by_key(|candidate| (candidate.name().to_lowercase(), candidate.clone()));
@@ -94,7 +94,7 @@ pub fn fitting(typed: &str, candidates: impl IntoIterator<Item = Candidate>) -> 
     all
 }
 
-/// Returns true if the letters of `typed` occur in `name` in this order, with the first letter at the beginning.
+/// Returns true if the letters of `typed` occur in `name` in the same order, and the first letters are equal.
 fn is_subsequence(name: &str, typed: &str) -> bool {
     let mut letters = name.chars().flat_map(char::to_lowercase);
     let mut wanted = typed.chars().flat_map(char::to_lowercase);

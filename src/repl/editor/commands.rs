@@ -1,11 +1,11 @@
-//! Completion of commands, `:step 10`, and of help requests, `?slider`.
+//! Completion of commands such as `:step 10`, and of help requests such as `?slider`.
 
 use super::candidates::{Candidate, fitting};
 use super::completion::complete;
 use super::paths::{FileFilter, complete_path};
 use super::surroundings::{CommandOperand, CommandWord, CompletionContext};
 
-/// Candidates at the end of `text`, which is a command or a help request, and the start of the text that they replace.
+/// Candidates at the end of `text`, which is a command or a help request. The number is the start of the text that they replace.
 pub fn complete_command(text: &str, surroundings: &CompletionContext) -> (usize, Vec<Candidate>) {
     let begin = text.len() - text.trim_start().len();
     let command = &text[begin..];
@@ -37,7 +37,7 @@ pub fn complete_command(text: &str, surroundings: &CompletionContext) -> (usize,
             let columns = fitting(&operand[last..], columns);
             let (offset, found) = complete(operand, operand.len(), surroundings);
             match columns.is_empty() {
-                // Only columns and variables are suggested, because functions would be too many.
+                // Only columns and variables are suggested. Functions would be too many.
                 false => {
                     let variables = surroundings.variables.iter();
                     let variables = variables.map(|known| Candidate::word(&known.name, ""));
@@ -63,7 +63,8 @@ fn options_at(operand: &str) -> Option<usize> {
     (at == 0 || operand[..at].ends_with([' ', ','])).then_some(at)
 }
 
-/// Completes a map of options as an argument of the unfinished call `call`. Other text is completed as an expression.
+/// Completes an operand that is a map of options as if it were an argument of the unfinished call `call`. Any other operand is completed as an
+/// expression.
 fn in_call(
     call: &str,
     operand: &str,
@@ -79,7 +80,7 @@ fn in_call(
     (start + map + offset.saturating_sub(call.len()), found)
 }
 
-/// Command with this name or unambiguous prefix.
+/// Command with this name or with this unambiguous beginning of a name.
 pub fn command_named<'s>(
     name: &str,
     surroundings: &'s CompletionContext,

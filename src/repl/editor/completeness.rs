@@ -1,22 +1,22 @@
-//! Detection of complete inputs.
+//! Detection whether an input is complete.
 
 use crate::script::source::scanner::{Bracket, Token, TokenKind, scan};
 
-/// State of an input.
+/// Whether an input is complete.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Completeness {
     /// The input can be evaluated, or its evaluation reports an error.
     Complete,
-    /// The input is incomplete. The next line is indented by this number of levels.
+    /// The input is incomplete. The value is the number of levels by which the next line is indented.
     Open(usize),
 }
 
 use Completeness::{Complete, Open};
 
-/// Number of empty lines at the end that submit any input.
+/// Number of empty lines at the end of an input after which it counts as complete.
 const EMPTY_LINES: usize = 2;
 
-/// Completeness of `text` typed at a prompt. Commands and inputs that end in two empty lines are always complete.
+/// Determines whether `text` typed at a prompt is complete. Commands, and inputs that end with two empty lines, are always complete.
 pub fn completeness(text: &str) -> Completeness {
     let tail = &text[text.trim_end().len()..];
     let is_forced = tail.matches('\n').count() >= EMPTY_LINES;
@@ -26,18 +26,18 @@ pub fn completeness(text: &str) -> Completeness {
     }
 }
 
-/// Returns true if `text` is a command, `:step`, or a help request, `?slider`.
+/// Returns true if `text` is a command such as `:step`, or a help request such as `?slider`.
 pub fn is_command(text: &str) -> bool {
     text.trim_start().starts_with([':', '?'])
 }
 
-/// Completeness of `text` from a file or a pipe, where empty lines have no meaning.
+/// Determines whether `text` from a file or a pipe is complete. Empty lines have no meaning in it.
 ///
-/// A wrong closing bracket or an unterminated string literal cannot be corrected by further lines. The input is then complete, so that the error is
-/// reported.
+/// A wrong closing bracket or a string literal that is not closed cannot be corrected by further lines. Such an input counts as complete, so that
+/// its error is reported.
 pub fn completeness_of_script(text: &str) -> Completeness {
     let tokens = scan(text);
-    // A doc comment belongs to the function that follows.
+    // A doc comment must be followed by a function.
     let last = tokens.iter().rev().find(|token| token.kind != TokenKind::Space);
     let last = last.filter(|token| token.kind == TokenKind::Comment).map(|token| token.of(text));
     if last.is_some_and(|comment| comment.starts_with("///") && !comment.starts_with("////")) {
@@ -52,14 +52,14 @@ pub fn completeness_of_script(text: &str) -> Completeness {
     reader.conclude()
 }
 
-/// Operators that need a right operand.
+/// Operators that need an operand on their right.
 const GO_ON: &[&str] = &[
     "+", "-", "*", "/", "%", "**", "^", "=", "+=", "-=", "*=", "/=", "%=", "**=", "^=", "&=", "|=",
     "<<=", ">>=", "==", "!=", "<", ">", "<=", ">=", "&&", "||", "&", "|", "<<", ">>", "??", "!",
     ",", ".", "?.", "..", "..=", ":", "::", "=>",
 ];
 
-/// Keywords after which a block is not allowed.
+/// Keywords that must be followed by something other than a block.
 const INTRODUCE: &[&str] = &["let", "const", "in", "import", "as", "private", "export"];
 
 /// Keywords that must be followed by a block, possibly after a condition.
@@ -75,9 +75,9 @@ enum ParseOutcome {
 struct BracketLevel<'t> {
     bracket: Option<Bracket>,
     line: usize,
-    /// Keyword to which the block of this level belongs.
+    /// Keyword to which the block at this bracket level belongs.
     owner: Option<&'t str>,
-    /// Keyword whose block has not begun.
+    /// Keyword whose block has not started yet.
     keyword: Option<&'t str>,
     /// Keyword whose block was closed last.
     closed: Option<&'t str>,
@@ -92,9 +92,9 @@ struct InputReader<'t> {
     line: usize,
     /// True if the last token requires a continuation.
     is_incomplete: bool,
-    /// True if the last token ends a value, so that a bar after it is an operator.
+    /// True if the last token ends a value. A bar after it is then an operator.
     is_value: bool,
-    /// True in a string literal or comment, where indentation must not be added.
+    /// True within a string literal or comment, where no indentation must be added.
     is_literal: bool,
 }
 
@@ -127,7 +127,7 @@ impl<'t> InputReader<'t> {
                 if written == "|" {
                     self.level.is_between_bars = !self.level.is_between_bars && !self.is_value;
                 }
-                // In other languages, a colon begins a block. In this language it occurs in maps only.
+                // In other languages a colon starts a block. In this language it occurs only in maps.
                 if written == ":" && self.level.bracket != Some(Bracket::Map) {
                     return ParseOutcome::Final(Complete);
                 }
@@ -150,7 +150,7 @@ impl<'t> InputReader<'t> {
         ParseOutcome::Incomplete
     }
 
-    /// A string literal continues on the next line only after a backslash.
+    /// Handles a string literal that is not closed on its line. It continues on the next line only after a backslash.
     fn read_open_text(&mut self, written: &str) -> ParseOutcome {
         let backslashes = written.len() - written.trim_end_matches('\\').len();
         ParseOutcome::Final(if backslashes % 2 == 1 { Open(0) } else { Complete })
@@ -194,10 +194,10 @@ impl<'t> InputReader<'t> {
             || self.level.is_between_bars
             || self.level.keyword.is_some();
         if self.level.bracket.is_none() {
-            // The continuation of `fn f()` or `try { }` is not indented. The continuation of an expression is.
+            // After `fn f()` or `try { }`, the next line is not indented. After an incomplete expression it is.
             return if waits { Open(usize::from(self.is_incomplete)) } else { Complete };
         }
-        // Brackets opened on the same line indent by one level together.
+        // Brackets that were opened on the same line indent the next line by one level together.
         let levels = self.outer.iter().skip(1).chain(std::iter::once(&self.level));
         let mut lines: Vec<usize> = levels.map(|level| level.line).collect();
         lines.dedup();

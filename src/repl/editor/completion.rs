@@ -14,7 +14,7 @@ use crate::script::bindings::table::CallSyntax;
 use crate::script::source::keywords::KEYWORDS;
 use crate::script::source::scanner::{Bracket, Token, TokenKind, scan};
 
-/// Candidates for the word at `position` of `line`, and the start of that word.
+/// Candidates for the word at `position` in `line`, and the start of this word.
 pub fn complete(
     line: &str,
     position: usize,
@@ -25,7 +25,7 @@ pub fn complete(
         true => complete_command(&line[..position], surroundings),
         false => complete_language(line, position, surroundings),
     };
-    // Text that follows the cursor already is not inserted again.
+    // If the end of a candidate follows the cursor already, it is not inserted again.
     for candidate in &mut candidates {
         for mark in ["(", "\"", "\"]", "::", ": "] {
             if after.starts_with(mark.trim_end()) && candidate.replacement.ends_with(mark) {
@@ -81,7 +81,7 @@ fn complete_language(
     (start, fitting(typed, candidates))
 }
 
-/// One level of indentation, which TAB inserts at the beginning of a continuation line.
+/// Blanks of one indentation level. The TAB key inserts them at the start of a continuation line.
 pub const INDENTATION: &str = "    ";
 
 fn is_indentation(input: &Input) -> bool {

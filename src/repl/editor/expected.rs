@@ -1,4 +1,4 @@
-//! Parameters that a call expects at the cursor.
+//! Search for the parameters that a call expects at the cursor.
 
 use super::input::{CalleeName, Input, OpenBracket};
 use super::surroundings::CompletionContext;
@@ -9,17 +9,17 @@ use crate::script::bindings::parameter::Parameter;
 use crate::script::bindings::table::{CallSyntax, FunctionBinding};
 use crate::script::source::scanner::Bracket;
 
-/// Expected parameters in the brackets around the cursor.
+/// Brackets that are open at the cursor, from which the expected parameters are determined.
 pub struct Expected<'a, 't> {
     types: Types<'a, 't>,
     levels: Vec<OpenBracket<'t>>,
 }
 
-/// Called function, and the number of its parameters before the dot.
+/// Function that is called, and the number of its parameters before the dot.
 #[derive(Clone, Copy)]
 pub struct ActiveCall {
     pub row: &'static FunctionBinding,
-    /// Number of parameters before the dot: one for a function in method notation.
+    /// Number of parameters before the dot. It is one for a function that is called like a method.
     pub before_dot: usize,
 }
 
@@ -32,12 +32,12 @@ impl<'a, 't> Expected<'a, 't> {
         self.levels.last()
     }
 
-    /// Parameters to which the value at the cursor may belong.
+    /// Parameters whose value may be at the cursor.
     pub fn here(&self) -> Vec<&'static Parameter> {
         self.levels.len().checked_sub(1).map_or_else(Vec::new, |depth| self.at(depth))
     }
 
-    /// Keys of the option map whose bracket is the innermost one at the cursor; empty for other maps.
+    /// Keys of an option map, if its bracket is the innermost one at the cursor; otherwise empty.
     pub fn keys(&self) -> Vec<&'static Parameter> {
         match self.levels.len().checked_sub(2) {
             Some(outer) if self.levels[outer + 1].bracket == Bracket::Map => keys(&self.at(outer)),
@@ -45,7 +45,7 @@ impl<'a, 't> Expected<'a, 't> {
         }
     }
 
-    /// Keys of the options of a library function, with their descriptions, if their bracket is the innermost one at the cursor.
+    /// Keys of the options of a library function with their descriptions, if their bracket is the innermost one at the cursor.
     pub fn library_keys(&self) -> &'a [(String, String)] {
         let [.., call, map] = self.levels.as_slice() else { return &[] };
         if map.bracket != Bracket::Map || call.bracket != Bracket::Round {
@@ -60,7 +60,7 @@ impl<'a, 't> Expected<'a, 't> {
         of.map(|function| function.keys.as_slice()).unwrap_or_default()
     }
 
-    /// Innermost call whose arguments contain the cursor. Arrays, maps and parentheses in between are skipped.
+    /// Innermost call whose arguments contain the cursor. Arrays, maps and parentheses between them are skipped.
     pub fn call(&self) -> Option<(OpenBracket<'t>, CalleeName<'t>)> {
         let transparent = |level: &&OpenBracket| {
             matches!(level.bracket, Bracket::Round | Bracket::Square | Bracket::Map)
@@ -88,7 +88,7 @@ impl<'a, 't> Expected<'a, 't> {
         fitting.collect()
     }
 
-    /// Built-in functions of Rhai to which a call may refer, with their notations.
+    /// Functions of Rhai to which a call may refer, with their notations.
     pub fn built_ins(&self, callee: &CalleeName) -> Vec<(&'static BuiltIn, FunctionForm)> {
         if callee.module.is_some() {
             return Vec::new();
@@ -133,7 +133,7 @@ fn keys(parameters: &[&'static Parameter]) -> Vec<&'static Parameter> {
     parameters.iter().flat_map(|parameter| kinds(&parameter.kind)).flat_map(options).collect()
 }
 
-/// Alternatives of a kind.
+/// Alternative types that a type allows.
 pub fn kinds(kind: &'static Kind) -> &'static [Kind] {
     match kind {
         Kind::Either(kinds) => kinds,

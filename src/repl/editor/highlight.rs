@@ -7,14 +7,14 @@ use crate::script::presentation::highlight::{self, HighlightStyle, UNMATCHED, dr
 
 const COMMAND: HighlightStyle = HighlightStyle("1");
 
-/// Names of a session with their colours; built once per prompt.
+/// Names of a session and their colours. The object is created once per prompt.
 pub struct SessionNames {
     language: highlight::Vocabulary,
     context: CompletionContext,
 }
 
 impl SessionNames {
-    /// Vocabulary of a session.
+    /// Creates the vocabulary of a session.
     pub fn of(context: CompletionContext) -> Self {
         let mut language = highlight::Vocabulary::of_language(&context.catalog);
         for function in &context.functions {

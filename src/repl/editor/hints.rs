@@ -1,4 +1,4 @@
-//! Hints shown after the cursor while a line is typed.
+//! Hints that are shown after the cursor while a line is typed.
 
 use super::candidates::arguments;
 use super::commands::command_named;
@@ -26,14 +26,15 @@ impl Hint {
         (!text.is_empty()).then(|| Self { shown: format!("  {text}"), insertable: None })
     }
 
-    /// Hint whose text can be inserted.
+    /// Creates a hint whose text can be inserted.
     pub fn insertable(text: &str) -> Option<Self> {
         (!text.is_empty())
             .then(|| Self { shown: text.to_owned(), insertable: Some(text.to_owned()) })
     }
 }
 
-/// Hint for the cursor at the end of `line`: the rest of the only matching name, the signature of the current call, or the keys of its options.
+/// Hint for the cursor at `position`, which must be the end of `line`. It is the rest of the only name that matches, the signature of the call
+/// around the cursor, or the keys of its options.
 pub fn hint(line: &str, position: usize, surroundings: &CompletionContext) -> Option<Hint> {
     if position != line.len() || line.trim().is_empty() {
         return None;
@@ -103,7 +104,7 @@ fn call_hint(
     }
 }
 
-/// Signature with the current parameter in angle quotes, and its description.
+/// Signature of a function with the parameter at the cursor in angle quotes, and the description of this parameter.
 fn signature(called: &ActiveCall, level: &OpenBracket) -> String {
     let parameters = called.row.parameters.get(called.before_dot..).unwrap_or_default();
     let names: Vec<String> = parameters
@@ -136,7 +137,7 @@ fn marked(mut names: Vec<String>, current: usize) -> Vec<String> {
     names
 }
 
-/// Description of a parameter: `t: a number [time]; default: 0; doc`.
+/// Description of a parameter, such as `t: a number [time]; default: 0; doc`.
 fn describe(parameter: &Parameter) -> String {
     let default = match parameter.presence {
         Presence::Required | Presence::Optional => None,
@@ -218,7 +219,7 @@ mod tests {
         assert_eq!(shown("scene.start(#{ "), "dt, integrator, name, notes, record, snapshots");
         assert_eq!(
             shown("scene.start(#{ dt: "),
-            "dt: a positive number or a step control [time]; step size, or adaptive(#{ tolerance: 1e-4 })"
+            "dt: a positive number or a step control [time]; step size, or adaptive(#{ tolerance: 1e-4 }); default: adaptive steps with the tolerance 1e-3"
         );
         assert_eq!(shown("scene.start(#{ dt: 0.1, in"), "tegrator:");
     }

@@ -1,17 +1,18 @@
-//! Storage of the input history.
+//! File in which the history of inputs is stored.
 
 use std::ffi::OsString;
 use std::path::PathBuf;
 
-/// Environment variable with the name of the history file. If it is empty, no history is stored.
+/// Environment variable that contains the name of the history file. If its value is empty, no history is stored.
 pub const VARIABLE: &str = "WITHY_HISTORY";
 
 pub const MOST_ENTRIES: usize = 5000;
 
-/// Maximum length of a stored entry [bytes]. Longer inputs are usually pasted.
+/// Maximum length of an entry that is stored [bytes]. Longer inputs are usually pasted.
 pub const LONGEST_ENTRY: usize = 64 << 10;
 
-/// History file: the path in `setting`, or `None` if `setting` is empty. If the variable is not set, it is a file in the user's state folder.
+/// Path of the history file. `setting` is the value of the environment variable. If it is not set, the file is in the user's state folder. If it is
+/// empty, the result is `None`.
 pub fn file(setting: Option<OsString>) -> Option<PathBuf> {
     match setting {
         Some(name) if name.is_empty() => None,

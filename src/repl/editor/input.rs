@@ -2,7 +2,7 @@
 
 use crate::script::source::scanner::{Bracket, Token, TokenKind, pair, scan};
 
-/// Maximum number of open brackets that are searched. Outer brackets have no influence at the cursor.
+/// Largest number of open brackets that are searched. Brackets further outside have no influence at the cursor.
 const MOST_LEVELS: usize = 64;
 
 pub struct Input<'t> {
@@ -13,17 +13,17 @@ pub struct Input<'t> {
     pub last: Option<Token>,
     /// For each bracket token the index of its partner.
     partners: Vec<Option<usize>>,
-    /// Token indices of the brackets open at the cursor, innermost last.
+    /// Token indices of the brackets that are open at the cursor, the innermost one last.
     open: Vec<usize>,
 }
 
-/// A bracket that is open at the cursor.
+/// Bracket that is open at the cursor.
 #[derive(Clone, Copy, Debug)]
 pub struct OpenBracket<'t> {
     pub bracket: Bracket,
     pub opener: usize,
     pub commas: usize,
-    /// Key whose value is being written, in a map.
+    /// In a map, the key whose value is at the cursor.
     pub key: Option<&'t str>,
 }
 
@@ -36,7 +36,7 @@ pub struct CalleeName<'t> {
 }
 
 impl<'t> Input<'t> {
-    /// Tokens of `text` before `position`.
+    /// Collects the tokens of `text` before `position`.
     pub fn before(text: &'t str, position: usize) -> Self {
         let text = text.get(..position).unwrap_or(text);
         let all = scan(text);
@@ -63,7 +63,7 @@ impl<'t> Input<'t> {
         matches!(self.written(index), "." | "?.")
     }
 
-    /// Name being written at the cursor, and its start [bytes]; empty between names.
+    /// Name that is being written at the cursor, and its start [bytes]. Between names it is empty.
     pub fn name(&self) -> (usize, &'t str) {
         match self.last {
             Some(token) if token.kind == TokenKind::Word => (token.start, token.of(self.text)),
@@ -75,7 +75,7 @@ impl<'t> Input<'t> {
         self.tokens.len() - usize::from(!self.name().1.is_empty())
     }
 
-    /// Brackets open at the cursor, from the outside to the inside. Only the innermost ones are returned.
+    /// Brackets that are open at the cursor, from the outside to the inside. If there are many, only the innermost ones are returned.
     pub fn levels(&self) -> Vec<OpenBracket<'t>> {
         let first = self.open.len().saturating_sub(MOST_LEVELS);
         self.open[first..].iter().map(|opener| self.level(*opener)).collect()
@@ -106,7 +106,7 @@ impl<'t> Input<'t> {
         level
     }
 
-    /// Function that is called by the bracket at token `opener`; `None` if the bracket does not open the arguments of a call.
+    /// Function whose arguments the bracket at token `opener` opens; `None` if it is not the bracket of a call.
     pub fn callee(&self, opener: usize) -> Option<CalleeName<'t>> {
         let at = opener.checked_sub(1)?;
         let is_call = self.kind(opener) == Some(TokenKind::Open(Bracket::Round))

@@ -1,4 +1,4 @@
-//! Line editor of the prompt: rustyline with custom keys, helpers and history.
+//! Line editor of the prompt: rustyline with additional keys, helpers and a history.
 
 use std::path::{Path, PathBuf};
 use std::{env, fs, io};
@@ -19,7 +19,7 @@ use crate::output::Colours;
 pub enum Keys {
     #[default]
     Emacs,
-    /// Keys of vi, starting in insert mode.
+    /// Keys of vi. Editing starts in insert mode.
     Vi,
 }
 
@@ -27,7 +27,7 @@ impl Keys {
     /// Environment variable that selects the editing mode.
     pub const VARIABLE: &str = "WITHY_KEYS";
 
-    /// Editing mode of a name, such as `emacs` or `vi`.
+    /// Editing mode with the given name, such as `emacs` or `vi`; `None` for other names.
     pub fn named(name: &str) -> Option<Self> {
         match name.to_ascii_lowercase().as_str() {
             "emacs" => Some(Self::Emacs),
@@ -41,12 +41,12 @@ impl Keys {
 pub struct EditorOptions {
     pub keys: Keys,
     pub colours: Colours,
-    /// File with the history of earlier sessions.
+    /// File with the history of earlier sessions; `None` to store no history.
     pub history: Option<PathBuf>,
 }
 
 impl EditorOptions {
-    /// Options from the environment variables `WITHY_KEYS` and `WITHY_HISTORY`.
+    /// Reads the options from the environment variables `WITHY_KEYS` and `WITHY_HISTORY`.
     pub fn from_environment(colours: Colours) -> Self {
         let keys = env::var(Keys::VARIABLE).ok().and_then(|name| Keys::named(&name));
         let history = history::file(env::var_os(history::VARIABLE));
@@ -56,7 +56,7 @@ impl EditorOptions {
 
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum EditorInput {
-    /// A complete input of one or more lines.
+    /// Complete input of one or more lines.
     Line(String),
     /// Ctrl-C: the input is discarded.
     Interrupted,
@@ -66,7 +66,7 @@ pub enum EditorInput {
 
 const USUAL_COLUMNS: usize = 80;
 
-/// A line editor with a persistent history.
+/// Line editor with a history that is stored in a file.
 pub struct Editor {
     lines: rustyline::Editor<Assistant, FileHistory>,
     history: Option<PathBuf>,
@@ -76,7 +76,8 @@ pub struct Editor {
 }
 
 impl Editor {
-    /// A line editor on this terminal. If the history is unreadable, it is not used, and [`Self::take_history_problem`] returns the problem.
+    /// Creates a line editor on this terminal. If the history file cannot be read, it is not used, and [`Self::take_history_problem`] returns the
+    /// reason.
     ///
     /// # Errors
     /// Fails if the terminal cannot be used.
@@ -95,7 +96,7 @@ impl Editor {
         Ok(editor)
     }
 
-    /// Reads an input, which may span several lines, and adds it to the history.
+    /// Reads an input and adds it to the history. The input may have several lines.
     ///
     /// # Errors
     /// Fails if the terminal fails.
@@ -130,7 +131,7 @@ impl Editor {
         Some((usize::from(columns), usize::from(lines)))
     }
 
-    /// Problem with the history. It is returned only once.
+    /// Problem with the history file; `None` if there is none. It is returned only once.
     pub fn take_history_problem(&mut self) -> Option<String> {
         self.history_problem.take()
     }
@@ -152,7 +153,7 @@ impl Editor {
         }
     }
 
-    /// Adds an entry to the history and writes it to the file immediately, so that nothing is lost if the session is killed.
+    /// Adds an entry to the history and writes it to the file immediately. Nothing is lost if the session is killed.
     fn add_to_history(&mut self, line: &str) {
         if !history::should_store(line) || !self.lines.add_history_entry(line).unwrap_or(false) {
             return;

@@ -1,6 +1,6 @@
 //! Line editing at the prompt: detection of complete inputs, completion, hints, colours and history.
 //!
-//! Code that depends on the language has no side effects and uses the tokens of [`scanner`](crate::script::source::scanner). [`line_editor`]
+//! Code that depends on the language has no side effects. It uses the tokens of [`scanner`](crate::script::source::scanner). [`line_editor`]
 //! configures rustyline for the terminal.
 
 mod assistant;

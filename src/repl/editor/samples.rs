@@ -1,4 +1,4 @@
-//! Test session of the editor: the flying spaghetti, half built.
+//! Session for tests of the editor: a script of the flying spaghetti that is not complete.
 
 use super::surroundings::{
     CommandOperand, CommandWord, CompletionContext, ImportedModule, ScriptFunction, Variable,

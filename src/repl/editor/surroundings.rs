@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use crate::script::bindings::catalog::Catalog;
 
-/// Names of a session for completion and hints, collected before each prompt. Values are not stored, so it is small.
+/// Names of a session for completion and hints. They are collected before each prompt. The values of variables are not stored.
 #[derive(Clone)]
 pub struct CompletionContext {
     /// Catalog of the language.
@@ -23,18 +23,18 @@ pub struct CompletionContext {
     pub folder: PathBuf,
 }
 
-/// A variable of the session.
+/// Variable of the session.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Variable {
     /// Name of the variable.
     pub name: String,
-    /// Type name in the language: `simulation`, `number`, `map`, …
+    /// Type name in the language, such as `simulation`, `number` or `map`.
     pub of: String,
     /// Keys of a map; empty for other values.
     pub keys: Vec<String>,
 }
 
-/// A script function of the session or of a module.
+/// Script function of the session or of a module.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ScriptFunction {
     /// Name of the function.
@@ -47,27 +47,27 @@ pub struct ScriptFunction {
     pub keys: Vec<(String, String)>,
 }
 
-/// A module imported into the session.
+/// Module that the session has imported.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ImportedModule {
-    /// Name of the module before `::`.
+    /// Name of the module that is written before `::`.
     pub alias: String,
     /// Functions of the module.
     pub functions: Vec<ScriptFunction>,
 }
 
-/// A command of the prompt.
+/// Command of the prompt.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CommandWord {
-    /// Command as written, with its colon: `:step`.
+    /// Command in its written form with its colon, such as `:step`.
     pub name: &'static str,
     /// One-line summary.
     pub summary: &'static str,
-    /// Kind of the operand.
+    /// Type of the operand.
     pub operand: CommandOperand,
 }
 
-/// Operand of a command.
+/// Type of the operand of a command.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum CommandOperand {
     /// No operand.
@@ -84,12 +84,12 @@ pub enum CommandOperand {
     Number,
     /// One of these words.
     OneOf(&'static [&'static str]),
-    /// An expression or a map of options. A map is completed as the next argument of this unfinished call.
+    /// An expression or a map of options. A map is completed as if it were the next argument of the contained unfinished call.
     OptionsOf(&'static str),
 }
 
 impl CompletionContext {
-    /// Context of an empty session.
+    /// Names in an empty session.
     pub fn of_language(catalog: Catalog) -> Self {
         Self {
             catalog,
@@ -102,7 +102,7 @@ impl CompletionContext {
         }
     }
 
-    /// The variable with this name.
+    /// Variable with this name.
     pub fn variable(&self, name: &str) -> Option<&Variable> {
         self.variables.iter().find(|variable| variable.name == name)
     }

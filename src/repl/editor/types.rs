@@ -1,4 +1,4 @@
-//! Static types of values before a dot, derived without evaluation.
+//! Types of values before a dot. They are derived from the text without evaluation.
 
 use super::input::Input;
 use super::surroundings::CompletionContext;
@@ -7,13 +7,13 @@ use crate::script::bindings::table::CallSyntax;
 use crate::script::source::keywords;
 use crate::script::source::scanner::{Bracket, TokenKind};
 
-/// Maximum number of members and calls in `a.b().c[0].d`.
+/// Largest number of members and calls in a chain such as `a.b().c[0].d`.
 const LONGEST_CHAIN: usize = 32;
 
-/// Maximum nesting of parentheses and declarations.
+/// Largest nesting of parentheses and declarations.
 const DEEPEST: usize = 16;
 
-/// Type inference from tokens, session variables, and return types of functions.
+/// Derivation of types from tokens, session variables, and return types of functions.
 #[derive(Clone, Copy)]
 pub struct Types<'a, 't> {
     pub input: &'a Input<'t>,
@@ -25,7 +25,7 @@ struct TypedValue {
     start: usize,
 }
 
-/// Kind of the value at the end of `text`.
+/// Type of the value at the end of `text`; `None` if unknown.
 pub fn type_before(text: &str, surroundings: &CompletionContext) -> Option<ValueKind> {
     let input = Input::before(text, text.len());
     let last = input.tokens.len().checked_sub(1)?;
@@ -39,7 +39,7 @@ enum TypeStep<'t> {
 }
 
 impl<'t> Types<'_, 't> {
-    /// Type of the value that ends with token `end`.
+    /// Type of the value that ends with the token `end`.
     pub fn of(&self, end: usize) -> Option<ValueKind> {
         self.value(end, 0)?.of
     }
@@ -123,7 +123,7 @@ impl<'t> Types<'_, 't> {
         inside.of.filter(|_| inside.start == opener + 1)
     }
 
-    /// Type of a name: declared in this input, a variable of the session, or a constant of the language.
+    /// Type of a name, which may be declared in this input, or be a variable of the session or a constant of the language.
     fn variable(&self, at: usize, depth: usize) -> Option<ValueKind> {
         let name = self.input.written(at);
         if at.checked_sub(1).is_some_and(|before| self.input.written(before) == "::") {
@@ -139,7 +139,7 @@ impl<'t> Types<'_, 't> {
         }
     }
 
-    /// Type in the last `let name = value;` before token `at`; `None` if there is none.
+    /// Type of the value in the last statement `let name = value;` before the token `at`; `None` if there is no such statement.
     fn declared(&self, name: &str, at: usize, depth: usize) -> Option<Option<ValueKind>> {
         let input = self.input;
         let is_declared = |place: &usize| {

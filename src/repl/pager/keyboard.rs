@@ -1,4 +1,4 @@
-//! Reading of single keys without waiting for the end of a line.
+//! Reading of single keys, without waiting for the end of a line.
 
 use std::io;
 
@@ -10,13 +10,13 @@ pub enum Pressed {
 }
 
 pub trait Keyboard {
-    /// Waits for the next key.
+    /// Waits for the next key. `was_interrupted` is asked for Ctrl-C while waiting.
     ///
     /// # Errors
     /// Fails if the terminal fails.
     fn read(&mut self, was_interrupted: &dyn Fn() -> bool) -> io::Result<Pressed>;
 
-    /// Bytes that a key sends after the escape character; may be empty.
+    /// Bytes that the terminal sends after the escape character of a key; may be empty.
     ///
     /// # Errors
     /// Fails if the terminal fails.
@@ -36,9 +36,9 @@ mod of_system {
 
     use super::{Keyboard, Pressed};
 
-    /// Polling interval for Ctrl-C [ms].
+    /// Interval at which Ctrl-C is checked [ms].
     const POLLING_INTERVAL: u8 = 50;
-    /// Timeout for the rest of an escape sequence [ms].
+    /// Time to wait for the rest of an escape sequence [ms].
     const ESCAPE_TIMEOUT: u8 = 30;
 
     pub struct KeyboardTerminal(());
@@ -63,7 +63,7 @@ mod of_system {
         }
     }
 
-    /// Reads without the buffer of the standard library, which would withhold keys from the prompt.
+    /// Reads a byte without the buffer of the standard library. The buffer would keep keys that belong to the prompt.
     fn next() -> io::Result<Pressed> {
         let mut byte = [0];
         match read(stdin(), &mut byte) {
@@ -92,7 +92,7 @@ mod of_system {
                     Pressed::Byte(byte) => rest.push(byte),
                     _ => break,
                 }
-                // A letter or a tilde ends an escape sequence, unless it is the first byte.
+                // A letter or a tilde ends an escape sequence unless it is the first byte.
                 let is_end = rest.len() > 1
                     && rest.last().is_some_and(|last| last.is_ascii_alphabetic() || *last == b'~');
                 if is_end {
@@ -106,7 +106,7 @@ mod of_system {
 
 #[cfg(not(unix))]
 mod of_system {
-    //! This system does not support single keys. Texts are printed without paging, unless a pager program is set.
+    //! This system does not support reading single keys. Texts are printed without pages unless a pager program is set.
 
     use std::io;
 
@@ -115,13 +115,13 @@ mod of_system {
     pub struct KeyboardTerminal(());
 
     impl KeyboardTerminal {
-        /// Always `None` on this system.
+        /// Returns `None` on this system.
         pub fn open() -> Option<Self> {
             None
         }
     }
 
-    /// Always false on this system.
+    /// Returns false on this system.
     pub fn has_pending_keys() -> bool {
         false
     }

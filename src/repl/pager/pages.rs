@@ -1,11 +1,11 @@
-//! Built-in pager: forward, backward, and search.
+//! Built-in pager, which moves forward and backward and searches.
 
 use std::io::{self, Write};
 use std::ops::Range;
 
 use super::{Keyboard, PagerOutcome, Pressed};
 
-/// Control sequence that moves to the beginning of the line and clears it.
+/// Control sequence that moves to the start of the line and clears the line.
 const CLEAR: &str = "\r\x1b[K";
 const KEYS: &str = "space: next page, b: back, /: search, q: exit";
 
@@ -202,7 +202,7 @@ mod tests {
 
     use super::*;
 
-    /// Predefined keys, where `^` is Ctrl-C.
+    /// Keys that are given in advance. The character `^` stands for Ctrl-C.
     struct Decided(VecDeque<u8>);
 
     impl Keyboard for Decided {

@@ -9,13 +9,13 @@ use crate::repl::editor::typed_ahead::TypedAhead;
 
 const POLLING_INTERVAL: Duration = Duration::from_millis(10);
 
-/// Default options of less: quit if the text fits on one screen, show colours, keep the text on the screen.
+/// Environment variable with default options for less: quit if the text fits on one screen, show colours, and leave the text on the screen.
 const LESS: (&str, &str) = ("LESS", "FRX");
 
-/// Shows a text with a pager program, and waits for its end. The program handles Ctrl-C itself.
+/// Shows a text with a pager program, and waits until the program ends. The program handles Ctrl-C itself.
 ///
 /// # Errors
-/// Fails if the program does not start.
+/// Fails if the program cannot be started.
 pub fn show(program: &str, text: &str, was_interrupted: &dyn Fn() -> bool) -> io::Result<()> {
     let mut words = program.split_whitespace();
     let mut command = Command::new(words.next().unwrap_or_default());
@@ -27,7 +27,7 @@ pub fn show(program: &str, text: &str, was_interrupted: &dyn Fn() -> bool) -> io
     let mut child = command.spawn()?;
     if let Some(mut input) = child.stdin.take() {
         let text = format!("{text}\n");
-        // The program may quit before it has read the whole text.
+        // The program may quit before it has read the whole text. The error is ignored.
         thread::spawn(move || input.write_all(text.as_bytes()));
     }
     while child.try_wait()?.is_none() {

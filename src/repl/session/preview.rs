@@ -1,15 +1,15 @@
-//! Evaluations without lasting effects, single or repeated.
+//! Evaluation without lasting effects, once or repeatedly.
 
 use rhai::{AST, Dynamic};
 
 use super::{Reply, Session};
 use crate::script::state::watchdog::Watchdog;
 
-/// Controls repeated evaluation of an input from the same variables.
+/// Control of the repeated evaluation of an input. Each evaluation starts from the same variables.
 pub trait Rounds {
-    /// Prepares the next evaluation; returns `false` to stop.
+    /// Prepares the next evaluation. Returns `false` to stop.
     fn begin(&mut self) -> bool;
-    /// Receives the value of an evaluation.
+    /// Receives the value of an evaluation after its end.
     fn end(&mut self, value: Dynamic);
 }
 
@@ -30,7 +30,7 @@ impl Rounds for Once {
 }
 
 impl Session {
-    /// Evaluates an expression without lasting effects, except changes of scenes and simulations.
+    /// Evaluates an expression without lasting effects, except for changes of scenes and simulations.
     pub fn evaluate_preview(&mut self, text: &str) -> Reply {
         let mut once = Once::default();
         match self.evaluate_repeatedly(text, &mut once) {
@@ -43,7 +43,7 @@ impl Session {
     /// Evaluates an expression repeatedly. The text is parsed once. Variables are restored before each evaluation.
     ///
     /// # Errors
-    /// The reply to the first evaluation that fails.
+    /// Returns the reply to the first evaluation that failed.
     pub fn evaluate_repeatedly(
         &mut self,
         text: &str,
@@ -67,7 +67,7 @@ impl Session {
         ast: &AST,
         rounds: &mut dyn Rounds,
     ) -> Result<(), Reply> {
-        // The checkpoint includes the functions of the input, such as its closures.
+        // The checkpoint includes the functions of the input, for example its closures.
         let start = self.checkpoint();
         while rounds.begin() {
             let value = self.run(guard, ast.statements())?;

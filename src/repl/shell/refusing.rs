@@ -9,7 +9,7 @@ use crate::script::messages::error::ScriptError;
 use crate::script::messages::stop::Stop;
 
 impl Shell {
-    /// Reports an error that does not originate in a script.
+    /// Reports an error that does not come from a script.
     pub fn report_native_error(&mut self, error: ScriptError) -> CommandOutcome {
         match error {
             ScriptError::Failure(failure) => {

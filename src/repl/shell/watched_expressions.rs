@@ -1,4 +1,4 @@
-//! Expressions shown after every step.
+//! Watched expressions, whose values are shown after every step.
 
 use super::{CommandOutcome, Shell};
 use crate::output::significant;
@@ -11,7 +11,7 @@ impl Shell {
         !self.watched.is_empty()
     }
 
-    /// Watches another expression, and shows its value.
+    /// Adds an expression to the watched expressions, and shows its value.
     pub fn watch(&mut self, expression: &str) -> CommandOutcome {
         let expression = expression.trim_end_matches(';').to_owned();
         if !self.watched.contains(&expression) {

@@ -48,7 +48,8 @@ impl<T: Copy> KeySets<T> {
         }
     }
 
-    /// Set that is selected by a text; otherwise the set with the largest number of given keys, or the first of several.
+    /// Returns the set that is selected by a text. If no text selects a set, returns the set of which most keys are given, or the first of several
+    /// such sets.
     fn meant(&self, options: &Options) -> Option<&'static KeySet<T>> {
         let is_chosen = |set: &&KeySet<T>| {
             let chosen = set.chosen_by.map(|(key, text)| (options.text(key), text));

@@ -24,17 +24,17 @@ pub struct Parameter {
 /// Whether a parameter is required, and its default.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Presence {
-    /// Required.
+    /// The parameter is required.
     Required,
-    /// Optional without default. The native function must handle an omitted value.
+    /// The parameter is optional and has no default. The native function must handle an omitted value.
     Optional,
-    /// Optional with a default number.
+    /// The parameter is optional and has a number as its default.
     Number(f64),
-    /// Optional with a default integer.
+    /// The parameter is optional and has an integer as its default.
     Integer(i64),
-    /// Optional with a default text.
+    /// The parameter is optional and has a text as its default.
     Text(&'static str),
-    /// Optional with a default boolean.
+    /// The parameter is optional and has a boolean as its default.
     Boolean(bool),
 }
 

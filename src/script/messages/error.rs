@@ -83,7 +83,7 @@ impl ScriptError {
         self
     }
 
-    /// Converts the index of an argument to that of a method, for which the value before the dot does not count.
+    /// Converts the index of an argument to an index in a method call, in which the value before the dot does not count.
     pub fn of_method(mut self) -> Self {
         if let Self::Failure(Failure { place, .. }) = &mut self
             && let CallPart::Argument(number) = *place

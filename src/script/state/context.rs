@@ -235,7 +235,7 @@ impl Context {
         result
     }
 
-    /// Prints a message that the script has requested, such as that of a failed check. It counts towards the limit of output.
+    /// Prints a message that the script has requested, for example the message of a failed check. It counts towards the limit of output.
     pub fn print_debug(&self, text: &str) {
         if self.meter().allows_to_write(text.len() as u64 + 1) {
             self.print_message(text);

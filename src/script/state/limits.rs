@@ -102,7 +102,8 @@ const MOST_DRY_ADVANCES: u64 = 100_000;
 /// True if a run of this process has detected an interrupt. The run then stops soon and saves its results.
 pub static INTERRUPT_HEARD: AtomicBool = AtomicBool::new(false);
 
-/// States of the watchdog: no alarm. The constants for an exceeded time or memory limit follow.
+/// State of the watchdog in which no limit is exceeded. The next two constants are its states for an exceeded time limit and an exceeded memory
+/// limit.
 pub(super) const NO_ALARM: u8 = 0;
 pub(super) const TOO_LATE: u8 = 1;
 pub(super) const TOO_LARGE: u8 = 2;

@@ -56,7 +56,7 @@ pub struct RunSettings {
 pub struct StudyPreferences {
     /// Whether journals are used to resume interrupted studies.
     pub journal: JournalPreference,
-    /// Number of repetitions when run times are measured; `None` for that of the script.
+    /// Number of repetitions when run times are measured; `None` to use the number in the script.
     pub repeats: Option<usize>,
     /// Part of each study to be computed; `None` for all. If it is given, no other files are written.
     pub part: Option<StudyPart>,

@@ -12,12 +12,12 @@ use crate::script::messages::stop::Stop;
 
 const INTERVAL: Duration = Duration::from_millis(10);
 
-/// Processor time that a run may still use after it has exceeded a limit, as a fraction of the time limit. On a machine without other load, the run
+/// Processor time that a run may use after it has exceeded the time limit, as a fraction of the limit. On a machine without other load, the run
 /// then ends within twice the limit.
 const OVERTIME: f64 = 0.7;
 const LEAST_OVERTIME: Duration = Duration::from_millis(700);
 const MOST_OVERTIME: Duration = Duration::from_secs(5);
-/// Ratio of elapsed wall-clock time to allowed processor time. Above it the run is ended even if it has used less processor time.
+/// Ratio of wall-clock time to allowed processor time above which a run is ended, even if it has used less processor time than allowed.
 const SHARE_OF_PROCESSOR: u32 = 10;
 
 /// Guard of the thread that supervises time and memory of a run. The thread ends when the guard is dropped.
@@ -75,7 +75,8 @@ impl Clocks {
         Self { wall: Instant::now(), processor: processor_time() }
     }
 
-    /// Returns true if both wall-clock time and processor time exceed `patience`, or if wall-clock time exceeds a multiple of it.
+    /// Returns true if both the wall-clock time and the processor time exceed `patience`, or if the wall-clock time exceeds a multiple of
+    /// `patience`.
     fn are_over(self, patience: Duration) -> bool {
         let wall = self.wall.elapsed();
         let had = || match (self.processor, processor_time()) {

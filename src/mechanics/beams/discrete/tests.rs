@@ -9,7 +9,8 @@ use proptest::prelude::*;
 const TANGENT: Collocation =
     Collocation { configuration: 0.4, stress: 0.6, rotations: RotationIncrement::TangentScaled };
 
-/// Bits of the tangents and forces of all spans, computed with one instruction set, and the spans afterwards.
+/// Returns the bits of the tangents and forces of all spans, which are computed with the instruction set `arch`, and the spans after the
+/// computation.
 fn linearised<const N: usize>(
     arch: Arch,
     beam: &DiscreteBeam<N>,

@@ -95,7 +95,8 @@ impl Sections for Uniform {
 pub(in crate::beams) struct PerPoint {
     at_force: Vec<Section>,
     at_moment: Vec<Section>,
-    /// Stiffness `diag(EA, GA)` at points for `Γ`, in vector lanes. `EI` at points for `κ` is in the following field.
+    /// Stiffness `diag(EA, GA)` at the quadrature points for the strain `Γ`, in vector lanes. The next field contains `EI` at the quadrature points
+    /// for the curvature `κ`.
     force_stiffness: Vec<Pair<Lanes>>,
     bending_stiffness: Vec<Lanes>,
 }

@@ -48,7 +48,7 @@ fn balanced_moment(contact: &Contact<'_>, tangent: PathVector, swing: PathVector
     })
 }
 
-/// Sliding equation `(λ·τ + 4 η·d)/ℓ = 0`: the contact does no work.
+/// Sliding equation `(λ·τ + 4 η·d)/ℓ = 0`. It states that the contact force `λ` and the couple `η` together do no work.
 fn work_free(contact: &Contact<'_>, tangent: PathVector, swing: PathVector) -> Equation {
     let ContactUnknowns { force, couple, .. } = contact.unknowns;
     let scale = 1.0 / contact.length;

@@ -128,7 +128,7 @@ impl Contact<'_> {
         weights.iter().zip(moved).map(|(w, moved)| moved * *w).sum()
     }
 
-    /// Gap from slave to master at the start of the step: `Σ B_i(ξ0) x_i0`, relative to the slave [length].
+    /// Vector from the slave to its place on the master at the start of the step [length]. It is zero if the gap is closed.
     pub fn start_gap(&self) -> Vec2 {
         self.sum(self.path.start(), 0.0)
     }
@@ -152,7 +152,8 @@ impl Contact<'_> {
         self.unknowns.force.dot(&self.end_point().by_end) * outward
     }
 
-    /// Sum `Σ ∂D_i/∂ξ1 x_i1` at the end of the step [length]. For a path of zero length it is half the second derivative.
+    /// Sum `Σ ∂D_i/∂ξ1 x_i1` at the end of the step, with the divided differences `D_i` of the basis functions [length]. For a path of zero length
+    /// it is half the second derivative of the axis.
     pub(super) fn end_bend(&self) -> Vec2 {
         self.sum(self.path.change(), 1.0)
     }
@@ -196,8 +197,8 @@ impl Contact<'_> {
         weights.map(move |(mean, difference)| force * *mean - couple * (share * difference))
     }
 
-    /// Derivatives of the contact forces on the control points of the master: a factor with respect to `λ`, a factor with respect to `η`, and a
-    /// vector with respect to `Δξ`.
+    /// Derivatives of the contact forces on the control points of the master. For each control point, they are a factor for the force `λ`, a factor
+    /// for the couple `η`, and a vector for the sliding increment `Δξ`.
     pub fn master_force_slopes(&self) -> impl Iterator<Item = (f64, f64, Vec2)> + '_ {
         let ContactUnknowns { force, couple, .. } = self.unknowns;
         let share = self.couple_factor();

@@ -6,12 +6,12 @@ use super::contact::PathVector;
 use super::{Contact, ContactUnknowns, Equation, Unit};
 use crate::geometry::Vec2;
 
-/// Number of derivatives. The variables are the displacement of the slave from the smooth axis, mean tangent, quarter tangent change, `λ`, couple
-/// and sliding increment.
+/// Number of derivatives of a dual number. The variables are the displacement of the slave from the smooth axis, the mean tangent, the quarter
+/// tangent change, the contact force, the couple, and the sliding increment.
 pub(super) const ALL_SLOPES: usize = 11;
 
-/// Number of derivatives of values without derivatives. They are computed by the same operations as dual numbers, so that both values agree to the
-/// last bit.
+/// Number of derivatives if only values are needed. Such values are computed by the same operations as dual numbers, so that both agree to the last
+/// bit.
 pub(super) const NO_SLOPES: usize = 0;
 
 const OFFSET: usize = 0;
@@ -73,7 +73,7 @@ impl<const SLOPES: usize> Dual<SLOPES> {
         Self { value, slopes: [0.0; SLOPES] }
     }
 
-    /// Number that depends only on the end of the path, with its derivative.
+    /// Creates a number that depends only on the sliding increment. `by_way` is its derivative.
     pub fn path_dual(value: f64, by_way: f64) -> Self {
         let mut jet = Self::constant(value);
         jet.add_slope(WAY, by_way);

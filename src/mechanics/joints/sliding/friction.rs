@@ -6,9 +6,9 @@
 //! slip with the sign σ:   T - σ μ |N*| = 0          stick:   Δξ = 0,   |T| ≤ μ |N*|          N* = N + (w1 - w0)/(W Δt)
 //! ```
 //!
-//! The bodies lose the energy `Δξ |τ| T` in the step. `w` is the velocity of the slave across the master at the ends of the step and `W` the velocity
-//! change by a unit impulse across it. The second part of `N*` removes the alternating part of `N`: a velocity error across the master changes its
-//! sign from step to step without moving anything, and the force that reverses it grows with `1/Δt`.
+//! The bodies lose the energy `Δξ |τ| T` in the step. `w` is the velocity of the slave across the master at the ends of the step, and `W` is the
+//! velocity change that a unit impulse across the master causes. The second part of `N*` removes the alternating part of `N`: a velocity error
+//! across the master changes its sign from step to step without moving anything, and the force that reverses it grows with `1/Δt`.
 
 use super::{Contact, Equation};
 use crate::geometry::{Vec2, cross, perpendicular};

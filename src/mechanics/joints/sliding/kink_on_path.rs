@@ -24,7 +24,7 @@ pub(super) struct KinkOnPath<const SLOPES: usize> {
 pub(super) const UNITS: [Unit; CONTACT_UNKNOWNS] =
     [Unit::Length, Unit::Length, Unit::Force, Unit::Force, Unit::Force];
 
-/// Equations that require these values to be zero. Their units are [`UNITS`].
+/// Returns the equations that set the given values to zero. The units of the values are [`UNITS`].
 pub(super) fn vanish(
     numbers: [Dual<ALL_SLOPES>; CONTACT_UNKNOWNS],
 ) -> [Equation; CONTACT_UNKNOWNS] {

@@ -27,8 +27,8 @@ impl Simulation {
         (self.snapshots.count(), self.snapshots.bytes())
     }
 
-    /// Returns to the state a number of steps earlier, bit for bit. A pair of half steps counts as in the history. Additional end times of steps
-    /// are kept.
+    /// Returns to the state `steps` steps earlier, bit for bit. Two half steps with error control count as in the history. Additional end times of
+    /// steps are kept.
     ///
     /// # Errors
     /// Fails if fewer steps have been taken, or the state is not stored.

@@ -8,8 +8,8 @@ use crate::simulation::{
 use crate::system::{Scene, System};
 
 impl Simulation {
-    /// Starts a simulation with derivatives. `variations` contain the scenes at perturbed parameters. The steps compute the derivatives in
-    /// addition; their own results do not change.
+    /// Starts a simulation with derivatives. `variations` contains the scenes at perturbed parameters. Each step computes the derivatives too; its
+    /// other results do not change.
     ///
     /// # Errors
     /// Errors of [`start`](Self::start), or an error if the method provides no derivatives or the scenes differ in more than numbers.

@@ -42,17 +42,17 @@ const MODES: [usize; 3] = [4, 8, 16];
 
 const RECENT_STEPS: usize = 200;
 
-/// Difference of successive step lengths, as a fraction of the length, above which they alternate.
+/// Change of the step length from one step to the next, as a fraction of the length, that counts as an alternation.
 const ALTERNATION: f64 = 0.1;
 
-/// Largest number of alternations that is acceptable.
+/// Number of alternations of the step length among the recent steps from which a warning is given.
 const MOST_TURNS: usize = 20;
 
 /// Number of adaptive steps above which a warning about their number is given if the other conditions hold.
 const MANY_STEPS: usize = 5000;
 
-/// Ratio of the step size that the motion of the scene needs to the mean step size. If it is larger, the steps follow a vibration whose amplitude
-/// is below a thousandth of the length of the scene, and are shorter than necessary.
+/// Ratio of the step size that the motion of the scene needs to the mean step size, above which a warning is given. The steps then follow a
+/// vibration whose amplitude is below a thousandth of the length of the scene.
 const MUCH_SHORTER: f64 = 50.0;
 
 /// Largest number of sliders with a description of their resolution.

@@ -15,7 +15,8 @@ use crate::system::sliders::Sliders;
 use crate::system::state::MotionState;
 use crate::system::{BeamDefinition, Scene, System, SystemError, SystemState};
 
-/// Largest rounding error of strains, as a multiple of the machine precision. Strains are differences of coordinates that are larger than spans.
+/// Largest rounding error of strains, as a multiple of the machine precision. It exceeds one, because strains are differences of coordinates that
+/// may be much larger than a span.
 const STRAIN_ROUNDINGS: f64 = 100.0;
 
 /// Bodies of a scene with the meshes of the beams. The model is built from them.

@@ -107,7 +107,8 @@ impl Assembly<'_> {
         let first = self.scene.first_rigid_body();
         for (index, body) in (first..).zip(&self.scene.rigid_bodies) {
             let degrees = &numbering.degrees_of_freedom[index];
-            // A body whose points are all at its centre shares no rotation with other bodies, so any size may be used.
+            // If all points of a body are at its centre, the body shares no rotation with other bodies. Its size then has no effect and can have
+            // any value.
             let size = if body.size() > 0.0 { body.size() } else { 1.0 };
             self.apply_rigid_motion(index, size, &body.motion, degrees, &mut shared, begun)?;
         }

@@ -1,11 +1,11 @@
-//! Components of control points (x, y and angle) that are tied to each other, as classes of equal motion.
+//! Components (x, y and angle) of control points that must move equally because joints tie them to each other. Tied components form a class.
 
 use crate::beams::{BodyDynamics, BodyPoint, Station};
 use crate::joints::{Component, Partner, Releasable};
 use crate::system::SystemError;
 use crate::system::scene::{Scene, Ties};
 
-/// Class of the components that are fixed to the ground.
+/// Number of the class of all components that are fixed to the ground.
 pub const GROUND: usize = 0;
 
 /// Classes of components tied by joints, particles and rigid bodies. Components are numbered from one in the order of the bodies.

@@ -1,4 +1,4 @@
-//! All bodies of a model, with tracked sections and joined places.
+//! All bodies of a model, with the sections whose angles are tracked, and the places at which bodies are joined.
 
 use std::ops::{Deref, DerefMut};
 
@@ -10,7 +10,7 @@ use crate::geometry::{Vec2, larger};
 /// Value of a basis function at a node below which the function counts as zero there.
 const NO_WEIGHT: f64 = 1e-12;
 
-/// Bodies of a model (beams, then particles, then rigid bodies), with the tracked sections. Dereferences to the slice of bodies.
+/// Bodies of a model: beams, then particles, then rigid bodies. This type dereferences to a slice of them.
 pub struct Bodies {
     pub(super) all: Vec<Body>,
     meshes: Vec<Mesh>,

@@ -3,7 +3,7 @@
 /// Number of steps up to which a bounce is unresolved. Three steps cover half of the contact period.
 const FEW: f64 = 3.0;
 
-/// Smallest change of the rate during a contact that counts as a bounce, as a fraction of the rate at the start of the contact.
+/// Change of the elongation rate during a contact that counts as a bounce, as a fraction of the rate at the start of the contact.
 const TURNED: f64 = 0.5;
 
 /// Contact depth that is attributed to rounding, as a fraction of the length or angle of the spring.
@@ -12,7 +12,7 @@ const ROUNDING_DEPTH: f64 = 1e-12;
 /// Bounce on a spring, too short to be resolved by the steps.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ShortBounce {
-    /// Number of steps in which the spring is not slack, including steps in which it is slack at one end [-].
+    /// Number of steps during the contact, including steps at whose start or end the spring is slack [-].
     pub steps: f64,
     /// Largest force of the bounce, averaged over a step [force, force·length].
     pub force: f64,

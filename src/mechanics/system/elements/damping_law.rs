@@ -8,13 +8,14 @@ use super::law_range::LawRange;
 use super::spring_law::SpringLaw;
 use crate::geometry::larger;
 
-/// Force that is attributed to rounding, as a fraction of the largest force of the law: at zero rate, or where it would add energy.
+/// Force that is attributed to rounding, as a fraction of the largest force of the law. A force of this size is accepted at zero rate, and in the
+/// direction in which it adds energy.
 const ROUNDING: f64 = 1e-12;
 
 /// Damping force as a function of the rate `q̇` of an elongation. It is zero at zero rate and opposes the motion otherwise.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub enum DampingLaw {
-    /// `c q̇` with `c` ≥ 0 [force·time/length; for torsion force·length·time/rad].
+    /// Linear law `c q̇` with the coefficient `c` ≥ 0 [force·time/length; for torsion force·length·time/rad].
     Linear(f64),
     /// Piecewise linear function of the rate, from a table or a sampled function.
     Curve(SpringLaw),

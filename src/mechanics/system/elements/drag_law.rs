@@ -22,7 +22,7 @@ impl SpeedLaw {
         (self.linear + self.quadratic * speed.abs()) * speed
     }
 
-    /// Power `F s`, computed only from the force `F = c s + k |s| s`, so that it is never negative.
+    /// Power `F s` at the speed `s`. It is computed only from the force `F = c s + k |s| s`, so that it is never negative.
     fn power(&self, force: f64) -> f64 {
         let force = force.abs();
         if force == 0.0 {
@@ -47,7 +47,7 @@ pub enum DragLaw {
 /// Force of the body on the medium and its derivatives, in components across (`n = J t`) and along a line with unit tangent `t`.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct DragResponse {
-    /// `(G·n, G·t)` [force, or force/length].
+    /// Components of the force across and along the line [force, or force/length].
     pub force: Vec2,
     pub by_velocity: [Vec2; 2],
     /// Derivatives of the components with respect to the angle of the line.

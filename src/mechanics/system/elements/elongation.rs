@@ -65,24 +65,26 @@ enum Measure {
 pub struct Elongation {
     measure: Measure,
     terminals: Vec<ElongationEnd>,
-    /// Coefficients that express the coordinates by the degrees of freedom, in the numbering of the last call of `locate`.
+    /// Coefficients that express the coordinates by the degrees of freedom. They use the numbering given in the last call of `locate`.
     shares: Vec<CoordinateShare>,
-    /// Value in the scene as built on its meshes [length, rad].
+    /// Elongation in the scene as built on its meshes [length, rad].
     initial: f64,
-    /// Growth since the scene was built, up to the start of the step [length, rad].
+    /// Growth of the elongation from the building of the scene to the start of the step [length, rad].
     growth: Coordinate,
     movements: Vec<f64>,
     corrected: Vec<f64>,
     /// Change `Δq` in the step [length, rad].
     pub change: f64,
-    /// Change in the iterate whose force was accepted last, and the further change that this force implies. It replaces the change computed from
-    /// increments, whose rounding error would store energy in a stiff spring [length, rad].
+    /// Change of the elongation in the iterate whose force was accepted last, and the further change that this force implies [length, rad]. It is
+    /// more accurate than the change computed from the increments, whose rounding error would store energy in a stiff spring.
     settled: (f64, f64),
-    /// Secant `g` with `Σ g u = Δq`. For methods with forces at the end of a step it is the derivative of `q` at the end [-].
+    /// Secant `g`, which gives the elongation change as `Δq = Σ g u`. For methods with forces at the end of a step it is the derivative of the
+    /// elongation `q` at the end [-].
     pub secant: Vec<f64>,
     /// Derivative `∂Δq/∂u` with respect to the coordinates [-].
     pub slope: Vec<f64>,
-    /// Derivative `∂g/∂u` of the secant, row by row, in the iterate in which it was evaluated last [1/length, 1/rad].
+    /// Derivative `∂g/∂u` of the secant with respect to the coordinates, row by row, in the iterate in which it was last evaluated [1/length,
+    /// 1/rad].
     pub secant_slope: Vec<f64>,
     /// Force direction at the time given to [`balance`](Self::balance), minus the secant [-].
     pub lag: Vec<f64>,
@@ -142,22 +144,23 @@ impl Elongation {
         matches!(self.measure, Measure::Angle)
     }
 
-    /// Value of `q` at the start of the step [length, rad].
+    /// Elongation at the start of the step [length, rad].
     pub fn value(&self) -> f64 {
         self.initial + self.growth.value
     }
 
-    /// Value of `q` in the scene as built on its meshes [length, rad].
+    /// Elongation in the scene as built on its meshes [length, rad].
     pub fn drawn(&self) -> f64 {
         self.initial
     }
 
-    /// Growth of `q` since the scene was built, with compensated rounding [length, rad].
+    /// Growth of the elongation since the scene was built, with compensated rounding [length, rad].
     pub fn grown(&self) -> Coordinate {
         self.growth
     }
 
-    /// Largest term in the sum for `q` in an iterate, which sets the rounding error of `q` [length, rad].
+    /// Magnitude of the largest term in the sum for the elongation of an iterate, which determines the rounding error of the elongation [length,
+    /// rad].
     pub fn extent(&self) -> f64 {
         let after = (self.value() + self.change).abs();
         match self.measure {
@@ -176,8 +179,8 @@ impl Elongation {
         MOST_ROUNDING * f64::EPSILON * moved
     }
 
-    /// Stores `missing` as part of the elongation change of the last iterate if it is within the rounding error of the increments. Returns true if
-    /// so.
+    /// Stores `missing` as a part of the elongation change of the last iterate, if it is within the rounding error of the increments. Returns true
+    /// if it was stored.
     pub fn absorb_rounding(&mut self, missing: f64) -> bool {
         let is_rounding = missing.abs() <= self.rounding();
         self.settled = (self.change, if is_rounding { missing } else { 0.0 });
@@ -211,8 +214,8 @@ impl Elongation {
         self.compare(collocation.rotations);
     }
 
-    /// Evaluates the lag in the last iterate: the direction at the fraction `share` of the step, minus the secant. The lag is zero if `share` is
-    /// `None`. It is also zero for angles, whose force directions are constant.
+    /// Evaluates the lag of the last iterate: the force direction at the fraction `share` of the step, minus the secant. The lag is zero if `share`
+    /// is `None`. It is also zero for angles, because their force directions are constant.
     pub fn balance(&mut self, share: Option<f64>) {
         let Self { measure, movements: moved, lag, lag_slope: lag_bend, .. } = self;
         [&mut *lag, lag_bend].into_iter().for_each(|all| all.fill(0.0));
@@ -240,7 +243,7 @@ impl Elongation {
         }
     }
 
-    /// Rate of `q` at the start of the step, computed from the rates of all control points.
+    /// Rate of the elongation at the start of the step, computed from the rates of all control points.
     pub fn rate(&self, rates: &[Vec<Movement>]) -> f64 {
         let mut sum = 0.0;
         for (place, coordinates) in self.moving() {
@@ -253,7 +256,7 @@ impl Elongation {
         sum
     }
 
-    /// Rate of `q` at the end of the last step, computed from the rates of the unknowns at that time.
+    /// Rate of the elongation at the end of the last step, computed from the rates of the unknowns at that time.
     pub fn rate_at_last_end(&self, bodies: &[Body], rates: &[f64]) -> f64 {
         self.moving().fold(0.0, |sum, (place, coordinates)| {
             let [x, y, spin] = bodies[place.body].at(place, rates);

@@ -42,7 +42,8 @@ impl MixedForce {
         if self.mismatch == 0.0 { 0.0 } else { self.mismatch.abs() / size }
     }
 
-    /// Change of `Δq` after which the target would equal the current force, to first order; infinite for a slope that is not positive.
+    /// Change of the elongation increment `Δq` after which the target would equal the current force, to first order. It is infinite if the slope is
+    /// not positive.
     pub fn missing_change(&self) -> f64 {
         match self.mismatch == 0.0 {
             true => 0.0,

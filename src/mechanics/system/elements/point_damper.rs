@@ -54,7 +54,7 @@ struct DamperTrial {
     target: ForceTarget,
     /// Derivative of the rate with respect to `Δd` [1/time].
     rate_by_movement: Vec2,
-    /// Factor in `∂e/∂Δd = (1 - e⊗e) · direction_slope` [1/length].
+    /// Factor `direction_slope` in the derivative of the direction `e`: `∂e/∂Δd = (1 - e⊗e) · direction_slope` [1/length].
     direction_slope: f64,
 }
 

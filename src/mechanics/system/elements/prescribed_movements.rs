@@ -48,11 +48,11 @@ struct PresentMotion {
     check: Option<ScheduleCheck>,
     /// Reaction; moments are conjugate to the angle [force, force·length].
     reaction: StepMean<f64>,
-    /// `M Δv` of the step being accepted [force·time, force·length·time].
+    /// Product `M Δv` of the inertia and the rate change of the step being accepted [force·time, force·length·time].
     impact_momentum: f64,
     /// Static position or angle under the full load [length, rad].
     goal: f64,
-    /// Part of the displacement to `goal` that has already been applied [length, rad].
+    /// Displacement that has already been applied on the way to `goal` [length, rad].
     placed: f64,
     /// `M v̄` of the control point in the step being accepted, with the mean rates `v̄` [mass·length/time].
     momentum: Vec2,
@@ -83,7 +83,7 @@ pub struct DriveState<'a> {
     pub moment: f64,
 }
 
-/// `Δω/Δθ` for a rotation increment. It converts moments conjugate to increments into moments conjugate to angles.
+/// Ratio `Δω/Δθ` of a rotation increment to its angle. It converts a moment conjugate to the increment into a moment conjugate to the angle.
 fn per_angle(increment: f64, rotations: RotationIncrement) -> f64 {
     let angle = rotations.angle(increment);
     if angle == 0.0 { 1.0 } else { increment / angle }

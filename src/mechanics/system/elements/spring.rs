@@ -32,7 +32,7 @@ pub enum SpringKind {
     Torsion([Anchor; 2]),
 }
 
-/// Zero of the elongations on which a law depends.
+/// Configuration in which the elongation in a force law is zero.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Origin {
     /// The law depends on the length or angle itself.

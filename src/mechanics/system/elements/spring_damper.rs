@@ -54,9 +54,9 @@ pub struct SpringDamper {
     released: Option<(Option<SpringLaw>, DampingLaw)>,
     spring: MixedForce,
     damper: MixedForce,
-    /// `Δt`; infinite for increments of zero duration [time].
+    /// Duration `Δt` of the step; infinite for increments of zero duration [time].
     duration: f64,
-    /// Duration `Δt` of the last step, and its mean rate `Δq/Δt`.
+    /// Duration of the last step, and the mean rate of the elongation in that step.
     last: (f64, f64),
     rotations: RotationIncrement,
     /// Force along the coordinates from the start of the step. The force of the present iterate is in `current`.

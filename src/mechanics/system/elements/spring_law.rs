@@ -16,9 +16,9 @@ const SHARP_CORNER: f64 = 0.5;
 pub enum SpringLaw {
     /// `k (q - q₀)`
     Linear {
-        /// `k` [force/length, or force·length/rad].
+        /// Stiffness `k` [force/length, or force·length/rad].
         stiffness: f64,
-        /// `q₀`, the natural length or angle [length, rad].
+        /// Natural length or angle `q₀` [length, rad].
         natural: f64,
     },
     /// Polygon through points, extrapolated by the lines of its first and last segments.

@@ -73,15 +73,15 @@ pub struct RigidLink {
 }
 
 struct Iterated {
-    /// Arm `a0` at the start of the step. The arm `a1` at its end is in `end`, the arm of the force in `force_arm` [length].
+    /// Arm `a0` at the start of the step [length]. The next fields contain the arm at the end of the step, and the arm at which the force acts.
     start: Vec2,
     end: Vec2,
     force_arm: Vec2,
-    /// Force `λ` [force].
+    /// Constraint force `λ` on the body [force].
     force: Vec2,
     /// Derivative of the force with respect to its unknown.
     fraction: f64,
-    /// `dΔθ/dΔω` [-].
+    /// Derivative `dΔθ/dΔω` of the rotation angle with respect to the rotation increment [-].
     rate: f64,
     increment: f64,
 }
@@ -246,8 +246,9 @@ impl RigidLink {
         self.arm() * (-spin * spin)
     }
 
-    /// Difference between the velocity of the point and the velocity of its position in the body [length/time]. With the velocities at the ends of
-    /// steps it is an error of second order with alternating sign. With accelerations instead of velocities, it excludes the rotation of the arm.
+    /// Returns the difference between the velocity of the linked point and the velocity that the motion of the body gives this point [length/time].
+    /// At the end of a step it is an error of second order, whose sign alternates from step to step. If accelerations are given instead of
+    /// velocities, the result does not contain the centripetal acceleration of the arm.
     pub fn velocity_violation(&self, bodies: &Bodies, rates: &[f64]) -> Vec2 {
         let body = &bodies[self.body];
         let ([.., rotation], _) = self.degrees(bodies);

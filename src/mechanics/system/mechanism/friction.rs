@@ -1,8 +1,9 @@
 //! Friction of sliders: inertia across their masters, and the end of slip.
 
-use super::System;
 use super::impact::{ImpactDirection, ImpactLaw};
 use super::rigidity::Deformation;
+use super::{Instant, System};
+use crate::geometry::cross;
 use crate::linalg::LinearError;
 use crate::system::SystemError;
 
@@ -43,6 +44,16 @@ impl System {
             let inertia = if velocity > 0.0 { 1.0 / velocity } else { 0.0 };
             self.sliders[*slider].friction.iter_mut().for_each(|of| of.inertia_across = inertia);
         }
+    }
+
+    /// Lets sliders slip that stick with a present force along their masters above the friction limit. Returns true if there is one.
+    pub(super) fn start_overloaded_slips(&mut self, now: &Instant) -> bool {
+        let mut starts = false;
+        for at in 0..self.sliders.len() {
+            let (along, force) = (self.sliders[at].along(&self.bodies), now.contact(at));
+            starts |= self.sliders[at].slip_if_overloaded(along.dot(&force), cross(along, force));
+        }
+        starts
     }
 
     /// Lets a slider stick. Its remaining velocity along the master is removed by an impulse, whose work is lost.

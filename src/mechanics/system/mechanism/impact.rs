@@ -19,16 +19,17 @@ pub(super) type ImpactDirection = (usize, Vec2);
 /// Directions of contact impulses, and the deformations that take part in the impact.
 pub(super) type ImpactSelection<'a> = (&'a [ImpactDirection], Deformation);
 
-/// Ratio of the velocity response with selected deformations to the response with all deformations, below which a direction counts as rigid.
+/// Two velocity responses to an impulse are compared: with the deformations that take part, and with all deformations. If their ratio is below this
+/// value, the direction of the impulse counts as rigid.
 pub(super) const GIVES: f64 = 1e-9;
 
 /// Forces of a unit impulse in one direction, and the velocities that it causes.
 pub(super) struct ImpulseResponse {
-    /// `Gᵀ` at all degrees of freedom, including the impulses of section forces.
+    /// Generalised forces `Gᵀ` of the impulse at all degrees of freedom, including the impulses of section forces.
     pub(super) forces: Vec<f64>,
-    /// `M⁻¹ Gᵀ` at the unknowns.
+    /// Velocity changes `M⁻¹ Gᵀ` of the unknowns.
     pub(super) rates: Vec<f64>,
-    /// Nonzero entries of `Gᵀ`.
+    /// Indices of the nonzero entries of `forces`.
     touched: Vec<usize>,
     /// Impulses of section forces; empty if no strain resists the impulse.
     transmitted: Vec<f64>,
@@ -77,7 +78,7 @@ impl ImpactLaw {
         }
     }
 
-    /// Value by which the velocity misses the law without an impulse, for the velocity `w` before the impact [length/time].
+    /// Value by which the velocity would violate the law if no impulse acted [length/time]. `w` is the velocity before the impact.
     fn deficit(self, w: f64) -> f64 {
         match self {
             Self::Ends | Self::Held => w,
@@ -92,7 +93,7 @@ impl ImpactLaw {
 pub(super) struct ImpactProblem {
     directions: Vec<ImpactDirection>,
     responses: Vec<ImpulseResponse>,
-    /// `G M⁻¹ Gᵀ`, one row per contact direction [1/mass].
+    /// Velocity changes `G M⁻¹ Gᵀ` in all contact directions due to a unit impulse in each of them, one row per direction [1/mass].
     pub(super) response: Vec<Vec<f64>>,
     /// Relative velocities `w⁻` before the impact [length/time].
     before: Vec<f64>,
@@ -128,7 +129,8 @@ impl ImpactProblem {
         self.before.iter().enumerate().map(half_way).collect()
     }
 
-    /// Values by which the velocities miss the laws without contact impulses [length/time]. The laws belong to the last directions of the problem.
+    /// Values by which the velocities would violate the given laws if no contact impulse acted [length/time]. The laws apply to the last directions
+    /// of the impact problem.
     pub(super) fn lacks(&self, laws: &[ImpactLaw]) -> Vec<f64> {
         let first = self.before.len() - laws.len();
         let lack =
@@ -188,8 +190,8 @@ impl System {
         if missed.iter().all(|missed| missed.abs() <= negligible) {
             return;
         }
-        // The impulse that starts the motion acts before the start time and is therefore not accumulated. A singular matrix is ignored here,
-        // because the first step reports it.
+        // This impulse acts before the start time, so it is not added to the accumulated impulses. A singular matrix is ignored here, because the
+        // first step reports it.
         let before = std::mem::take(&mut self.exchanged);
         let struck = self.apply_transverse_impact();
         self.exchanged = before;
@@ -266,8 +268,8 @@ impl System {
         directions.iter().map(answer).collect()
     }
 
-    /// Velocity responses to unit impulses with the given deformations. In a direction in which these leave both partners rigid, all deformations
-    /// are used.
+    /// Computes the velocity responses to unit impulses if the given deformations take part. If both bodies respond rigidly to an impulse
+    /// direction, all deformations take part for this direction.
     ///
     /// # Errors
     /// Fails if the matrix is singular.
@@ -295,8 +297,8 @@ impl System {
         Ok(directions.iter().map(&mut answer).collect())
     }
 
-    /// Impact problem for the given directions. The velocity violation `w` of each rigid link changes by `links · w`. For `links = -2` the
-    /// violation is reversed, and the links do no work.
+    /// Creates the impact problem for the given directions. The velocity violation `w` of each rigid link changes by `links · w`. With `links =
+    /// -2`, the impact reverses the violation, and the links do no work.
     pub(super) fn impact_problem(
         &mut self,
         met: &[ImpactSelection<'_>],

@@ -28,13 +28,14 @@ pub struct ExchangeLedger {
 
 /// Impulses on all control points, with preallocated buffers.
 pub struct Impulses {
-    /// Separate degrees of freedom of every control point. During an evaluation, they are exchanged with the degrees of freedom of the model.
+    /// Degrees of freedom that are numbered separately for every control point, even if joints tie control points. For an evaluation, they
+    /// temporarily replace the degrees of freedom of the model.
     numbers: Vec<DegreesOfFreedom>,
-    /// Force unknowns of rigid links, numbered after all separate degrees of freedom. During an evaluation, they are exchanged with the numbers of
+    /// Force unknowns of rigid links, numbered after all separate degrees of freedom. For an evaluation, they temporarily replace the numbers in
     /// the model.
     links: Vec<[usize; 2]>,
-    /// `None` for each inclined roller, whose force is summed separately. During an evaluation, the list is exchanged with the force unknowns of
-    /// the model.
+    /// List with `None` for each inclined roller, because the forces of rollers are summed separately. For an evaluation, it temporarily replaces
+    /// the force unknowns in the model.
     rollers: Vec<Option<usize>>,
     values: Vec<f64>,
     /// Residual of the balance, with additional space for contact equations.
@@ -100,16 +101,22 @@ impl System {
         }));
     }
 
-    /// Sets all mean forces to the present ones, which are the means of a step of zero length. If these are unknown, for example because a load has no
-    /// value, the first step reports the reason.
+    /// Sets all mean forces to the present forces, which are the means over a step of zero length. If the present forces are unknown, for example
+    /// because a load has no value, the first step reports the reason.
     pub(crate) fn start_means(&mut self) {
         let has_drives = self.supports.prescribed().count() > 0;
         if self.sliders.is_empty() && !has_drives && self.exchanged.impulses.is_none() {
             return;
         }
-        let Ok(now) = self.instant() else { return };
+        let Ok(mut now) = self.instant() else { return };
+        if self.start_overloaded_slips(&now) {
+            let Ok(with_slip) = self.instant() else { return };
+            now = with_slip;
+        }
         for at in 0..self.sliders.len() {
+            let along = self.sliders[at].along(&self.bodies);
             self.sliders[at].start_mean_force(now.contact(at));
+            self.sliders[at].start_friction_force(now.contact(at).dot(&along));
         }
         self.supports.prescribed_mut().start_reactions(now.reactions().residual());
         if let Some(impulses) = &mut self.exchanged.impulses {

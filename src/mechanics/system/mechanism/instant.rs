@@ -8,6 +8,7 @@
 //! second-order accuracy, and these results have the same order. They depend on the present state only, so they are the same after a rewind, in a
 //! copy and in a simulation read from a file. They contain unresolved vibrations, which the mean of two consecutive steps does not.
 
+use super::impact::ImpactDirection;
 use super::{Reactions, System};
 use crate::beams::BodyPoint;
 use crate::geometry::Vec2;
@@ -151,12 +152,6 @@ impl System {
         if count == 0 {
             return Ok((accelerations, contacts));
         }
-        let mut response = BandedMatrix::zeros(count, count - 1);
-        for (row, answer) in answers.iter().enumerate() {
-            for (column, other) in answers.iter().enumerate() {
-                response.add(row, column, answer.velocity(&other.rates));
-            }
-        }
         let wanted = answers.iter().zip(&directions).map(|(answer, (slider, unit))| {
             let slider = &self.sliders[*slider];
             let carried = match slider.state {
@@ -165,11 +160,47 @@ impl System {
             };
             carried - answer.velocity(&accelerations)
         });
-        let mut forces: Vec<f64> = wanted.collect();
-        response.factorise()?.solve(&mut forces);
-        for ((force, answer), (slider, unit)) in forces.iter().zip(&answers).zip(&directions) {
+        let wanted: Vec<f64> = wanted.collect();
+        let solve = |rates: &[Vec<f64>]| -> Result<Vec<f64>, LinearError> {
+            let mut response = BandedMatrix::zeros(count, count - 1);
+            for (row, answer) in answers.iter().enumerate() {
+                for (column, other) in rates.iter().enumerate() {
+                    response.add(row, column, answer.velocity(other));
+                }
+            }
+            let mut forces = wanted.clone();
+            response.factorise()?.solve(&mut forces);
+            Ok(forces)
+        };
+        let without_friction: Vec<Vec<f64>> =
+            answers.iter().map(|answer| answer.rates.clone()).collect();
+        let mut forces = solve(&without_friction)?;
+        let mut units: Vec<Vec2> = directions.iter().map(|(_, unit)| *unit).collect();
+        let mut rates = without_friction;
+        // A force across a master takes a friction force along it with it, whose direction depends on the sign of the force across.
+        let slipping: Vec<usize> = (0..count)
+            .filter(|at| self.sliders[directions[*at].0].slip_ratio(1.0) != 0.0)
+            .collect();
+        if !slipping.is_empty() {
+            let along: Vec<ImpactDirection> = slipping
+                .iter()
+                .map(|at| directions[*at].0)
+                .map(|slider| (slider, self.sliders[slider].along(&self.bodies)))
+                .collect();
+            let by_along = self.impulse_responses(&inertia, &along);
+            for ((at, (slider, unit)), answer) in slipping.iter().zip(&along).zip(&by_along) {
+                let ratio = self.sliders[*slider].slip_ratio(-forces[*at].signum());
+                units[*at] += unit * ratio;
+                let all = rates[*at].iter_mut().zip(&answer.rates);
+                all.for_each(|(rate, along)| *rate += ratio * along);
+            }
+            forces = solve(&rates)?;
+        }
+        for (((force, rates), unit), (slider, _)) in
+            forces.iter().zip(&rates).zip(&units).zip(&directions)
+        {
             contacts[*slider] -= unit * *force;
-            let all = accelerations.iter_mut().zip(&answer.rates);
+            let all = accelerations.iter_mut().zip(rates);
             all.for_each(|(acceleration, rate)| *acceleration += force * rate);
         }
         Ok((accelerations, contacts))

@@ -1,6 +1,6 @@
-//! Releases of joints and drives. They tie degrees of freedom by common numbers, and a release gives these separate numbers.
+//! Releases of joints and drives. A joint ties degrees of freedom by giving them a common number; a release gives them separate numbers.
 //!
-//! A release changes neither positions nor rates. Energy and momenta of the bodies are unchanged to the last bit.
+//! A release changes neither positions nor rates. Energy and momenta of the bodies remain the same to the last bit.
 
 use super::System;
 use crate::beams::BodyPoint;

@@ -45,7 +45,8 @@ pub(super) enum Deformation {
 struct StrainResistance {
     degrees: Vec<usize>,
     strain: Vec<f64>,
-    /// Stiffness times integration length times `s`; for a suppressed strain, its penalty weight.
+    /// Resistance of the strain to an impulse: its stiffness times the integration length times `s = h²/4`, for steps of length `h`. For a
+    /// suppressed strain it is a penalty weight.
     weight: f64,
     is_rigid: bool,
 }

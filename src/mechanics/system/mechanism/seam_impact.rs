@@ -24,8 +24,8 @@ use crate::system::sliders::{MasterEnd, MasterLimit, Seam};
 /// Angle below which two tangents are equal within rounding [rad].
 const STRAIGHT: f64 = 1e-13;
 
-/// Determinant of the response, as a fraction of its squared trace, below which the response has rank one. Such a response is not rotated at
-/// corners.
+/// Determinant of the velocity response, as a fraction of its squared trace, below which an impulse can change the velocity of the slider in one
+/// direction only. Such a velocity is not rotated at corners.
 const ONE_WAY: f64 = 1e-20;
 
 /// Largest number of corrections of the rotation angles, for coupled sliders that pass corners simultaneously.
@@ -34,7 +34,7 @@ const CORRECTIONS: usize = 40;
 /// Tolerance of a rotation angle [rad].
 const RIGHT: f64 = 1e-12;
 
-/// Plausible range of the estimated derivative of the rotation angle with respect to its parameter.
+/// Range within which an estimated derivative of the rotation angle with respect to its parameter is plausible. Other estimates are not used.
 const SLOPES: std::ops::Range<f64> = 0.2..5.0;
 
 /// Corner that a slider passes: its directions before and after the corner [-].
@@ -69,7 +69,7 @@ pub(super) struct SeamCrossings {
 }
 
 impl SeamCrossings {
-    /// Corners between the section directions; empty if none has an angle.
+    /// Corners at which the section direction changes; empty if it changes at none of the seams.
     pub(super) fn corners_of_sections(&self) -> &[SeamCorner] {
         if self.sections.iter().all(SeamCorner::is_straight) { &[] } else { &self.sections }
     }
@@ -143,8 +143,8 @@ impl System {
         Ok(())
     }
 
-    /// Rotates the velocities of sliders at the ends of masters with a kink from the kinked to the smooth axis. The kink has no energy there, and
-    /// its motion becomes motion along the axis.
+    /// Adjusts the velocities of sliders that are at ends of masters with a kink. The velocity along the kinked axis is rotated to the smooth axis.
+    /// The kink has no energy at an end, and its motion becomes motion along the axis.
     pub(super) fn straighten_kinks(&mut self, limits: &[MasterLimit]) -> Result<(), LinearError> {
         let rates = &self.motion.rates;
         let corner = |&MasterLimit { slider, end }: &MasterLimit| {
@@ -251,7 +251,8 @@ pub(super) fn deflect_at_corners(
     Ok(last.filter(|_| !strikes).map(|impulses| encounter.with_works(impulses)))
 }
 
-/// Response `W` of each slider at a corner to its own impulse. The contacts that keep slaves on masters respond at the same time.
+/// Returns the velocity response `W` of each slider at a corner to its own impulse. The response includes the reactions of the contacts that keep
+/// slaves on their masters.
 fn own_responses(
     encounter: &ImpactProblem,
     corners: &[SeamCorner],
@@ -295,7 +296,7 @@ impl TurnSearch {
         Self { own: *own, required_angle, angle: required_angle, before: None }
     }
 
-    /// Factors of `P` and `J W P` in the equations of the corner.
+    /// Returns the factors of `P` and `J W P` in the equations of the corner, where `P` is the impulse.
     fn row(&self) -> (f64, f64) {
         let (sine, cosine) = sin_cos(0.5 * self.angle);
         match self.own.is_one_way() {

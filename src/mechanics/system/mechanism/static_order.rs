@@ -9,7 +9,7 @@ use crate::linalg::reverse_cuthill_mckee;
 pub struct StaticOrder {
     count: usize,
     half_bandwidth: usize,
-    /// Position of each unknown in the order of elimination; `None` if the order is that of time steps.
+    /// Position of each unknown in this order; `None` if the order is the same as in time steps.
     position: Option<Vec<usize>>,
 }
 
@@ -33,7 +33,7 @@ impl StaticOrder {
         }
     }
 
-    /// Returns true if the order is that of time steps.
+    /// Returns true if the order is the same as in time steps.
     pub(crate) fn is_step_order(&self) -> bool {
         self.position.is_none()
     }

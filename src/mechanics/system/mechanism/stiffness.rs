@@ -11,8 +11,8 @@ use crate::linalg::{PreciseBand, SymmetricSparse};
 use crate::system::links::RigidLink;
 use crate::system::state::UnknownKind;
 
-/// Penalty stiffness of rigid links, as a multiple of the stiffest element. It lowers frequencies by a relative amount smaller than its inverse.
-/// With 32 digits, all other stiffnesses can be resolved beside it.
+/// Penalty stiffness of rigid links, as a multiple of the largest stiffness at their degrees of freedom. The penalty lowers frequencies by a
+/// relative amount that is smaller than the inverse of this number. With 32 digits, all other stiffnesses remain resolved.
 const RIGID: f64 = 1e8;
 
 impl System {

@@ -77,8 +77,8 @@ impl System {
         limits.filter(arrives).collect()
     }
 
-    /// Returns true if the velocity of a slider at an end points beyond the end. The velocity is that of the deformations that take part in an
-    /// impact with steps of length `dt` [time].
+    /// Returns true if the velocity of a slider at an end points beyond the end. Only deformations that take part in an impact with steps of length
+    /// `dt` contribute to this velocity [time].
     ///
     /// # Errors
     /// Fails if the impulse is not determined.
@@ -156,9 +156,11 @@ impl System {
         self.sliders[limit.slider].along_contact(&self.bodies) * -limit.end.outward()
     }
 
-    /// Computes one impact of all sliders that arrive at ends of masters and at seams at the present time, for steps of length `dt` [time]. Stops
-    /// have the law `0 ≤ P ⟂ w⁺ + e w⁻ ≥ 0`, also those that hold sliders. Corners of seams rotate velocities. All other contacts are constraints.
-    /// Afterwards, sliders that pass a seam are on its other side.
+    /// Computes the impact of all sliders that arrive at ends of masters and at seams at the present time, for steps of length `dt` [time].
+    ///
+    /// All stops have the law `0 ≤ P ⟂ w⁺ + e w⁻ ≥ 0` with the impulse `P`, the coefficient of restitution `e`, and the relative velocities `w⁻`
+    /// before and `w⁺` after the impact. This includes stops at which sliders are held. A corner at a seam rotates the velocity of the slider. All
+    /// other contacts are constraints. Afterwards, a slider that passes a seam is on its other side.
     ///
     /// # Errors
     /// Fails if the impulses are not determined.
@@ -188,8 +190,8 @@ impl System {
             self.apply_impulses(&hits, corners, [Deformation::Resolved(RIGID * dt), at_stops])?;
         }
         if !arriving.plastic.is_empty() {
-            // This impact acted on a body with suppressed deformations. At the end of the body, a velocity due to rounding may remain, which is
-            // removed here.
+            // In this impact, some deformations of the struck body were suppressed. Rounding may have left a velocity at its end, which is removed
+            // here.
             let hits = self.impulse_directions(|_, limit| {
                 arriving.plastic.contains(&limit).then_some(ImpactLaw::Ends)
             });
@@ -199,8 +201,8 @@ impl System {
         self.pass_seams(&passages)
     }
 
-    /// Applies simultaneous impulses. Corners rotate the velocities of sliders that pass them; all other contacts follow their impact laws. For
-    /// impulses that hold sliders at a stop, all deformations take part.
+    /// Applies impulses at several contacts at once. Corners rotate the velocities of the sliders that pass them, and all other contacts follow
+    /// their impact laws. All deformations take part in the impulses that hold sliders at a stop.
     fn apply_impulses(
         &mut self,
         hits: &[ImpactContact],
@@ -266,10 +268,11 @@ impl System {
         Ok(())
     }
 
-    /// Gives the energy stored in stops to the sliders that leave. Their speeds are proportional to the square roots of their stored energies.
+    /// Returns the energy stored in stops to the sliders that leave them. The speeds of the sliders are proportional to the square roots of their
+    /// stored energies.
     ///
-    /// The impulses are linear in a common factor `s` of these speeds as long as the set of active contacts is the same. The returned energy is
-    /// then quadratic in `s`.
+    /// While the set of active contacts is the same, the impulses are proportional to the common factor of these speeds, and the returned energy to
+    /// its square.
     fn return_stop_energy(&mut self) -> Result<(), LinearError> {
         let hits = self.impulse_directions(|model, limit| {
             let slider = &model.sliders[limit.slider];
@@ -314,8 +317,8 @@ impl System {
         Ok(())
     }
 
-    /// Directions [-] of all contact impulses: along masters for held sliders and sliders with an impact law at a limit, and across masters for the
-    /// same sliders and for all sliders on masters without a kink.
+    /// Returns the directions of all contact impulses with their laws [-]. For a slider that is held or has an impact law at a limit, they are the
+    /// directions along and across the master. For any other slider on a master without a kink, it is the direction across the master.
     fn impulse_directions(
         &self,
         law: impl Fn(&Self, MasterLimit) -> Option<ImpactLaw>,

@@ -61,8 +61,8 @@ impl Scene {
         self.longest_beam().or_else(extent)
     }
 
-    /// Rounding error of strain energies, `ε Σ (EA L + EI/L)` [energy]. Without beams, it is the work of the initial forces along the rounding
-    /// errors of positions.
+    /// Rounding error of strain energies [energy]. For beams of length `L` with the stiffnesses `EA` and `EI` it is `ε Σ (EA L + EI/L)`, with the
+    /// machine precision `ε`. Without beams, it is the work that the initial forces do on the rounding errors of positions.
     pub(crate) fn rounding_energy(&self) -> f64 {
         if self.beams.is_empty() {
             return f64::EPSILON * self.rounded_work();
@@ -140,7 +140,7 @@ fn natural_length(spring: &Spring) -> f64 {
     }
 }
 
-/// Disjoint sets of connected particles and rigid bodies, with the group of each set.
+/// Particles and rigid bodies, divided into sets of connected ones. `ties` finds the set of a body, and `all` contains the data of each set.
 struct Groups {
     ties: Ties,
     all: Vec<Group>,

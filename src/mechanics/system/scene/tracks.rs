@@ -81,7 +81,7 @@ impl Scene {
         }
     }
 
-    /// Largest number of changes of stop and seam contacts in the search for one equilibrium.
+    /// Largest number of changes of the active stop and seam contacts in the search for an equilibrium.
     pub(crate) fn most_settlings(&self) -> usize {
         let on_tracks = self.sliders.iter().filter(|slider| slider.track.is_some());
         2 * self.sliders.len()

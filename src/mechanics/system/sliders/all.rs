@@ -271,13 +271,14 @@ impl Sliders {
     }
 
     /// Directions [-] of the present contact forces, with the index of the slider: across masters without a compliant axis, and along masters for
-    /// held sliders.
+    /// sliders that are held or stick.
     pub fn directions(&self, bodies: &[Body]) -> Vec<(usize, Vec2)> {
         let of_slider = |(at, slider): (usize, &SliderContact)| {
             let (across, along) = (slider.across(bodies), slider.along(bodies));
             match slider.state {
                 SliderState::Released => vec![],
                 SliderState::Sliding if slider.is_compliant() => vec![],
+                SliderState::Sliding if slider.sticks() => vec![(at, across), (at, along)],
                 SliderState::Sliding => vec![(at, across)],
                 SliderState::Held(_) => vec![(at, across), (at, along)],
             }

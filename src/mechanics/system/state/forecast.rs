@@ -16,7 +16,8 @@ pub enum Prediction {
     FromMeanRates,
 }
 
-/// Ratio of the squared error of the prediction by mean rates to that of the other prediction, below which mean rates are selected.
+/// Squared error of the prediction from mean rates, as a fraction of the squared error of the prediction from start rates, below which mean rates
+/// are selected.
 const SELECTION_RATIO: f64 = 0.8;
 
 /// Mean rates of the last step, and the selected basis of the prediction.

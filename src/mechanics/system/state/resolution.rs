@@ -33,11 +33,11 @@ const EQUALLY_LONG: f64 = 1e-3;
 /// frequencies, the sums add up (theory.md, section 13).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Resolution {
-    /// `Σ (m v̄² + S)` over all steps that are as long as the step before them [energy].
+    /// Measure of the kinetic energy: sum of `m v̄² + S` over all steps that are as long as the step before them [energy].
     kinetic: f64,
-    /// `Σ (S - M/4)` over the same steps [energy].
+    /// Sum of `S - M/4` over the same steps [energy].
     unresolved: f64,
-    /// `Σ h² M/16` over the same steps [energy·time²]; `ω² = unresolved / bent`.
+    /// Sum of `h² M/16` over the same steps [energy·time²]. The squared frequency is `ω² = unresolved / bent`.
     bent: f64,
     /// Length of the last step [time].
     last: f64,

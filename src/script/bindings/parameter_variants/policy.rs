@@ -1,4 +1,4 @@
-//! Rules for each domain: how calls are evaluated whose arguments depend on parameters.
+//! Rules for calls whose arguments depend on parameters. For each domain, a rule determines how such calls are evaluated.
 
 use crate::script::bindings::table::{BindingTable, CallSyntax, FunctionBinding};
 
@@ -9,7 +9,7 @@ pub enum Lifting {
     Each,
     /// The call is evaluated once, with the values of variant 0.
     AtValues,
-    /// The call is evaluated once, for receivers that contain their variants. Arguments that depend on parameters are rejected.
+    /// The call is evaluated once, because its receiver contains the data of all variants. An argument that depends on parameters is rejected.
     Once,
     /// The call is rejected, because the result would have no derivatives.
     Refused,

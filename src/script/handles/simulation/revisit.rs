@@ -12,7 +12,7 @@ use crate::simulation::Simulation;
 /// Replacement of a simulation by a copy. The original is put back when this object is dropped.
 pub struct Revisit {
     handle: SimulationHandle,
-    /// The original simulation. If the original is in use, it is the copy.
+    /// The original simulation, while its handles refer to the copy. While the original is being used itself, this field contains the copy.
     original: RefCell<Simulation>,
     events: Events<Rc<StoredFunction>>,
     is_ending_told: bool,

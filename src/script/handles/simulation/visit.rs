@@ -12,8 +12,8 @@ pub type Look<'l> = &'l mut dyn FnMut(usize, &Simulation) -> Result<(), ScriptEr
 pub enum Visited {
     /// All states were restored or computed again.
     All,
-    /// The repeated run differs from the original run, first at this time. Either a script function changed the simulation during the run, or the
-    /// initial state differs from that of the scene.
+    /// The repeated run differs from the original run; the value is the first time at which it differs. Either a script function changed the
+    /// simulation during the original run, or that run did not start from the initial state of the scene.
     Diverged(f64),
 }
 

@@ -36,8 +36,8 @@ impl Context {
     /// Writes a file in the output folder. If a file with this name exists and was not written by this program, it is kept under another name, and
     /// the user gets a message.
     ///
-    /// Fails if the file cannot be written or a limit of the run is exceeded.
-    /// Fails if it cannot be written, or a limit of the run is exceeded.
+    /// # Errors
+    /// Fails if the file cannot be written, or a limit of the run is exceeded.
     pub fn write_file(&self, name: &str, content: &[u8]) -> Result<PathBuf, ScriptError> {
         self.account_for(content)?;
         self.output().write(name, content).map(|written| self.report_kept(written))
@@ -63,8 +63,8 @@ impl Context {
     /// Writes a file that the script may [read](Self::read_file) later, also in a dry run. An existing file is kept as described for
     /// [`Self::write_file`].
     ///
-    /// Fails if the file cannot be written or a limit of the run is exceeded.
-    /// Fails if it cannot be written, or a limit of the run is exceeded.
+    /// # Errors
+    /// Fails if the file cannot be written, or a limit of the run is exceeded.
     pub fn write_to_read(&self, name: &str, content: Vec<u8>) -> Result<PathBuf, ScriptError> {
         self.account_for(&content)?;
         self.output().write_to_read(name, content).map(|written| self.report_kept(written))

@@ -12,7 +12,8 @@ pub(super) struct ElongationTerm {
     pub(super) change: f64,
     pub(super) secant: Vec2,
     pub(super) slope: Vec2,
-    /// Factor in `∂e/∂d₁ = (I - e⊗s) · inverse`, with the secant `e` and the end direction `s` [1/length].
+    /// Factor `inverse` in the derivative of the secant `e`: `∂e/∂d₁ = (I - e⊗s) · inverse`, where `d₁` is the connecting vector at the end and `s`
+    /// its direction [1/length].
     inverse: f64,
 }
 
@@ -41,7 +42,8 @@ impl ElongationTerm {
     }
 }
 
-/// Ratio `r = (Δθ_b - Δθ_a)/(Δω_b - Δω_a)`, with its derivatives with respect to `Δω_a` and `Δω_b`.
+/// Relative rotation of two sections. It contains the ratio `r = (Δθ_b - Δθ_a)/(Δω_b - Δω_a)`, and the derivatives of `r` with respect to `Δω_a`
+/// and `Δω_b`.
 pub(super) struct RelativeTurn {
     pub(super) ratio: f64,
     pub(super) derivatives: [f64; 2],

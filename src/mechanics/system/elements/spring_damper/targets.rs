@@ -62,7 +62,8 @@ impl SpringDamper {
         let Some(impedance) = impedance.filter(|_| self.rises) else { return asked };
         let force = self.spring.force;
         let above = |at: f64, of: ForceTarget| of.force - force + impedance * (at - change);
-        // A law of zero slope would intersect the line at `reach`. An increasing law intersects it between `change` and `reach`.
+        // A law of zero slope would intersect the straight line at the elongation change `reach`. An increasing law intersects it between `change`
+        // and `reach`.
         let reach = change - above(change, asked) / impedance;
         let (mut low, mut high) = (change.min(reach), change.max(reach));
         let (mut at, mut met) = (change, asked);
@@ -129,7 +130,7 @@ impl SpringDamper {
         }
     }
 
-    /// Extrapolated rate, and its derivative with respect to `Δq`.
+    /// Returns the extrapolated rate of the elongation, and the derivative of this rate with respect to the elongation change `Δq`.
     fn rate(&self, late: f64) -> (f64, f64) {
         let rate = self.elongation.change / self.duration;
         (rate + late * (rate - self.last.1), (1.0 + late) / self.duration)

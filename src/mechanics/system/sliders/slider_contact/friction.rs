@@ -206,6 +206,18 @@ impl SliderContact {
         sign * self.along(bodies).dot(&self.relative_velocity(bodies, rates)) < 0.0
     }
 
+    /// Returns true if the slider sticks to its master.
+    pub fn sticks(&self) -> bool {
+        self.active_friction().is_some_and(|friction| friction.mode == FrictionMode::Stick)
+    }
+
+    /// Ratio `T/N` of the contact forces along and across the master of a slider that slips, for a force across it of the given sign [-]; zero without
+    /// friction.
+    pub fn slip_ratio(&self, sign: f64) -> f64 {
+        let friction = self.active_friction();
+        friction.map_or(0.0, |friction| sign * friction.mode_number() * friction.coefficient)
+    }
+
     /// Lets the slider stick to its master from now on.
     pub fn stick(&mut self) {
         if let Some(friction) = &mut self.friction {
@@ -218,6 +230,24 @@ impl SliderContact {
         if let Some(friction) = &mut self.friction {
             friction.change_mode(FrictionMode::Slip(friction.forces.along.signum()));
         }
+    }
+
+    /// Lets a slider that sticks slip if a force along the master exceeds the friction limit of a force across it [force]. Returns true if it does.
+    pub fn slip_if_overloaded(&mut self, along: f64, across: f64) -> bool {
+        if !self.sticks() {
+            return false;
+        }
+        let Some(friction) = &mut self.friction else { return false };
+        let is_overloaded = along.abs() > friction.coefficient * across.abs();
+        if is_overloaded {
+            friction.set_mode_number(along.signum());
+        }
+        is_overloaded
+    }
+
+    /// Sets the mean friction force before the first step [force].
+    pub fn start_friction_force(&mut self, force: f64) {
+        self.friction.iter_mut().for_each(|friction| friction.force = force);
     }
 
     /// Chooses slip or stick by the velocity along the master: slip above a negligible velocity [length/time].
