@@ -182,7 +182,8 @@ impl LeastSquares {
     /// step that fails is shortened.
     ///
     /// # Errors
-    /// Returns an error of `evaluate`. The inner error is the reason why an evaluation failed without which the search cannot continue.
+    /// Returns an error of `evaluate`. The inner error is the reason why the search cannot start or continue: an evaluation that it needs has
+    /// failed, or has given values that are not finite.
     pub fn solve<E>(&self, evaluate: &mut Evaluate<'_, E>) -> Result<Result<Fitted, String>, E> {
         self.solve_with(evaluate, &mut |_| Ok(Err("differences are wanted".into())))
     }

@@ -80,9 +80,11 @@ fn empty_rows(count: usize, room: usize) -> Vec<CollocationRow<f64>> {
     std::iter::repeat_with(row).take(count).collect()
 }
 
-/// Coefficients of the spline in the run that is orthogonal to all splines of one degree less. The last coefficient is normalised to one.
+/// Coefficients `q_s` of a spline on a run of spans. The spline is orthogonal to all splines of one degree less on this run. The last coefficient is
+/// normalised to one.
 ///
-/// Its equations `Σ_s ∫ T_t N_s dξ q_s = 0` have a totally positive matrix with one more column than rows.
+/// The equations are `Σ_s q_s ∫ T_t N_s dξ = 0` for each spline `T_t` of one degree less, with the basis functions `N_s`. Their matrix is totally
+/// positive and has one more column than rows.
 fn orthogonal_spline(basis: &Basis, run: &[Span]) -> Option<Vec<f64>> {
     let (degree, offset) = (basis.degree(), run.first()?.first);
     let unknowns = lower_count(basis, run)?;

@@ -8,8 +8,8 @@ use crate::system::{Scene, System, UnknownKind};
 /// First step of a scene without beams, as a fraction of the time in which it moves by its length scale.
 const PART: f64 = 1e-3;
 
-/// Smallest distance `v²/g`, with the start speed `v`, that is used as a length scale. It is a fraction of the largest distance of a body from the
-/// origin.
+/// Smallest distance `v²/g` that is used as a length scale, as a fraction of the largest distance of a body from the origin. `v` is the start speed
+/// and `g` the gravity.
 const SHORTEST_WAY: f64 = 1e-3;
 
 /// Length scale of a scene: its [size](Scene::size). For isolated particles it is the distance `v²/g` in which gravity `g` generates the start

@@ -1,4 +1,4 @@
-//! Integrators, generated from the list of integrators.
+//! Functions of the language that select a time integration method.
 
 use rhai::Dynamic;
 

@@ -1,14 +1,15 @@
 //! Check of the values of `switch`. For values that it cannot compare, Rhai would execute the default case without an error.
 //!
-//! A private-use character after the keyword `switch` passes the expression that follows to the check. It is inserted into the text before parsing.
-//! It replaces a blank, so that columns are unchanged. If there is no blank, the rest of the line is shifted by one column.
+//! A private-use character is inserted after the keyword `switch` before parsing. For the parser it is a keyword of a custom syntax, which checks
+//! the value of the expression that follows. The character replaces a blank, so that columns are unchanged. If there is no blank, the rest of the
+//! line is shifted by one column.
 
 use rhai::{Dynamic, Engine, Position, Token};
 
 use super::text::Lexeme;
 use crate::script::messages::error::EngineResult;
 
-/// Private-use character that passes the `switch` expression to the check.
+/// Private-use character that is inserted after `switch`. The parser reads it as a keyword that checks the value of the following expression.
 pub const CHOICE: char = '\u{E007}';
 
 /// Name under which the parser knows this character.

@@ -56,7 +56,7 @@ pub struct CaseRunner<'c> {
 #[derive(Clone, Copy)]
 pub struct CaseTask<'t> {
     pub name: &'t str,
-    /// Serialised data other than the cases on which the results depend.
+    /// Serialised data on which the results depend, in addition to the cases.
     pub parts: &'t [u8],
 }
 

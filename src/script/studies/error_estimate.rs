@@ -114,7 +114,7 @@ impl QuantityError {
 
 /// Companion runs of an estimate.
 struct Plan {
-    /// Companions; the first two have larger steps on the same mesh.
+    /// Meshes and step sizes of the companion runs. The first two have the mesh of the simulation, and two and four times its step.
     companions: Vec<Companion>,
     /// Indices of the runs for the estimate in space, from the finest to the coarsest mesh.
     meshes: Option<[usize; 3]>,

@@ -146,8 +146,8 @@ impl Contact<'_> {
         PathVector { value, by_end: self.sum(self.path.slope(), 1.0) }
     }
 
-    /// Component `λ·x'(ξ1)` of the contact force along the master at the end of the step, positive if the slave pushes outwards at an end
-    /// [force·length]. `outward` is the sign of `dξ` towards this end.
+    /// Product `λ·dx/dξ` of the contact force and the tangent of the master at `ξ1`, at the end of the step [force·length]. It is positive if the
+    /// slave pushes outwards at an end of the master. `outward` is the sign of `dξ` towards this end.
     pub fn outward_push(&self, outward: f64) -> f64 {
         self.unknowns.force.dot(&self.end_point().by_end) * outward
     }

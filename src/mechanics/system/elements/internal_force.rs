@@ -51,7 +51,8 @@ pub trait InternalForce {
 
     fn correct(&mut self, bodies: &[Body], correction: &[f64]);
 
-    /// Work and impulse that the ground exerts through the element, in the step whose increments are stored in the bodies.
+    /// Work on the bodies, and impulse on them, by the ground or a flowing medium through the element in a step of length `duration`. The increments
+    /// of the step are stored in the bodies.
     fn exchange(&self, bodies: &[Body], duration: f64) -> WorkAndImpulse;
 
     /// Updates the element at the end of a step, from the increments stored in the bodies.

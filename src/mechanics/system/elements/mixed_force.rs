@@ -1,4 +1,4 @@
-//! Force of an element as an independent unknown that is iterated towards the force by its law (the target).
+//! Force of an element as an independent unknown. The iterations make it equal to the target, the force that the law of the element requires.
 
 use crate::geometry::larger;
 

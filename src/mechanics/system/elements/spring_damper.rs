@@ -42,7 +42,7 @@ pub struct SpringDamper {
     law: Option<SpringLaw>,
     /// True if the law has corners and is monotonically increasing.
     rises: bool,
-    /// Growths of the elongation at which the stiffness jumps [length, rad].
+    /// Changes of the elongation since the scene was built at which the stiffness jumps [length, rad].
     corners: Vec<f64>,
     /// Elongation of the law, in the terms of the scene, at which the growth of the elongation is zero.
     offset: f64,

@@ -1,9 +1,10 @@
 //! Impulses at sliders: consistent start velocities, and impacts at the ends of masters. Simultaneous impacts are computed together.
 //!
 //! Impulses `P` at contacts change the velocities by `M (v⁺ - v⁻) = Σ Gᵀ P`, where `G v` is the velocity of a slave relative to the contact point
-//! of the master. A contact without a gap conserves linear and angular momentum. A gap, as the relaxed rule has, changes the angular momentum. In
-//! an impact, `G v` is the part of the relative velocity that the steps resolve ([`Rigidity`]). The work of a contact on the bodies is `½ P (w⁻ +
-//! w⁺)`, with the relative velocities `w⁻` before and `w⁺` after the impact.
+//! of the master. An impulse at a closed contact conserves linear and angular momentum. With the relaxed sliding rule, the slave may have a gap from
+//! the master, and an impulse across a gap changes the angular momentum. In an impact, `G v` is the part of the relative velocity that the steps
+//! resolve ([`Rigidity`]). The work of a contact on the bodies is `½ P (w⁻ + w⁺)`, with the relative velocities `w⁻` before and `w⁺` after the
+//! impact.
 
 use super::System;
 use super::rigidity::{Deformation, Rigidity};

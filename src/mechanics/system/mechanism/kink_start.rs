@@ -14,8 +14,8 @@ use crate::system::SystemError;
 use crate::system::sliders::{KinkedAxis, SliderContact};
 
 impl System {
-    /// Starts all kinks of a scene as drawn, with the contact forces of rigid contacts at the start. Slaves and masters amid spans are moved apart by
-    /// `g a`; velocities at ends are rotated from the axis onto the kinked axis.
+    /// Starts all kinks of a scene as drawn, with the contact forces of rigid contacts at the start. Slaves and masters amid spans are moved apart
+    /// by `g a`. Velocities at ends are rotated from the axis onto the kinked axis.
     ///
     /// Kinks begin without load if the contact forces are unknown, for example because a load has no value; the first step reports the reason.
     ///

@@ -190,8 +190,8 @@ impl System {
             self.apply_impulses(&hits, corners, [Deformation::Resolved(RIGID * dt), at_stops])?;
         }
         if !arriving.plastic.is_empty() {
-            // In this impact, some deformations of the struck body were suppressed. Rounding may have left a velocity at its end, which is removed
-            // here.
+            // The impact above suppressed some deformations of the struck body. After it, rounding may have left a velocity of the slider against
+            // the stop. A second impact with all deformations removes this velocity.
             let hits = self.impulse_directions(|_, limit| {
                 arriving.plastic.contains(&limit).then_some(ImpactLaw::Ends)
             });

@@ -210,8 +210,9 @@ impl Sliders {
         furthest.or(leaves).map_or(Ok(()), Err)
     }
 
-    /// Transition of a slider with friction in the attempted step, or the distance from the end of slip at which it has to end. The end of slip comes
-    /// before the start of slip.
+    /// Transition of a slider with friction in the attempted step. For an end of slip, the distance is the velocity beyond zero at the end of the
+    /// step [length/time]. If `aim` is an end of slip, the step must end there, and a velocity of either sign is returned. An end of slip comes
+    /// before a start of slip.
     fn friction_overshoot(&self, unknowns: &[f64], aim: Option<SliderEvent>) -> Option<Overshoot> {
         let mut starts = None;
         for (index, slider) in self.iter().enumerate() {

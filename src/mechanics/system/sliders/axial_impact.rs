@@ -20,8 +20,8 @@ pub struct ImpactBar {
 }
 
 impl ImpactBar {
-    /// Travel time of the wave of an impact through the beam [time], or the stopping time `m/(c ρA)` of a striking mass, if that is shorter. `cosine`
-    /// is that of the angle `α` between impact and axis.
+    /// Travel time of the wave of an impact through the beam [time], or the stopping time `m/(c ρA)` of a striking mass, if that is shorter.
+    /// `cosine` is that of the angle `α` between impact and axis.
     ///
     /// The wave is axial for an impact along the axis, and a shear wave for one across it: `c² ρA = EA cos²α + GA sin²α`.
     pub fn wave_travel_time(&self, cosine: f64, mass: Option<f64>) -> f64 {

@@ -9,7 +9,8 @@ use crate::joints::{Kink, KinkMotion, KinkState};
 /// Kink length, relative to the length of the master, below which the axis counts as rigid at the slider.
 const RIGID: f64 = 1e-14;
 
-/// Largest speed at which a kink follows its force, relative to the speed of shear waves. At larger speeds the stiffness `GA - ρA v²` is nearly zero.
+/// Largest speed at which a kink follows its force, relative to the speed of shear waves. At larger speeds the stiffness `GA - ρA v²` is nearly
+/// zero.
 const FASTEST: f64 = 0.8;
 
 /// Largest speed at which a kink follows its force, relative to `√(GA/μρA)`, where the stiffness on the mesh of the master vanishes.
@@ -201,8 +202,8 @@ impl KinkedAxis {
         }
     }
 
-    /// Begins with the kink of a contact force [force] across the tangent `x'` of the axis [length]; without load if the force is too large for a kink
-    /// that begins.
+    /// Begins with the kink of a contact force [force] across the tangent `x'` of the axis [length]. If the force is too large for a kink that
+    /// begins, the kink begins without load.
     pub fn load(&mut self, force: Vec2, tangent: Vec2) {
         let is_small = force.norm() * self.compliance < LARGEST_START;
         self.jump = if is_small { force } else { Vec2::zeros() };

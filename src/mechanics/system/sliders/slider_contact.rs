@@ -69,7 +69,7 @@ pub struct SliderContact {
     /// Path of length zero at the start of the step.
     start_path: ContactPath,
     path: ContactPath,
-    /// Control points of the master in the window of the path, relative to the slave, at the start of the step. Their number is zero if they are to be
+    /// Control points of the master in the window of the path, relative to the slave, at the start of the step. The list is empty if they must be
     /// read again.
     before: Vec<Vec2>,
     /// Index of the first of them.

@@ -44,7 +44,7 @@ thread_local! {
     /// Names of the types of scene objects, with functions that return the parameter sets of objects of these types.
     static THINGS: RefCell<HashMap<TypeId, (&'static str, SceneParameters)>> = RefCell::default();
     static PRESENT: RefCell<Option<CurrentVariant>> = const { RefCell::new(None) };
-    /// Reason why the present call has no values in perturbed variants.
+    /// Reason why the present call has no results for the perturbed variants of the parameters; `None` if it has them.
     static LOST: RefCell<Option<Rc<str>>> = const { RefCell::new(None) };
 }
 

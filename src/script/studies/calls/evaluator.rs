@@ -45,7 +45,7 @@ enum Executor<'w> {
     ThisThread,
 }
 
-/// A function that can be evaluated.
+/// Evaluator of the function of a query, by worker threads or on this thread.
 pub struct Evaluator<'w> {
     call: &'w Call<'w, 'w>,
     question: &'w FunctionQuery<'w>,

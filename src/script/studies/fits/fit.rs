@@ -37,7 +37,7 @@ pub struct FitRequest<'o> {
     /// Option key of the function.
     pub key: &'static str,
     pub function: &'o FnPtr,
-    /// Further argument after the map of parameters.
+    /// Second argument of the function, if it has one. The first argument is the map of parameters.
     pub data: Option<Dynamic>,
     pub compared: Compared,
     /// Weights of the squares; `None` if all are one.

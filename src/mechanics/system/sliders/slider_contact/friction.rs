@@ -211,8 +211,8 @@ impl SliderContact {
         self.active_friction().is_some_and(|friction| friction.mode == FrictionMode::Stick)
     }
 
-    /// Ratio `T/N` of the contact forces along and across the master of a slider that slips, for a force across it of the given sign [-]; zero without
-    /// friction.
+    /// Ratio `T/N` of the contact forces along and across the master of a slider that slips, for a force across it of the given sign [-]; zero
+    /// without friction.
     pub fn slip_ratio(&self, sign: f64) -> f64 {
         let friction = self.active_friction();
         friction.map_or(0.0, |friction| sign * friction.mode_number() * friction.coefficient)
