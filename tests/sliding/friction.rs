@@ -168,20 +168,6 @@ fn a_bead_on_a_turning_bar_converges_with_second_order() {
     }
 }
 
-/// The start velocity across the bar is wrong by 0.5. It alternates from step to step, and the mean normal force with it grows with 1/Δt; the friction
-/// limit does not follow it.
-#[test]
-fn a_velocity_error_across_the_bar_does_not_change_friction() {
-    let errors = [20.0, 80.0, 320.0].map(|steps| {
-        let mut scene = turning_bar(0.3, -1.5);
-        scene.velocities[0].velocity.y += 0.5;
-        scene.sliders[0].velocities = withy::joints::StartVelocities::Project;
-        let simulation = simulate(scene, METHOD, 2.0 / steps, 2.0);
-        (place(&simulation) - 3.0 + 0.2576974203).abs()
-    });
-    assert!(errors[2] < 1e-5 && errors[0] < 1e-2, "{}", sci(&errors));
-}
-
 #[test]
 fn a_flexible_beam_that_flies_keeps_its_ledgers_at_any_step() {
     for friction in [0.3, 0.8] {

@@ -136,6 +136,11 @@ impl Simulation {
                 ArrivalEstimate::Located(landing) => return Ok(landing),
             };
             loop {
+                if let SliderEvent::SlipEnd(slider) = target
+                    && bracket.after.0 < NEAR * self.dt()
+                {
+                    return Ok(EventStep { step: None, event: Event::SlipEnd(slider) });
+                }
                 if bracket.is_converged() {
                     self.model.set_target(None);
                     let short = Interval::lasting(interval.start, bracket.before.0);
@@ -216,14 +221,15 @@ impl Simulation {
     /// Brackets the end of the slip of a slider with friction, given a step that ends after it.
     fn bracket_slip_end(&self, interval: Interval, slider: usize, beyond: f64) -> ArrivalEstimate {
         let speed = self.model.slip_speed(slider);
-        match speed > 0.0 {
-            true => ArrivalEstimate::Between(TimeBracket::new(
-                (0.0, -speed),
-                (interval.duration(), beyond),
-            )),
-            false => {
+        let bracket = TimeBracket::new((0.0, -speed), (interval.duration(), beyond));
+        // The forces of a very short step would consist of rounding errors.
+        let is_at_start =
+            speed <= 0.0 || beyond <= 0.0 || bracket.next_duration() < NEAR * self.dt();
+        match is_at_start {
+            true => {
                 ArrivalEstimate::Located(EventStep { step: None, event: Event::SlipEnd(slider) })
             }
+            false => ArrivalEstimate::Between(bracket),
         }
     }
 
@@ -323,7 +329,7 @@ impl Simulation {
     /// between such impacts belong to vibrations that the steps do not resolve.
     fn restart_kinks(&mut self) -> Result<(), SimulationError> {
         let last = self.progress.arrivals.last();
-        if last.is_some_and(|last| self.time() - last.time < self.dt()) {
+        if last.is_some_and(|last| self.time() - last.time < self.dt() - self.slack()) {
             return Ok(());
         }
         Ok(self.model.restart_kinks_at_ends()?)

@@ -5,13 +5,15 @@ use crate::geometry::{Vec2, cross};
 use crate::integrators::Interval;
 use crate::joints::{Friction, FrictionForces, FrictionMode};
 use crate::system::bodies::Body;
-use crate::system::sliders::SliderState;
 
 /// Velocity along the master at which slip ends, relative to that at the start of the step.
 const STOPPED: f64 = 1e-9;
 
 /// Rounding error of velocities, relative to the size of the master over the duration of the step.
 const ROUNDING: f64 = 1e-14;
+
+/// Duration of a step, relative to the longest one, below which friction does not act. The forces of such a step consist of rounding errors.
+const NEGLIGIBLE: f64 = 1e-7;
 
 /// Number of transitions in successive steps above which slip does not end within a step.
 const MOST_TRANSITIONS: usize = 8;
@@ -38,6 +40,8 @@ pub struct SliderFriction {
     /// Reciprocal of the velocity across the master that a unit impulse across it causes [mass].
     pub inertia_across: f64,
     duration: f64,
+    /// Duration of the longest step so far [time].
+    longest: f64,
     /// Forces of the last iterate.
     forces: FrictionForces,
     /// Mean force on the master along its tangent in the last step [force].
@@ -55,6 +59,7 @@ impl SliderFriction {
             start: (0.0, 0.0),
             inertia_across: 0.0,
             duration: f64::INFINITY,
+            longest: 0.0,
             forces: FrictionForces::default(),
             force: 0.0,
             transitions: 0,
@@ -64,6 +69,7 @@ impl SliderFriction {
     /// Friction of the contact in a step; `None` before the first step.
     pub(super) fn in_step(&self, window: std::ops::Range<usize>) -> Option<Friction<'_>> {
         let (slave, master) = &self.velocities;
+        self.acts().then_some(())?;
         Some(Friction {
             coefficient: self.coefficient,
             mode: self.mode,
@@ -73,6 +79,10 @@ impl SliderFriction {
             inertia_across: self.inertia_across,
             duration: self.duration,
         })
+    }
+
+    fn acts(&self) -> bool {
+        self.duration >= NEGLIGIBLE * self.longest
     }
 
     fn cuts_steps(&self) -> bool {
@@ -121,6 +131,10 @@ impl SliderContact {
         self.friction.as_deref().filter(|_| self.is_sliding())
     }
 
+    fn friction_in_step(&self) -> Option<&SliderFriction> {
+        self.active_friction().filter(|friction| friction.acts())
+    }
+
     pub(super) fn begin_friction(&mut self, bodies: &[Body], rates: &[f64], interval: Interval) {
         if self.active_friction().is_none() {
             return;
@@ -132,6 +146,7 @@ impl SliderContact {
         let Some(friction) = &mut self.friction else { return };
         friction.start = (along.dot(&velocity), cross(along, velocity));
         friction.duration = interval.duration();
+        friction.longest = friction.longest.max(interval.duration());
         friction.velocities.0 = slave;
         friction.velocities.1.clear();
         friction.velocities.1.extend((0..count).map(|at| master.vector_at(at, rates)));
@@ -145,9 +160,10 @@ impl SliderContact {
 
     /// Adds the work of the contact in an accepted step to the lost energy. The bodies must not be moved yet.
     pub(super) fn dissipate(&mut self, increment: f64) {
-        if let Some(friction) =
-            self.friction.as_mut().filter(|_| self.state == SliderState::Sliding)
-        {
+        if self.friction_in_step().is_none() {
+            return;
+        }
+        if let Some(friction) = &mut self.friction {
             self.lost_energy += increment * friction.forces.along;
             friction.force = friction.forces.along / friction.forces.tangent;
         }
@@ -161,17 +177,16 @@ impl SliderContact {
 
     /// Transition of the slider at the end of an attempted step with the given unknowns of all contacts.
     pub fn friction_transition(&self, unknowns: &[f64]) -> Option<FrictionTransition> {
-        let friction = self.active_friction()?;
+        let friction = self.friction_in_step()?;
         let increment = self.read(unknowns).increment;
         let FrictionForces { along, across, end_velocity, .. } = friction.forces;
         match friction.mode {
             FrictionMode::Slip(sign) => {
-                let (reversed, least) = match friction.cuts_steps() {
-                    true => (end_velocity, self.velocity_rounding(friction)),
-                    false => (increment, 0.0),
-                };
-                let beyond = -sign * reversed;
-                (beyond > least).then_some(FrictionTransition::SlipEnds(beyond))
+                // A slip against its sign would gain energy.
+                let is_against = sign * increment < 0.0;
+                let beyond = -sign * end_velocity;
+                let ends = friction.cuts_steps() && beyond > self.negligible_slip(friction);
+                (is_against || ends).then_some(FrictionTransition::SlipEnds(beyond))
             }
             FrictionMode::Stick => {
                 let is_exceeded = along.abs() > friction.coefficient * across.abs();
@@ -183,15 +198,15 @@ impl SliderContact {
 
     /// Velocity of the slip along the master at the end of the attempted step beyond zero [length/time]; `None` if it counts as zero.
     pub fn missed_slip_end(&self) -> Option<f64> {
-        let friction = self.active_friction()?;
+        let friction = self.friction_in_step()?;
         let FrictionMode::Slip(sign) = friction.mode else { return None };
         let beyond = -sign * friction.forces.end_velocity;
-        let tolerance = STOPPED * friction.start.0.abs() + self.velocity_rounding(friction);
-        (beyond.abs() > tolerance).then_some(beyond)
+        (beyond.abs() > self.negligible_slip(friction)).then_some(beyond)
     }
 
-    fn velocity_rounding(&self, friction: &SliderFriction) -> f64 {
-        ROUNDING * self.size / friction.duration
+    /// Velocity along the master that counts as zero [length/time].
+    fn negligible_slip(&self, friction: &SliderFriction) -> f64 {
+        STOPPED * friction.start.0.abs() + ROUNDING * self.size / friction.duration
     }
 
     /// Speed of the slip at the start of the step [length/time].
