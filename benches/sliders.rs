@@ -50,6 +50,7 @@ fn slide(scene: &mut Scene, slave: Station, master: usize, arc_length: f64) {
         rule: SlidingRule::Kinked,
         ends: EndAction::Bounce,
         restitution: 1.0,
+        friction: 0.0,
         velocities: StartVelocities::Check,
     };
     scene.add_slider(slider).unwrap();

@@ -78,6 +78,7 @@ fn beaded_beam(spans: usize, beads: usize) -> System {
             rule: SlidingRule::Conserving,
             ends: EndAction::Bounce,
             restitution: 1.0,
+            friction: 0.0,
             velocities: StartVelocities::Check,
         };
         scene.add_slider(slider).unwrap();
