@@ -187,7 +187,7 @@ pub const TABLE: BindingTable = BindingTable {
                 `present_reaction`. A joint with the ground is a support. The joint is given by the \
                 return value of scene.hinge or by its name, the kind and its number. A \
                 released joint has zero force.")
-            .example("let sim = scene.start(#{ dt: 0.01 });\ncheck(sim.present_joint_force(\"hinge1\").force == sim.present_reaction(rod.start).force);")
+            .example("let sim = scene.start(#{ dt: 0.01 });\nlet force = sim.present_joint_force(\"hinge1\").force;\ncheck(force == sim.present_reaction(rod.start).force);")
             .with_related(&["joint_force", "present_reaction"]),
         method(SIMULATION, "present_contact_force", &[object("slider", SLIDER)], |call| {
             let handle = call.receiver::<SimulationHandle>()?;

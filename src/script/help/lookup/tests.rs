@@ -69,7 +69,7 @@ fn methods_are_found_by_type_by_variable_and_alone() {
         "{simulation}"
     );
     assert!(simulation.contains("It comes from"), "{simulation}");
-    assert!(simulation.contains("scene.start(options)"), "{simulation}");
+    assert!(simulation.contains("scene.start([options])"), "{simulation}");
     let end = shown("range.end");
     assert!(end.contains("range.end") && !end.contains("beam"), "{end}");
     assert!(shown("end").contains("beam.end"), "{}", shown("end"));
