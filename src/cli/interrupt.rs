@@ -17,7 +17,7 @@ const REACTION_TIME: Duration = Duration::from_millis(900);
 /// Time for a run that has reacted to Ctrl-C to save its results.
 const TO_WRITE: Duration = Duration::from_secs(20);
 
-/// What is lost if Ctrl-C ends the program.
+/// Results that are lost if Ctrl-C ends the program.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum InterruptLoss {
     /// A run. The program ends after a grace period, or at the second Ctrl-C.

@@ -78,7 +78,7 @@ impl StudentReport {
     }
 }
 
-/// What must be done to find the mark of an attempt.
+/// Work that is needed to find the mark of an attempt.
 pub enum GradingTask {
     /// Nothing: the mark and its message are known without judging.
     Known(Mark, String),

@@ -36,7 +36,7 @@ pub enum CommandOutcome {
     Quit,
 }
 
-/// Where replies are written.
+/// Destination of replies.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ReplyTarget {
     /// A terminal with this style.
@@ -100,7 +100,7 @@ impl Shell {
         &mut self.session
     }
 
-    /// Where replies are written.
+    /// Destination of replies.
     pub fn screen(&self) -> ReplyTarget {
         self.screen
     }
@@ -256,7 +256,7 @@ impl Shell {
         CommandOutcome::Failed
     }
 
-    /// Whether replies are coloured.
+    /// Colours of replies.
     pub fn colours(&self) -> Colours {
         match self.screen {
             ReplyTarget::Terminal(style) => style.colours,

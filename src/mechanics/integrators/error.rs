@@ -100,7 +100,7 @@ pub enum StepError {
     /// Limit of a constraint that is passed within the step. The step must be repeated so that it ends at the limit.
     #[error(
         "limit {} of a constraint is exceeded within the step of {:.3e} from t = {}",
-        overshoot.limit, interval.duration(), interval.start
+        overshoot.event, interval.duration(), interval.start
     )]
     Overshoot {
         /// Interval of the step [time].

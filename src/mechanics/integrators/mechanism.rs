@@ -201,11 +201,11 @@ pub struct Solution<'a> {
     pub balanced: &'a [(Stage, f64)],
 }
 
-/// Limit of a constraint that was passed within a step.
+/// Event of a constraint that was passed within a step, such as a limit.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Overshoot {
-    /// Index of the limit among the limits of all constraints.
-    pub limit: usize,
-    /// Distance beyond the limit [length]; negative if the limit was not reached.
+    /// Number of the event among the events of all constraints.
+    pub event: usize,
+    /// Distance beyond the event, in a unit of the constraint; negative if the event was not reached.
     pub distance: f64,
 }

@@ -12,7 +12,7 @@ pub enum Glyphs {
     Ascii,
 }
 
-/// Whether colours are used in a terminal.
+/// Use of colours in a terminal.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Colours {
     /// Plain text.

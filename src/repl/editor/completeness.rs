@@ -2,7 +2,7 @@
 
 use crate::script::source::scanner::{Bracket, Token, TokenKind, scan};
 
-/// Whether an input is complete.
+/// Completeness of an input.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Completeness {
     /// The input can be evaluated, or its evaluation reports an error.

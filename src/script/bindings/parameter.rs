@@ -15,13 +15,13 @@ pub struct Parameter {
     pub unit: &'static str,
     /// Description for the help.
     pub doc: &'static str,
-    /// Whether the parameter is required, and its default.
+    /// Requirement and default.
     pub presence: Presence,
     /// Key of the same map that must be given too; may be empty.
     pub required_key: &'static str,
 }
 
-/// Whether a parameter is required, and its default.
+/// Requirement and default of a parameter.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Presence {
     /// The parameter is required.

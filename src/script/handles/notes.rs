@@ -5,7 +5,7 @@ use std::cell::RefCell;
 use crate::script::state::context::Context;
 use crate::simulation::{Simulation, Warning};
 
-/// Whether and when warnings are printed.
+/// Printing of warnings.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Printing {
     /// Warnings are printed at the end of a run.

@@ -30,7 +30,7 @@ pub struct MotionOptions {
     pub traces: Vec<(String, BodyPoint)>,
     /// Magnification of displacements since the start; `None` for the value 1.
     pub magnify: Option<f64>,
-    /// Whether knots or nodes are marked. If `None`, they are marked for a small number of spans.
+    /// Marks at knots or nodes. If `None`, they are drawn for a small number of spans.
     pub dots: Option<bool>,
     pub symbols: Visibility,
     pub limits: AxisLimits,

@@ -54,7 +54,7 @@ pub struct RunSettings {
 /// Options of the studies of a run.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct StudyPreferences {
-    /// Whether journals are used to resume interrupted studies.
+    /// Use of journals to resume interrupted studies.
     pub journal: JournalPreference,
     /// Number of repetitions when run times are measured; `None` to use the number in the script.
     pub repeats: Option<usize>,
@@ -64,7 +64,7 @@ pub struct StudyPreferences {
     pub merge: Vec<PathBuf>,
 }
 
-/// Whether the discretisation errors of all simulations are estimated at the end of a run.
+/// Estimation of the discretisation errors of all simulations at the end of a run.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum ErrorEstimation {
     /// They are not estimated.

@@ -44,21 +44,36 @@ pub struct Friction<'a> {
 /// Forces and velocities of a contact with friction in an iterate.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct FrictionForces {
-    /// `T |τ|` [force·length].
+    /// Force along the master times the length of the mean tangent, `T |τ|` [force·length].
     pub along: f64,
-    /// `N* |τ|` [force·length].
+    /// Force across the master in the friction limit times the length of the mean tangent, `N* |τ|` [force·length].
     pub across: f64,
-    /// `|τ|` [length].
+    /// Length of the mean tangent, `|τ|` [length].
     pub tangent: f64,
     /// Velocity of the slave along the master at the end of the step [length/time].
     pub end_velocity: f64,
 }
 
+/// Relative motion of slave and master at the end of a step.
+struct EndMotion {
+    /// Velocity of the slave relative to the contact point of the master [length/time].
+    velocity: Vec2,
+    /// Unit tangent of the master [-].
+    along: Vec2,
+    /// Change `w1 - w0` of the velocity across the master in the step [length/time].
+    change_across: f64,
+}
+
+impl Friction<'_> {
+    /// `1/(W Δt)` [mass/time].
+    fn impedance_across(&self) -> f64 {
+        self.inertia_across / self.duration
+    }
+}
+
 impl Contact<'_> {
-    /// Velocity of the slave relative to the contact point of the master at the end of the step [length/time], with the unit tangent there [-].
-    ///
-    /// The mean velocity of the step is that of the increments, as with the midpoint rule.
-    fn end_velocity(&self, friction: &Friction<'_>) -> (Vec2, Vec2) {
+    /// Motion at the end of the step if the mean velocity of the step is that of the increments, as with the midpoint rule.
+    fn end_motion(&self, friction: &Friction<'_>) -> EndMotion {
         let rate = 2.0 / friction.duration;
         let (_, moved) = self.master;
         let of_master = moved.iter().zip(friction.master_velocities);
@@ -71,19 +86,20 @@ impl Contact<'_> {
             .map(|(weight, velocity)| velocity * *weight)
             .sum();
         let of_slave = self.slave_movement * rate - friction.slave_velocity;
-        (of_slave - of_master, self.end_point().by_end.normalize())
+        let (velocity, along) = (of_slave - of_master, self.end_point().by_end.normalize());
+        let change_across = cross(along, velocity) - friction.start_velocity_across;
+        EndMotion { velocity, along, change_across }
     }
 
     /// Forces and velocities of the contact with friction.
     pub fn friction_forces(&self, friction: &Friction<'_>) -> FrictionForces {
         let (tangent, force) = (self.tangent().value, self.unknowns.force);
         let couple = self.unknowns.couple.dot(&self.tangent_change().value);
-        let (velocity, along) = self.end_velocity(friction);
-        let change = cross(along, velocity) - friction.start_velocity_across;
-        let inertia = friction.inertia_across / friction.duration;
+        let EndMotion { velocity, along, change_across } = self.end_motion(friction);
+        let impedance = friction.impedance_across();
         FrictionForces {
             along: force.dot(&tangent) + 4.0 * couple,
-            across: cross(tangent, force) + tangent.norm() * change * inertia,
+            across: cross(tangent, force) + tangent.norm() * change_across * impedance,
             tangent: tangent.norm(),
             end_velocity: along.dot(&velocity),
         }
@@ -95,14 +111,14 @@ impl Contact<'_> {
     pub fn with_friction(&self, friction: &Friction<'_>, frictionless: Equation) -> Equation {
         let FrictionMode::Slip(sign) = friction.mode else { return self.no_increment() };
         let (tangent, force) = (self.tangent(), self.unknowns.force);
-        let (velocity, along) = self.end_velocity(friction);
-        let change = cross(along, velocity) - friction.start_velocity_across;
-        let inertia = friction.inertia_across / friction.duration;
-        let (length, normal) = (tangent.value.norm(), perpendicular(along));
-        let across = cross(tangent.value, force) + length * change * inertia;
+        let EndMotion { along, change_across, .. } = self.end_motion(friction);
+        let impedance = friction.impedance_across();
+        let FrictionForces { across, tangent: length, .. } = self.friction_forces(friction);
         let factor = -sign * friction.coefficient * across.signum() / self.length;
-        let by_tangent = -perpendicular(force) + tangent.value * (change * inertia / length);
-        let by_velocity = normal * (length * inertia * factor * 2.0 / friction.duration);
+        let by_tangent =
+            -perpendicular(force) + tangent.value * (change_across * impedance / length);
+        let by_velocity =
+            perpendicular(along) * (length * impedance * factor * 2.0 / friction.duration);
         let mut equation = frictionless;
         equation.value += factor * across;
         equation.by_unknowns.force += perpendicular(tangent.value) * factor;

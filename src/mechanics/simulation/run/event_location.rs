@@ -1,4 +1,4 @@
-//! Location of arrivals of sliders at the ends of their masters, and the resulting events.
+//! Location of arrivals of sliders at the ends of their masters and of transitions of friction, and the resulting events.
 
 use super::Simulation;
 use crate::elementary::whole_power;
@@ -26,19 +26,15 @@ const CHATTER: usize = 3;
 /// Largest number of arrivals within one step of the grid. More arrivals are an error.
 pub(super) const MOST_ARRIVALS: usize = 10_000;
 
-/// Step that ends at the arrival of a slider at an end of its master.
+/// Step that ends at an event of a slider.
 pub(super) struct EventStep {
-    /// Interval of the step and its work. `None` if the slider is at the end and every step would lead beyond it.
+    /// Interval of the step and its work. `None` if the event is at the start of the step.
     pub(super) step: Option<(Interval, NewtonReport)>,
     event: Event,
 }
 
 enum Event {
-    Arrival(MasterLimit),
-    /// A slider with friction begins to stick.
-    SlipEnd(usize),
-    /// A slider with friction begins to slip.
-    SlipStart(usize),
+    Slider(SliderEvent),
     /// A slider would jump past a limit, so the step ends just before it.
     JustBefore,
     /// Sliders leave stops because of tensile stop forces.
@@ -115,7 +111,7 @@ impl Simulation {
         let mut tries = 0..MOST_TRIES;
         // One pass for each slider that arrives before the current target.
         loop {
-            let target = SliderEvent::of(overshoot.limit);
+            let target = SliderEvent::of(overshoot.event);
             self.model.set_target(Some(target));
             let bracket = match target {
                 SliderEvent::Limit(limit) if self.is_held(limit) => {
@@ -127,8 +123,8 @@ impl Simulation {
                 SliderEvent::SlipEnd(slider) => {
                     self.bracket_slip_end(cut, slider, overshoot.distance)
                 }
-                SliderEvent::SlipStart(slider) => {
-                    return Ok(EventStep { step: None, event: Event::SlipStart(slider) });
+                SliderEvent::SlipStart(_) => {
+                    return Ok(EventStep { step: None, event: Event::Slider(target) });
                 }
             };
             let mut bracket = match bracket {
@@ -136,10 +132,9 @@ impl Simulation {
                 ArrivalEstimate::Located(landing) => return Ok(landing),
             };
             loop {
-                if let SliderEvent::SlipEnd(slider) = target
-                    && bracket.after.0 < NEAR * self.dt()
-                {
-                    return Ok(EventStep { step: None, event: Event::SlipEnd(slider) });
+                let is_slip_end = matches!(target, SliderEvent::SlipEnd(_));
+                if is_slip_end && bracket.after.0 < NEAR * self.dt() {
+                    return Ok(EventStep { step: None, event: Event::Slider(target) });
                 }
                 if bracket.is_converged() {
                     self.model.set_target(None);
@@ -154,17 +149,12 @@ impl Simulation {
                 cut = Interval::lasting(interval.start, duration);
                 overshoot = match self.attempt(cut)? {
                     Ok(report) => {
-                        let event = match target {
-                            SliderEvent::Limit(limit) => Event::Arrival(limit),
-                            SliderEvent::SlipEnd(slider) | SliderEvent::SlipStart(slider) => {
-                                Event::SlipEnd(slider)
-                            }
-                        };
+                        let event = Event::Slider(target);
                         return Ok(EventStep { step: Some((cut, report)), event });
                     }
                     Err(overshoot) => overshoot,
                 };
-                if overshoot.limit != target.number() {
+                if overshoot.event != target.number() {
                     break;
                 }
                 bracket.narrow(duration, overshoot.distance);
@@ -181,7 +171,7 @@ impl Simulation {
     ) -> Result<ArrivalEstimate, StepError> {
         let mut after = (interval.duration(), distance);
         let left = self.model.distance_to(limit);
-        let at_once = EventStep { step: None, event: Event::Arrival(limit) };
+        let at_once = EventStep { step: None, event: Event::Slider(SliderEvent::Limit(limit)) };
         let number = SliderEvent::Limit(limit).number();
         let is_near = self.model.leads_beyond(limit) && left <= NEAR;
         if is_near && (!self.model.is_at(limit) || self.has_impact(limit)) {
@@ -199,13 +189,13 @@ impl Simulation {
             let cut = Interval::lasting(interval.start, duration);
             match self.attempt(cut)? {
                 Ok(report) => {
-                    let event = Event::Arrival(limit);
+                    let event = Event::Slider(SliderEvent::Limit(limit));
                     return Ok(ArrivalEstimate::Located(EventStep {
                         step: Some((cut, report)),
                         event,
                     }));
                 }
-                Err(overshoot) if overshoot.limit != number => {}
+                Err(overshoot) if overshoot.event != number => {}
                 Err(Overshoot { distance, .. }) if distance < 0.0 => {
                     return Ok(ArrivalEstimate::Between(TimeBracket::new(
                         (duration, distance),
@@ -226,9 +216,10 @@ impl Simulation {
         let is_at_start =
             speed <= 0.0 || beyond <= 0.0 || bracket.next_duration() < NEAR * self.dt();
         match is_at_start {
-            true => {
-                ArrivalEstimate::Located(EventStep { step: None, event: Event::SlipEnd(slider) })
-            }
+            true => ArrivalEstimate::Located(EventStep {
+                step: None,
+                event: Event::Slider(SliderEvent::SlipEnd(slider)),
+            }),
             false => ArrivalEstimate::Between(bracket),
         }
     }
@@ -260,14 +251,16 @@ impl Simulation {
     /// Executes the events of all simultaneous arrivals: the run stops, or sliders bounce, are held, or are released.
     pub(super) fn execute_arrivals(&mut self, landing: &EventStep) -> Result<(), SimulationError> {
         let limit = match landing.event {
-            Event::Arrival(limit) => limit,
+            Event::Slider(SliderEvent::Limit(limit)) => limit,
             Event::JustBefore => return Ok(()),
             Event::StopRelease => {
                 self.model.leave_tensile_stops()?;
                 return self.restart_kinks();
             }
-            Event::SlipEnd(slider) => return Ok(self.model.end_slip(slider)?),
-            Event::SlipStart(slider) => {
+            Event::Slider(SliderEvent::SlipEnd(slider)) => {
+                return Ok(self.model.end_slip(slider)?);
+            }
+            Event::Slider(SliderEvent::SlipStart(slider)) => {
                 self.model.start_slip(slider);
                 return Ok(());
             }

@@ -151,7 +151,7 @@ impl Simulation {
     fn no_step(&self, dt: f64, divisions: u64, source: StepError) -> SimulationError {
         let (time, plight) = (self.time(), self.plight());
         if let StepError::Overshoot { overshoot, .. } = &source {
-            let (slider, event) = match SliderEvent::of(overshoot.limit) {
+            let (slider, event) = match SliderEvent::of(overshoot.event) {
                 SliderEvent::Limit(limit) => {
                     (limit.slider, format!("reaches the {} of its beam", limit.end.name()))
                 }

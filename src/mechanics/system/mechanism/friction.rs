@@ -30,12 +30,10 @@ impl System {
 
     /// Determines the inertia of all sliders with friction across their masters. Without a response to an impulse it is zero.
     pub(super) fn measure_inertia_across(&mut self) {
-        let across = |(at, slider): (usize, &_)| -> Option<ImpactDirection> {
-            let slider: &crate::system::sliders::SliderContact = slider;
-            slider.active_friction().map(|_| (at, slider.across(&self.bodies)))
-        };
+        let sliders = self.sliders.iter().enumerate();
+        let with_friction = sliders.filter(|(_, slider)| slider.active_friction().is_some());
         let directions: Vec<ImpactDirection> =
-            self.sliders.iter().enumerate().filter_map(across).collect();
+            with_friction.map(|(at, slider)| (at, slider.across(&self.bodies))).collect();
         let mut inertia = self.banded_inertia();
         let Ok(inertia) = inertia.factorise() else { return };
         let responses = self.impulse_responses(&inertia, &directions);
@@ -86,7 +84,7 @@ impl System {
         self.stop_along(&reversed).map_err(|_| self.sliders.overdetermined())
     }
 
-    /// Removes the velocities of sliders along their masters by impulses, while all contacts across masters stay closed.
+    /// Removes the velocities of sliders along their masters by impulses along the masters. Their work is lost.
     fn stop_along(&mut self, stopping: &[usize]) -> Result<(), LinearError> {
         let along = stopping.iter().map(|&at| (at, self.sliders[at].along(&self.bodies)));
         let along: Vec<ImpactDirection> = along.collect();

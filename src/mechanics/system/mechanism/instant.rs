@@ -8,12 +8,12 @@
 //! second-order accuracy, and these results have the same order. They depend on the present state only, so they are the same after a rewind, in a
 //! copy and in a simulation read from a file. They contain unresolved vibrations, which the mean of two consecutive steps does not.
 
-use super::impact::ImpactDirection;
+use super::impact::{ImpactDirection, ImpulseResponse};
 use super::{Reactions, System};
 use crate::beams::BodyPoint;
 use crate::geometry::Vec2;
 use crate::integrators::{Inertia, Mechanism, Stage};
-use crate::linalg::{BandedMatrix, LinearError};
+use crate::linalg::{BandedLu, BandedMatrix, LinearError};
 use crate::system::elements::{TrialState, collocation};
 use crate::system::links::InclinedRoller;
 use crate::system::{SliderState, SystemError};
@@ -26,6 +26,14 @@ pub struct Instant {
     reactions: Reactions,
     /// Force of each slave on its master [force].
     contacts: Vec<Vec2>,
+}
+
+/// Force of a contact on its slave, and the accelerations that it causes.
+struct UnitForce {
+    /// Force on the slave; of unit length without friction [-].
+    direction: Vec2,
+    /// Accelerations of the unknowns per force.
+    rates: Vec<f64>,
 }
 
 impl Instant {
@@ -161,49 +169,56 @@ impl System {
             carried - answer.velocity(&accelerations)
         });
         let wanted: Vec<f64> = wanted.collect();
-        let solve = |rates: &[Vec<f64>]| -> Result<Vec<f64>, LinearError> {
+        let solve = |units: &[UnitForce]| -> Result<Vec<f64>, LinearError> {
             let mut response = BandedMatrix::zeros(count, count - 1);
             for (row, answer) in answers.iter().enumerate() {
-                for (column, other) in rates.iter().enumerate() {
-                    response.add(row, column, answer.velocity(other));
+                for (column, unit) in units.iter().enumerate() {
+                    response.add(row, column, answer.velocity(&unit.rates));
                 }
             }
             let mut forces = wanted.clone();
             response.factorise()?.solve(&mut forces);
             Ok(forces)
         };
-        let without_friction: Vec<Vec<f64>> =
-            answers.iter().map(|answer| answer.rates.clone()).collect();
-        let mut forces = solve(&without_friction)?;
-        let mut units: Vec<Vec2> = directions.iter().map(|(_, unit)| *unit).collect();
-        let mut rates = without_friction;
-        // A force across a master takes a friction force along it with it, whose direction depends on the sign of the force across.
-        let slipping: Vec<usize> = (0..count)
-            .filter(|at| self.sliders[directions[*at].0].slip_ratio(1.0) != 0.0)
-            .collect();
-        if !slipping.is_empty() {
-            let along: Vec<ImpactDirection> = slipping
-                .iter()
-                .map(|at| directions[*at].0)
-                .map(|slider| (slider, self.sliders[slider].along(&self.bodies)))
-                .collect();
-            let by_along = self.impulse_responses(&inertia, &along);
-            for ((at, (slider, unit)), answer) in slipping.iter().zip(&along).zip(&by_along) {
-                let ratio = self.sliders[*slider].slip_ratio(-forces[*at].signum());
-                units[*at] += unit * ratio;
-                let all = rates[*at].iter_mut().zip(&answer.rates);
-                all.for_each(|(rate, along)| *rate += ratio * along);
-            }
-            forces = solve(&rates)?;
+        let unit_force = |(answer, (_, unit)): (&ImpulseResponse, &ImpactDirection)| UnitForce {
+            direction: *unit,
+            rates: answer.rates.clone(),
+        };
+        let mut units: Vec<UnitForce> = answers.iter().zip(&directions).map(unit_force).collect();
+        let mut forces = solve(&units)?;
+        if self.add_slip_friction(&inertia, &directions, &forces, &mut units) {
+            forces = solve(&units)?;
         }
-        for (((force, rates), unit), (slider, _)) in
-            forces.iter().zip(&rates).zip(&units).zip(&directions)
-        {
-            contacts[*slider] -= unit * *force;
-            let all = accelerations.iter_mut().zip(rates);
+        for ((force, unit), (slider, _)) in forces.iter().zip(&units).zip(&directions) {
+            contacts[*slider] -= unit.direction * *force;
+            let all = accelerations.iter_mut().zip(&unit.rates);
             all.for_each(|(acceleration, rate)| *acceleration += force * rate);
         }
         Ok((accelerations, contacts))
+    }
+
+    /// Adds the friction of sliders that slip to unit forces across their masters. Its direction depends on the sign of the force across, which is
+    /// that of the given forces without friction. Returns true if a slider slips.
+    fn add_slip_friction(
+        &self,
+        inertia: &BandedLu<'_>,
+        directions: &[ImpactDirection],
+        forces: &[f64],
+        units: &mut [UnitForce],
+    ) -> bool {
+        let ratio = |at: usize| self.sliders[directions[at].0].slip_ratio(-forces[at].signum());
+        let slipping: Vec<usize> = (0..directions.len()).filter(|at| ratio(*at) != 0.0).collect();
+        let sliders = slipping.iter().map(|at| directions[*at].0);
+        let along: Vec<ImpactDirection> =
+            sliders.map(|slider| (slider, self.sliders[slider].along(&self.bodies))).collect();
+        let by_along = self.impulse_responses(inertia, &along);
+        for ((at, (_, tangent)), answer) in slipping.iter().zip(&along).zip(&by_along) {
+            let (unit, ratio) = (&mut units[*at], ratio(*at));
+            unit.direction += tangent * ratio;
+            let all = unit.rates.iter_mut().zip(&answer.rates);
+            all.for_each(|(rate, along)| *rate += ratio * along);
+        }
+        !slipping.is_empty()
     }
 
     /// Acceleration of a point of a body [length/time²].

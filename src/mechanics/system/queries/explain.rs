@@ -16,11 +16,11 @@ use crate::system::{BeamDefinition, Drive, Scene, System, SystemError};
 pub struct SystemFeature {
     /// Description of the part.
     pub name: String,
-    /// Whether and how the part is used.
+    /// Use of the part.
     pub usage: Usage,
 }
 
-/// Whether and how a part of the mechanics is used.
+/// Use of a part of the mechanics.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Usage {
     /// The part is used; the text describes how.

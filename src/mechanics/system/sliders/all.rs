@@ -188,7 +188,7 @@ impl Sliders {
         for limit in limits.filter(|limit| self[limit.slider].is_sliding()) {
             let distance = self[limit.slider].overshoot(unknowns, limit.end);
             let event = SliderEvent::Limit(limit);
-            let overshoot = Overshoot { limit: event.number(), distance };
+            let overshoot = Overshoot { event: event.number(), distance };
             if aim == Some(event) && distance.abs() > END_TOLERANCE {
                 return Err(overshoot);
             }
@@ -206,7 +206,7 @@ impl Sliders {
             SliderState::Sliding | SliderState::Released => None,
         });
         let leaves = leaves
-            .map(|limit| Overshoot { limit: SliderEvent::Limit(limit).number(), distance: 0.0 });
+            .map(|limit| Overshoot { event: SliderEvent::Limit(limit).number(), distance: 0.0 });
         furthest.or(leaves).map_or(Ok(()), Err)
     }
 
@@ -217,20 +217,20 @@ impl Sliders {
         let mut starts = None;
         for (index, slider) in self.iter().enumerate() {
             let event = SliderEvent::SlipEnd(index);
-            let (limit, is_aim) = (event.number(), aim == Some(event));
+            let (number, is_aim) = (event.number(), aim == Some(event));
             if is_aim {
                 if let Some(distance) = slider.missed_slip_end() {
-                    return Some(Overshoot { limit, distance });
+                    return Some(Overshoot { event: number, distance });
                 }
                 continue;
             }
             match slider.friction_transition(unknowns) {
-                Some(FrictionTransition::SlipEnds(distance)) => {
-                    return Some(Overshoot { limit, distance });
+                Some(FrictionTransition::SlipEnds { reversed: distance }) => {
+                    return Some(Overshoot { event: number, distance });
                 }
                 Some(FrictionTransition::SlipStarts) => {
-                    let limit = SliderEvent::SlipStart(index).number();
-                    starts = starts.or(Some(Overshoot { limit, distance: 0.0 }));
+                    let event = SliderEvent::SlipStart(index).number();
+                    starts = starts.or(Some(Overshoot { event, distance: 0.0 }));
                 }
                 None => {}
             }

@@ -21,8 +21,11 @@ const MOST_TRANSITIONS: usize = 8;
 /// Transition of a slider with friction at the end of an attempted step.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum FrictionTransition {
-    /// Slip ends. The value is the velocity along the master beyond zero at the end of the step [length/time].
-    SlipEnds(f64),
+    /// Slip ends.
+    SlipEnds {
+        /// Velocity along the master at the end of the step, positive against the slip [length/time].
+        reversed: f64,
+    },
     /// The force along the master exceeds the friction limit.
     SlipStarts,
 }
@@ -33,10 +36,14 @@ pub struct SliderFriction {
     /// Coefficient of friction [-].
     coefficient: f64,
     pub mode: FrictionMode,
-    /// Velocities of slave and control points of the master at the start of the step [length/time].
-    velocities: (Vec2, Vec<Vec2>),
-    /// Velocities of the slave along and across the master at the start of the step [length/time].
-    start: (f64, f64),
+    /// Velocity of the slave at the start of the step [length/time].
+    slave_velocity: Vec2,
+    /// Velocities of the control points of the master at the start of the step [length/time].
+    master_velocities: Vec<Vec2>,
+    /// Velocity of the slave along the master at the start of the step [length/time].
+    start_velocity_along: f64,
+    /// Velocity of the slave across the master at the start of the step [length/time].
+    start_velocity_across: f64,
     /// Reciprocal of the velocity across the master that a unit impulse across it causes [mass].
     pub inertia_across: f64,
     duration: f64,
@@ -46,7 +53,7 @@ pub struct SliderFriction {
     forces: FrictionForces,
     /// Mean force on the master along its tangent in the last step [force].
     force: f64,
-    /// Number of transitions less the number of steps since then.
+    /// Number of transitions minus the number of steps, at least zero. It grows if transitions follow one another without steps in between.
     transitions: usize,
 }
 
@@ -55,8 +62,10 @@ impl SliderFriction {
         Self {
             coefficient,
             mode: FrictionMode::Stick,
-            velocities: (Vec2::zeros(), Vec::new()),
-            start: (0.0, 0.0),
+            slave_velocity: Vec2::zeros(),
+            master_velocities: Vec::new(),
+            start_velocity_along: 0.0,
+            start_velocity_across: 0.0,
             inertia_across: 0.0,
             duration: f64::INFINITY,
             longest: 0.0,
@@ -66,16 +75,15 @@ impl SliderFriction {
         }
     }
 
-    /// Friction of the contact in a step; `None` before the first step.
+    /// Friction of the contact in a step; `None` before the first step, and in steps in which friction does not act.
     pub(super) fn in_step(&self, window: std::ops::Range<usize>) -> Option<Friction<'_>> {
-        let (slave, master) = &self.velocities;
-        self.acts().then_some(())?;
+        let master_velocities = self.master_velocities.get(window).filter(|_| self.acts())?;
         Some(Friction {
             coefficient: self.coefficient,
             mode: self.mode,
-            slave_velocity: *slave,
-            master_velocities: master.get(window)?,
-            start_velocity_across: self.start.1,
+            slave_velocity: self.slave_velocity,
+            master_velocities,
+            start_velocity_across: self.start_velocity_across,
             inertia_across: self.inertia_across,
             duration: self.duration,
         })
@@ -144,12 +152,13 @@ impl SliderContact {
         let master = &bodies[self.connection.master];
         let count = master.dynamics.control_points().len();
         let Some(friction) = &mut self.friction else { return };
-        friction.start = (along.dot(&velocity), cross(along, velocity));
+        friction.start_velocity_along = along.dot(&velocity);
+        friction.start_velocity_across = cross(along, velocity);
         friction.duration = interval.duration();
         friction.longest = friction.longest.max(interval.duration());
-        friction.velocities.0 = slave;
-        friction.velocities.1.clear();
-        friction.velocities.1.extend((0..count).map(|at| master.vector_at(at, rates)));
+        friction.slave_velocity = slave;
+        friction.master_velocities.clear();
+        friction.master_velocities.extend((0..count).map(|at| master.vector_at(at, rates)));
     }
 
     pub(super) fn record_friction(&mut self, forces: Option<FrictionForces>) {
@@ -184,9 +193,9 @@ impl SliderContact {
             FrictionMode::Slip(sign) => {
                 // A slip against its sign would gain energy.
                 let is_against = sign * increment < 0.0;
-                let beyond = -sign * end_velocity;
-                let ends = friction.cuts_steps() && beyond > self.negligible_slip(friction);
-                (is_against || ends).then_some(FrictionTransition::SlipEnds(beyond))
+                let reversed = -sign * end_velocity;
+                let ends = friction.cuts_steps() && reversed > self.negligible_slip(friction);
+                (is_against || ends).then_some(FrictionTransition::SlipEnds { reversed })
             }
             FrictionMode::Stick => {
                 let is_exceeded = along.abs() > friction.coefficient * across.abs();
@@ -196,23 +205,23 @@ impl SliderContact {
         }
     }
 
-    /// Velocity of the slip along the master at the end of the attempted step beyond zero [length/time]; `None` if it counts as zero.
+    /// Velocity along the master at the end of the attempted step, positive against the slip [length/time]; `None` if it counts as zero.
     pub fn missed_slip_end(&self) -> Option<f64> {
         let friction = self.friction_in_step()?;
         let FrictionMode::Slip(sign) = friction.mode else { return None };
-        let beyond = -sign * friction.forces.end_velocity;
-        (beyond.abs() > self.negligible_slip(friction)).then_some(beyond)
+        let reversed = -sign * friction.forces.end_velocity;
+        (reversed.abs() > self.negligible_slip(friction)).then_some(reversed)
     }
 
     /// Velocity along the master that counts as zero [length/time].
     fn negligible_slip(&self, friction: &SliderFriction) -> f64 {
-        STOPPED * friction.start.0.abs() + ROUNDING * self.size / friction.duration
+        STOPPED * friction.start_velocity_along.abs() + ROUNDING * self.size / friction.duration
     }
 
     /// Speed of the slip at the start of the step [length/time].
     pub fn slip_speed(&self) -> f64 {
         let friction = self.active_friction();
-        friction.map_or(0.0, |friction| friction.mode_number() * friction.start.0)
+        friction.map_or(0.0, |friction| friction.mode_number() * friction.start_velocity_along)
     }
 
     /// Returns true if the velocity along the master is opposite to the slip.
