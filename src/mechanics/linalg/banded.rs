@@ -99,7 +99,12 @@ impl BandedMatrix {
     /// Fails if a column has no nonzero finite pivot. The entries are then lost.
     pub fn factorise(&mut self) -> Result<BandedLu<'_>, LinearError> {
         Arch::new().dispatch(Elimination(self.storage.rows_mut()))?;
-        Ok(BandedLu { factors: self.storage.factors() })
+        Ok(self.factors())
+    }
+
+    /// Factors that [`factorise`](Self::factorise) has computed.
+    pub(crate) fn factors(&self) -> BandedLu<'_> {
+        BandedLu { factors: self.storage.factors() }
     }
 }
 

@@ -53,6 +53,8 @@ pub struct System {
     exchanged: ExchangeLedger,
     step: StepMeasures,
     saved_state: SystemState,
+    /// `None` until a step with friction begins.
+    inertia_solver: Option<Box<friction::InertiaSolver>>,
 }
 
 impl System {
@@ -77,6 +79,7 @@ impl System {
             exchanged: ExchangeLedger::default(),
             step: StepMeasures::new(degrees_of_freedom),
             saved_state: SystemState::default(),
+            inertia_solver: None,
         }
     }
 

@@ -46,10 +46,15 @@ impl System {
     pub(super) fn banded_inertia(&self) -> BandedMatrix {
         let mut inertia =
             BandedMatrix::zeros(self.unknowns.count(), self.unknowns.half_bandwidth());
-        self.add_inertia_tangent(1.0, &mut inertia);
-        self.links.add_coupling(&self.bodies, self.unknowns.count(), &mut inertia);
-        inertia.weigh_rows();
+        self.fill_banded_inertia(&mut inertia);
         inertia
+    }
+
+    /// Adds the entries of [`banded_inertia`](Self::banded_inertia) to a zero matrix.
+    pub(super) fn fill_banded_inertia(&self, inertia: &mut BandedMatrix) {
+        self.add_inertia_tangent(1.0, inertia);
+        self.links.add_coupling(&self.bodies, self.unknowns.count(), inertia);
+        inertia.weigh_rows();
     }
 
     /// Diagonal of the inertia matrix of the unknown degrees of freedom [mass, mass·length²].
