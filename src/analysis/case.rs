@@ -61,8 +61,9 @@ impl Case {
         postcard::from_bytes(bytes).ok()
     }
 
-    /// Runs the case and calls `look` at every stop. Returns the outcome and the simulation in its final state, which is `None` if it could not
-    /// start. If the study is stopped during the run, the outcome must be ignored.
+    /// Runs the case and calls `look` at every stop.
+    /// Returns the outcome and the simulation in its final state, which is `None` if it could not start.
+    /// If the study is stopped during the run, the outcome must be ignored.
     pub fn run(
         &self,
         patience: RunLimits,
@@ -100,8 +101,8 @@ impl Case {
         every.map_or_else(Recording::default, Recording::Every)
     }
 
-    /// Simulation of the case in its initial state, or the reason for failure. It uses one thread, because other cases run at the same time or the
-    /// run is timed.
+    /// Simulation of the case in its initial state, or the reason for failure.
+    /// It uses one thread, because other cases run at the same time or the run is timed.
     pub fn start(&self, patience: RunLimits) -> Result<Simulation, CaseOutcome> {
         let wait = patience.begin();
         let started = Simulation::start(self.scene.clone(), self.settings);
@@ -113,8 +114,8 @@ impl Case {
         Ok(simulation)
     }
 
-    /// Runs a simulation from its start to the last stop, and calls `look` at every stop. `is_wanted` is called after every step. If it returns
-    /// false, the run stops, and its outcome must be ignored.
+    /// Runs a simulation from its start to the last stop, and calls `look` at every stop. `is_wanted` is called after every step.
+    /// If it returns false, the run stops, and its outcome must be ignored.
     pub fn run_to_stops(
         &self,
         simulation: &mut Simulation,
@@ -220,8 +221,7 @@ mod tests {
     fn a_load_that_does_not_come_back_is_given_up() {
         let mut case = spinning(0.1, &[1.0]);
         let station = case.scene.station(0, 0.0).unwrap();
-        // The function behaves like a script function that does not return. The script engine stops such a function with an error after the
-        // deadline.
+        // The function behaves like a script function that does not return. The script engine stops such a function with an error after the deadline.
         let function = Rc::new(|t: f64| match t {
             0.5.. => {
                 while !is_past_deadline() {}

@@ -55,8 +55,8 @@ pub fn highest_order(methods: &[Method]) -> Option<Method> {
     methods.iter().copied().rev().max_by_key(|method| method.entry().claims.order)
 }
 
-/// Step size of the reference run, as a fraction of the smallest step size in the study. With a method of second order, the error of the reference
-/// is a sixteenth of the error of the best run.
+/// Step size of the reference run, as a fraction of the smallest step size in the study.
+/// With a method of second order, the error of the reference is a sixteenth of the error of the best run.
 pub const PART_OF_THE_SMALLEST_STEP: f64 = 0.25;
 
 #[cfg(test)]

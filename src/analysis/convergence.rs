@@ -88,8 +88,9 @@ pub struct Convergence {
 pub const ALL_POSITIONS: &str = "positions";
 
 impl Convergence {
-    /// Returns the errors of one integrator for several sizes. The first element contains the error of all positions together, as a fraction of the
-    /// length; the other elements contain the errors of single observables.
+    /// Returns the errors of one integrator for several sizes.
+    /// The first element contains the error of all positions together, as a fraction of the length;
+    /// the other elements contain the errors of single observables.
     pub fn ladders_of(
         method: Method,
         rungs: &[(f64, RunResult)],

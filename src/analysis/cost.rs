@@ -62,8 +62,9 @@ impl StepCost {
     }
 }
 
-/// Measures the time per step of several cases on this thread. Steps of all cases are measured alternately, so that disturbances of the machine
-/// affect all of them. The time to build the scene is not included. Returns `None` if `is_wanted` returns false.
+/// Measures the time per step of several cases on this thread.
+/// Steps of all cases are measured alternately, so that disturbances of the machine affect all of them. The time to build the scene is not included.
+/// Returns `None` if `is_wanted` returns false.
 pub fn step_costs(
     cases: &[CostCase],
     patience: RunLimits,

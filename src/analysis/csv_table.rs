@@ -46,8 +46,8 @@ pub struct ParsedCsv {
 }
 
 impl ParsedCsv {
-    /// Parses a table. Values are separated by commas, or, if the line of names contains no comma, by semicolons or tabs. A line of dimensions
-    /// after the names, as in files of withy, is skipped.
+    /// Parses a table. Values are separated by commas, or, if the line of names contains no comma, by semicolons or tabs.
+    /// A line of dimensions after the names, as in files of withy, is skipped.
     ///
     /// # Errors
     /// Fails if two columns have the same name, or if the number of cells in a row differs from the number of columns.

@@ -1,7 +1,7 @@
 //! Estimate of the discretisation error of a run from coarser runs of the same scene (Richardson 1911; order from three levels, Roache 1998).
 //!
-//! With the sizes `h₁ < h₂ < h₃` and the error `C h^p`, the distances `d₁₂` and `d₂₃` of neighbouring levels give the observed order `p` from
-//! `d₂₃/d₁₂ = (h₃^p - h₂^p)/(h₂^p - h₁^p)` and the error `C h_k^p = d₁₂ h_k^p/(h₂^p - h₁^p)` of level `k`.
+//! With the sizes `h₁ < h₂ < h₃` and the error `C h^p`, the distances `d₁₂` and `d₂₃` of neighbouring levels give the observed order `p`
+//! from `d₂₃/d₁₂ = (h₃^p - h₂^p)/(h₂^p - h₁^p)` and the error `C h_k^p = d₁₂ h_k^p/(h₂^p - h₁^p)` of level `k`.
 
 use super::trace::Trace;
 use crate::elementary::power;

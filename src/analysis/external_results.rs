@@ -44,8 +44,10 @@ const SETTING: [(&str, &str); 4] =
     [("integrator", ""), ("elements", "elements "), ("dof", "unknowns "), ("dt", "dt = ")];
 
 impl ExternalResult {
-    /// Reads runs from a table. Required columns are peer, series, run_time_s, t, energy_drift and machine, and columns of station positions with
-    /// the names of a reference table. Optional columns are integrator, elements, dof and dt.
+    /// Reads runs from a table.
+    /// Required columns are peer, series, run_time_s, t, energy_drift and machine,
+    /// and columns of station positions with the names of a reference table.
+    /// Optional columns are integrator, elements, dof and dt.
     ///
     /// # Errors
     /// Fails if a column is missing, a number is invalid, or the positions belong to a time that the study does not use.

@@ -1,7 +1,8 @@
 //! Results of completed cases in a file, so that an interrupted study can be resumed.
 //!
-//! A journal is a file of records, each with its length and a checksum. If the program crashes, the last record may be incomplete; reading ends
-//! there. The journal is removed when the script of the study has ended successfully.
+//! A journal is a file of records, each with its length and a checksum.
+//! If the program crashes, the last record may be incomplete; reading ends there.
+//! The journal is removed when the script of the study has ended successfully.
 
 use std::collections::BTreeMap;
 use std::fs::File;
@@ -194,8 +195,8 @@ impl Journal {
 
     /// Fingerprint of a case: a hash of all data on which its result depends.
     ///
-    /// The hash includes the program, because another build may give different results. If another compiler changes the hash, the cases are run
-    /// again.
+    /// The hash includes the program, because another build may give different results.
+    /// If another compiler changes the hash, the cases are run again.
     pub fn fingerprint(parts: &[&[u8]]) -> u64 {
         let mut hasher = DefaultHasher::new();
         (FORMAT, build()).hash(&mut hasher);

@@ -15,8 +15,8 @@ pub struct Deviation {
     pub distance: f64,
     /// Estimated error of the reference, in the unit of the observable; zero if unknown.
     pub estimated_error: f64,
-    /// True if the reference is a run of this program. All errors are then reported as upper bounds. Otherwise a result with the same error as the
-    /// reference would appear to be exact.
+    /// True if the reference is a run of this program. All errors are then reported as upper bounds.
+    /// Otherwise a result with the same error as the reference would appear to be exact.
     pub is_of_own_run: bool,
 }
 
@@ -26,8 +26,8 @@ impl Deviation {
         self.distance > self.estimated_error
     }
 
-    /// Error of the result. It is an upper bound if the reference is a run of this program, or if the distance is below the estimated error of the
-    /// reference.
+    /// Error of the result.
+    /// It is an upper bound if the reference is a run of this program, or if the distance is below the estimated error of the reference.
     pub fn error(&self) -> f64 {
         match self.is_of_own_run || !self.is_resolved() {
             true => self.distance + self.estimated_error,
@@ -185,8 +185,8 @@ fn known_of(
 }
 
 impl ReferenceSolution {
-    /// Reads a reference from a table of an independent solution. It has a column t and, for a station A, the columns xA, yA and thA. Other columns
-    /// have the names of observables. Estimated errors are in the columns d_xA, d_A or d_pos, d_thA or d_th, d_E, and so on.
+    /// Reads a reference from a table of an independent solution. It has a column t and, for a station A, the columns xA, yA and thA.
+    /// Other columns have the names of observables. Estimated errors are in the columns d_xA, d_A or d_pos, d_thA or d_th, d_E, and so on.
     ///
     /// # Errors
     /// Fails if a time is missing, all stations are missing, or a cell is not a number.

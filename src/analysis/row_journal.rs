@@ -11,8 +11,8 @@ use crate::sandbox_fs::Folder;
 
 /// Maximum length of an entry [bytes]. A longer entry is treated as damaged.
 const LONGEST: u32 = 1 << 20;
-/// Interval between writes to the file. If the program is killed, at most the rows of this interval are lost. A power failure also loses the rows
-/// that the system has not yet written to the disk.
+/// Interval between writes to the file. If the program is killed, at most the rows of this interval are lost.
+/// A power failure also loses the rows that the system has not yet written to the disk.
 const DELAY: Duration = Duration::from_millis(100);
 
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -38,8 +38,8 @@ pub struct RowJournal {
     flushed: Instant,
 }
 
-/// Reads the entries of a journal up to the first damaged or incomplete entry, and passes them to `heed`. Returns the length of the valid part
-/// [bytes], which is zero if there is no file.
+/// Reads the entries of a journal up to the first damaged or incomplete entry, and passes them to `heed`.
+/// Returns the length of the valid part [bytes], which is zero if there is no file.
 ///
 /// # Errors
 /// Fails if an existing file cannot be read, or `heed` returns an error.

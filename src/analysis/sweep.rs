@@ -24,8 +24,8 @@ pub enum SweptValues {
 /// Rule that assigns levels to rows.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Choice {
-    /// Full grid. Each level applies to this number of consecutive rows, then the next level follows. The sequence of levels is repeated until the
-    /// last row.
+    /// Full grid. Each level applies to this number of consecutive rows, then the next level follows.
+    /// The sequence of levels is repeated until the last row.
     Grid(usize),
     /// Level index of each row.
     Drawn(Vec<u32>),
@@ -192,8 +192,8 @@ impl Sweep {
         results.chunks_exact(block).filter(is_whole).count() * block
     }
 
-    /// Fraction of the variance of a result that each parameter explains, in the order of the parameters. `None` if the result is constant, some
-    /// rows of a grid failed, or there are too few points.
+    /// Fraction of the variance of a result that each parameter explains, in the order of the parameters.
+    /// `None` if the result is constant, some rows of a grid failed, or there are too few points.
     pub fn variance_fractions(&self, result: &str) -> Option<Vec<VarianceShare>> {
         let results = self.results.column(result)?;
         let parameters = &self.design.parameters;

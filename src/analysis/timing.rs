@@ -22,8 +22,8 @@ pub struct Timing {
 /// Total time of a case after which it is not repeated.
 pub const LONGEST_REPETITION: Duration = Duration::from_secs(10);
 
-/// Processor time of this thread on Linux. The system updates the time when the thread pauses, and otherwise only at ticks of the scheduler. The
-/// function therefore pauses the thread before it reads the time.
+/// Processor time of this thread on Linux. The system updates the time when the thread pauses, and otherwise only at ticks of the scheduler.
+/// The function therefore pauses the thread before it reads the time.
 fn processor_time() -> Option<Duration> {
     std::thread::sleep(Duration::from_nanos(1));
     let statistics = std::fs::read_to_string("/proc/thread-self/schedstat").ok()?;

@@ -92,8 +92,8 @@ impl Trace {
         self.values.iter().map(|value| (value - first).norm()).fold(0.0, f64::max)
     }
 
-    /// Distances of a coarser trace from this one at the times of the coarser trace [time, dimension of the values]. Means over steps are compared
-    /// over the steps of the coarser trace.
+    /// Distances of a coarser trace from this one at the times of the coarser trace [time, dimension of the values].
+    /// Means over steps are compared over the steps of the coarser trace.
     pub fn distances(&self, coarser: &Self) -> Vec<(f64, f64)> {
         let pairs = coarser.times.iter().zip(&coarser.values);
         let both = pairs.filter_map(|(time, value)| Some((*time, value - self.at(*time)?)));
@@ -108,8 +108,8 @@ impl Trace {
         both.windows(2).filter_map(over_step).collect()
     }
 
-    /// Returns the value at a time; `None` outside the trace. It is the recorded value, if there is one at this time, otherwise the value of a
-    /// cubic polynomial through the four nearest recorded values.
+    /// Returns the value at a time; `None` outside the trace.
+    /// It is the recorded value, if there is one at this time, otherwise the value of a cubic polynomial through the four nearest recorded values.
     fn at(&self, time: f64) -> Option<Vec2> {
         let (first, last) = (*self.times.first()?, *self.times.last()?);
         let slack = SAME_TIME * (last - first);

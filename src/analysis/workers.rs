@@ -15,9 +15,9 @@ const PULSE: Duration = Duration::from_millis(50);
 
 /// Runs cases on all cores. Cases whose loads call script functions run last, on the calling thread.
 ///
-/// On the calling thread, `heed` is called with the index and the result of each completed case, and periodically with `None`. If it returns
-/// `Break`, `stop` is set, and cases that have not ended get no result. Results are in the order of the cases. If a case panics, its result is the
-/// message.
+/// On the calling thread, `heed` is called with the index and the result of each completed case, and periodically with `None`.
+/// If it returns `Break`, `stop` is set, and cases that have not ended get no result. Results are in the order of the cases.
+/// If a case panics, its result is the message.
 pub fn on_all_cores<R: Send>(
     cases: &[Case],
     stop: &AtomicBool,

@@ -22,8 +22,8 @@ const TO_WRITE: Duration = Duration::from_secs(20);
 pub enum InterruptLoss {
     /// A run. The program ends after a grace period, or at the second Ctrl-C.
     Run,
-    /// A session with all its data. The program ends only at another Ctrl-C that follows at least a second after the first one, if the session has
-    /// not reacted to the first one.
+    /// A session with all its data.
+    /// The program ends only at another Ctrl-C that follows at least a second after the first one, if the session has not reacted to the first one.
     Session,
 }
 
@@ -59,8 +59,8 @@ pub fn flag(at_stake: InterruptLoss) -> Arc<AtomicBool> {
     flag
 }
 
-/// Ends a session on SIGTERM and SIGHUP, for example when its terminal window is closed. Ctrl-C does not end a session; it stops only the
-/// evaluation of the current input. This function must be called before other threads start.
+/// Ends a session on SIGTERM and SIGHUP, for example when its terminal window is closed.
+/// Ctrl-C does not end a session; it stops only the evaluation of the current input. This function must be called before other threads start.
 #[cfg(unix)]
 pub fn end_on_signal() {
     use nix::sys::signal::{SigSet, Signal};

@@ -58,7 +58,8 @@ pub fn run(options: &RunOptions) -> Exit {
     exit_for(&outcome)
 }
 
-/// Returns whether the errors of a run are estimated. With `auto` this depends on the run time, so it is done only if the output goes to a terminal:
+/// Returns whether the errors of a run are estimated.
+/// With `auto` this depends on the run time, so it is done only if the output goes to a terminal:
 /// output that a program reads must not depend on the run time.
 fn error_estimation(options: &RunOptions) -> ErrorEstimation {
     match options.error {
@@ -169,8 +170,9 @@ fn exit_for_study(outcome: &RunOutcome, out: &Path) -> Exit {
     }
 }
 
-/// Returns the exit code of a run that computes only a part of the studies. If the script fails after the studies, the run still counts as
-/// successful, because the statements after the studies lack the results of the other parts.
+/// Returns the exit code of a run that computes only a part of the studies.
+/// If the script fails after the studies, the run still counts as successful,
+/// because the statements after the studies lack the results of the other parts.
 fn exit_for_part(outcome: &RunOutcome, options: &StudyOptions) -> Exit {
     let cases = match outcome.kept_cases {
         1 => "1 finished case is".to_owned(),

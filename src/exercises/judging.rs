@@ -1,5 +1,5 @@
-//! Runs an attempt and then the script of its judge. The judge sees only those variables of the attempt that its header names. Thus functions,
-//! constants and other names of the attempt cannot replace those of the judge. Only the calls of `check` in the judge's script count.
+//! Runs an attempt and then the script of its judge. The judge sees only those variables of the attempt that its header names.
+//! Thus functions, constants and other names of the attempt cannot replace those of the judge. Only the calls of `check` in the judge's script count.
 
 use std::any::TypeId;
 use std::time::Duration;

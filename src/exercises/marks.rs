@@ -1,5 +1,5 @@
-//! File with the marks of a class, one mark per line in JSON. Each run appends its marks. The mark of an attempt that has not changed since is
-//! reused.
+//! File with the marks of a class, one mark per line in JSON. Each run appends its marks.
+//! The mark of an attempt that has not changed since is reused.
 
 use std::collections::BTreeMap;
 use std::fs::{File, TryLockError};

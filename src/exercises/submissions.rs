@@ -16,8 +16,8 @@ pub struct Submission {
 }
 
 impl Submission {
-    /// Returns the submissions in a folder, sorted by name. Each subfolder is one submission. If the folder itself contains attempts, it is the
-    /// only submission.
+    /// Returns the submissions in a folder, sorted by name. Each subfolder is one submission.
+    /// If the folder itself contains attempts, it is the only submission.
     ///
     /// # Errors
     /// Fails if the folder cannot be read, or if it contains nothing to grade.
@@ -58,8 +58,8 @@ impl Submission {
         fs::symlink_metadata(&self.folder).is_ok_and(|about| about.is_symlink())
     }
 
-    /// Returns the file of the student's attempt. It may be in the folder of its track, or directly in the folder of the submission. The folder of
-    /// the track may be inside the folder that `withy learn` creates.
+    /// Returns the file of the student's attempt. It may be in the folder of its track, or directly in the folder of the submission.
+    /// The folder of the track may be inside the folder that `withy learn` creates.
     pub fn attempt(&self, exercise: &Exercise) -> Option<PathBuf> {
         let inside = self.folder.join(workbook::FOLDER);
         let places = [

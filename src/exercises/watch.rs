@@ -1,7 +1,7 @@
 //! Detects that the file of an attempt was saved.
 //!
-//! All files are read a few times per second and compared with their previous contents. This works with all file systems, and with all editors,
-//! including editors that replace the file. A file that was saved without changes is ignored.
+//! All files are read a few times per second and compared with their previous contents.
+//! This works with all file systems, and with all editors, including editors that replace the file. A file that was saved without changes is ignored.
 
 use std::time::Duration;
 
@@ -32,8 +32,8 @@ impl<'a> Watcher<'a> {
         Self { workbook, files: EXERCISES.iter().map(look).collect() }
     }
 
-    /// Returns the first exercise, in the order of the catalogue, whose file has changed. A file that is empty or missing at only one check counts
-    /// as unchanged, because an editor is probably saving it.
+    /// Returns the first exercise, in the order of the catalogue, whose file has changed.
+    /// A file that is empty or missing at only one check counts as unchanged, because an editor is probably saving it.
     pub fn changed(&mut self) -> Option<&'static Exercise> {
         EXERCISES.iter().zip(&mut self.files).find_map(|(exercise, seen)| {
             let now = content(self.workbook, exercise);

@@ -139,12 +139,12 @@ impl<E> Descent<'_, '_, E> {
 impl Design {
     /// Minimises like [`solve`](Self::solve), but with derivatives, by SLSQP (D. Kraft, 1988).
     ///
-    /// Each step of SLSQP minimises a quadratic model of the objective under linearised constraints. The second derivatives of the model come from
-    /// BFGS updates. If derivatives are missing or SLSQP fails, `solve` continues from the best design found so far.
+    /// Each step of SLSQP minimises a quadratic model of the objective under linearised constraints.
+    /// The second derivatives of the model come from BFGS updates.
+    /// If derivatives are missing or SLSQP fails, `solve` continues from the best design found so far.
     ///
     /// # Errors
-    /// Returns the first error of `sloped` or `rate`.
-    /// First error of `rate_with_slopes` and `rate`.
+    /// Returns the first error of `sloped` or `rate`. First error of `rate_with_slopes` and `rate`.
     pub fn solve_with<'f, E>(
         &self,
         sloped: &mut RateWithSlopes<'f, E>,

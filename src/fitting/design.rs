@@ -10,8 +10,8 @@ use super::SearchRange;
 const FIRST_STEP: f64 = 0.1;
 /// Largest violation for which a constraint counts as met. Constraints are scaled to order one.
 const MET: f64 = 1e-6;
-/// Distance from zero, as a multiple of the size of a parameter, at which the search of an unbounded parameter ends. A parameter that comes near
-/// this distance counts as diverged.
+/// Distance from zero, as a multiple of the size of a parameter, at which the search of an unbounded parameter ends.
+/// A parameter that comes near this distance counts as diverged.
 const FARTHEST: f64 = 1e15;
 /// Added to the worst objective so far to obtain the objective of a design whose run fails.
 pub(super) const PENALTY: f64 = 10.0;
@@ -71,8 +71,8 @@ impl Rating {
         self.largest_violation() <= MET
     }
 
-    /// Returns true if this design is better than `other`. A feasible design is better than an infeasible one. Of two feasible designs, the one
-    /// with the lower objective is better; of two infeasible designs, the one with the smaller violation.
+    /// Returns true if this design is better than `other`. A feasible design is better than an infeasible one.
+    /// Of two feasible designs, the one with the lower objective is better; of two infeasible designs, the one with the smaller violation.
     pub(super) fn is_better_than(&self, other: &Self) -> bool {
         match (self.is_feasible(), other.is_feasible()) {
             (true, true) => self.objective < other.objective,
@@ -85,8 +85,8 @@ impl Rating {
 impl Design {
     /// Finds the feasible design with the lowest objective by COBYLA (M. J. D. Powell, 1994).
     ///
-    /// COBYLA uses linear models of objective and constraints on a simplex. The best of all evaluated designs is returned. If a run fails, `rate`
-    /// must return `None`, and the search avoids this design. Returns `None` if all runs fail.
+    /// COBYLA uses linear models of objective and constraints on a simplex. The best of all evaluated designs is returned.
+    /// If a run fails, `rate` must return `None`, and the search avoids this design. Returns `None` if all runs fail.
     ///
     /// # Errors
     /// Returns the first error of `rate`.

@@ -6,9 +6,9 @@ use super::{Evaluate, Evaluation, SearchRange};
 
 /// Default perturbation, as a fraction of the size of a parameter.
 ///
-/// For a perturbation `h`, central differences have a truncation error of `h² f‴/6` and an error of the noise of the results divided by `h`. Runs
-/// are reproducible to about 1e-12 of their results, which is the tolerance of Newton's method. With a perturbation of 1e-4, each of these errors
-/// is about 1e-8.
+/// For a perturbation `h`, central differences have a truncation error of `h² f‴/6` and an error of the noise of the results divided by `h`.
+/// Runs are reproducible to about 1e-12 of their results, which is the tolerance of Newton's method.
+/// With a perturbation of 1e-4, each of these errors is about 1e-8.
 /// Runs are reproducible to about 1e-12 of their results (the tolerance of Newton's method). With 1e-4, both errors are about 1e-8.
 pub const RELATIVE_STEP: f64 = 1e-4;
 
@@ -46,12 +46,11 @@ impl Stencil {
 
 /// Computes the derivatives of all values with respect to all parameters. The result has one column per parameter.
 ///
-/// The differences are of second order. They need two evaluations per parameter, which are all requested in one call of `evaluate`. `here` contains
-/// the values at the point `x`.
+/// The differences are of second order. They need two evaluations per parameter, which are all requested in one call of `evaluate`.
+/// `here` contains the values at the point `x`.
 ///
 /// # Errors
-/// Returns an error of `evaluate`. The inner error is the reason why an evaluation failed.
-/// The inner error contains the reason of the failed run.
+/// Returns an error of `evaluate`. The inner error is the reason why an evaluation failed. The inner error contains the reason of the failed run.
 pub fn derivatives<E>(
     ranges: &[SearchRange],
     (x, here): (&[f64], &DVector<f64>),

@@ -1,5 +1,5 @@
-//! Checks derivatives that a function returns against finite differences. The derivatives are wrong if the function depends on its argument in a
-//! way that they do not contain, for example by rounding it or by a branch.
+//! Checks derivatives that a function returns against finite differences.
+//! The derivatives are wrong if the function depends on its argument in a way that they do not contain, for example by rounding it or by a branch.
 
 use super::SearchRange;
 
@@ -15,8 +15,8 @@ const ROUNDING: f64 = 1e-7;
 pub const REJECTED_DERIVATIVES: &str =
     "the derivatives of the runs differ from finite differences of their results";
 
-/// Returns two points, one on each side of `x`. At a bound, one of them is cut off at the bound. Each parameter is changed by a different fraction
-/// of its size.
+/// Returns two points, one on each side of `x`. At a bound, one of them is cut off at the bound.
+/// Each parameter is changed by a different fraction of its size.
 pub fn test_points(ranges: &[SearchRange], x: &[f64]) -> [Vec<f64>; 2] {
     let moved = |sign: f64| {
         let parameters = x.iter().zip(ranges).enumerate();
@@ -32,8 +32,8 @@ pub fn test_points(ranges: &[SearchRange], x: &[f64]) -> [Vec<f64>; 2] {
 
 /// Returns true if derivatives agree with the values at two points and at the point `here` between them.
 ///
-/// `change` returns the difference of a value between the two points as predicted by the derivatives. The actual differences must agree with it,
-/// and the mean of the values at the two points must be close to the values at `here`.
+/// `change` returns the difference of a value between the two points as predicted by the derivatives.
+/// The actual differences must agree with it, and the mean of the values at the two points must be close to the values at `here`.
 pub fn matches_derivatives(
     values: [&[f64]; 2],
     here: &[f64],

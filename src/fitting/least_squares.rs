@@ -12,11 +12,11 @@ const MORE_STEPS: usize = 6;
 const SETTLED: f64 = 1e-7;
 /// Largest change of a parameter, as a fraction of its size, for which the derivatives still count as accurate.
 const NEAR: f64 = 0.02;
-/// Cosine of the angle between the residuals and a column of the Jacobian. If all these cosines are smaller than this value, the search has
-/// converged.
+/// Cosine of the angle between the residuals and a column of the Jacobian.
+/// If all these cosines are smaller than this value, the search has converged.
 const ORTHOGONAL: f64 = 1e-7;
-/// Smallest predicted reduction of the sum of squares, as a fraction of the sum, for which the search continues. With a smaller reduction,
-/// parameters change by less than `1e-3 √(n - p)` of their standard errors, for `n` residuals and `p` parameters.
+/// Smallest predicted reduction of the sum of squares, as a fraction of the sum, for which the search continues.
+/// With a smaller reduction, parameters change by less than `1e-3 √(n - p)` of their standard errors, for `n` residuals and `p` parameters.
 const NOTHING: f64 = 1e-6;
 /// Sum of squares, as a fraction of its initial value, below which it is due to rounding.
 const ROUNDING: f64 = 1e-26;
@@ -90,9 +90,9 @@ impl LeastSquaresState {
         cosines.fold(0.0, f64::max)
     }
 
-    /// Returns the step `δ` of the free parameters that minimises `|r + J δ|² + λ |D δ|²`, with the residuals `r`, their derivatives `J`, the
-    /// damping `λ` and the diagonal scaling `D`. A parameter that would exceed a bound is fixed at the bound, and the step of the other parameters
-    /// is computed again.
+    /// Returns the step `δ` of the free parameters that minimises `|r + J δ|² + λ |D δ|²`, with the residuals `r`, their derivatives `J`,
+    /// the damping `λ` and the diagonal scaling `D`.
+    /// A parameter that would exceed a bound is fixed at the bound, and the step of the other parameters is computed again.
     fn step(&self, ranges: &[SearchRange]) -> DVector<f64> {
         let mut free = self.free(ranges);
         let mut step = DVector::zeros(self.x.len());
@@ -142,8 +142,8 @@ impl LeastSquaresState {
         DVector::from_fn(count, |at, _| solution[at] / self.sizes[columns[at]])
     }
 
-    /// Updates the derivatives after a step by the rank-one correction of C. G. Broyden (1965), in scaled parameters. `change` is the change of the
-    /// residuals in this step.
+    /// Updates the derivatives after a step by the rank-one correction of C. G. Broyden (1965), in scaled parameters.
+    /// `change` is the change of the residuals in this step.
     fn update_derivatives(&mut self, step: &DVector<f64>, change: &DVector<f64>) {
         let scaled =
             DVector::from_fn(step.len(), |at, _| step[at] * self.sizes[at] * self.sizes[at]);
@@ -177,13 +177,15 @@ impl LeastSquares {
 
     /// Minimises the sum of squares of the residuals.
     ///
-    /// The derivatives are computed by central differences at the start and are updated after each step. They are computed again when the updated
-    /// derivatives no longer reduce the sum of squares, or when the search seems to have converged far from the point where they were computed. A
-    /// step that fails is shortened.
+    /// The derivatives are computed by central differences at the start and are updated after each step.
+    /// They are computed again when the updated derivatives no longer reduce the sum of squares,
+    /// or when the search seems to have converged far from the point where they were computed.
+    /// A step that fails is shortened.
     ///
     /// # Errors
-    /// Returns an error of `evaluate`. The inner error is the reason why the search cannot start or continue: an evaluation that it needs has
-    /// failed, or has given values that are not finite.
+    /// Returns an error of `evaluate`.
+    /// The inner error is the reason why the search cannot start or continue:
+    /// an evaluation that it needs has failed, or has given values that are not finite.
     pub fn solve<E>(&self, evaluate: &mut Evaluate<'_, E>) -> Result<Result<Fitted, String>, E> {
         self.solve_with(evaluate, &mut |_| Ok(Err("differences are wanted".into())))
     }

@@ -1,5 +1,5 @@
-//! Parameter estimation from runs by least squares, constrained minimisation and root finding. The methods only evaluate functions that return
-//! numbers, and do not know how these numbers are computed.
+//! Parameter estimation from runs by least squares, constrained minimisation and root finding.
+//! The methods only evaluate functions that return numbers, and do not know how these numbers are computed.
 //!
 //! ```text
 //! least_squares → evaluator → differences

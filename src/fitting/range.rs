@@ -25,8 +25,8 @@ impl SearchRange {
         if range.is_finite() && range > 0.0 { range } else { self.size(self.start) }
     }
 
-    /// Returns the size of the parameter at the value `x`: the magnitude of `x`, but at least a hundredth of the width of the range. Changes of the
-    /// parameter are compared with this size.
+    /// Returns the size of the parameter at the value `x`: the magnitude of `x`, but at least a hundredth of the width of the range.
+    /// Changes of the parameter are compared with this size.
     pub fn size(self, x: f64) -> f64 {
         let range = self.high - self.low;
         let least = if range.is_finite() { 0.01 * range } else { 1e-3 * self.start.abs() };

@@ -16,23 +16,21 @@ pub enum RootError<E> {
     SameSign(f64, f64),
     /// The function value is not finite. Contains the argument and the value.
     NotFinite(f64, f64),
-    /// The sign changes at a pole: the values near it are larger in magnitude than at both ends of the interval. Contains an argument near the pole
-    /// and the value there.
+    /// The sign changes at a pole: the values near it are larger in magnitude than at both ends of the interval.
+    /// Contains an argument near the pole and the value there.
     Pole(f64, f64),
     /// The search did not converge within the maximum number of calls. Contains the best argument and its value.
     Unfinished(f64, f64),
     Function(E),
 }
 
-/// Returns a root of `function` between `from` and `to`, where the function must have different signs. `tolerance` is the tolerance of the
-/// argument.
+/// Returns a root of `function` between `from` and `to`, where the function must have different signs. `tolerance` is the tolerance of the argument.
 ///
-/// It uses the method of R. P. Brent (Algorithms for Minimization without Derivatives, 1973, chapter 4), which keeps the root in an interval and
-/// approaches it by secants and inverse quadratic interpolation.
+/// It uses the method of R. P. Brent (Algorithms for Minimization without Derivatives, 1973, chapter 4),
+/// which keeps the root in an interval and approaches it by secants and inverse quadratic interpolation.
 ///
 /// # Errors
-/// Fails if the signs are equal, if a value is not finite, if the sign changes at a pole, if the search does not converge, or if the function
-/// fails.
+/// Fails if the signs are equal, if a value is not finite, if the sign changes at a pole, if the search does not converge, or if the function fails.
 pub fn root<E>(
     (from, to): (f64, f64),
     tolerance: f64,

@@ -7,8 +7,8 @@
 //!                                           └→ integrators → newton → linalg
 //! ```
 //!
-//! The lowest level consists of [`elementary`], functions with identical results on every machine, and `threads`, which processes beams, bands and
-//! bodies concurrently.
+//! The lowest level consists of [`elementary`], functions with identical results on every machine, and `threads`, which processes beams,
+//! bands and bodies concurrently.
 
 #![forbid(unsafe_code)]
 #![cfg_attr(not(test), warn(clippy::disallowed_methods))]

@@ -1,7 +1,7 @@
 //! Animated PNG files. Browsers and Markdown viewers can play them.
 //!
-//! All frames share a palette of the 256 most frequent colours. Every other colour is replaced by the nearest colour of the palette. Of each frame
-//! only the bounding box of its changes is stored.
+//! All frames share a palette of the 256 most frequent colours. Every other colour is replaced by the nearest colour of the palette.
+//! Of each frame only the bounding box of its changes is stored.
 
 use std::collections::BTreeMap;
 

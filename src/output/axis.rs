@@ -74,8 +74,8 @@ impl Axis {
         Self::linear([low, high], 0.0)
     }
 
-    /// Creates a logarithmic axis between integer powers of ten. Values that do not exceed `floor` are shown at the bottom, one power of ten below
-    /// the smallest value above `floor`.
+    /// Creates a logarithmic axis between integer powers of ten.
+    /// Values that do not exceed `floor` are shown at the bottom, one power of ten below the smallest value above `floor`.
     pub fn logarithmic(values: impl IntoIterator<Item = f64>, floor: f64) -> Self {
         let floor = if floor > 0.0 && floor.is_finite() { floor } else { DEFAULT_FLOOR };
         let mut cut = AxisCut::Nothing;

@@ -162,8 +162,9 @@ impl LineChart {
         self
     }
 
-    /// Combines the series of several charts in the axes of the first chart. Each series gets the name of its chart, followed by its own name if the
-    /// chart has several series. Lines of the second chart are dashed, lines of the third chart dotted.
+    /// Combines the series of several charts in the axes of the first chart.
+    /// Each series gets the name of its chart, followed by its own name if the chart has several series.
+    /// Lines of the second chart are dashed, lines of the third chart dotted.
     pub fn shared(
         title: impl Into<String>,
         charts: impl IntoIterator<Item = (String, Self)>,

@@ -21,8 +21,8 @@ const HUES: [Colour; 7] = [
     Colour(60, 60, 60),
 ];
 
-/// Nine equally spaced samples of the viridis colour map (Smith and van der Walt, matplotlib), from pale to dark. The palest tenth of the map is
-/// left out, because it is not visible on white paper.
+/// Nine equally spaced samples of the viridis colour map (Smith and van der Walt, matplotlib), from pale to dark.
+/// The palest tenth of the map is left out, because it is not visible on white paper.
 const RAMP: [Colour; 9] = [
     Colour(189, 223, 38),
     Colour(128, 211, 75),

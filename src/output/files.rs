@@ -8,8 +8,7 @@ use std::{fs, path::Path};
 use super::OutputError;
 use crate::sandbox_fs::Folder;
 
-/// Writes `bytes` to a file whose path the user has given. Missing folders are created. An existing file or link is replaced. Links are not
-/// followed.
+/// Writes `bytes` to a file whose path the user has given. Missing folders are created. An existing file or link is replaced. Links are not followed.
 ///
 /// # Errors
 /// Fails if the folder cannot be created, the file cannot be written, or the path is that of a folder, a pipe or a device.

@@ -1,7 +1,7 @@
 //! Text in the font DejaVu Sans, which is part of the program, so that pictures do not depend on installed fonts.
 //!
-//! Sizes are in pixels per em, and lengths in pixels. Coordinates start at the left end of the baseline; `x` increases to the right and `y`
-//! downwards.
+//! Sizes are in pixels per em, and lengths in pixels.
+//! Coordinates start at the left end of the baseline; `x` increases to the right and `y` downwards.
 
 use std::sync::LazyLock;
 

@@ -122,9 +122,9 @@ impl LevelAxis {
 }
 
 impl LevelMap {
-    /// Creates a map over two axes. `values` are given by rows of the vertical axis, from the bottom. `label` names their quantity. Cells whose
-    /// values are not finite are hatched. On axes with more than 160 numbers, neighbouring cells are merged to one cell with their mean value, and
-    /// a caption states this.
+    /// Creates a map over two axes. `values` are given by rows of the vertical axis, from the bottom. `label` names their quantity.
+    /// Cells whose values are not finite are hatched.
+    /// On axes with more than 160 numbers, neighbouring cells are merged to one cell with their mean value, and a caption states this.
     pub fn new(
         title: impl Into<String>,
         label: impl Into<String>,

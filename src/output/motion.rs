@@ -158,8 +158,8 @@ impl MotionPicture {
         self.snapshots.iter().map(|snapshot| snapshot.lines.len()).max().unwrap_or(0)
     }
 
-    /// Paths are dashed and have colours that no beam has. If there is a single beam, they are vermilion, which differs from the colours of the
-    /// snapshots.
+    /// Paths are dashed and have colours that no beam has.
+    /// If there is a single beam, they are vermilion, which differs from the colours of the snapshots.
     fn trace_style(&self, index: usize) -> (Colour, Stroke) {
         let first = if self.beam_count() > 1 { self.beam_count() } else { 1 };
         (hue(first + index), if index < HUE_COUNT { Stroke::Dashed } else { Stroke::Dotted })

@@ -1,8 +1,9 @@
 //! Painter of PNG files with anti-aliasing. Each pixel is mixed with the colour of a shape by the fraction that the shape covers.
 //!
-//! Boxes and pixels of the library plotters are correct, but its thick lines and polygons have ragged edges. Therefore this module computes from
-//! distances how much of a pixel a line covers. A pixel at a distance `d` from the centre line of half width `r` is covered by `r + ½ − d`. For a
-//! pixel near several segments, the nearest segment is used.
+//! Boxes and pixels of the library plotters are correct, but its thick lines and polygons have ragged edges.
+//! Therefore this module computes from distances how much of a pixel a line covers.
+//! A pixel at a distance `d` from the centre line of half width `r` is covered by `r + ½ − d`.
+//! For a pixel near several segments, the nearest segment is used.
 
 use plotters::prelude::{BitMapBackend, DrawingBackend, RGBColor};
 use plotters::style::Color;

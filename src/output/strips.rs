@@ -110,8 +110,8 @@ impl StripPicture {
         runs.map(run).collect()
     }
 
-    /// Size of all beams together. If there are many small beams, it is the size of the longest one, so that diagrams of neighbouring beams do not
-    /// overlap.
+    /// Size of all beams together.
+    /// If there are many small beams, it is the size of the longest one, so that diagrams of neighbouring beams do not overlap.
     fn beam_size(&self) -> f64 {
         let points = || self.strips.iter().flat_map(|strip| strip.line.iter().copied());
         let side = |pick: fn(Point) -> f64| {

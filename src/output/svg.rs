@@ -1,5 +1,5 @@
-//! Painter of SVG files, based on the library plotters. Text is converted to outlines, so that no fonts are needed. The description of the picture
-//! contains the texts.
+//! Painter of SVG files, based on the library plotters. Text is converted to outlines, so that no fonts are needed.
+//! The description of the picture contains the texts.
 //!
 //! Coordinates of plotters are integers. Therefore the picture is drawn on a grid of [`GRID`] steps per pixel.
 
@@ -33,8 +33,8 @@ pub fn paint(canvas: &Canvas, width: u32, height: u32) -> Result<String, OutputE
     Ok(head(canvas, width, height, size) + drawn.replace(" opacity=\"1\"", "").as_str())
 }
 
-/// Start of the document as plotters writes it for a grid of this size. Its size is wrong, and title and description are missing. [`head`] replaces
-/// it.
+/// Start of the document as plotters writes it for a grid of this size. Its size is wrong, and title and description are missing.
+/// [`head`] replaces it.
 fn opening(grid: (u32, u32)) -> String {
     let mut empty = String::new();
     drop(SVGBackend::with_string(&mut empty, grid));

@@ -92,8 +92,8 @@ impl Symbol {
 pub struct PlacedSymbol {
     pub symbol: Symbol,
     pub at: Point,
-    /// Direction of the symbol. Its length has no meaning, and it is zero if the symbol has no direction. Springs, dampers and tendons end at `at +
-    /// direction`.
+    /// Direction of the symbol. Its length has no meaning, and it is zero if the symbol has no direction.
+    /// Springs, dampers and tendons end at `at + direction`.
     pub direction: Point,
 }
 

@@ -1,7 +1,8 @@
 //! VTK files for ParaView and other programs. There is one grid for each frame, and a collection with the times of the frames.
 //!
-//! The files are XML with base64 data that follow a byte count. This format keeps every bit. It can contain denormal numbers and NaN, which
-//! programs reject in the text format. (VTK User's Guide, "VTK File Formats": XML file formats; uncompressed, `header_type="UInt64"`.)
+//! The files are XML with base64 data that follow a byte count. This format keeps every bit.
+//! It can contain denormal numbers and NaN, which programs reject in the text format.
+//! (VTK User's Guide, "VTK File Formats": XML file formats; uncompressed, `header_type="UInt64"`.)
 
 use std::fmt::Write;
 

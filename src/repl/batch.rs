@@ -58,8 +58,8 @@ pub fn run(shell: &mut Shell, lines: impl BufRead) -> CommandOutcome {
                 &message.with_hint("is a bracket or a quotation mark never closed?"),
             );
         }
-        // To decide whether an input is complete, the next line is read. A program that uses the pipe interactively must therefore end an input
-        // with a semicolon or an empty line.
+        // To decide whether an input is complete, the next line is read.
+        // A program that uses the pipe interactively must therefore end an input with a semicolon or an empty line.
         let is_complete = is_command(&input)
             || completeness_of_script(&input) == Completeness::Complete
                 && (input.trim_end().ends_with(';')

@@ -36,8 +36,8 @@ pub struct TerminalPager {
 }
 
 impl TerminalPager {
-    /// Creates a pager with the program in the variable `PAGER`. If the variable is not set, the built-in pager is used. `None` if its value is
-    /// `cat` or empty, or if the terminal cannot move its cursor.
+    /// Creates a pager with the program in the variable `PAGER`. If the variable is not set, the built-in pager is used.
+    /// `None` if its value is `cat` or empty, or if the terminal cannot move its cursor.
     pub fn of_environment(variable: impl Fn(&str) -> Option<String>) -> Option<Self> {
         let program = variable("PAGER");
         let is_unwanted = program.as_deref().is_some_and(|name| matches!(name.trim(), "" | "cat"));

@@ -34,8 +34,8 @@ pub enum Reply {
     Done,
     /// Success with the value of an expression.
     Value(Dynamic),
-    /// A statement failed. The effects of earlier statements in the same input remain. Of the failed statement, only changes of scenes, of
-    /// simulations and of variables that closures share remain.
+    /// A statement failed. The effects of earlier statements in the same input remain.
+    /// Of the failed statement, only changes of scenes, of simulations and of variables that closures share remain.
     Failed(Diagnostic),
     /// Ctrl-C interrupted a statement. Its effects are the same as for a failed statement.
     Interrupted,
@@ -91,8 +91,8 @@ impl Session {
         self.context().clear_simulations();
     }
 
-    /// Forgets a Ctrl-C that was pressed between evaluations. A Ctrl-C that is pressed later stops every evaluation until this function is called
-    /// again.
+    /// Forgets a Ctrl-C that was pressed between evaluations.
+    /// A Ctrl-C that is pressed later stops every evaluation until this function is called again.
     pub fn clear_interrupt(&mut self) {
         self.context().interrupt_flag().store(false, Ordering::Relaxed);
     }
@@ -116,8 +116,8 @@ impl Session {
             }
         };
         let returns = statements::returns(&ast);
-        // An input that may return early is evaluated as a whole. Other inputs are evaluated in pieces, so that statements before an error keep
-        // their effect.
+        // An input that may return early is evaluated as a whole.
+        // Other inputs are evaluated in pieces, so that statements before an error keep their effect.
         let pieces = if returns { ast.statements().len().max(1) } else { 1 };
         let mut value = Dynamic::UNIT;
         for (number, piece) in ast.statements().chunks(pieces).enumerate() {

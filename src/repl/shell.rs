@@ -342,8 +342,8 @@ impl Shell {
         }
     }
 
-    /// Calls a method of the simulation used last for a command, and shows the watched expressions. The call is recorded. If it fails, the part of
-    /// it that succeeded is recorded.
+    /// Calls a method of the simulation used last for a command, and shows the watched expressions. The call is recorded.
+    /// If it fails, the part of it that succeeded is recorded.
     pub fn call_latest_and_watch(&mut self, call: &str) -> CommandOutcome {
         let input = match self.input_for_latest(call) {
             Ok(input) => input,

@@ -1,5 +1,5 @@
-//! Transcript of all inputs of a session. By means of it, positions of errors are related to inputs. For example, an error in a function that was
-//! typed at line 3 and called at line 20 is shown at line 3.
+//! Transcript of all inputs of a session. By means of it, positions of errors are related to inputs.
+//! For example, an error in a function that was typed at line 3 and called at line 20 is shown at line 3.
 
 use std::sync::Arc;
 

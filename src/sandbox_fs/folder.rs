@@ -31,8 +31,8 @@ impl Folder {
         Dir::open_ambient_dir(path, ambient_authority()).map(Self)
     }
 
-    /// Opens a folder for writing. The folder and its parents are created if necessary. The folder itself must not be a link, because a link could
-    /// lead to another place.
+    /// Opens a folder for writing. The folder and its parents are created if necessary.
+    /// The folder itself must not be a link, because a link could lead to another place.
     ///
     /// # Errors
     /// Fails if the folder cannot be created, or if it is a link.
@@ -186,8 +186,8 @@ impl Folder {
         self.0.remove_file_or_symlink(name)
     }
 
-    /// Writes the folder to disk, so that renamed files keep their new names after a power failure. On systems that cannot write folders to disk,
-    /// nothing happens.
+    /// Writes the folder to disk, so that renamed files keep their new names after a power failure.
+    /// On systems that cannot write folders to disk, nothing happens.
     pub(super) fn sync(&self) -> io::Result<()> {
         #[cfg(unix)]
         {

@@ -13,8 +13,7 @@ use super::reading;
 /// Maximum number of names that are tried for a temporary file.
 pub(super) const TRIES: usize = 100;
 
-/// Age after which an unlocked temporary file counts as abandoned. A younger file may belong to a process that has created it but not yet locked
-/// it.
+/// Age after which an unlocked temporary file counts as abandoned. A younger file may belong to a process that has created it but not yet locked it.
 const ABANDONED: Duration = Duration::from_secs(60);
 
 /// A complete file under a temporary name. It is removed when this value is dropped, unless it was [renamed](Self::rename_to_final).
@@ -44,8 +43,8 @@ impl Drop for Prepared {
 }
 
 impl Folder {
-    /// Writes a file below this folder atomically and durably. An existing file of this name is replaced. An existing link is replaced too and is
-    /// not followed. Missing parent folders are created.
+    /// Writes a file below this folder atomically and durably. An existing file of this name is replaced.
+    /// An existing link is replaced too and is not followed. Missing parent folders are created.
     ///
     /// # Errors
     /// Fails if writing fails, or if `name` is the name of a folder, a pipe or a device. Existing files are then unchanged.

@@ -1,5 +1,5 @@
-//! Record of the files that this program wrote into a folder. The record distinguishes these files from files of others, and from files that were
-//! edited after they were written.
+//! Record of the files that this program wrote into a folder.
+//! The record distinguishes these files from files of others, and from files that were edited after they were written.
 
 use std::collections::BTreeMap;
 use std::io::{self, Read, Write};
@@ -69,8 +69,9 @@ impl<W: Write> Write for ChecksumWriter<W> {
     }
 }
 
-/// Checksums and lengths of the files that this program has written into a folder, by name. For each file, the last two contents are known: a new
-/// content is recorded before it replaces the old content, so that the file may still have the old one.
+/// Checksums and lengths of the files that this program has written into a folder, by name.
+/// For each file, the last two contents are known: a new content is recorded before it replaces the old content,
+/// so that the file may still have the old one.
 #[derive(Debug, Default)]
 pub struct WrittenFiles {
     files: BTreeMap<String, [Option<FileChecksum>; 2]>,
@@ -92,8 +93,8 @@ impl WrittenFiles {
         record
     }
 
-    /// Returns true if no file has this name, or if the file is unchanged since this program wrote it. Another run may have added a line to the
-    /// record; therefore the record is read again before the answer is false.
+    /// Returns true if no file has this name, or if the file is unchanged since this program wrote it.
+    /// Another run may have added a line to the record; therefore the record is read again before the answer is false.
     pub fn may_replace(&mut self, folder: &Folder, name: &str) -> bool {
         let path = Path::new(name);
         if !folder.has(path) {

@@ -116,8 +116,8 @@ fn killed_report(status: ExitStatus, limits: &Limits) -> AttemptReport {
     }
 }
 
-/// Returns true if the process was probably ended because of its memory use: it aborts when an allocation fails, and the system kills a process
-/// that uses too much memory.
+/// Returns true if the process was probably ended because of its memory use:
+/// it aborts when an allocation fails, and the system kills a process that uses too much memory.
 #[cfg(unix)]
 fn is_out_of_memory(status: ExitStatus) -> bool {
     use nix::libc::{SIGABRT, SIGKILL};

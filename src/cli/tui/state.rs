@@ -108,8 +108,8 @@ impl TuiState {
         }
     }
 
-    /// Returns the first exercise after the current one that has not been passed. If there is none, the search continues from the beginning of the
-    /// catalogue.
+    /// Returns the first exercise after the current one that has not been passed.
+    /// If there is none, the search continues from the beginning of the catalogue.
     pub fn next(&self) -> Option<&'static Exercise> {
         let (before, from) = EXERCISES.split_at(index(self.exercise));
         let others = from.iter().skip(1).chain(before);

@@ -82,8 +82,8 @@ impl RawTerminal {
         Ok(())
     }
 
-    /// Waits for the next key, at most for `patience`. Returns `None` if no key was pressed in this time or another event arrived, for example a
-    /// change of the window size.
+    /// Waits for the next key, at most for `patience`.
+    /// Returns `None` if no key was pressed in this time or another event arrived, for example a change of the window size.
     ///
     /// # Errors
     /// Fails if reading from the terminal fails.

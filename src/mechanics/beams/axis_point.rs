@@ -64,8 +64,8 @@ impl<const N: usize> AxisPoints<N> {
     }
 }
 
-/// Increments of control points, arranged in vector lanes. Each lane belongs to a quadrature point and contains the increments of all control
-/// points of its span.
+/// Increments of control points, arranged in vector lanes.
+/// Each lane belongs to a quadrature point and contains the increments of all control points of its span.
 pub(super) struct Windows<'a, const N: usize>([&'a [Movement; N]; LANES]);
 
 impl<const N: usize> Windows<'_, N> {
@@ -83,8 +83,8 @@ impl<const N: usize> Windows<'_, N> {
 pub(super) struct BeamAxis<'a> {
     basis: &'a Basis,
     control_points: &'a [Vec2],
-    /// Smallest length of the derivative with respect to the parameter for which the axis has a direction [length]. The direction of a shorter
-    /// derivative is due to rounding.
+    /// Smallest length of the derivative with respect to the parameter for which the axis has a direction [length].
+    /// The direction of a shorter derivative is due to rounding.
     least_speed: f64,
 }
 

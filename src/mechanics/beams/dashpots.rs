@@ -1,12 +1,13 @@
-//! Kelvin–Voigt dashpots at the quadrature points of a beam, parallel to its elasticity. Axial, shear and bending deformation have relaxation times
-//! `τ`.
+//! Kelvin–Voigt dashpots at the quadrature points of a beam, parallel to its elasticity.
+//! Axial, shear and bending deformation have relaxation times `τ`.
 //!
 //! ```text
 //! N = C τ ΔΓ/Δt      ΔΓ = Λ̄ᵀ (Δx' - Δω J x̄')      M = EI τ Δκ/Δt      D = Σ w (N·ΔΓ + M Δκ) ≥ 0
 //! ```
 //!
-//! Here `C = diag(EA, GA)`, `w` are quadrature weights and `D` is the dissipated energy. The dashpots are separate from the quadrature points for
-//! `Γ` and `κ`, so that undamped beams need no additional time. Their forces are independent unknowns, like section forces.
+//! Here `C = diag(EA, GA)`, `w` are quadrature weights and `D` is the dissipated energy.
+//! The dashpots are separate from the quadrature points for `Γ` and `κ`, so that undamped beams need no additional time.
+//! Their forces are independent unknowns, like section forces.
 
 use serde::{Deserialize, Serialize};
 
@@ -46,12 +47,12 @@ impl Relaxation {
     }
 }
 
-/// Rule for the rates of a step: the rate of a quantity `q` is `by_change · Δq - by_last · q̇`, with its change `Δq` in the step and its rate `q̇`
-/// in the previous step.
+/// Rule for the rates of a step: the rate of a quantity `q` is `by_change · Δq - by_last · q̇`,
+/// with its change `Δq` in the step and its rate `q̇` in the previous step.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RateCollocation {
-    /// Fraction `s` of the step at which directions are taken [-]. Position and rotation are interpolated linearly between the start and the end of
-    /// the step.
+    /// Fraction `s` of the step at which directions are taken [-].
+    /// Position and rotation are interpolated linearly between the start and the end of the step.
     pub fraction: f64,
     /// Factor of the change `Δq` in the step [1/time].
     pub by_change: f64,
@@ -70,8 +71,8 @@ pub(super) struct Functions {
 }
 
 impl Functions {
-    /// Interpolates increments of the control points of the span. Returns, at the point, the increment of the derivative of the axis, the rotation
-    /// increment, and its derivative.
+    /// Interpolates increments of the control points of the span.
+    /// Returns, at the point, the increment of the derivative of the axis, the rotation increment, and its derivative.
     pub(super) fn interpolate(&self, moved: &[Movement]) -> (Vec2, f64, f64) {
         let (mut gradient, mut rotation, mut bend) = (Vec2::zeros(), 0.0, 0.0);
         for ((shape, slope), [x, y, omega]) in self.shape.iter().zip(&self.slope).zip(moved) {
@@ -172,8 +173,8 @@ impl Dashpots {
         self.resolution = RateResolution::default();
     }
 
-    /// Calls `give` with the forces of the dashpots on control points in the present iterate. Returns the largest force, and the largest mismatch
-    /// between a dashpot force and its damping law.
+    /// Calls `give` with the forces of the dashpots on control points in the present iterate.
+    /// Returns the largest force, and the largest mismatch between a dashpot force and its damping law.
     pub fn add_forces(
         &mut self,
         at: RateCollocation,
@@ -193,8 +194,8 @@ impl Dashpots {
         summary
     }
 
-    /// Calls `give` with the dashpot forces on control points. The mismatches of the dashpot forces are condensed out. Calls `tangent` with the
-    /// first control point of each span and the derivatives of the forces of the span, row by row.
+    /// Calls `give` with the dashpot forces on control points. The mismatches of the dashpot forces are condensed out.
+    /// Calls `tangent` with the first control point of each span and the derivatives of the forces of the span, row by row.
     pub fn add_linearised_forces(
         &mut self,
         at: RateCollocation,
@@ -215,8 +216,8 @@ impl Dashpots {
         }
     }
 
-    /// Calls `give` with the additional forces on control points that would remove the mismatch of the dashpot laws. The directions of the forces
-    /// are those of the last linearisation.
+    /// Calls `give` with the additional forces on control points that would remove the mismatch of the dashpot laws.
+    /// The directions of the forces are those of the last linearisation.
     pub fn add_mismatch_forces(&self, give: &mut dyn FnMut(usize, Movement)) {
         for SpanDashpots { first, forces, moments } in &self.spans {
             forces.iter().for_each(|dashpot| dashpot.add_mismatch_forces(*first, give));
@@ -233,8 +234,8 @@ impl Dashpots {
         }
     }
 
-    /// Ends a step of a duration [time] with the given increments. The duration is infinite for an increment without damping. Returns the
-    /// dissipated energy [energy].
+    /// Ends a step of a duration [time] with the given increments. The duration is infinite for an increment without damping.
+    /// Returns the dissipated energy [energy].
     pub fn advance(
         &mut self,
         moved: &[Movement],
@@ -265,8 +266,8 @@ impl Dashpots {
         sum
     }
 
-    /// Calls `give` with the dashpot forces at the start of the step, computed from the given rates. Rates that the steps do not resolve are
-    /// replaced by an extrapolation of the means of the last two steps.
+    /// Calls `give` with the dashpot forces at the start of the step, computed from the given rates.
+    /// Rates that the steps do not resolve are replaced by an extrapolation of the means of the last two steps.
     pub(crate) fn emit_dashpot_forces(
         &self,
         rates: &[Movement],
@@ -279,8 +280,9 @@ impl Dashpots {
         }
     }
 
-    /// Calls `take` with each rate of strain and curvature at the start of the step, computed from the rates of the control points, and its damping
-    /// coefficient times the quadrature weight. The sum of coefficients times squared rates is a power [energy/time].
+    /// Calls `take` with each rate of strain and curvature at the start of the step, computed from the rates of the control points,
+    /// and its damping coefficient times the quadrature weight.
+    /// The sum of coefficients times squared rates is a power [energy/time].
     pub(crate) fn each_damped_rate(&self, rates: &[Movement], take: &mut dyn FnMut(f64, f64)) {
         for SpanDashpots { first, forces, moments } in &self.spans {
             let rates = &rates[*first..*first + self.order];
@@ -289,8 +291,9 @@ impl Dashpots {
         }
     }
 
-    /// Dashpot force in space [force] and dashpot moment [force·length] at a place at the start of the step. They are interpolated like section
-    /// forces. Rates that the steps do not resolve are replaced by an extrapolation of the means of the last two steps.
+    /// Dashpot force in space [force] and dashpot moment [force·length] at a place at the start of the step.
+    /// They are interpolated like section forces.
+    /// Rates that the steps do not resolve are replaced by an extrapolation of the means of the last two steps.
     pub(crate) fn transmitted(&self, place: &SectionPlace, rates: &[Movement]) -> (Vec2, f64) {
         let of_span = |span: usize| {
             let span = &self.spans[span];

@@ -23,8 +23,7 @@ pub struct Collocation {
 /// Largest strain mismatch, forces and rotation in an evaluation of internal forces.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct ForceSummary {
-    /// Largest difference between the strains of the section forces and the strains of the configuration [-]. Curvatures are multiplied by a
-    /// length.
+    /// Largest difference between the strains of the section forces and the strains of the configuration [-]. Curvatures are multiplied by a length.
     pub strain_mismatch: f64,
     /// Largest section force [force].
     pub force: f64,
@@ -57,8 +56,8 @@ pub trait BodyDynamics: Send + Sync {
     /// First control point of each span.
     fn span_starts(&self) -> Vec<usize>;
 
-    /// Divides the body into at most `most` parts that are evaluated concurrently, if they are large enough. Results do not change. Returns the
-    /// first control point of each part except the first part.
+    /// Divides the body into at most `most` parts that are evaluated concurrently, if they are large enough. Results do not change.
+    /// Returns the first control point of each part except the first part.
     fn divide(&mut self, most: usize) -> Vec<usize>;
 
     /// Positions of the control points at the start of the step [length].
@@ -79,11 +78,12 @@ pub trait BodyDynamics: Send + Sync {
         forces: &mut [Movement],
     ) -> ForceSummary;
 
-    /// Adds `weight` times the internal forces, in which the strain mismatches are condensed out. Calls the sink of each part with `weight` times
-    /// the derivatives of these forces, span by span.
+    /// Adds `weight` times the internal forces, in which the strain mismatches are condensed out.
+    /// Calls the sink of each part with `weight` times the derivatives of these forces, span by span.
     ///
-    /// A span across the cut between two parts is given to the sinks of both parts. The part after the cut receives it before its own spans, the
-    /// part before the cut after its own spans. Each sink must use only the rows of the control points of its part.
+    /// A span across the cut between two parts is given to the sinks of both parts.
+    /// The part after the cut receives it before its own spans, the part before the cut after its own spans.
+    /// Each sink must use only the rows of the control points of its part.
     fn add_linearised_forces(
         &mut self,
         at: Collocation,
@@ -93,8 +93,7 @@ pub trait BodyDynamics: Send + Sync {
         tangents: &mut [BlockSink<'_>],
     );
 
-    /// Adds `weight` times the forces that would remove the present strain mismatch. The derivatives of strains are those of the last
-    /// linearisation.
+    /// Adds `weight` times the forces that would remove the present strain mismatch. The derivatives of strains are those of the last linearisation.
     fn add_mismatch_forces(&mut self, weight: f64, forces: &mut [Movement]);
 
     /// Updates the section forces after an iteration has corrected the increments.
@@ -106,8 +105,8 @@ pub trait BodyDynamics: Send + Sync {
     /// Adds `factor · M · rates` to the forces on control points, with the inertia matrix `M` of the body.
     fn add_inertia(&self, factor: f64, rates: &[Movement], forces: &mut [Movement]);
 
-    /// Calls `tangent` with pieces of the rows of `factor · M`: control point of the row, first control point of the columns, and for each column
-    /// the three entries of the components.
+    /// Calls `tangent` with pieces of the rows of `factor · M`:
+    /// control point of the row, first control point of the columns, and for each column the three entries of the components.
     fn add_inertia_tangent(
         &self,
         factor: f64,
@@ -115,8 +114,9 @@ pub trait BodyDynamics: Send + Sync {
         tangent: &mut dyn FnMut(usize, usize, &[Movement]),
     );
 
-    /// Calls `tangent` with pieces of the diagonals of `factor · M`: first control point of the rows, offset of the columns in control points
-    /// (negative to the left of the main diagonal), and three entries per control point.
+    /// Calls `tangent` with pieces of the diagonals of `factor · M`:
+    /// first control point of the rows, offset of the columns in control points (negative to the left of the main diagonal),
+    /// and three entries per control point.
     fn each_inertia_diagonal(
         &self,
         factor: f64,
@@ -127,12 +127,12 @@ pub trait BodyDynamics: Send + Sync {
     /// Calls `take` with the static tangent stiffness of each span in the configuration at the start of the step.
     fn for_each_static_span(&self, take: &mut dyn FnMut(&SpanStiffness));
 
-    /// Section of a beam, and initial length of its axis [length]; `None` for particles and rigid bodies. For a tapered beam, the mean section is
-    /// returned.
+    /// Section of a beam, and initial length of its axis [length]; `None` for particles and rigid bodies.
+    /// For a tapered beam, the mean section is returned.
     fn extent(&self) -> Option<(Section, f64)>;
 
-    /// Appends the unit normals of the sections at the start of the step, as vectors in space [-]. There is one normal for each quadrature point
-    /// for the strain `Γ`.
+    /// Appends the unit normals of the sections at the start of the step, as vectors in space [-].
+    /// There is one normal for each quadrature point for the strain `Γ`.
     fn write_normals(&self, normals: &mut Vec<Vec2>);
 
     /// Strain energy at the start of the step [energy].

@@ -5,8 +5,9 @@
 //! R_a = w N_a' n      S_a = -w N_a gs × n      δΔΓ = Λ1ᵀ δg - J (Γ1 + e1) δω/q
 //! ```
 //!
-//! `R_a` and `S_a` are the force and moment on control point `a`, `g = x'` is the derivative of the position with respect to arc length, and `s` is
-//! the fraction of the step at which directions are taken. Index 0 denotes the start of the step and 1 its end.
+//! `R_a` and `S_a` are the force and moment on control point `a`, `g = x'` is the derivative of the position with respect to arc length,
+//! and `s` is the fraction of the step at which directions are taken.
+//! Index 0 denotes the start of the step and 1 its end.
 
 use super::dashpots::{Functions, RateCollocation, larger_missing};
 use super::dynamics::{ForceSummary, Movement};
@@ -94,8 +95,8 @@ impl ForceDashpot {
         self.last_rate + (self.last_rate - self.rate_before) * late
     }
 
-    /// Returns the mismatch of the axial and shear rates in the last accepted step. `share` is the position of the start of that step on the time
-    /// axis, on which the middle of the step before it is 0 and its own middle is 1.
+    /// Returns the mismatch of the axial and shear rates in the last accepted step.
+    /// `share` is the position of the start of that step on the time axis, on which the middle of the step before it is 0 and its own middle is 1.
     pub(super) fn last_rate_mismatch(&self, share: f64) -> [RateMismatch; 2] {
         let of = |axis: usize| {
             let means = [self.rate_before[axis], self.last_rate[axis]];
@@ -119,8 +120,8 @@ impl ForceDashpot {
         }
     }
 
-    /// Strain change `ΔΓ = Λ̄ᵀ (Δg - t J ḡ)`, with means `Λ̄` and `ḡ` over the step and the tangent-scaled rotation increment `t`. A difference of
-    /// two strains would have the rounding error of numbers of size one.
+    /// Strain change `ΔΓ = Λ̄ᵀ (Δg - t J ḡ)`, with means `Λ̄` and `ḡ` over the step and the tangent-scaled rotation increment `t`.
+    /// A difference of two strains would have the rounding error of numbers of size one.
     fn change(&self, by: Vec2, rotations: RotationIncrement, increment: f64) -> Vec2 {
         let mean = self.rotation.mixed(self.rotation.turned(rotations, increment), 0.5);
         let turned = perpendicular(self.gradient + by * 0.5) * rotations.tangent_scaled(increment);
@@ -245,8 +246,8 @@ impl ForceDashpot {
         self.rotation.to_section(gradient - perpendicular(self.gradient) * spin)
     }
 
-    /// Returns the strain rates at the start of the step. For each component, `selected` determines whether the present rate is used, or a rate
-    /// extrapolated from the last two steps.
+    /// Returns the strain rates at the start of the step.
+    /// For each component, `selected` determines whether the present rate is used, or a rate extrapolated from the last two steps.
     fn selected_rates(&self, selected: DashpotRates<'_>) -> Vec2 {
         let (present, carried) =
             (self.rate(selected.present), self.carried(selected.extrapolation));
@@ -257,8 +258,8 @@ impl ForceDashpot {
         )
     }
 
-    /// Returns the force of the dashpot in space at the start of the step [force], and its contribution to the moment [force·length]. The
-    /// contribution is `w x' × n`, with the quadrature weight `w` and the derivative `x'` of the axis.
+    /// Returns the force of the dashpot in space at the start of the step [force], and its contribution to the moment [force·length].
+    /// The contribution is `w x' × n`, with the quadrature weight `w` and the derivative `x'` of the axis.
     pub(super) fn transmitted(&self, rates: DashpotRates<'_>) -> (Vec2, f64) {
         let force = self.rotation.to_space(self.damping.component_mul(&self.selected_rates(rates)));
         (force, self.functions.weight * cross(self.gradient, force))

@@ -42,8 +42,8 @@ impl<const N: usize> ForcePoint<N> {
         }
     }
 
-    /// Adds the rows of axial and shear strain to the static stiffness of the span. If the section force is nonzero, the rows of the geometric
-    /// stiffness are added.
+    /// Adds the rows of axial and shear strain to the static stiffness of the span.
+    /// If the section force is nonzero, the rows of the geometric stiffness are added.
     pub(super) fn write_static_rows(&self, section: &Section, span: &mut SpanStiffness) {
         let w = self.axis.weight;
         let row = |by_gradient: Vec2, by_rotation: f64| -> [[f64; 3]; N] {
@@ -69,16 +69,16 @@ impl<const N: usize> ForcePoint<N> {
 
     /// Section force for the present strain. The second value is true if it is the section force of the last solution.
     ///
-    /// A section force from the last solution has a rounding error relative to its own size. A section force computed from the strain has the
-    /// rounding error of a number of size one, multiplied by the stiffness.
+    /// A section force from the last solution has a rounding error relative to its own size.
+    /// A section force computed from the strain has the rounding error of a number of size one, multiplied by the stiffness.
     fn present_force(&self, section: &Section) -> (Vec2, bool) {
         let missing = self.strain - strain_from(section, self.last_force);
         let is_known = larger(missing.x.abs(), missing.y.abs()) <= SAME_STRAIN;
         (if is_known { self.last_force } else { force_of(section, self.strain) }, is_known)
     }
 
-    /// Returns the section force `n` in space [force] and its contribution to the moment [force·length] at the start of the step. The contribution
-    /// is `w x' × n`, with the quadrature weight `w` and the derivative `x'` of the axis.
+    /// Returns the section force `n` in space [force] and its contribution to the moment [force·length] at the start of the step.
+    /// The contribution is `w x' × n`, with the quadrature weight `w` and the derivative `x'` of the axis.
     pub(super) fn transmitted(&self, section: &Section) -> (Vec2, f64) {
         let force = self.rotation.to_space(self.present_force(section).0);
         (force, self.axis.weight * cross(self.gradient, force))

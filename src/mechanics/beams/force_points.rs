@@ -8,8 +8,9 @@
 //! R_a = w N_a' n             S_a = -w N_a gτ × n
 //! ```
 //!
-//! `R_a` and `S_a` are the force and moment on control point `a`, with the quadrature weight `w`. The gradient `g = x'` and the rotation are stored
-//! at the point and updated by increments, so that rounding errors of strains do not depend on the distance from the origin.
+//! `R_a` and `S_a` are the force and moment on control point `a`, with the quadrature weight `w`.
+//! The gradient `g = x'` and the rotation are stored at the point and updated by increments,
+//! so that rounding errors of strains do not depend on the distance from the origin.
 
 use pulp::Simd;
 
@@ -36,8 +37,9 @@ pub(super) struct ForcePoints<const N: usize> {
     strain: Pair<Lanes>,
     /// Section force `N` of the present iterate.
     force: Pair<Lanes>,
-    /// Section force of the last step, with which the iteration of the next step starts. In fast vibration it is closer to the solution than the
-    /// section force computed from the strain at the start of the step, whose sign may alternate from step to step.
+    /// Section force of the last step, with which the iteration of the next step starts.
+    /// In fast vibration it is closer to the solution than the section force computed from the strain at the start of the step,
+    /// whose sign may alternate from step to step.
     last_force: Pair<Lanes>,
     /// Mismatch `m = Γσ - C⁻¹ N` at the last evaluation: the strain of the configuration minus the strain of the section force.
     mismatch: Pair<Lanes>,
@@ -64,8 +66,9 @@ pub(super) struct Resultant {
     torque: Lanes,
 }
 
-/// Derivatives of the forces on control points. `rows[i]` contains the derivatives of force component `i` with respect to the gradient and the
-/// rotation; they are multiplied by the quadrature weight and the basis functions.
+/// Derivatives of the forces on control points.
+/// `rows[i]` contains the derivatives of force component `i` with respect to the gradient and the rotation;
+/// they are multiplied by the quadrature weight and the basis functions.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct ForceTangent<const N: usize> {
     rows: [[Lanes; 3]; 3],
@@ -146,8 +149,7 @@ impl<const N: usize> ForcePoints<N> {
         (gradient, rotation)
     }
 
-    /// Returns the configuration of an iterate, the strain `Γσ = (1-σ) Γ0 + σ Γ1` that determines the section force, and the rotation increment
-    /// `Δω`.
+    /// Returns the configuration of an iterate, the strain `Γσ = (1-σ) Γ0 + σ Γ1` that determines the section force, and the rotation increment `Δω`.
     #[inline(always)]
     fn configuration<V: Simd>(
         &self,
@@ -323,8 +325,8 @@ impl<const N: usize> ForcePoints<N> {
         self.apply_weights(part, weight, (collocated_gradient.get(part), force), resultant);
     }
 
-    /// Corrects the section forces after a correction of the increments: `N ← N + C (m + σ δΓ1)`, with the mismatch `m` and the strain correction
-    /// `δΓ1 = Λ1ᵀ δg - J (Γ1 + e1) δω/q`.
+    /// Corrects the section forces after a correction of the increments:
+    /// `N ← N + C (m + σ δΓ1)`, with the mismatch `m` and the strain correction `δΓ1 = Λ1ᵀ δg - J (Γ1 + e1) δω/q`.
     #[inline(always)]
     pub(super) fn correct_section_forces<V: Simd>(
         &mut self,

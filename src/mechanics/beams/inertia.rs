@@ -18,8 +18,8 @@ pub(super) struct InertiaMatrix<const N: usize, I> {
     gram: Vec<[I; N]>,
     /// For each k, the integrals of all control points and components.
     diagonals: [Vec<f64>; N],
-    /// Factors by which the integrals are multiplied to obtain the inertia, for all control points and components. A factor is the inertia per
-    /// length, or one if the integrals contain the inertia already.
+    /// Factors by which the integrals are multiplied to obtain the inertia, for all control points and components.
+    /// A factor is the inertia per length, or one if the integrals contain the inertia already.
     shares: Vec<f64>,
     section: Section,
 }
@@ -56,8 +56,8 @@ impl<const N: usize, I: MassIntegral> InertiaMatrix<N, I> {
         Arch::new().dispatch(InertiaProduct { matrix: self, points, factor, rates, forces });
     }
 
-    /// Calls `take` with pieces of the diagonals of `factor · M`: first control point of the rows, offset of the columns, and three entries per
-    /// control point.
+    /// Calls `take` with pieces of the diagonals of `factor · M`:
+    /// first control point of the rows, offset of the columns, and three entries per control point.
     pub(super) fn each_diagonal(
         &self,
         factor: f64,
@@ -67,8 +67,8 @@ impl<const N: usize, I: MassIntegral> InertiaMatrix<N, I> {
         Arch::new().dispatch(Diagonals { matrix: self, points, factor, take });
     }
 
-    /// Calls `take` with pieces of the rows of `factor · M`: control point of the row, first control point of the columns, and for each column the
-    /// three entries of the components.
+    /// Calls `take` with pieces of the rows of `factor · M`: control point of the row, first control point of the columns,
+    /// and for each column the three entries of the components.
     pub(super) fn each_row(
         &self,
         factor: f64,

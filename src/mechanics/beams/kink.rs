@@ -1,7 +1,7 @@
 //! Kink of a beam axis under a point force. The smooth basis functions of a mesh do not represent the displacement that it causes.
 //!
-//! A force on a shear-flexible beam causes a jump of the tangent of its axis. A smooth mesh misses a part of the displacement under the force. This
-//! part is the same as in a string with the same basis functions, quadrature points and weights (derivation: docs/theory.md, section 10.1).
+//! A force on a shear-flexible beam causes a jump of the tangent of its axis. A smooth mesh misses a part of the displacement under the force.
+//! This part is the same as in a string with the same basis functions, quadrature points and weights (derivation: docs/theory.md, section 10.1).
 
 mod running;
 
@@ -18,22 +18,23 @@ const ROUNDING: f64 = 1e-11;
 pub struct MissedKink {
     /// Kink length `g(ξ)` as a function of the place `ξ` [length].
     pub length: PiecewisePolynomial,
-    /// Correction factor `μ` of the inertia of a moving kink [-]. The kinetic energy that the mesh misses is `½ μ ρA g |a|² v²`, with the kink `a`
-    /// and its speed `v`, averaged over the places of the kink. For exactly integrated strains `μ = 1`.
+    /// Correction factor `μ` of the inertia of a moving kink [-].
+    /// The kinetic energy that the mesh misses is `½ μ ρA g |a|² v²`, with the kink `a` and its speed `v`, averaged over the places of the kink.
+    /// For exactly integrated strains `μ = 1`.
     pub inertia: f64,
 }
 
-/// Computes the part of a kink that the mesh does not represent. A force `λ` across the beam at `ξ` displaces the axis at `ξ` by `g(ξ) λ/GA` more
-/// than the mesh represents.
+/// Computes the part of a kink that the mesh does not represent.
+/// A force `λ` across the beam at `ξ` displaces the axis at `ξ` by `g(ξ) λ/GA` more than the mesh represents.
 ///
 /// ```text
 /// g(ξ) = l(ξ)ᵀ M⁻¹ r(ξ)        M = Σ w t tᵀ/|x_ξ|        l = ∫ t dξ up to ξ, r = ∫ t dξ from ξ on
 /// ```
 ///
-/// The matrix `M` contains products of the splines `t` of one degree less, summed over the points and weights of the shear strain. `g` is the
-/// compliance of a string under a point load minus the compliance of the string on these functions, whatever the supports of its ends. It is a
-/// polynomial of twice the degree on each span, and zero at places where the basis is C⁰. The result is `None` if `g` is not positive at other
-/// places. This occurs with fewer quadrature points than the patch rule has.
+/// The matrix `M` contains products of the splines `t` of one degree less, summed over the points and weights of the shear strain.
+/// `g` is the compliance of a string under a point load minus the compliance of the string on these functions, whatever the supports of its ends.
+/// It is a polynomial of twice the degree on each span, and zero at places where the basis is C⁰.
+/// The result is `None` if `g` is not positive at other places. This occurs with fewer quadrature points than the patch rule has.
 ///
 /// # Errors
 /// Fails if the mesh has no quadrature, or the axis has a point without a tangent.
@@ -80,8 +81,8 @@ fn control_polygon_length(control_points: &[Vec2], span: &Span, degree: usize) -
     own.windows(2).map(|pair| (pair[1] - pair[0]).norm()).sum()
 }
 
-/// Returns, for each B-spline of degree p-1 on a span, the integral from the start of the span, as coefficients of a polynomial. The coordinate of
-/// the polynomial runs from -1 to 1 over the span. The integrals are the sums `Σ_(a > t) N_a` of splines of degree p.
+/// Returns, for each B-spline of degree p-1 on a span, the integral from the start of the span, as coefficients of a polynomial.
+/// The coordinate of the polynomial runs from -1 to 1 over the span. The integrals are the sums `Σ_(a > t) N_a` of splines of degree p.
 fn fractions(mesh: &Mesh, span: &Span) -> Vec<Vec<f64>> {
     let degree = mesh.basis().degree();
     let half = 0.5 * (span.end - span.start);
@@ -113,9 +114,9 @@ impl SplineString {
         Some(Self { degree, products, factors, stretched, inverse })
     }
 
-    /// Residual of a load on the string that is one for all splines before index `cut`. As an approximate response to this load, these splines have
-    /// the strains under a constant force, and all others have none. The residual is nonzero only in a few entries around `cut`. Returns the index
-    /// of the first of these entries, and the entries.
+    /// Residual of a load on the string that is one for all splines before index `cut`.
+    /// As an approximate response to this load, these splines have the strains under a constant force, and all others have none.
+    /// The residual is nonzero only in a few entries around `cut`. Returns the index of the first of these entries, and the entries.
     fn load_residual(&self, cut: usize) -> (usize, Vec<f64>) {
         let (size, reach) = (self.stretched.len(), self.degree - 1);
         let first = cut.saturating_sub(reach);
@@ -136,11 +137,11 @@ impl SplineString {
         (*first..).zip(load).map(|(at, r)| self.inverse.get(row, at) * r).sum()
     }
 
-    /// Coefficients of `g = lᵀ M⁻¹ r` on a span. `fractions` are the parts of its splines in front of a place in the span. The splines of earlier
-    /// spans are entirely in front of the place, those of later spans behind it.
+    /// Coefficients of `g = lᵀ M⁻¹ r` on a span. `fractions` are the parts of its splines in front of a place in the span.
+    /// The splines of earlier spans are entirely in front of the place, those of later spans behind it.
     ///
-    /// The earlier or later splines contribute `M⁻¹` times a load of ones up to an index. It consists of the strains under a constant force up to
-    /// the index, and the response to the residual.
+    /// The earlier or later splines contribute `M⁻¹` times a load of ones up to an index.
+    /// It consists of the strains under a constant force up to the index, and the response to the residual.
     fn polynomial(&self, span: &Span, fractions: &[Vec<f64>]) -> Vec<f64> {
         let own = span.first..span.first + self.degree;
         let (before, behind) = (self.load_residual(own.start), self.load_residual(own.end));

@@ -10,8 +10,9 @@ use crate::geometry::{
 /// Quadrature of the axial and shear strain of a beam.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 pub enum Quadrature {
-    /// Patch rule ([`patch_rule`]): the number of points in each smooth piece of the mesh equals the number of linearly independent derivatives of
-    /// its basis functions. The rule avoids locking and zero-energy modes, and passes the patch test.
+    /// Patch rule ([`patch_rule`]): the number of points in each smooth piece of the mesh equals the number
+    /// of linearly independent derivatives of its basis functions.
+    /// The rule avoids locking and zero-energy modes, and passes the patch test.
     #[default]
     Patch,
     /// Fixed number of Gauss points per span. Too many points cause locking, too few leave zero-energy modes.
@@ -179,8 +180,8 @@ impl Mesh {
         run[run.len() - 1].first - run[0].first + self.basis.degree()
     }
 
-    /// Number of quadrature points for the strain `Γ`, minus the number of linearly independent derivatives of the basis functions. A positive
-    /// result means that the mesh locks. If the result is negative, each missing point leaves two zero-energy modes.
+    /// Number of quadrature points for the strain `Γ`, minus the number of linearly independent derivatives of the basis functions.
+    /// A positive result means that the mesh locks. If the result is negative, each missing point leaves two zero-energy modes.
     fn excess_points(&self) -> isize {
         let wanted: usize = self.runs().iter().map(|run| self.derivatives(run)).sum();
         self.point_counts().force as isize - wanted as isize
@@ -233,8 +234,8 @@ impl Mesh {
         }
     }
 
-    /// Number of quadrature points for the curvature `κ` per span of a smooth piece. If the piece has full continuity, one point fewer than for a
-    /// single polynomial is sufficient.
+    /// Number of quadrature points for the curvature `κ` per span of a smooth piece.
+    /// If the piece has full continuity, one point fewer than for a single polynomial is sufficient.
     fn moment_points(&self, run: &[Span]) -> usize {
         let degree = self.basis.degree();
         let is_fully_smooth = run.windows(2).all(|pair| pair[1].first == pair[0].first + 1);

@@ -68,14 +68,14 @@ impl MomentDashpot {
         self.moment = 0.0;
     }
 
-    /// Returns the rate at the start of the step, extrapolated from the mean rates of the last two steps. `late` is the time from the middle of the
-    /// last step, as a fraction of the time between the middles of both steps.
+    /// Returns the rate at the start of the step, extrapolated from the mean rates of the last two steps.
+    /// `late` is the time from the middle of the last step, as a fraction of the time between the middles of both steps.
     fn carried(&self, late: f64) -> f64 {
         self.last_rate + (self.last_rate - self.rate_before) * late
     }
 
-    /// Returns the mismatch of the rate in the last accepted step. `fraction` is the position of the start of that step on the time axis, on which
-    /// the middle of the step before it is 0 and its own middle is 1.
+    /// Returns the mismatch of the rate in the last accepted step.
+    /// `fraction` is the position of the start of that step on the time axis, on which the middle of the step before it is 0 and its own middle is 1.
     pub(super) fn last_rate_mismatch(&self, fraction: f64) -> RateMismatch {
         let damping = self.functions.weight * self.damping;
         RateMismatch::of(damping, self.start_rate, [self.rate_before, self.last_rate], fraction)

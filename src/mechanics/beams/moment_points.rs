@@ -4,8 +4,9 @@
 //! κ1 = κ0 + Δω'/q     1/q = dΔθ/dΔω     M = EI ((1-σ) κ0 + σ κ1)     S_a = w N_a' M/q
 //! ```
 //!
-//! The moment is linear in the curvature, so Newton's method would converge without this unknown. But a moment computed from the increments has
-//! their rounding error times `EI`. In a stiff beam this error is larger than the forces in the balance.
+//! The moment is linear in the curvature, so Newton's method would converge without this unknown.
+//! But a moment computed from the increments has their rounding error times `EI`.
+//! In a stiff beam this error is larger than the forces in the balance.
 
 use pulp::Simd;
 
@@ -150,8 +151,8 @@ impl<const N: usize> MomentPoints<N> {
         }
     }
 
-    /// Computes the weighted moments `w M/q` in the present iterate, with the quadrature weight `w` and the derivative `1/q = dΔθ/dΔω` of the
-    /// rotation angle.
+    /// Computes the weighted moments `w M/q` in the present iterate,
+    /// with the quadrature weight `w` and the derivative `1/q = dΔθ/dΔω` of the rotation angle.
     #[inline(always)]
     pub(super) fn take_forces<V: Simd>(
         &mut self,
@@ -235,8 +236,7 @@ impl<const N: usize> MomentPoints<N> {
         weighted_moment.put(part, w * moment);
     }
 
-    /// Corrects the moments after a correction of the increments: `M ← M + EI (m + σ δκ1)`, with the mismatch `m` and the curvature correction
-    /// `δκ1`.
+    /// Corrects the moments after a correction of the increments: `M ← M + EI (m + σ δκ1)`, with the mismatch `m` and the curvature correction `δκ1`.
     #[inline(always)]
     pub(super) fn correct_moments<V: Simd>(
         &mut self,

@@ -1,25 +1,27 @@
 //! Section forces at any place of a beam.
 //!
-//! The balance of a step determines integrals of the section forces, weighted with derivatives of the basis functions and evaluated by the
-//! quadrature of the beam:
+//! The balance of a step determines integrals of the section forces,
+//! weighted with derivatives of the basis functions and evaluated by the quadrature of the beam:
 //!
 //! ```text
 //! Σ w N_a' n = F_a          Σ w N_a' M - Σ w N_a (x' × n) = T_a          F_a, T_a: loads minus inertia, known exactly
 //! ```
 //!
-//! The forces `n` and moments `M` at the quadrature points satisfy these equations. At the ends of a beam their error is of first order in the span
-//! length, because the quadrature rules have few points. This module computes forces that satisfy the equations with exact integrals. They are
-//! elements of the space `T` of all derivatives of the basis functions in a run, which is a sequence of smoothly joined spans:
+//! The forces `n` and moments `M` at the quadrature points satisfy these equations.
+//! At the ends of a beam their error is of first order in the span length, because the quadrature rules have few points.
+//! This module computes forces that satisfy the equations with exact integrals.
+//! They are elements of the space `T` of all derivatives of the basis functions in a run, which is a sequence of smoothly joined spans:
 //!
 //! ```text
 //! ∫ t n̂ dξ = Σ w t n               for all t in T
 //! ∫ t M̂ dξ = Σ w t M + ∫ v (Π m) dξ - Σ w v m      for all t in T, v' = t;  m = x' × n,  ∫ t Π m dξ = Σ w t m
 //! ```
 //!
-//! These forces are projections of the exact section forces, also at the ends. In terms of the span length, the error of `n` is of order `p`, the
-//! degree, and the error of `M` at least of order 2 (of order 1 on linear elements, where `M` is constant). With the reproducing kernel of `T`, the
-//! forces are weighted sums over the quadrature points, with weights that decay within a few spans. Runs are independent. Two runs meet at a joint
-//! or at a node of Lagrange elements; there each run has its own value.
+//! These forces are projections of the exact section forces, also at the ends.
+//! In terms of the span length, the error of `n` is of order `p`, the degree,
+//! and the error of `M` at least of order 2 (of order 1 on linear elements, where `M` is constant).
+//! With the reproducing kernel of `T`, the forces are weighted sums over the quadrature points, with weights that decay within a few spans.
+//! Runs are independent. Two runs meet at a joint or at a node of Lagrange elements; there each run has its own value.
 
 use super::sections::{Interpolation, Sections};
 use super::span_points::{SpanGroup, group_of};
@@ -31,8 +33,8 @@ const NO_WEIGHT: f64 = 1e-14;
 
 /// Section forces and strains at a cross section.
 ///
-/// These are the forces that the following part of the beam exerts on the preceding part. The components refer to the section frame, whose first
-/// axis is the section normal. With material damping they include the viscous forces.
+/// These are the forces that the following part of the beam exerts on the preceding part.
+/// The components refer to the section frame, whose first axis is the section normal. With material damping they include the viscous forces.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct SectionForces {
     /// Unit normal of the section [-]; zero on a particle, which has no section.
@@ -198,8 +200,8 @@ impl SectionPoints {
         self.runs[run].place(xi, self.most)
     }
 
-    /// Places along the whole beam with their parameters: the knots, and `within` places in each span. Where two runs meet there are two places,
-    /// first the place on the first run.
+    /// Places along the whole beam with their parameters: the knots, and `within` places in each span.
+    /// Where two runs meet there are two places, first the place on the first run.
     ///
     /// # Errors
     /// Fails in the same cases as [`of`](Self::of).

@@ -8,8 +8,8 @@ use crate::geometry::{GaussRule, larger};
 /// Largest number of places of a taper.
 const MOST_PLACES: usize = 10_000;
 
-/// Number of Gauss points in each piece of a taper. They integrate polynomials of degree five exactly, including the bending stiffness of a
-/// linearly varying height.
+/// Number of Gauss points in each piece of a taper.
+/// They integrate polynomials of degree five exactly, including the bending stiffness of a linearly varying height.
 const POINTS: usize = 3;
 
 /// Sections along the axis of a beam.
@@ -102,8 +102,8 @@ impl SectionVariation {
         self.sections().into_iter().reduce(|a, b| a.each(&b, larger)).unwrap_or_default()
     }
 
-    /// Speed of the fastest axial wave, `√(EA/ρA)` [length/time]. The maximum over the places of a taper is sufficient, because waves between the
-    /// places are not faster.
+    /// Speed of the fastest axial wave, `√(EA/ρA)` [length/time].
+    /// The maximum over the places of a taper is sufficient, because waves between the places are not faster.
     pub fn axial_wave_speed(&self) -> f64 {
         self.sections().iter().map(Section::axial_wave_speed).fold(0.0, larger)
     }

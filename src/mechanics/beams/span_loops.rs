@@ -14,8 +14,7 @@ use super::simd::{LANES, LaneChunk, Lanes};
 use super::span_points::{SpanGroup, window_mut};
 use super::{RotationIncrement, Section};
 
-/// Operation that is repeated for all spans. Each operation is a type, so that the compiler uses the selected vector instructions in the whole
-/// loop.
+/// Operation that is repeated for all spans. Each operation is a type, so that the compiler uses the selected vector instructions in the whole loop.
 pub(super) trait SpanLoop<const N: usize, S> {
     /// Performs the operation for a group of spans.
     fn at<V: Simd>(&mut self, simd: V, group: &mut SpanGroup<N, S>);

@@ -1,9 +1,10 @@
 //! Division of the spans of a beam into parts that threads process concurrently. Results are identical to those of one thread.
 //!
-//! The beam is cut at control points. Each part owns the control points up to the next cut, and the spans with these control points only. A few
-//! spans have control points on both sides of a cut. The terms of each sum must be added in the order of the spans, because the order affects
-//! rounding. Hence the contributions of spans across a cut are computed twice. First they are added to the control points after the cut. When all
-//! parts are completed, they are added to the control points before the cut.
+//! The beam is cut at control points. Each part owns the control points up to the next cut, and the spans with these control points only.
+//! A few spans have control points on both sides of a cut.
+//! The terms of each sum must be added in the order of the spans, because the order affects rounding.
+//! Hence the contributions of spans across a cut are computed twice. First they are added to the control points after the cut.
+//! When all parts are completed, they are added to the control points before the cut.
 
 use std::ops::Range;
 
@@ -107,8 +108,8 @@ impl SpanPartition {
 
     /// Adds contributions of spans to control points. Parts are processed concurrently.
     ///
-    /// `work` is called with the context of a part, some spans, the first control point of its sums, and the sums. For spans across a cut it is
-    /// called twice, and must compute the same values both times.
+    /// `work` is called with the context of a part, some spans, the first control point of its sums, and the sums.
+    /// For spans across a cut it is called twice, and must compute the same values both times.
     pub(super) fn sum<const N: usize, S: Sections, C: Send>(
         &self,
         groups: &mut [SpanGroup<N, S>],

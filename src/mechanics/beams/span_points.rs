@@ -16,8 +16,8 @@ use super::simd::{LANES, LaneChunk};
 use super::span_stiffness::SpanStiffness;
 use crate::geometry::Vec2;
 
-/// Number of spans whose points are arranged in lanes together. It is large enough that few lanes are unused, and small enough that the points stay
-/// in the cache.
+/// Number of spans whose points are arranged in lanes together.
+/// It is large enough that few lanes are unused, and small enough that the points stay in the cache.
 pub(super) const SPANS_AT_ONCE: usize = 16;
 
 /// Span of a group, with the range of its points in the group.

@@ -1,5 +1,4 @@
-//! Static stiffness of a span in factored form. It consists of strains with their stiffnesses, and of the geometric stiffness due to section
-//! forces.
+//! Static stiffness of a span in factored form. It consists of strains with their stiffnesses, and of the geometric stiffness due to section forces.
 //!
 //! ```text
 //! δΓ = Λᵀ δg - J (Γ + e1) δω        δκ = δω'        these are the rows of B, with the stiffness C: w diag(EA, GA) and w EI
@@ -24,8 +23,8 @@ pub enum StrainKind {
 pub struct SpanStiffness {
     /// First control point of the span.
     pub first: usize,
-    /// Rows of derivatives of strains and curvatures with respect to displacements and rotations, one after the other [1/length; shear by rotation:
-    /// -; curvature by rotation: 1/length].
+    /// Rows of derivatives of strains and curvatures with respect to displacements and rotations,
+    /// one after the other [1/length; shear by rotation: -; curvature by rotation: 1/length].
     pub strains: Vec<f64>,
     /// Stiffness of each strain or curvature, times the integration length [force·length, force·length³].
     pub stiffness: Vec<f64>,

@@ -89,8 +89,8 @@ impl BodyPoint {
         Self::of_point(body, 0, 0.0)
     }
 
-    /// Place of a point of a rigid body. `point` is the index of its control point (0 is the centre of mass), `angle` the initial angle of the body
-    /// [rad].
+    /// Place of a point of a rigid body.
+    /// `point` is the index of its control point (0 is the centre of mass), `angle` the initial angle of the body [rad].
     pub fn of_point(body: usize, point: usize, angle: f64) -> Self {
         let mut shape = [0.0; MAX_DEGREE + 1];
         shape[0] = 1.0;

@@ -18,8 +18,8 @@ pub struct TaperQuadrature {
 }
 
 impl TaperQuadrature {
-    /// Computes the quadrature errors for the sections of a beam. Places along the beam are used as fractions of the parameter. This is exact for
-    /// spans of equal length.
+    /// Computes the quadrature errors for the sections of a beam. Places along the beam are used as fractions of the parameter.
+    /// This is exact for spans of equal length.
     ///
     /// # Errors
     /// Fails if the mesh has no quadrature.

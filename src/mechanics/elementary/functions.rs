@@ -1,8 +1,8 @@
-//! Trigonometric, hyperbolic and exponential functions and their inverses. They come from the crate `libm`, a Rust port of the functions of musl
-//! and FreeBSD.
+//! Trigonometric, hyperbolic and exponential functions and their inverses.
+//! They come from the crate `libm`, a Rust port of the functions of musl and FreeBSD.
 //!
-//! Errors are mostly below one unit in the last place, and below two units for hyperbolic functions. Angles are in radians. Undefined values are
-//! NaN as required by IEEE 754.
+//! Errors are mostly below one unit in the last place, and below two units for hyperbolic functions. Angles are in radians.
+//! Undefined values are NaN as required by IEEE 754.
 
 /// Sine of an angle [rad], identical on every machine.
 #[inline]

@@ -126,8 +126,8 @@ impl Basis {
         }
     }
 
-    /// Interpolation parameter of each function: the Greville abscissae of splines, or the nodes of Lagrange elements. They increase strictly and
-    /// include the ends of the domain.
+    /// Interpolation parameter of each function: the Greville abscissae of splines, or the nodes of Lagrange elements.
+    /// They increase strictly and include the ends of the domain.
     pub(crate) fn abscissae(&self) -> Vec<f64> {
         match self {
             Self::BSpline(knots) => knots.greville(),
@@ -135,8 +135,9 @@ impl Basis {
         }
     }
 
-    /// Returns a basis of the same type with about `ratio` times as many spans. Breaks of reduced continuity are kept, with at least one span
-    /// between two of them. The lengths of the spans between them vary as in this basis.
+    /// Returns a basis of the same type with about `ratio` times as many spans.
+    /// Breaks of reduced continuity are kept, with at least one span between two of them.
+    /// The lengths of the spans between them vary as in this basis.
     ///
     /// # Errors
     /// Fails if the basis has too many or too short spans.
@@ -169,8 +170,8 @@ impl Basis {
 
     /// Returns the basis with continuity C⁰ at `xi`. The multiplicity of the knot becomes `degree`, or the Lagrange element is split.
     ///
-    /// If a knot is closer to `xi` than 1e-10 of the domain, this knot is used instead. At the ends, and where the basis is C⁰ already, the basis
-    /// is not changed.
+    /// If a knot is closer to `xi` than 1e-10 of the domain, this knot is used instead.
+    /// At the ends, and where the basis is C⁰ already, the basis is not changed.
     ///
     /// # Errors
     /// Fails if `xi` is outside the domain or NaN, or there are too many spans.

@@ -5,9 +5,9 @@ use super::{KnotVector, Span};
 
 /// Nonzero B-splines on `span` of `knots` at `xi`, with all derivatives. Outside the span their polynomials are extended.
 ///
-/// The functions and their derivatives are computed from the splines of one degree less. The spline `N_m` of degree `q - 1` has the support `[ξ_m,
-/// ξ_{m+q}]` of length `h_m`, and contributes to two splines of degree `q` (The NURBS Book, equations 2.5 and 2.7; the results are those of
-/// algorithm A2.3):
+/// The functions and their derivatives are computed from the splines of one degree less.
+/// The spline `N_m` of degree `q - 1` has the support `[ξ_m, ξ_{m+q}]` of length `h_m`, and contributes to two splines of degree `q` (The NURBS Book,
+/// equations 2.5 and 2.7; the results are those of algorithm A2.3):
 ///
 /// ```text
 /// N_{m-1}   gets   (ξ_{m+q} - ξ) / h_m · N_m       its derivatives   -q / h_m · (derivatives of N_m of one order less)
@@ -45,8 +45,8 @@ pub(super) fn fill<const WIDTH: usize>(
     }
 }
 
-/// Returns the values of the basis functions at `xi` whose degree is higher by one than that of the functions `lower`. `supports` contains the ends
-/// of the supports of `lower`.
+/// Returns the values of the basis functions at `xi` whose degree is higher by one than that of the functions `lower`.
+/// `supports` contains the ends of the supports of `lower`.
 #[inline(always)]
 fn raise<const WIDTH: usize>(
     lower: &[f64; WIDTH],
@@ -62,8 +62,7 @@ fn raise<const WIDTH: usize>(
     higher
 }
 
-/// Computes the derivatives of one order of the splines of degree `q`, from the derivatives of the next lower order of the splines of degree `q -
-/// 1`.
+/// Computes the derivatives of one order of the splines of degree `q`, from the derivatives of the next lower order of the splines of degree `q - 1`.
 #[inline(always)]
 fn differentiate<const WIDTH: usize>(
     lower: &[f64; WIDTH],

@@ -7,14 +7,14 @@ use super::values::{FunctionRow, LOW_ORDERS, LowDerivatives};
 use super::{Basis, GaussRule, MAX_DEGREE, PiecewisePolynomial, Span};
 
 /// Basis functions `B_i` along a path from the parameter ξ₀ to ξ₁. The path belongs to a point that slides along `Σ B_i(ξ) x_i` during a time step.
-/// The divided differences `(B_i(ξ₁) - B_i(ξ₀)) / (ξ₁ - ξ₀)` are accurate for paths of any length, including zero, and across breaks of any
-/// continuity.
+/// The divided differences `(B_i(ξ₁) - B_i(ξ₀)) / (ξ₁ - ξ₀)` are accurate for paths of any length, including zero,
+/// and across breaks of any continuity.
 ///
-/// The functions `first, first + 1, …` are those that are nonzero somewhere on the spans of the path. Every accessor returns one value for each of
-/// them. Parameters and results are dimensionless.
+/// The functions `first, first + 1, …` are those that are nonzero somewhere on the spans of the path.
+/// Every accessor returns one value for each of them. Parameters and results are dimensionless.
 ///
-/// If a path starts at a break, its first span is the one in its direction. If it ends at a break, its last span is the one it has passed. A
-/// path of zero length at a break lies in the span on the right. Outside the domain, the polynomials of the end spans are extended.
+/// If a path starts at a break, its first span is the one in its direction. If it ends at a break, its last span is the one it has passed.
+/// A path of zero length at a break lies in the span on the right. Outside the domain, the polynomials of the end spans are extended.
 #[derive(Debug, Clone)]
 pub struct ContactPath {
     /// Data that all copies for the same beam share.
@@ -70,8 +70,8 @@ struct PathPiece {
 }
 
 impl ContactPath {
-    /// Creates a path of zero length at the start of the domain of `basis`. The memory for all paths is allocated here, so
-    /// [`set_interval`](Self::set_interval) allocates none.
+    /// Creates a path of zero length at the start of the domain of `basis`.
+    /// The memory for all paths is allocated here, so [`set_interval`](Self::set_interval) allocates none.
     pub fn new(basis: Basis) -> Self {
         let room = QUANTITIES * basis.functions();
         let (start, _) = basis.domain();
@@ -147,17 +147,17 @@ impl ContactPath {
         self.row(PathQuantity::Slope)
     }
 
-    /// Divided differences `D_i = (B_i(ξ₁) - B_i(ξ₀)) / (ξ₁ - ξ₀)`, which are the means of `B_i'` over the path. They are accurate to rounding. For
-    /// a path of zero length they are `B_i'(ξ₀)`. They sum to zero.
+    /// Divided differences `D_i = (B_i(ξ₁) - B_i(ξ₀)) / (ξ₁ - ξ₀)`, which are the means of `B_i'` over the path. They are accurate to rounding.
+    /// For a path of zero length they are `B_i'(ξ₀)`. They sum to zero.
     pub fn difference(&self) -> &[f64] {
         self.row(PathQuantity::Difference)
     }
 
-    /// Derivatives of the divided differences with respect to the end of the path for fixed ξ₀: `∂D_i/∂ξ₁ = (B_i'(ξ₁) - D_i) / (ξ₁ - ξ₀)`. For a
-    /// path of zero length they are `½ B_i''(ξ₀)`. They sum to zero.
+    /// Derivatives of the divided differences with respect to the end of the path for fixed ξ₀: `∂D_i/∂ξ₁ = (B_i'(ξ₁) - D_i) / (ξ₁ - ξ₀)`.
+    /// For a path of zero length they are `½ B_i''(ξ₀)`. They sum to zero.
     ///
-    /// They are accurate to rounding unless `B_i'` jumps on the path. In this case they have the rounding error of `D_i` divided by the length of
-    /// the path.
+    /// They are accurate to rounding unless `B_i'` jumps on the path.
+    /// In this case they have the rounding error of `D_i` divided by the length of the path.
     pub fn change(&self) -> &[f64] {
         self.row(PathQuantity::Change)
     }
@@ -194,8 +194,8 @@ impl ContactPath {
         function.in_span(self.interval.arrival, self.interval.to)
     }
 
-    /// Number of spans between two parameters, including fractions. For a path within one span it is the length of the path divided by the length
-    /// of the span.
+    /// Number of spans between two parameters, including fractions.
+    /// For a path within one span it is the length of the path divided by the length of the span.
     pub(crate) fn spans_between(&self, from: f64, to: f64) -> f64 {
         let (from, to) = if from <= to { (from, to) } else { (to, from) };
         let PathInterval { departure, arrival, .. } = self.interval(from, to);
@@ -252,8 +252,8 @@ impl ContactPath {
         }
     }
 
-    /// Sets all rows for a path in one span. The integrals of [`add_quotients`](Self::add_quotients) follow from the derivatives at its end: with
-    /// `h = Δξ`
+    /// Sets all rows for a path in one span.
+    /// The integrals of [`add_quotients`](Self::add_quotients) follow from the derivatives at its end: with `h = Δξ`
     ///
     /// ```text
     /// D = B' - h/2 B'' + h²/6 B'''        ∂D/∂ξ1 = ½ B'' - h/6 B'''
@@ -288,8 +288,8 @@ impl ContactPath {
         add(mean, 0, 0.5, end);
     }
 
-    /// Adds two integrals over the path with `0 < s < 1`: `D = ∫ B'(ξ₀ + s Δξ) ds`, and its derivative `∫ s B''(ξ₀ + s Δξ) ds` unless `B'` jumps on
-    /// the path.
+    /// Adds two integrals over the path with `0 < s < 1`: `D = ∫ B'(ξ₀ + s Δξ) ds`,
+    /// and its derivative `∫ s B''(ξ₀ + s Δξ) ds` unless `B'` jumps on the path.
     fn add_quotients<const WIDTH: usize>(&mut self, interval: PathInterval) {
         let PathSupport { basis, spans, kinks, rule } = &*self.line;
         let [.., slope, difference, change] = rows(&mut self.numbers, self.length);
@@ -345,8 +345,8 @@ impl PathInterval {
     }
 }
 
-/// For each span, counts the breaks at or before its start at which first derivatives of the basis jump. At such a break, at most one function is
-/// nonzero on both sides.
+/// For each span, counts the breaks at or before its start at which first derivatives of the basis jump.
+/// At such a break, at most one function is nonzero on both sides.
 fn kinks(spans: &[Span], degree: usize) -> Vec<usize> {
     let jumps = spans.windows(2).map(|pair| usize::from(pair[1].first - pair[0].first >= degree));
     std::iter::once(0)

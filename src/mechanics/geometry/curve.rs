@@ -38,8 +38,8 @@ impl Curve {
         Line::new(from, to).map(Self::Line)
     }
 
-    /// Returns the circular arc about `center` [length] with `radius` [length] between two angles from the first axis [rad], with ξ from 0 to 1. It
-    /// is counter-clockwise if `to_angle` is larger.
+    /// Returns the circular arc about `center` [length] with `radius` [length] between two angles from the first axis [rad], with ξ from 0 to 1.
+    /// It is counter-clockwise if `to_angle` is larger.
     ///
     /// # Errors
     /// Fails if numbers are not finite, the radius is not positive, the angles are equal, or the arc exceeds a full turn.
@@ -60,8 +60,8 @@ impl Curve {
         SplineCurve::new(knots, control_points).map(Self::Spline)
     }
 
-    /// Returns the C¹ cubic spline through `n + 1` points [length] by local cubic interpolation (The NURBS Book, section 9.3.4): `2n + 2` control
-    /// points, double interior knots at the points, ξ from 0 to 1.
+    /// Returns the C¹ cubic spline through `n + 1` points [length] by local cubic interpolation (The NURBS Book, section 9.3.4):
+    /// `2n + 2` control points, double interior knots at the points, ξ from 0 to 1.
     ///
     /// # Errors
     /// Fails if there are fewer than two points, coordinates are not finite, or consecutive points are closer than 1e-12 of the whole.

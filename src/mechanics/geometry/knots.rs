@@ -14,8 +14,9 @@ pub const MAX_SPANS: usize = 400_000;
 /// Length of a span that is rejected because it is due to rounding, as a fraction of the domain.
 const SHORTEST_SPAN: f64 = 1e-12;
 
-/// Open knot vector of degree `p`: knots `ξ_0 ≤ … ≤ ξ_m` on an interval `[a, b]`. The end knots are repeated exactly `p + 1` times, interior knots
-/// at most `p` times, so that splines are at least continuous. Knots are dimensionless. See The NURBS Book, section 2.2.
+/// Open knot vector of degree `p`: knots `ξ_0 ≤ … ≤ ξ_m` on an interval `[a, b]`.
+/// The end knots are repeated exactly `p + 1` times, interior knots at most `p` times, so that splines are at least continuous.
+/// Knots are dimensionless. See The NURBS Book, section 2.2.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(try_from = "(usize, Vec<f64>)")]
 pub struct KnotVector {
@@ -62,8 +63,8 @@ impl KnotVector {
         Ok(vector)
     }
 
-    /// Creates `spans` equal spans on `[0, 1]`. At interior knots, splines have `continuity` continuous derivatives, so the multiplicity of the
-    /// knots is `degree - continuity`.
+    /// Creates `spans` equal spans on `[0, 1]`.
+    /// At interior knots, splines have `continuity` continuous derivatives, so the multiplicity of the knots is `degree - continuity`.
     ///
     /// # Errors
     /// Fails for `spans` outside 1 to [`MAX_SPANS`], `degree` outside 1 to [`MAX_DEGREE`], or `continuity` not below `degree`.
@@ -125,8 +126,8 @@ impl KnotVector {
             - self.knots.partition_point(|&knot| knot < xi)
     }
 
-    /// Index `i` with `ξ_i ≤ xi < ξ_{i+1}`. At the right end it is the index of the last nonempty span (The NURBS Book, algorithm A2.1). The
-    /// functions `i - p` to `i` are nonzero there.
+    /// Index `i` with `ξ_i ≤ xi < ξ_{i+1}`. At the right end it is the index of the last nonempty span (The NURBS Book, algorithm A2.1).
+    /// The functions `i - p` to `i` are nonzero there.
     ///
     /// # Errors
     /// Fails if `xi` is outside the domain or NaN.
@@ -140,8 +141,8 @@ impl KnotVector {
     /// Returns the knot vector with `xi` inserted `times` times.
     ///
     /// # Errors
-    /// Fails if `xi` is not strictly inside the domain, if it is closer to another knot than 1e-12 of the domain, or if its multiplicity would
-    /// exceed the degree.
+    /// Fails if `xi` is not strictly inside the domain, if it is closer to another knot than 1e-12 of the domain,
+    /// or if its multiplicity would exceed the degree.
     pub fn insert(&self, xi: f64, times: usize) -> Result<Self, GeometryError> {
         let (start, end) = self.domain();
         if !(start < xi && xi < end) {
@@ -161,8 +162,8 @@ impl KnotVector {
         Self::new(self.degree, knots)
     }
 
-    /// Greville abscissae `(ξ_{i+1} + … + ξ_{i+p}) / p`, one per basis function, strictly increasing. If the control points lie on a line at these
-    /// parameters, the curve has uniform speed.
+    /// Greville abscissae `(ξ_{i+1} + … + ξ_{i+p}) / p`, one per basis function, strictly increasing.
+    /// If the control points lie on a line at these parameters, the curve has uniform speed.
     pub fn greville(&self) -> Vec<f64> {
         self.knots[1..self.knots.len() - 1]
             .windows(self.degree)

@@ -10,8 +10,8 @@ use super::{GeometryError, Span};
 /// Largest degree of Lagrange elements. For higher degrees equally spaced nodes are unsuitable.
 const LARGEST_DEGREE: usize = 3;
 
-/// Continuous piecewise Lagrange polynomials with `degree + 1` equally spaced nodes per element. Neighbouring elements share a node, so there are
-/// `elements · degree + 1` nodes and as many functions.
+/// Continuous piecewise Lagrange polynomials with `degree + 1` equally spaced nodes per element.
+/// Neighbouring elements share a node, so there are `elements · degree + 1` nodes and as many functions.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(try_from = "(usize, Vec<f64>)")]
 pub struct LagrangeBasis {
@@ -31,8 +31,8 @@ impl LagrangeBasis {
     /// Creates elements of `degree` 1 to 3 between consecutive `breaks` (dimensionless, increasing).
     ///
     /// # Errors
-    /// Fails for an unavailable degree; breaks that are fewer than two, not finite, not increasing, or closer than 1e-12 of the domain; more than
-    /// [`MAX_SPANS`](super::MAX_SPANS) elements.
+    /// Fails for an unavailable degree; breaks that are fewer than two, not finite, not increasing, or closer than 1e-12 of the domain;
+    /// more than [`MAX_SPANS`](super::MAX_SPANS) elements.
     pub fn new(degree: usize, breaks: Vec<f64>) -> Result<Self, GeometryError> {
         check_degree(degree, LARGEST_DEGREE)?;
         check_spans(breaks.len().saturating_sub(1))?;
@@ -134,8 +134,8 @@ impl LagrangeBasis {
         }
     }
 
-    /// Polynomial `L_j = Π_{m≠j} (ξ - ξ_m) / (ξ_j - ξ_m)` and its derivatives. It is multiplied factor by factor. For a linear factor `f`, Leibniz'
-    /// rule is `(f g)⁽ᵏ⁾ = f g⁽ᵏ⁾ + k f' g⁽ᵏ⁻¹⁾`.
+    /// Polynomial `L_j = Π_{m≠j} (ξ - ξ_m) / (ξ_j - ξ_m)` and its derivatives. It is multiplied factor by factor.
+    /// For a linear factor `f`, Leibniz' rule is `(f g)⁽ᵏ⁾ = f g⁽ᵏ⁾ + k f' g⁽ᵏ⁻¹⁾`.
     fn polynomial(&self, span: &Span, j: usize, xi: f64) -> FunctionRow {
         let mut derivatives = FunctionRow::default();
         derivatives[0] = 1.0;

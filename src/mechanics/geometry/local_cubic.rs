@@ -3,13 +3,13 @@
 use super::error::finite_point;
 use super::{GeometryError, KnotVector, SplineCurve, Vec2, cross};
 
-/// Angle at which two chords count as parallel [rad]. Also the length of a sum of chords that counts as zero, as a fraction of the lengths of the
-/// chords.
+/// Angle at which two chords count as parallel [rad].
+/// Also the length of a sum of chords that counts as zero, as a fraction of the lengths of the chords.
 const PARALLEL: f64 = 1e-12;
 
-/// Local cubic interpolation (The NURBS Book, section 9.3.4) through `n + 1` points. One cubic piece joins each pair of consecutive points. Its end
-/// tangents are those of [`tangents`], and the speed at the ends and the middle is equal for all pieces. The curve is C¹ on `[0, 1]`, with `2n + 2`
-/// control points and double interior knots.
+/// Local cubic interpolation (The NURBS Book, section 9.3.4) through `n + 1` points. One cubic piece joins each pair of consecutive points.
+/// Its end tangents are those of [`tangents`], and the speed at the ends and the middle is equal for all pieces.
+/// The curve is C¹ on `[0, 1]`, with `2n + 2` control points and double interior knots.
 ///
 /// # Errors
 /// Fails if there are fewer than two points, coordinates are not finite, or consecutive points are closer than 1e-12 of the whole.
@@ -43,8 +43,8 @@ pub(super) fn through(points: &[Vec2]) -> Result<SplineCurve, GeometryError> {
     SplineCurve::new(KnotVector::new(3, knots)?, control_points)
 }
 
-/// Speed `α = |x'|` at start, middle and end of a piece on the unit interval. It is the positive root of equation 9.50, for a `chord` and the sum
-/// `T_0 + T_3` of the end tangents.
+/// Speed `α = |x'|` at start, middle and end of a piece on the unit interval.
+/// It is the positive root of equation 9.50, for a `chord` and the sum `T_0 + T_3` of the end tangents.
 fn common_speed(chord: Vec2, tangent_sum: Vec2) -> f64 {
     let a = 16.0 - tangent_sum.norm_squared();
     let half_b = 6.0 * chord.dot(&tangent_sum);
@@ -54,8 +54,8 @@ fn common_speed(chord: Vec2, tangent_sum: Vec2) -> f64 {
     if half_b > 0.0 { -c / (half_b + root) } else { (root - half_b) / a }
 }
 
-/// Unit tangents at the points between `chords` and at both ends. Akima's rule computes them from two chords on either side (equations 9.29 and
-/// 9.31). Equation 9.33 gives the additional chords beyond the ends.
+/// Unit tangents at the points between `chords` and at both ends.
+/// Akima's rule computes them from two chords on either side (equations 9.29 and 9.31). Equation 9.33 gives the additional chords beyond the ends.
 fn tangents(chords: &[Vec2]) -> Vec<Vec2> {
     let count = chords.len();
     let before = continued(chords[0], chords[1.min(count - 1)]);
@@ -64,17 +64,18 @@ fn tangents(chords: &[Vec2]) -> Vec<Vec2> {
     all.windows(4).map(|chords| akima_tangent(chords[0], chords[1], chords[2], chords[3])).collect()
 }
 
-/// Returns two chords beyond an end, which continue the rotation of the last two chords. The book uses the chord `2 near - far`; here `far` is
-/// first scaled to the length of `near`. For equally spaced points the result is the same. For other points the scaling prevents a curve that
-/// starts backwards.
+/// Returns two chords beyond an end, which continue the rotation of the last two chords.
+/// The book uses the chord `2 near - far`; here `far` is first scaled to the length of `near`. For equally spaced points the result is the same.
+/// For other points the scaling prevents a curve that starts backwards.
 fn continued(near: Vec2, far: Vec2) -> [Vec2; 2] {
     let next = |near: Vec2, far: Vec2| 2.0 * near - near.norm() / far.norm() * far;
     let first = next(near, far);
     [first, next(first, near)]
 }
 
-/// Unit tangent at the point between the chords `b` and `c` of four consecutive chords. At a corner between two straight parts both chords have
-/// equal weight, so the corner is rounded. If the direction reverses, the tangent is that of the following chord.
+/// Unit tangent at the point between the chords `b` and `c` of four consecutive chords.
+/// At a corner between two straight parts both chords have equal weight, so the corner is rounded.
+/// If the direction reverses, the tangent is that of the following chord.
 fn akima_tangent(a: Vec2, b: Vec2, c: Vec2, d: Vec2) -> Vec2 {
     let (bend_before, bend_after) = (cross(a, b).abs(), cross(c, d).abs());
     let straight = bend_before <= PARALLEL * a.norm() * b.norm()

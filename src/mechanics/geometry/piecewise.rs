@@ -42,8 +42,8 @@ impl PiecewisePolynomial {
         }
     }
 
-    /// Creates the integral of a function over consecutive spans, starting at the first span. On each span the function is interpolated at `points`
-    /// Gauss points.
+    /// Creates the integral of a function over consecutive spans, starting at the first span.
+    /// On each span the function is interpolated at `points` Gauss points.
     pub fn integral(spans: &[Span], points: usize, function: impl Fn(&Span, f64) -> f64) -> Self {
         let rule = GaussRule::legendre(points);
         let places: Vec<f64> = rule.iter_on(-1.0, 1.0).map(|(t, _)| t).collect();
@@ -78,8 +78,8 @@ impl PiecewisePolynomial {
         middles.map(|(span, (middle, _))| self.in_span(span, *middle)[0]).fold(0.0, larger)
     }
 
-    /// Values along a path whose ends belong to one span: Horner's scheme at both ends, of the polynomial `f` and of its quotients `f[·, ξ1]` and
-    /// `f[·, ξ1, ξ1]`.
+    /// Values along a path whose ends belong to one span: Horner's scheme at both ends,
+    /// of the polynomial `f` and of its quotients `f[·, ξ1]` and `f[·, ξ1, ξ1]`.
     #[inline]
     pub(super) fn between(&self, span: usize, from: f64, to: f64) -> FunctionOnPath {
         let (middle, half) = self.spans[span];

@@ -78,8 +78,8 @@ impl PositiveFactors {
 
     /// Entries of the inverse that are up to `width` columns away from its diagonal. `width` must be at least the half-bandwidth.
     ///
-    /// They are computed from `Lᵀ Z = D⁻¹ L⁻¹`, where `Z` is the inverse, starting with the last row (Takahashi, Fagan & Chin 1973; Erisman &
-    /// Tinney 1975).
+    /// They are computed from `Lᵀ Z = D⁻¹ L⁻¹`, where `Z` is the inverse, starting with the last row (Takahashi,
+    /// Fagan & Chin 1973; Erisman & Tinney 1975).
     pub fn inverse(&self, width: usize) -> PositiveBand {
         let size = self.columns.len();
         let mut inverse = PositiveBand::zeros(size, width);

@@ -5,8 +5,8 @@ use super::{Basis, BasisValues, GaussRule, GeometryError, Span};
 
 /// Space `T` of the derivatives of the basis functions in a run of spans, with their scalar products.
 ///
-/// The scalar products of a function `f` with all elements of `T` determine its projection `Π f`. For smooth functions, the error of the projection
-/// is of order `p` up to the ends of the run, where `p` is the degree of the basis.
+/// The scalar products of a function `f` with all elements of `T` determine its projection `Π f`.
+/// For smooth functions, the error of the projection is of order `p` up to the ends of the run, where `p` is the degree of the basis.
 #[derive(Debug, Clone)]
 pub struct LowerSplines {
     basis: Basis,
@@ -16,8 +16,8 @@ pub struct LowerSplines {
     factors: Vec<Vec<f64>>,
 }
 
-/// Reproducing kernel at a place ξ of a run. It is the function `ρ` in `T` with `∫ ρ t dξ = t(ξ)` for all t in `T`, stored as a spline `v` with `v'
-/// = ρ`.
+/// Reproducing kernel at a place ξ of a run.
+/// It is the function `ρ` in `T` with `∫ ρ t dξ = t(ξ)` for all t in `T`, stored as a spline `v` with `v' = ρ`.
 #[derive(Debug, Clone)]
 pub struct Reproduction<'a> {
     splines: &'a LowerSplines,
@@ -49,8 +49,8 @@ impl LowerSplines {
         Ok(splines)
     }
 
-    /// Calls `add` for every point of a quadrature rule that integrates products of a function and a derivative exactly. The arguments are the
-    /// index of the first derivative, the weight, the derivatives and the functions.
+    /// Calls `add` for every point of a quadrature rule that integrates products of a function and a derivative exactly.
+    /// The arguments are the index of the first derivative, the weight, the derivatives and the functions.
     fn integrate(
         &self,
         mut add: impl FnMut(usize, f64, &[f64], &BasisValues),

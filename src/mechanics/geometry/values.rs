@@ -10,8 +10,8 @@ pub(super) type FunctionRow = [f64; WIDTH];
 
 const ZERO: FunctionRow = [0.0; WIDTH];
 
-/// The `degree + 1` basis functions `N_first … N_{first+degree}` of one span, and all their derivatives with respect to ξ, at one parameter. All
-/// other functions are zero there. Values are dimensionless and need no allocated memory.
+/// The `degree + 1` basis functions `N_first … N_{first+degree}` of one span, and all their derivatives with respect to ξ, at one parameter.
+/// All other functions are zero there. Values are dimensionless and need no allocated memory.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct BasisValues {
     /// Index in the basis of the first nonzero function.

@@ -6,12 +6,12 @@ use crate::elementary::square;
 use crate::linalg::BorderedMatrix;
 use crate::newton::{Equations, Newton, NewtonError, NewtonReport, ResidualNorms, Tolerance};
 
-/// Largest rotation increment `Δω`, which is the mean angular velocity times the step length. For larger increments the direction of rotation is
-/// ambiguous.
+/// Largest rotation increment `Δω`, which is the mean angular velocity times the step length.
+/// For larger increments the direction of rotation is ambiguous.
 const LARGEST_INCREMENT: f64 = std::f64::consts::PI;
 
-/// Smallest chord of the path of a slider in the mean configuration, as a fraction of the length of the path. If a rotation of about π folds the
-/// path, the contact equations have no defined direction, and spurious solutions exist.
+/// Smallest chord of the path of a slider in the mean configuration, as a fraction of the length of the path.
+/// If a rotation of about π folds the path, the contact equations have no defined direction, and spurious solutions exist.
 const SHORTEST_CHORD: f64 = 1e-3;
 
 /// Coefficients of an integrator in the balance of a step.
@@ -34,9 +34,9 @@ impl BalanceCoefficients {
 
 /// Balance of a step: `R(d, z) = ι/Δt² M d + weight · F(stage, u) + constant + G(u, z)` with the increment `u = Δt v0 + d`.
 ///
-/// Here `z` are the constraint multipliers and `G` their forces, averaged over the step. The unknown is not the increment `u` but its deviation `d`
-/// from a motion with constant velocity. Hence the rounding error of `v1 = v0 + 2/Δt d` is relative to the velocity change, and momenta do not
-/// drift over many steps.
+/// Here `z` are the constraint multipliers and `G` their forces, averaged over the step.
+/// The unknown is not the increment `u` but its deviation `d` from a motion with constant velocity.
+/// Hence the rounding error of `v1 = v0 + 2/Δt d` is relative to the velocity change, and momenta do not drift over many steps.
 pub(super) struct StepBalance<'a> {
     mechanism: &'a mut dyn Mechanism,
     rule: BalanceCoefficients,
@@ -280,8 +280,8 @@ impl StepSolver {
         self.accept(mechanism, |_, v0, d| v0 + twice_inverse * d);
     }
 
-    /// Ends the step with the present increments. `rate` computes the final rate of an unknown from its index, its initial rate and its deviation
-    /// from constant velocity.
+    /// Ends the step with the present increments.
+    /// `rate` computes the final rate of an unknown from its index, its initial rate and its deviation from constant velocity.
     pub(super) fn accept(
         &mut self,
         mechanism: &mut dyn Mechanism,

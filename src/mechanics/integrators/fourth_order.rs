@@ -5,8 +5,9 @@ use crate::newton::{NewtonReport, Tolerance};
 
 /// Lengths of the first three of seven substeps, as fractions of the step. The last three have the same lengths in reverse order.
 ///
-/// They satisfy five equations. These are the conditions of order four, and the condition that slow loads do not excite vibrations with a phase of
-/// 2π or 4π per step (theory.md 8.3).
+/// They satisfy five equations.
+/// These are the conditions of order four, and the condition that slow loads do not excite vibrations with a phase of 2π
+/// or 4π per step (theory.md 8.3).
 const SHARES: [f64; 3] =
     [0.161_052_153_814_088_86, 0.193_890_122_365_726_64, 0.426_192_546_250_769_94];
 
@@ -16,15 +17,17 @@ const ENDS: [f64; 7] = {
     [a, a + b, a + b + c, 1.0 - (a + b + c), 1.0 - (a + b), 1.0 - a, 1.0]
 };
 
-/// Fourth-order method. A step consists of seven energy–momentum substeps with the lengths `a, b, c, 1 - 2(a + b + c), c, b, a`; the fourth one
-/// runs backwards in time. Each substep conserves energy, linear and angular momentum to rounding, and so does the whole step.
+/// Fourth-order method.
+/// A step consists of seven energy–momentum substeps with the lengths `a, b, c, 1 - 2(a + b + c), c, b, a`; the fourth one runs backwards in time.
+/// Each substep conserves energy, linear and angular momentum to rounding, and so does the whole step.
 ///
-/// In a step of a symmetric second-order method, the leading error is proportional to `Δt³`. These errors cancel because the sum of the cubes of
-/// the substep lengths is zero, so that the method has order four. The remaining error is small because the lengths are small. The lengths are
-/// chosen such that slow loads do not excite unresolved vibrations.
+/// In a step of a symmetric second-order method, the leading error is proportional to `Δt³`.
+/// These errors cancel because the sum of the cubes of the substep lengths is zero, so that the method has order four.
+/// The remaining error is small because the lengths are small. The lengths are chosen such that slow loads do not excite unresolved vibrations.
 ///
-/// Methods of this type: R. I. McLachlan, On the numerical integration of ordinary differential equations by symmetric composition methods, SIAM J.
-/// Sci. Comput. 16 (1995) 151–168. The coefficients were computed for this program.
+/// Methods of this type: R. I. McLachlan, On the numerical integration of ordinary differential equations
+/// by symmetric composition methods, SIAM J. Sci.
+/// Comput. 16 (1995) 151–168. The coefficients were computed for this program.
 #[derive(Debug, Clone)]
 pub struct FourthOrder {
     substep: EnergyMomentum,
@@ -115,8 +118,8 @@ mod tests {
         Some(low)
     }
 
-    /// Largest amplitude of a vibration in 3000 steps under a sine load with the phase `load` per step. The vibration starts from its static
-    /// response, which is also the unit of the amplitude.
+    /// Largest amplitude of a vibration in 3000 steps under a sine load with the phase `load` per step.
+    /// The vibration starts from its static response, which is also the unit of the amplitude.
     fn amplitude(parts: &[f64], frequency: f64, load: f64) -> f64 {
         let (mut place, mut rate, mut largest) = (0.0_f64, load, 0.0_f64);
         for step in 0..3000 {

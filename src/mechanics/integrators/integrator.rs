@@ -8,8 +8,8 @@ pub trait Integrator {
     /// Advances the mechanism over the interval. After an error the mechanism is unchanged.
     ///
     /// # Errors
-    /// Fails if the equations have no solution, a rotation increment is too large, a constraint limit lies within the interval, or a load cannot be
-    /// evaluated.
+    /// Fails if the equations have no solution, a rotation increment is too large, a constraint limit lies within the interval,
+    /// or a load cannot be evaluated.
     fn step(
         &mut self,
         mechanism: &mut dyn Mechanism,

@@ -14,13 +14,14 @@ pub enum Stage {
     ///
     /// The internal forces then do exactly the work by which the strain energy changes (Stander & Stein 1996; Simo, Tarnow & Doblaré 1995).
     Midpoint,
-    /// Middle of the step as for [`Midpoint`](Self::Midpoint), but the section forces belong to a later strain: the mean strain plus `χ/2` times
-    /// the change of the strain in the step. The contained value is `χ`.
+    /// Middle of the step as for [`Midpoint`](Self::Midpoint), but the section forces belong to a later strain:
+    /// the mean strain plus `χ/2` times the change of the strain in the step.
+    /// The contained value is `χ`.
     ///
     /// The internal forces then do additional work, which is `χ/2` times the integral of `ΔΓ·C ΔΓ + EI Δκ²`.
     DampedMidpoint(f64),
-    /// End of the step. Loads are replaced by a linear function of time that has the same mean over the step and the same change in the step. Their
-    /// value is the value of this function at the end.
+    /// End of the step. Loads are replaced by a linear function of time that has the same mean over the step and the same change in the step.
+    /// Their value is the value of this function at the end.
     End,
 }
 
@@ -48,8 +49,8 @@ pub trait Forces {
     fn add_forces(&mut self, stage: Stage, increments: &[f64], weight: f64, out: &mut [f64])
     -> f64;
 
-    /// Adds `weight` times the forces of a stage to `out`, and their derivatives with respect to the increments to the tangent. The strain
-    /// mismatches are condensed out of the forces.
+    /// Adds `weight` times the forces of a stage to `out`, and their derivatives with respect to the increments to the tangent.
+    /// The strain mismatches are condensed out of the forces.
     fn add_linearised_forces(
         &mut self,
         stage: Stage,
@@ -59,8 +60,7 @@ pub trait Forces {
         tangent: &mut BandedMatrix,
     );
 
-    /// Adds `weight` times the forces that would remove the present strain mismatch. The derivatives of strains are those of the last
-    /// linearisation.
+    /// Adds `weight` times the forces that would remove the present strain mismatch. The derivatives of strains are those of the last linearisation.
     fn add_mismatch_forces(&mut self, weight: f64, out: &mut [f64]);
 
     /// Updates the section forces after an iteration has corrected the increments. The derivatives are those of the last linearisation.
@@ -94,8 +94,8 @@ pub trait Constraints {
     /// Adds the constraint forces and then the constraint violations to `out`.
     fn add_constraints(&mut self, increments: &[f64], unknowns: &[f64], out: &mut [f64]);
 
-    /// Adds constraint forces and violations to `out`, and their derivatives with respect to increments and constraint unknowns to the border of
-    /// the tangent.
+    /// Adds constraint forces and violations to `out`, and their derivatives with respect to increments and constraint unknowns
+    /// to the border of the tangent.
     fn add_linearised_constraints(
         &mut self,
         increments: &[f64],
@@ -113,17 +113,17 @@ pub trait Constraints {
     /// Fails if a slider passes a limit within the step, or misses the limit at which the step has to end.
     fn check_constraints(&mut self, unknowns: &[f64]) -> Result<(), Overshoot>;
 
-    /// Shortest chord of the path of a slider in the mean configuration of the last evaluation, as a fraction of the initial length of the path
-    /// [-].
+    /// Shortest chord of the path of a slider in the mean configuration of the last evaluation, as a fraction of the initial length of the path [-].
     fn shortest_chord(&self) -> f64;
 }
 
 /// Mechanical system that integrators advance. It has unknowns, a state, and data of the present step.
 ///
 /// Increments and rates belong to the unknown degrees of freedom. The unknowns of constraints (contact forces and contact positions) follow them.
-/// They have no inertia, and there are as many constraint equations. Force vectors have further entries for supported degrees of freedom, which are
-/// fixed or prescribed. The residual of these entries is the support reaction. If motions are prescribed, the vectors of increments and rates end
-/// with the last prescribed degree of freedom.
+/// They have no inertia, and there are as many constraint equations.
+/// Force vectors have further entries for supported degrees of freedom, which are fixed or prescribed.
+/// The residual of these entries is the support reaction.
+/// If motions are prescribed, the vectors of increments and rates end with the last prescribed degree of freedom.
 pub trait Mechanism: Inertia + Forces + Constraints {
     /// Number of unknown degrees of freedom.
     fn unknowns(&self) -> usize;
@@ -196,8 +196,9 @@ pub struct Solution<'a> {
     pub rates: &'a [f64],
     /// Residual of the equations [force, force·length]. At supported degrees of freedom it is the reaction.
     pub residual: &'a [f64],
-    /// Stages at which forces are evaluated, with their weights [-]. The weighted sum of the forces at these stages is the rate of change of the
-    /// momenta. The list is empty if the method balances accelerations instead of momenta.
+    /// Stages at which forces are evaluated, with their weights [-].
+    /// The weighted sum of the forces at these stages is the rate of change of the momenta.
+    /// The list is empty if the method balances accelerations instead of momenta.
     pub balanced: &'a [(Stage, f64)],
 }
 

@@ -1,7 +1,7 @@
 //! Prescribed motions of degrees of freedom, which are not unknowns.
 
-/// Prescribed motions of a mechanism in the present step. They are numbered after the unknowns and the constraint multipliers. All vectors are
-/// empty if nothing is prescribed.
+/// Prescribed motions of a mechanism in the present step. They are numbered after the unknowns and the constraint multipliers.
+/// All vectors are empty if nothing is prescribed.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct PrescribedKinematics {
     /// Increments in the step [length, rad]. They follow zeros for the constraint multipliers, as in the other vectors.

@@ -1,7 +1,7 @@
 //! Joints. They tie displacement components of two stations, which then share an unknown.
 //!
-//! Both stations have the same increments in every step, whatever the integrator. Hence a joint has no gap, does no work, and transmits force and
-//! moment unchanged.
+//! Both stations have the same increments in every step, whatever the integrator.
+//! Hence a joint has no gap, does no work, and transmits force and moment unchanged.
 
 use serde::{Deserialize, Serialize};
 
@@ -148,8 +148,7 @@ impl JointKind {
         })
     }
 
-    /// Guide that is free along a direction, with fixed rotation. If the direction is parallel to an axis it is a support. `None` for a zero
-    /// vector.
+    /// Guide that is free along a direction, with fixed rotation. If the direction is parallel to an axis it is a support. `None` for a zero vector.
     pub fn guide(along: Vec2) -> Option<Self> {
         Some(match MotionLine::along(along)? {
             MotionLine::Horizontal => Self::Support(Components::YRotation),

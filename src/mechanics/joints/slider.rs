@@ -61,8 +61,8 @@ pub enum EndAction {
     Stop,
     /// The slider bounces with its coefficient of restitution. Momenta are conserved.
     Bounce,
-    /// A stop holds the slider at the end until the contact force becomes tensile. The rebound is determined by waves in the elastic bodies, which
-    /// the steps must resolve.
+    /// A stop holds the slider at the end until the contact force becomes tensile.
+    /// The rebound is determined by waves in the elastic bodies, which the steps must resolve.
     Contact,
     /// The slider is released from its master.
     Release,

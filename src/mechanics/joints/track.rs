@@ -56,8 +56,8 @@ impl TrackDirection {
         }
     }
 
-    /// Converts the arc length from the point where the track enters the beam to the arc length from the start of the beam, or the other way round
-    /// [length].
+    /// Converts the arc length from the point where the track enters the beam to the arc length from the start of the beam,
+    /// or the other way round [length].
     pub fn along(self, length: f64, arc_length: f64) -> f64 {
         match self {
             Self::Forward => arc_length,

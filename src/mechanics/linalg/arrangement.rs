@@ -8,8 +8,8 @@ const LARGEST_WORK: usize = 4;
 
 /// Order of the unknowns of a band that are not eliminated in blocks, including delayed unknowns, and the resulting profile of the matrix.
 ///
-/// The order depends only on the unknowns that the blocks touch. The delayed unknowns of a block follow the last unknown that the block touches,
-/// because there they have a pivot.
+/// The order depends only on the unknowns that the blocks touch.
+/// The delayed unknowns of a block follow the last unknown that the block touches, because there they have a pivot.
 #[derive(Debug, Clone)]
 pub(super) struct Arrangement {
     layout: BlockLayout,
@@ -101,8 +101,8 @@ impl Arrangement {
         }
     }
 
-    /// Numbers the unknowns and computes the profile. The delayed unknowns of a block follow the last unknown of the band that is coupled to the
-    /// block.
+    /// Numbers the unknowns and computes the profile.
+    /// The delayed unknowns of a block follow the last unknown of the band that is coupled to the block.
     fn number(&mut self, blocks: &[Block]) {
         let delaying = |block: &&Block| block.can_delay_unknowns() && !block.touched.is_empty();
         self.delayed_after.fill(0);

@@ -116,8 +116,8 @@ impl BandRows<'_> {
     }
 }
 
-/// Addition of a block to rows with a fixed number of stored entries. The first row of the block starts at the stored entry `at`, and each further
-/// row one entry to the left of the previous row.
+/// Addition of a block to rows with a fixed number of stored entries.
+/// The first row of the block starts at the stored entry `at`, and each further row one entry to the left of the previous row.
 struct AddBlock<'a, const WIDTH: usize> {
     entries: &'a mut [f64],
     at: usize,

@@ -1,7 +1,7 @@
 //! Square banded matrix, and its LU factorisation with row exchanges.
 //!
-//! Rows are stored one after the other, with space for the additional entries that row exchanges cause. Elimination is then a sequence of short
-//! vector operations (Golub & Van Loan, Matrix Computations, 4th ed., section 4.3.5).
+//! Rows are stored one after the other, with space for the additional entries that row exchanges cause.
+//! Elimination is then a sequence of short vector operations (Golub & Van Loan, Matrix Computations, 4th ed., section 4.3.5).
 
 use pulp::Arch;
 
@@ -209,8 +209,8 @@ mod tests {
             }
             let singular = |unknown| LinearError::Singular { unknown, size: 12 };
             assert_eq!(column.factorise().unwrap_err(), singular(zero));
-            // Row exchanges move the zero row down until only the last row follows it. The last row has only a diagonal entry there, so it is not
-            // exchanged.
+            // Row exchanges move the zero row down until only the last row follows it.
+            // The last row has only a diagonal entry there, so it is not exchanged.
             assert_eq!(row.factorise().unwrap_err(), singular(zero.max(10)));
         }
     }

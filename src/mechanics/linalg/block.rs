@@ -1,11 +1,13 @@
-//! Block of a local border: a few unknowns outside a band, and the few unknowns of the band that are coupled to them. Each block is eliminated
-//! separately.
+//! Block of a local border: a few unknowns outside a band, and the few unknowns of the band that are coupled to them.
+//! Each block is eliminated separately.
 //!
-//! The block is a small dense matrix, like the front of a multifrontal method (Duff & Reid 1983, The multifrontal solution of indefinite sparse
-//! symmetric linear equations, ACM Trans. Math. Softw. 9, 302–325). Its own unknowns are eliminated with complete pivoting, and the Schur
-//! complement for the touched unknowns is added to the band. Some unknowns of the block may have no pivot yet, because only a constraint couples
-//! them to the band (for example the contact force of a supported slave). These unknowns are *delayed*: they are inserted into the band after the
-//! touched unknowns.
+//! The block is a small dense matrix, like the front of a multifrontal method (Duff & Reid 1983,
+//! The multifrontal solution of indefinite sparse symmetric linear equations, ACM Trans.
+//! Math. Softw. 9, 302–325).
+//! Its own unknowns are eliminated with complete pivoting, and the Schur complement for the touched unknowns is added to the band.
+//! Some unknowns of the block may have no pivot yet, because only a constraint couples them
+//! to the band (for example the contact force of a supported slave).
+//! These unknowns are *delayed*: they are inserted into the band after the touched unknowns.
 
 use pulp::{Simd, WithSimd};
 
@@ -20,8 +22,8 @@ const LANES: usize = 4;
 /// Largest number of delayed unknowns of a block.
 pub(super) const MOST_DELAYED: usize = 2;
 
-/// Largest contribution of the elimination of a pivot to a diagonal entry of the band, as a multiple of the largest diagonal entry at the touched
-/// unknowns.
+/// Largest contribution of the elimination of a pivot to a diagonal entry of the band,
+/// as a multiple of the largest diagonal entry at the touched unknowns.
 const LARGEST_FILL: f64 = 100.0;
 
 /// Index for an unknown of the band that a block does not touch.
@@ -66,8 +68,8 @@ pub(super) struct Block {
     corner: [[f64; BLOCK]; BLOCK],
     /// Unknowns of the band that the block touches, except its own unknowns.
     pub(super) touched: Vec<usize>,
-    /// Rows of the dense matrix, in the order: own unknowns, unknowns of the block, touched unknowns. After elimination it contains the factors and
-    /// the Schur complement.
+    /// Rows of the dense matrix, in the order: own unknowns, unknowns of the block, touched unknowns.
+    /// After elimination it contains the factors and the Schur complement.
     front: Vec<f64>,
     /// Buffer: the vectors of a pivot row, with zeros up to the pivot.
     pivot_row: Vec<[f64; LANES]>,
@@ -175,8 +177,8 @@ impl Block {
         self.size().next_multiple_of(LANES)
     }
 
-    /// Returns the factor by which a row of the Schur complement is multiplied. It gives the equations of delayed unknowns the same magnitude as
-    /// the equations of the band.
+    /// Returns the factor by which a row of the Schur complement is multiplied.
+    /// It gives the equations of delayed unknowns the same magnitude as the equations of the band.
     pub(super) fn scale(&self, left: usize) -> f64 {
         if left < self.delayed() { self.row_factors[self.pivots + left] } else { 1.0 }
     }
@@ -268,8 +270,8 @@ impl Block {
         unknowns.for_each(|(factor, (_, unknown))| *factor = unknown.column_factor(*stiffness));
     }
 
-    /// Row, column and magnitude of the largest scaled entry that may become a pivot, starting at index `first`. The magnitude is NaN if an entry
-    /// is NaN.
+    /// Row, column and magnitude of the largest scaled entry that may become a pivot, starting at index `first`.
+    /// The magnitude is NaN if an entry is NaN.
     #[inline(always)]
     fn largest_from(&self, first: usize) -> (usize, usize, f64) {
         let (stride, candidates) = (self.stride(), self.candidates());
@@ -351,16 +353,17 @@ impl Block {
         }
     }
 
-    /// Rows of the Schur complement with their indices. First come the rows of delayed unknowns, which are eliminated in the band, then the rows of
-    /// the touched unknowns of the band.
+    /// Rows of the Schur complement with their indices.
+    /// First come the rows of delayed unknowns, which are eliminated in the band, then the rows of the touched unknowns of the band.
     pub(super) fn schur_complement(&self) -> impl Iterator<Item = (usize, &[f64])> {
         let (size, stride, first) = (self.size(), self.stride(), self.pivots);
         let rows = self.front.chunks_exact(stride).map(move |row| &row[..size]).skip(first);
         rows.map(move |row| &row[first..]).enumerate()
     }
 
-    /// Applies the elimination to a right-hand side. `own` contains the entries that belong to the own unknowns and to the block, in the order of
-    /// the pivots. `subtract` receives the contributions to the entries of touched unknowns.
+    /// Applies the elimination to a right-hand side.
+    /// `own` contains the entries that belong to the own unknowns and to the block, in the order of the pivots.
+    /// `subtract` receives the contributions to the entries of touched unknowns.
     pub(super) fn substitute(&self, own: &mut [f64], mut subtract: impl FnMut(usize, f64)) {
         let rows = self.front.chunks_exact(self.stride());
         for (at, row) in rows.enumerate() {
@@ -384,8 +387,8 @@ impl Block {
         }
     }
 
-    /// Entries of a right-hand side in the order of the pivot rows. They are taken from `own` for own unknowns and from `block` for unknowns of the
-    /// block.
+    /// Entries of a right-hand side in the order of the pivot rows.
+    /// They are taken from `own` for own unknowns and from `block` for unknowns of the block.
     pub(super) fn by_rows<'a>(
         &'a self,
         own: impl Fn(usize) -> f64 + 'a,

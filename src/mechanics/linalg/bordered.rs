@@ -1,7 +1,8 @@
 //! Banded matrix with a border: additional columns and rows that may have entries anywhere.
 //!
-//! If the border has few unknowns, it is stored as dense columns, which do not change the band. If it consists of many blocks, each of which
-//! touches few unknowns of the band, the blocks are eliminated separately. The work is then proportional to the number of blocks.
+//! If the border has few unknowns, it is stored as dense columns, which do not change the band.
+//! If it consists of many blocks, each of which touches few unknowns of the band, the blocks are eliminated separately.
+//! The work is then proportional to the number of blocks.
 
 use super::block::BLOCK;
 use super::full_border::FullLu;
@@ -49,8 +50,8 @@ impl BorderUnit {
         }
     }
 
-    /// Factor that converts derivatives with respect to an unknown of this unit to derivatives with respect to a length. `stiffness` is a typical
-    /// stiffness in the band [force/length].
+    /// Factor that converts derivatives with respect to an unknown of this unit to derivatives with respect to a length.
+    /// `stiffness` is a typical stiffness in the band [force/length].
     pub(super) fn column_factor(self, stiffness: f64) -> f64 {
         match self {
             Self::Force => stiffness,
@@ -119,8 +120,9 @@ impl Border {
         }
     }
 
-    /// Adds the couplings of an unknown of the band with consecutive unknowns of the border, starting with `first`: entries in a row of `B` and in
-    /// a column of `C`. In a border of blocks, all these unknowns of the border must belong to the same block.
+    /// Adds the couplings of an unknown of the band with consecutive unknowns of the border, starting with `first`:
+    /// entries in a row of `B` and in a column of `C`.
+    /// In a border of blocks, all these unknowns of the border must belong to the same block.
     pub(crate) fn add_couplings(
         &mut self,
         at: usize,
@@ -201,8 +203,8 @@ impl BorderedMatrix {
         }
     }
 
-    /// Returns the matrix with joint elimination of band and dense border, for bands that may be singular alone. The last `full` rows and columns
-    /// have entries everywhere and remain a border.
+    /// Returns the matrix with joint elimination of band and dense border, for bands that may be singular alone.
+    /// The last `full` rows and columns have entries everywhere and remain a border.
     pub(crate) fn with_joint_elimination(self, full: usize) -> Self {
         Self {
             joint_elimination: Some(JointElimination::new(self.size(), full)),

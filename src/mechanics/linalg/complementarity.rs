@@ -17,12 +17,14 @@ const MOST_BLOCK_EXCHANGES: usize = 3;
 /// Negative unknown or response that counts as zero, as a fraction of the largest one.
 const NOTHING: f64 = 1e-13;
 
-/// Solves a linear complementarity problem for the unknowns `z` with the responses `w = A z + q`: `w = 0` for equality pairs, `0 ≤ z ⟂ w ≥ 0` for
-/// complementary pairs.
+/// Solves a linear complementarity problem for the unknowns `z` with the responses `w = A z + q`:
+/// `w = 0` for equality pairs, `0 ≤ z ⟂ w ≥ 0` for complementary pairs.
 ///
-/// `A` is given by its rows and need not be symmetric. The solution is unique if `A` is positive definite, or becomes so by elimination of the
-/// equality pairs. The method is block principal pivoting: all violating pairs are exchanged at once (Júdice & Pires 1994), so that the result does
-/// not depend on their order. If this does not make progress, pairs are exchanged one by one (Murty 1974).
+/// `A` is given by its rows and need not be symmetric.
+/// The solution is unique if `A` is positive definite, or becomes so by elimination of the equality pairs.
+/// The method is block principal pivoting: all violating pairs are exchanged at once (Júdice & Pires 1994),
+/// so that the result does not depend on their order.
+/// If this does not make progress, pairs are exchanged one by one (Murty 1974).
 ///
 /// # Errors
 /// Fails if the submatrix of the nonzero unknowns is singular.

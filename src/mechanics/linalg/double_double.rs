@@ -1,10 +1,12 @@
 //! Double-double arithmetic.
 //!
-//! References: T. J. Dekker, Numer. Math. 18 (1971) 224–242; Y. Hida, X. S. Li & D. H. Bailey, Algorithms for quad-double precision floating point
-//! arithmetic, ARITH-15 (2001) 155–162. Products are split into two parts by fused multiply–add.
+//! References: T. J. Dekker, Numer.
+//! Math. 18 (1971) 224–242; Y. Hida, X. S. Li & D. H. Bailey,
+//! Algorithms for quad-double precision floating point arithmetic, ARITH-15 (2001) 155–162.
+//! Products are split into two parts by fused multiply–add.
 //!
-//! IEEE 754 requires that fused multiply–add is rounded once. Results are therefore identical on every machine, whether it is computed in hardware
-//! or software.
+//! IEEE 754 requires that fused multiply–add is rounded once.
+//! Results are therefore identical on every machine, whether it is computed in hardware or software.
 #![allow(clippy::disallowed_methods)]
 
 use pulp::Simd;

@@ -1,11 +1,12 @@
 //! Gaussian elimination of a banded matrix by panels of columns.
 //!
-//! A panel of columns is eliminated without row exchanges if all multipliers are small. They depend only on the entries of the panel (threshold
-//! pivoting: Duff, Erisman & Reid, Direct Methods for Sparse Matrices, 2nd ed., section 5.2). The rows below are then updated once for the whole
-//! panel, without additional nonzero entries. Otherwise the columns of the panel are eliminated one by one with partial pivoting.
+//! A panel of columns is eliminated without row exchanges if all multipliers are small.
+//! They depend only on the entries of the panel (threshold pivoting: Duff, Erisman & Reid, Direct Methods for Sparse Matrices, 2nd ed., section 5.2).
+//! The rows below are then updated once for the whole panel, without additional nonzero entries.
+//! Otherwise the columns of the panel are eliminated one by one with partial pivoting.
 //!
-//! In a matrix with a profile, rows and columns outside the profile are skipped. Row exchanges and additional nonzero entries stay inside the
-//! profile, because its ends do not decrease from row to row.
+//! In a matrix with a profile, rows and columns outside the profile are skipped.
+//! Row exchanges and additional nonzero entries stay inside the profile, because its ends do not decrease from row to row.
 
 use pulp::{Simd, WithSimd};
 
@@ -15,8 +16,8 @@ use super::{LinearError, fixed_band};
 /// Number of values in a vector instruction.
 const LANES: usize = 4;
 
-/// Number of columns that are eliminated together. It equals the vector length, so that panels write and read aligned vectors. A read that overlaps
-/// two recently written vectors would stall the processor.
+/// Number of columns that are eliminated together. It equals the vector length, so that panels write and read aligned vectors.
+/// A read that overlaps two recently written vectors would stall the processor.
 pub(super) const PANEL: usize = LANES;
 
 /// Smallest half-bandwidth for which a row has space for a panel and whole vectors after it.
@@ -54,9 +55,9 @@ impl WithSimd for Elimination<'_> {
     }
 }
 
-/// Elimination of a matrix whose profile is symmetric. For each index `i`, the profile contains the last row with an entry in column `i`, which is
-/// also the last column with an entry in row `i`. The values of the profile never decrease. The profile is longer than the matrix by one panel of
-/// rows.
+/// Elimination of a matrix whose profile is symmetric.
+/// For each index `i`, the profile contains the last row with an entry in column `i`, which is also the last column with an entry in row `i`.
+/// The values of the profile never decrease. The profile is longer than the matrix by one panel of rows.
 pub(super) struct ProfileElimination<'a>(pub(super) ActiveRows<'a>, pub(super) &'a [usize]);
 
 impl WithSimd for ProfileElimination<'_> {
@@ -79,8 +80,8 @@ fn eliminate_fixed<S: Simd, const REACH: usize, const WIDTH: usize, const STRIDE
     fixed_band::eliminate_panel::<S, REACH, WIDTH, STRIDE>(simd, &mut rows[first..], sizes)
 }
 
-/// Eliminates a band matrix of half-bandwidth `reach`. Panels without additional nonzero entries from earlier row exchanges are eliminated by
-/// `eliminate_plain`, all others by [`eliminate_panel`].
+/// Eliminates a band matrix of half-bandwidth `reach`.
+/// Panels without additional nonzero entries from earlier row exchanges are eliminated by `eliminate_plain`, all others by [`eliminate_panel`].
 #[inline(always)]
 fn eliminate<S: Simd>(
     simd: S,
@@ -126,8 +127,8 @@ fn eliminate_in_profile<S: Simd>(
         let next = first + PANEL;
         let below = ends[next - 1] + 1 - next;
         let width = filled.max(ends[next - 1]) + 1 - next;
-        // Columns after the last entry and rows below the last row are zero. The compile-time constants are the sizes for cubic beams, without and
-        // with a point that slides from one span to the next.
+        // Columns after the last entry and rows below the last row are zero.
+        // The compile-time constants are the sizes for cubic beams, without and with a point that slides from one span to the next.
         let is_eliminated = match below.max(width) {
             ..=9 if reach > 10 => eliminate_panel(simd, storage, first, [reach, 9], 12),
             ..=11 if reach > 10 => eliminate_panel(simd, storage, first, [reach, 11], 12),
@@ -182,8 +183,8 @@ impl PanelFactors {
     }
 }
 
-/// Eliminates the columns of a panel from the rows below and the columns after it. Returns false without changing anything if rows should be
-/// exchanged. The first entry of the last argument is the half-bandwidth of the storage.
+/// Eliminates the columns of a panel from the rows below and the columns after it.
+/// Returns false without changing anything if rows should be exchanged. The first entry of the last argument is the half-bandwidth of the storage.
 #[inline(always)]
 fn eliminate_panel<S: Simd>(
     simd: S,

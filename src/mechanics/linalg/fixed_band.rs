@@ -1,17 +1,17 @@
 //! Elimination and substitution without row exchanges for a half-bandwidth that is a compile-time constant, as for common beams.
 //!
-//! Every entry is computed by the same operations in the same order as for half-bandwidths given at run time. The only difference is that all loop
-//! lengths are constants.
+//! Every entry is computed by the same operations in the same order as for half-bandwidths given at run time.
+//! The only difference is that all loop lengths are constants.
 
 use pulp::Simd;
 
 use super::elimination::{PANEL, PanelFactors, is_small, subtract};
 
-/// Eliminates the columns of a panel from the rows below, if there are no additional nonzero entries from earlier row exchanges. Returns false
-/// without changing anything if rows should be exchanged.
+/// Eliminates the columns of a panel from the rows below, if there are no additional nonzero entries from earlier row exchanges.
+/// Returns false without changing anything if rows should be exchanged.
 ///
-/// `rows` contains the panel and the `REACH` rows below it, each with `STRIDE` stored entries. `sizes` contains their squared sizes. `WIDTH` is the
-/// half-bandwidth, rounded up to whole vectors.
+/// `rows` contains the panel and the `REACH` rows below it, each with `STRIDE` stored entries. `sizes` contains their squared sizes.
+/// `WIDTH` is the half-bandwidth, rounded up to whole vectors.
 #[inline(always)]
 pub(super) fn eliminate_panel<
     S: Simd,

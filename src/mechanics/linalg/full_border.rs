@@ -5,8 +5,9 @@
 //! [ C  D ] [z] = [g]        (D - C Z) z = g - C y      x = y - Z z
 //! ```
 //!
-//! The border may have entries anywhere without changing the width of the band (Govaerts & Pryce, Block elimination with one iterative refinement
-//! solves bordered linear systems accurately, BIT 30 (1990) 490–507). The caller decides whether the solution is refined.
+//! The border may have entries anywhere without changing the width of the band (Govaerts & Pryce,
+//! Block elimination with one iterative refinement solves bordered linear systems accurately, BIT 30 (1990) 490–507).
+//! The caller decides whether the solution is refined.
 
 use super::{BandedLu, BandedMatrix, BorderShape, BorderUnit, LinearError};
 use crate::elementary::square;
@@ -14,8 +15,9 @@ use crate::elementary::square;
 /// Number of border columns that are stored and solved together. It is a compile-time constant, the number of unknowns of a sliding contact.
 const STRIP: usize = 5;
 
-/// Weight of lengths in comparison with forces in the choice of pivots. Equations of forces, such as that of a frictionless contact, are preferred
-/// as long as this loses at most four digits. Then a zero force is exactly zero.
+/// Weight of lengths in comparison with forces in the choice of pivots.
+/// Equations of forces, such as that of a frictionless contact, are preferred as long as this loses at most four digits.
+/// Then a zero force is exactly zero.
 const LENGTHS: f64 = 1e-4;
 
 /// Some columns of the border part `B`. After the factorisation they contain columns of the solution `Z = A⁻¹ B`.
@@ -101,8 +103,8 @@ impl FullBorder {
         self.units[at] = (row, unknown);
     }
 
-    /// Scales the rows of the matrix `D - C Z`. Rows of lengths are scaled by the largest compliance, so that they can be compared with rows of
-    /// forces.
+    /// Scales the rows of the matrix `D - C Z`.
+    /// Rows of lengths are scaled by the largest compliance, so that they can be compared with rows of forces.
     fn weigh_rows(&mut self) {
         let compliances = self.units.iter().enumerate().map(|(at, units)| match units {
             (BorderUnit::Length(_), BorderUnit::Force) => self.corner.get(at, at).abs(),

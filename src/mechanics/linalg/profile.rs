@@ -1,7 +1,7 @@
 //! Matrix with a profile, and its LU factorisation with row exchanges.
 //!
-//! The profile can be changed without allocating memory, so that couplings may change. Storage and elimination of rows are the same as those of a
-//! [`BandedMatrix`](super::BandedMatrix).
+//! The profile can be changed without allocating memory, so that couplings may change.
+//! Storage and elimination of rows are the same as those of a [`BandedMatrix`](super::BandedMatrix).
 
 use pulp::Arch;
 
@@ -10,8 +10,8 @@ use super::elimination::{PANEL, ProfileElimination};
 use super::storage::{Factors, Storage};
 use super::substitution::ProfileSubstitution;
 
-/// Square matrix with a profile. For each index, the profile gives the last row with an entry in the column, which is also the last column with an
-/// entry in the row.
+/// Square matrix with a profile.
+/// For each index, the profile gives the last row with an entry in the column, which is also the last column with an entry in the row.
 #[derive(Debug, Clone)]
 pub(super) struct ProfileMatrix {
     storage: Storage,
@@ -32,8 +32,8 @@ impl ProfileMatrix {
         Self { storage: Storage::zeros(size, half_bandwidth), ends }
     }
 
-    /// Sets the matrix to zero and changes its profile to the smallest nondecreasing one that covers `ends`. Entries within the half-bandwidth but
-    /// outside the profile must remain zero.
+    /// Sets the matrix to zero and changes its profile to the smallest nondecreasing one that covers `ends`.
+    /// Entries within the half-bandwidth but outside the profile must remain zero.
     pub(super) fn remake(&mut self, ends: &[usize], half_bandwidth: usize) {
         self.ends.clear();
         let (mut furthest, mut reach) = (0, half_bandwidth);

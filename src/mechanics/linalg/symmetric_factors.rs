@@ -1,8 +1,8 @@
 //! `L D Lᵀ` factorisation of a symmetric band matrix. The elimination uses 32 digits, storage and substitution 16 digits.
 //!
-//! For a positive definite sum of terms of very different magnitudes, the pivots have very different magnitudes but the columns of `L` do not. `L`
-//! and `D` are rounded at the end. This changes each term by a relative amount only, which has the same effect as rounding the entries of `B`
-//! (theory, section 15).
+//! For a positive definite sum of terms of very different magnitudes, the pivots have very different magnitudes but the columns of `L` do not.
+//! `L` and `D` are rounded at the end.
+//! This changes each term by a relative amount only, which has the same effect as rounding the entries of `B` (theory, section 15).
 
 use pulp::{Arch, Simd, WithSimd};
 
@@ -14,11 +14,11 @@ use super::{LinearError, SymmetricSparse};
 /// Properties of a symmetric matrix, computed from the pivots of `L D Lᵀ` without row exchanges.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Pivots {
-    /// Number of negative pivots. It equals the number of negative eigenvalues (Sylvester's law of inertia; Golub & Van Loan, Matrix Computations,
-    /// 4th ed., section 4.4).
+    /// Number of negative pivots.
+    /// It equals the number of negative eigenvalues (Sylvester's law of inertia; Golub & Van Loan, Matrix Computations, 4th ed., section 4.4).
     pub negative: usize,
-    /// Largest reduction of a diagonal entry in the elimination, as a multiple of the entry [-]. The rounding error of the matrix is multiplied by
-    /// this number. It is at most 1 for a positive definite matrix.
+    /// Largest reduction of a diagonal entry in the elimination, as a multiple of the entry [-].
+    /// The rounding error of the matrix is multiplied by this number. It is at most 1 for a positive definite matrix.
     pub growth: f64,
 }
 

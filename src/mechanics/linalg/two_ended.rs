@@ -1,8 +1,9 @@
 //! Elimination of a long band from both ends in two concurrent threads.
 //!
-//! The rows after the middle are reversed in memory (last row and last column first) and eliminated like the first rows. A small dense matrix
-//! remains in the middle (twisted or "burn at both ends" factorisation: Golub & Van Loan, Matrix Computations, 4th ed., section 4.3; van der Vorst,
-//! Parallel Computing 5 (1987) 45–54). With one thread, the same operations are made in the same order, so the bits are the same.
+//! The rows after the middle are reversed in memory (last row and last column first) and eliminated like the first rows.
+//! A small dense matrix remains in the middle (twisted or "burn at both ends" factorisation:
+//! Golub & Van Loan, Matrix Computations, 4th ed., section 4.3; van der Vorst, Parallel Computing 5 (1987) 45–54).
+//! With one thread, the same operations are made in the same order, so the bits are the same.
 
 use pulp::Arch;
 

@@ -1,9 +1,10 @@
 //! Check that prescribed motions given by script functions are continuous.
 //!
-//! A function can be evaluated at single times only. To detect a jump at the start, it is evaluated at two small times. The ratio of its changes
-//! distinguishes jumps, functions such as `√t` with an infinite rate, and smooth functions. To detect a jump within a step, the differences of
-//! consecutive values are compared. If one difference exceeds the sum of all others, its interval is bisected thirty times, keeping the half with
-//! the larger difference each time. At a jump the difference remains; otherwise it tends to zero.
+//! A function can be evaluated at single times only. To detect a jump at the start, it is evaluated at two small times.
+//! The ratio of its changes distinguishes jumps, functions such as `√t` with an infinite rate, and smooth functions.
+//! To detect a jump within a step, the differences of consecutive values are compared.
+//! If one difference exceeds the sum of all others, its interval is bisected thirty times, keeping the half with the larger difference each time.
+//! At a jump the difference remains; otherwise it tends to zero.
 
 use super::{LimitSide, LoadError, Schedule};
 use crate::elementary::whole_power;
@@ -14,16 +15,16 @@ const ROUNDINGS: f64 = 1e3;
 /// Exponents `i` of the two sampling times `8⁻ⁱ` close to the start.
 const CLOSE: [i32; 2] = [12, 13];
 
-/// Ratio of the two changes of the function from its start value to its values at these two times. Above this value, the function jumps. The ratio
-/// is 1 for a jump, 0.35 for `√t`, and 0.125 for smooth functions.
+/// Ratio of the two changes of the function from its start value to its values at these two times. Above this value, the function jumps.
+/// The ratio is 1 for a jump, 0.35 for `√t`, and 0.125 for smooth functions.
 const LEFT_OF_A_JUMP_AT_START: f64 = 0.7;
 const LEFT_OF_A_POWER_AT_START: f64 = 0.16;
 
 /// Number of bisections before a difference is recorded, and again after it.
 const HALVINGS: usize = 15;
 
-/// Remaining fraction of the recorded difference above which the function jumps. It is 1 for a jump, at most 6e-3 for `√t`, and 3e-5 for smooth
-/// functions.
+/// Remaining fraction of the recorded difference above which the function jumps.
+/// It is 1 for a jump, at most 6e-3 for `√t`, and 3e-5 for smooth functions.
 const LEFT_OF_A_JUMP: f64 = 0.5;
 
 /// Smallest ratio of the largest difference in a step to the sum of all others for which a jump is searched.
@@ -53,8 +54,8 @@ fn rounded(number: f64) -> f64 {
     format!("{number:.6e}").parse().unwrap_or(number)
 }
 
-/// Jump or infinite rate of a schedule just after t = 0. `None` if there is none, if the schedule has no script function, or if the values are too
-/// close to decide.
+/// Jump or infinite rate of a schedule just after t = 0.
+/// `None` if there is none, if the schedule has no script function, or if the values are too close to decide.
 ///
 /// # Errors
 /// Fails if the function fails or a value is not finite.

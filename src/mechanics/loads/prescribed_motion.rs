@@ -47,8 +47,8 @@ const INNER: f64 = std::f64::consts::FRAC_1_SQRT_2;
 /// Times in a step at which a displacement is evaluated, on [-1, 1].
 const NODES: [f64; 5] = [-1.0, -INNER, 0.0, INNER, 1.0];
 
-/// Weights of the values for the first derivative of the interpolation polynomial at the end of [-1, 1] (Trefethen, Spectral Methods in MATLAB,
-/// 2000, chapter 6).
+/// Weights of the values for the first derivative of the interpolation polynomial at the end of [-1, 1] (Trefethen,
+/// Spectral Methods in MATLAB, 2000, chapter 6).
 const RATE_AT_END: [f64; 5] = [0.5, 2.0 / (-1.0 - INNER), 2.0, 2.0 / (INNER - 1.0), 5.5];
 
 /// Weights of the values for the second derivative at the end of [-1, 1].
@@ -85,8 +85,9 @@ impl PrescribedMotion {
 
     /// Evaluates the motion between two times. `duration` is their difference, which may be negative [time].
     ///
-    /// A prescribed rate is integrated as described for [`Schedule::mean`]. The rate of a prescribed displacement is computed from five values
-    /// inside the step, by a polynomial of degree four. Values beyond kinks at the ends therefore do not affect it.
+    /// A prescribed rate is integrated as described for [`Schedule::mean`].
+    /// The rate of a prescribed displacement is computed from five values inside the step, by a polynomial of degree four.
+    /// Values beyond kinks at the ends therefore do not affect it.
     ///
     /// # Errors
     /// Fails if the function fails, a value is not finite, or a displacement jumps or has an infinite rate.
@@ -141,8 +142,8 @@ impl PrescribedMotion {
         }
     }
 
-    /// Jump of the rate at the start of a step [length/time, rad/time]; `before` is the rate at the end of the last step. It is computed at
-    /// declared breaks and for controllers. `None` if the rate is continuous.
+    /// Jump of the rate at the start of a step [length/time, rad/time]; `before` is the rate at the end of the last step.
+    /// It is computed at declared breaks and for controllers. `None` if the rate is continuous.
     ///
     /// # Errors
     /// Fails if the function fails or a value is not finite.
@@ -180,8 +181,8 @@ impl PrescribedMotion {
 
     /// Initial rate and acceleration of a motion that starts at a time.
     ///
-    /// The time scale of the function is unknown. Hence the derivatives of a displacement are computed over decreasing time spans. The result is
-    /// taken where two consecutive spans agree best.
+    /// The time scale of the function is unknown. Hence the derivatives of a displacement are computed over decreasing time spans.
+    /// The result is taken where two consecutive spans agree best.
     ///
     /// # Errors
     /// Fails if the function fails or a value is not finite just after the start.

@@ -2,8 +2,8 @@
 
 use super::{LoadError, multiple};
 
-/// Clock of a digital controller. It samples at the times `n T`, `n = 0, 1, …`. The command of a sample acts from `n T + delay` until the next
-/// command starts to act.
+/// Clock of a digital controller. It samples at the times `n T`, `n = 0, 1, …`.
+/// The command of a sample acts from `n T + delay` until the next command starts to act.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SampleClock {
     period: f64,
@@ -46,8 +46,7 @@ impl SampleClock {
         multiple(self.period, number)
     }
 
-    /// Index of the last sample at or before a time. Times count as equal if they differ by less than `slack` [time]. `None` before the first
-    /// sample.
+    /// Index of the last sample at or before a time. Times count as equal if they differ by less than `slack` [time]. `None` before the first sample.
     fn last_by(&self, time: f64, slack: f64) -> Option<u64> {
         if time < -slack {
             return None;

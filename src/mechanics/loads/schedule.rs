@@ -33,8 +33,8 @@ pub enum LimitSide {
 pub enum Schedule {
     /// Constant factor [-].
     Constant(f64),
-    /// Linear interpolation between (time, factor) points. The factor is constant before the first point and after the last. A time that occurs
-    /// twice is a jump.
+    /// Linear interpolation between (time, factor) points. The factor is constant before the first point and after the last.
+    /// A time that occurs twice is a jump.
     Table(Vec<(f64, f64)>),
     /// Factor `amplitude · sin(rate · t + phase)`.
     Sine {

@@ -50,14 +50,15 @@ pub enum ResidualPart {
 
 /// Nonlinear equations `R(u) = 0`. They may have internal unknowns at integration points.
 ///
-/// The internal unknowns (section forces) are condensed out. They enter the linear system through [`linearise`](Equations::linearise) and are
-/// updated by [`correct`](Equations::correct) (Magisano, Leonetti & Garcea 2017, "mixed integration point" Newton).
+/// The internal unknowns (section forces) are condensed out.
+/// They enter the linear system through [`linearise`](Equations::linearise) and are updated by [`correct`](Equations::correct) (Magisano,
+/// Leonetti & Garcea 2017, "mixed integration point" Newton).
 pub trait Equations {
     /// Computes residual and tangent at `u`, with internal unknowns condensed out. Both are zero on entry.
     fn linearise(&mut self, u: &[f64], residual: &mut [f64], tangent: &mut BorderedMatrix);
 
-    /// Prepares a correction with the factors of the last linearisation: condenses the internal unknowns out of the residual that the last call of
-    /// [`imbalance`](Equations::imbalance) computed.
+    /// Prepares a correction with the factors of the last linearisation:
+    /// condenses the internal unknowns out of the residual that the last call of [`imbalance`](Equations::imbalance) computed.
     fn condense(&mut self, residual: &mut [f64]);
 
     /// Updates the internal unknowns after a correction of `u`, by means of the last linearisation.

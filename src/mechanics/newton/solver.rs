@@ -15,8 +15,8 @@ const MOST_CORRECTIONS: i32 = 5;
 /// Largest number of corrections with the factors of similar equations. Each correction should gain several digits.
 const MOST_SHARED_CORRECTIONS: usize = 12;
 
-/// Residual norm at which a solution with the factors of similar equations is accepted [-]. It is a billionth of the residual change that a
-/// perturbation causes.
+/// Residual norm at which a solution with the factors of similar equations is accepted [-].
+/// It is a billionth of the residual change that a perturbation causes.
 const FOLLOWED: f64 = 1e-14;
 
 /// Ratio of two successive residuals above which rounding prevents a further reduction.
@@ -44,8 +44,8 @@ impl Default for Tolerance {
 }
 
 impl Tolerance {
-    /// Returns true if a further correction with the present factors is useful. `factor` is the reduction of the residual by the last correction,
-    /// `corrections` the number of corrections that are still allowed.
+    /// Returns true if a further correction with the present factors is useful.
+    /// `factor` is the reduction of the residual by the last correction, `corrections` the number of corrections that are still allowed.
     fn is_worth_correcting(
         &self,
         imbalance: &ResidualNorms,
@@ -186,8 +186,8 @@ impl Newton {
         Err(NewtonError::NotConverged { history: self.history.clone() })
     }
 
-    /// Solves the equations almost to rounding with the factors of similar equations. The iteration starts from the solution of these equations. If
-    /// it does not converge, it is continued by [`solve`](Self::solve).
+    /// Solves the equations almost to rounding with the factors of similar equations. The iteration starts from the solution of these equations.
+    /// If it does not converge, it is continued by [`solve`](Self::solve).
     ///
     /// # Errors
     /// Errors of [`solve`](Self::solve).

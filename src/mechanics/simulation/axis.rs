@@ -86,8 +86,8 @@ impl AxisStation {
         self.values.combine(1, points).norm() / self.drawn_slope.norm() - 1.0
     }
 
-    /// Change of the curvature of the axis per initial length, positive counter-clockwise [1/length]. It differs from the bending strain κ by the
-    /// derivative of the shear angle. NaN for elements of degree one.
+    /// Change of the curvature of the axis per initial length, positive counter-clockwise [1/length].
+    /// It differs from the bending strain κ by the derivative of the shear angle. NaN for elements of degree one.
     pub fn curvature(&self, points: &[Vec2]) -> f64 {
         match self.degree {
             ..=1 => f64::NAN,

@@ -5,9 +5,10 @@ use crate::system::{Along, Branch, System};
 
 /// Branches of spring laws with sharp corners at the start, middle and end of a step, for the whole step and for its two halves.
 ///
-/// If a step ends just after contact with a stiff bumper has begun, the whole step and its halves give nearly equal positions even if their impact
-/// times differ. Their rates differ strongly, because the impact has reversed only some of them. Hence, if a spring changes its branch within a
-/// step, the difference of the rates times the step duration counts as an error.
+/// If a step ends just after contact with a stiff bumper has begun,
+/// the whole step and its halves give nearly equal positions even if their impact times differ.
+/// Their rates differ strongly, because the impact has reversed only some of them.
+/// Hence, if a spring changes its branch within a step, the difference of the rates times the step duration counts as an error.
 #[derive(Default)]
 pub(super) struct CornerCrossings {
     start: Vec<Branch>,

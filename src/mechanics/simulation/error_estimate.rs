@@ -10,8 +10,8 @@ use crate::system::{Placement, System, SystemState};
 
 /// Takes two half steps, and compares them with a discarded whole step.
 ///
-/// For a method of order `p`, the error of the half steps is `1/(2^p - 1)` times the difference (Richardson). The result of the half steps is not
-/// extrapolated. Extrapolation would be more accurate, but would lose the conservation properties of the method.
+/// For a method of order `p`, the error of the half steps is `1/(2^p - 1)` times the difference (Richardson).
+/// The result of the half steps is not extrapolated. Extrapolation would be more accurate, but would lose the conservation properties of the method.
 #[derive(Default)]
 pub(super) struct StepDoubling {
     start: SystemState,
@@ -39,8 +39,8 @@ impl DoubledStep {
         Self { tried_step: trial, ..self }
     }
 
-    /// Returns the step after its second half has been repeated. `report` contains the total work, `error` is an additional error as a fraction of
-    /// the allowed error.
+    /// Returns the step after its second half has been repeated.
+    /// `report` contains the total work, `error` is an additional error as a fraction of the allowed error.
     pub(super) fn resampled(self, report: NewtonReport, error: f64) -> Self {
         let trial = TriedStep { error: larger(self.tried_step.error, error), ..self.tried_step };
         Self { report, tried_step: trial, position_error: larger(self.position_error, error) }
@@ -59,8 +59,8 @@ impl StepDoubling {
         Self { length, allowed, ..Self::default() }
     }
 
-    /// Takes a whole step, then two half steps over the same interval, and returns their error. If a buffer `between` is given, the state between
-    /// the half steps is stored in it.
+    /// Takes a whole step, then two half steps over the same interval, and returns their error.
+    /// If a buffer `between` is given, the state between the half steps is stored in it.
     pub(super) fn step(
         &mut self,
         integrator: &mut dyn Integrator,
@@ -93,8 +93,8 @@ impl StepDoubling {
         Ok(DoubledStep { report, tried_step: trial, position_error: of_places })
     }
 
-    /// Takes a step after earlier steps of the same call of [`step`](Self::step). If it fails, the model is restored to the start of the first of
-    /// these steps.
+    /// Takes a step after earlier steps of the same call of [`step`](Self::step).
+    /// If it fails, the model is restored to the start of the first of these steps.
     pub(super) fn take_or_restore(
         &self,
         integrator: &mut dyn Integrator,

@@ -180,8 +180,8 @@ impl History {
         Some(rows.map(|row| row[index]).collect())
     }
 
-    /// Values of a column, each averaged with the value of the previous row. The first two values are not averaged, because quantities of a step,
-    /// such as contact forces, have no value at the start.
+    /// Values of a column, each averaged with the value of the previous row.
+    /// The first two values are not averaged, because quantities of a step, such as contact forces, have no value at the start.
     ///
     /// The average removes oscillations from step to step. It is the value in the middle of the step.
     pub fn averaged(&self, name: &str) -> Option<Vec<f64>> {
@@ -192,11 +192,11 @@ impl History {
         Some(column)
     }
 
-    /// Difference of an invariant from its value in the first row, divided by a scale: the largest energy, momentum or angular momentum of all
-    /// rows. The gap is not divided.
+    /// Difference of an invariant from its value in the first row, divided by a scale: the largest energy, momentum or angular momentum of all rows.
+    /// The gap is not divided.
     ///
-    /// For bodies of zero momentum, the scale of momenta is at least `sqrt(2 m K)`, with the kinetic energy `K`, and at least the sum of the
-    /// magnitudes of all exchanged impulses.
+    /// For bodies of zero momentum, the scale of momenta is at least `sqrt(2 m K)`, with the kinetic energy `K`,
+    /// and at least the sum of the magnitudes of all exchanged impulses.
     pub fn drifts(&self, invariant: Invariant) -> Vec<f64> {
         let Some(first) = self.samples.first().map(|row| row.measures) else { return Vec::new() };
         let scale = self.scale(invariant, &first);
@@ -236,8 +236,8 @@ impl History {
         }
     }
 
-    /// Largest increase of `E - W + D` above an earlier value, divided by the scale of [`drifts`](Self::drifts). NaN if an energy is NaN or there
-    /// are no rows.
+    /// Largest increase of `E - W + D` above an earlier value, divided by the scale of [`drifts`](Self::drifts).
+    /// NaN if an energy is NaN or there are no rows.
     pub fn energy_growth(&self) -> f64 {
         let Some(first) = self.samples.first().map(|row| row.measures) else { return f64::NAN };
         let mut least = f64::INFINITY;

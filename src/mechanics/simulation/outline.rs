@@ -17,8 +17,8 @@ fn pieces(degree: usize) -> usize {
 pub struct Outline {
     line: Vec<BodyPoint>,
     marks: Vec<BodyPoint>,
-    /// Corners of the polygon of a rigid body. Their coordinates are along and to the left of the line from the centre to one of the points of the
-    /// body, in units of the length of this line.
+    /// Corners of the polygon of a rigid body.
+    /// Their coordinates are along and to the left of the line from the centre to one of the points of the body, in units of the length of this line.
     corners: Vec<Vec2>,
 }
 
@@ -63,8 +63,8 @@ impl Outline {
         scene.beams.iter().zip(meshes).enumerate().map(of_beam).chain(bodies).collect()
     }
 
-    /// For a body with one point, the line starts at the centre and ends at the point. With two points it passes through the centre; with more
-    /// points it is a polygon around the centre.
+    /// For a body with one point, the line starts at the centre and ends at the point.
+    /// With two points it passes through the centre; with more points it is a polygon around the centre.
     fn of_rigid_body(index: usize, body: &RigidBodyDefinition) -> Self {
         if !body.outline.is_empty() {
             return Self::polygon(index, body);
@@ -97,8 +97,8 @@ impl Outline {
         Self { line: line.into(), marks: Vec::new(), corners }
     }
 
-    /// Corners of the closed polygon of a rigid body. Their coordinates are along and to the left of the line between the two places of
-    /// [`line`](Self::line), in units of the length of this line.
+    /// Corners of the closed polygon of a rigid body.
+    /// Their coordinates are along and to the left of the line between the two places of [`line`](Self::line), in units of the length of this line.
     pub fn corners(&self) -> &[Vec2] {
         &self.corners
     }

@@ -14,8 +14,8 @@ use crate::newton::NewtonReport;
 pub struct WorkCounts {
     /// Number of successful steps. Two half steps that are compared with a whole step count as one.
     pub steps: usize,
-    /// Newton iterations of successful steps, each with a new factorisation. For variable steps they include those of the whole step and its two
-    /// halves.
+    /// Newton iterations of successful steps, each with a new factorisation.
+    /// For variable steps they include those of the whole step and its two halves.
     pub newton_iterations: usize,
     /// Corrections of successful steps that reuse earlier factors of the matrix.
     pub corrections: usize,

@@ -82,8 +82,8 @@ impl Simulation {
         Self::start_while(scene, settings, &mut || true)
     }
 
-    /// Builds a scene and starts the simulation, with a way to stop the assembly. `goes_on` is called repeatedly during the assembly; if it returns
-    /// false, the start ends with an error.
+    /// Builds a scene and starts the simulation, with a way to stop the assembly.
+    /// `goes_on` is called repeatedly during the assembly; if it returns false, the start ends with an error.
     ///
     /// # Errors
     /// Errors of [`start`](Self::start), or an error if the assembly is stopped.
@@ -96,8 +96,8 @@ impl Simulation {
         Self::of(scene, model, settings)
     }
 
-    /// Starts a simulation from an equilibrium with zero velocities, at t = 0. If the equilibrium includes prescribed positions, the simulation
-    /// starts at the time of the equilibrium.
+    /// Starts a simulation from an equilibrium with zero velocities, at t = 0.
+    /// If the equilibrium includes prescribed positions, the simulation starts at the time of the equilibrium.
     ///
     /// # Errors
     /// Fails if the step size or a method parameter is out of range, or if the position of a drive in the equilibrium differs from its function.

@@ -119,8 +119,8 @@ impl Snapshots {
         self.recent.truncate(self.recent.partition_point(|snapshot| snapshot.steps() <= steps));
     }
 
-    /// Returns a buffer for the state of the next snapshot. If the memory limit is reached, the oldest snapshot gives its buffer. `None` if
-    /// snapshots are disabled.
+    /// Returns a buffer for the state of the next snapshot. If the memory limit is reached, the oldest snapshot gives its buffer.
+    /// `None` if snapshots are disabled.
     pub(super) fn blank(&mut self) -> Option<SystemState> {
         let first = self.first.as_ref().filter(|_| self.most > 0)?;
         let is_full = self.recent.len() >= self.most;

@@ -60,8 +60,9 @@ impl TimeSeries {
         pairs.map(|(times, values)| (times[1] - times[0], values[0], values[1]))
     }
 
-    /// Time derivative at every row: slope of the parabola through the row and its neighbours (second order also for uneven spacing), one-sided at
-    /// the ends. A jump consists of two rows of equal time, and each of them uses the difference quotient on its own side.
+    /// Time derivative at every row: slope of the parabola through the row and its neighbours (second order also
+    /// for uneven spacing), one-sided at the ends.
+    /// A jump consists of two rows of equal time, and each of them uses the difference quotient on its own side.
     pub fn derivative(&self) -> Vec<f64> {
         let count = self.values.len();
         let slope = |a: usize, b: usize| {

@@ -16,11 +16,11 @@ pub enum StepSize {
 /// Tolerance and bounds of variable steps.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct StepControl {
-    /// Allowed error that accumulates while the scene moves by about its own length. For positions it is a fraction of this length, for angles in
-    /// rad [-].
+    /// Allowed error that accumulates while the scene moves by about its own length.
+    /// For positions it is a fraction of this length, for angles in rad [-].
     ///
-    /// In one step of a method of order `p`, the allowed error is the tolerance to the power `(p + 1)/p`. Hence the step size is proportional to
-    /// the tolerance to the power `1/p`, and the accumulated error to the tolerance.
+    /// In one step of a method of order `p`, the allowed error is the tolerance to the power `(p + 1)/p`.
+    /// Hence the step size is proportional to the tolerance to the power `1/p`, and the accumulated error to the tolerance.
     pub tolerance: f64,
     /// Size of the first step, and of the first step after a jump of a load [time]. The default is derived from the scene.
     pub first: Option<f64>,

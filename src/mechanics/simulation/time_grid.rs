@@ -11,8 +11,9 @@ const ROUNDINGS: f64 = 4.0;
 /// Largest index of a grid point.
 const MOST_POINTS: u64 = 1 << 60;
 
-/// Times at which steps end: `t_n = t_0 + n dt`, and additional times called cuts. Cuts are the jumps and kinks of schedules, and the samples and
-/// actions of digital controllers. The grid times are not accumulated. With variable steps there are only cuts.
+/// Times at which steps end: `t_n = t_0 + n dt`, and additional times called cuts.
+/// Cuts are the jumps and kinks of schedules, and the samples and actions of digital controllers. The grid times are not accumulated.
+/// With variable steps there are only cuts.
 #[derive(Debug, Clone, Default)]
 pub struct TimeGrid {
     start: f64,

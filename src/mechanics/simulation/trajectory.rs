@@ -50,8 +50,9 @@ impl Trajectory {
         self.every *= 2;
     }
 
-    /// Restores the trajectory as it was after `offered` configurations had been passed to it. Configurations that have been discarded since then
-    /// are not restored. When the run is repeated from there, the content becomes the same as without the return.
+    /// Restores the trajectory as it was after `offered` configurations had been passed to it.
+    /// Configurations that have been discarded since then are not restored.
+    /// When the run is repeated from there, the content becomes the same as without the return.
     pub fn truncate(&mut self, offered: usize) {
         self.offered = offered;
         let kept = offered.div_ceil(self.every);

@@ -33,8 +33,8 @@ impl Balance<'_> {
     }
 }
 
-/// Equations `F(u) - λ P(u) + σ M u = 0` for a given load factor `λ`. For `σ = 0` they are the equations of equilibrium. Otherwise they describe a
-/// pseudo-transient step with a viscous damping proportional to the mass.
+/// Equations `F(u) - λ P(u) + σ M u = 0` for a given load factor `λ`. For `σ = 0` they are the equations of equilibrium.
+/// Otherwise they describe a pseudo-transient step with a viscous damping proportional to the mass.
 pub(super) struct UnderLoad<'a> {
     pub(super) balance: Balance<'a>,
     pub(super) factor: f64,
@@ -81,8 +81,8 @@ impl Equations for UnderLoad<'_> {
     }
 }
 
-/// Equations `F(u) - λ P(u) = 0` and `t·u = Δs`. The load factor `λ` is the last unknown. The second equation, which describes a plane, determines
-/// it.
+/// Equations `F(u) - λ P(u) = 0` and `t·u = Δs`. The load factor `λ` is the last unknown.
+/// The second equation, which describes a plane, determines it.
 pub(super) struct AlongPath<'a, 'b> {
     pub(super) balance: &'a mut Balance<'b>,
     /// Normal `t` of the plane in the metric of the path. Contact unknowns, which follow the degrees of freedom, have no weight in it.

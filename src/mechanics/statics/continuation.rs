@@ -16,12 +16,12 @@ use crate::system::{MasterEnd, Scene, System, UnknownKind};
 /// Largest number of times that a step is halved because it does not reach an equilibrium.
 const MOST_HALVINGS: u32 = 8;
 
-/// Largest distance between two consecutive equilibria, as a multiple of the step length. Equilibria that are farther apart may lie on different
-/// parts of the path.
+/// Largest distance between two consecutive equilibria, as a multiple of the step length.
+/// Equilibria that are farther apart may lie on different parts of the path.
 const FAR: f64 = 2.0;
 
-/// Displacement per load increment above which the structure has snapped through, as a multiple of the displacement per load increment in the last
-/// step.
+/// Displacement per load increment above which the structure has snapped through,
+/// as a multiple of the displacement per load increment in the last step.
 const SNAP_THROUGH_RATIO: f64 = 4.0;
 
 /// Smallest displacement with which a displacement is compared to detect snap-through, as a fraction of the size of the scene.
@@ -40,8 +40,8 @@ pub(super) enum InitialSupport {
 pub(super) struct Continuation<'s> {
     pub(super) scene: &'s Scene,
     length: f64,
-    /// Weights of squared displacements and rotations in the distance between two equilibria. Displacements are divided by a length, and the sum is
-    /// an average over the control points.
+    /// Weights of squared displacements and rotations in the distance between two equilibria.
+    /// Displacements are divided by a length, and the sum is an average over the control points.
     metric: Vec<f64>,
     loading: Loading,
     pub(super) model: System,
@@ -60,8 +60,9 @@ struct PathDirection {
 }
 
 impl PathDirection {
-    /// Returns true if the next step continues in this direction. Otherwise the step may have led to another branch of the path, for example near
-    /// the buckling load of a straight column. Smaller steps are then needed.
+    /// Returns true if the next step continues in this direction.
+    /// Otherwise the step may have led to another branch of the path, for example near the buckling load of a straight column.
+    /// Smaller steps are then needed.
     fn is_aligned_with(&self, next: &Self, metric: &[f64]) -> bool {
         let ways = metric.iter().zip(&self.movements).zip(&next.movements);
         let along: f64 = ways.map(|((weight, before), now)| weight * before * now).sum();
@@ -179,8 +180,9 @@ impl<'s> Continuation<'s> {
         Err(self.path_lost_error(miss))
     }
 
-    /// Distance from the last point to the turning point of the load factor. It is returned if the path crosses the requested load factor before
-    /// the turning point and again after it, because the first crossing is the solution.
+    /// Distance from the last point to the turning point of the load factor.
+    /// It is returned if the path crosses the requested load factor before the turning point and again after it,
+    /// because the first crossing is the solution.
     fn distance_to_turning_point(&self, goal: f64, factor: f64, distance: f64) -> Option<f64> {
         let [.., before, last] = self.path.points() else { return None };
         let factors = [before.load_factor, last.load_factor, factor];
@@ -211,8 +213,8 @@ impl<'s> Continuation<'s> {
         self.solve_for_factor(factor, halvings - 1)
     }
 
-    /// Returns true if the last point continues the path, or if the step cannot be halved further. With arc-length control the path may turn and
-    /// become unstable.
+    /// Returns true if the last point continues the path, or if the step cannot be halved further.
+    /// With arc-length control the path may turn and become unstable.
     fn is_continuation(&mut self, halvings: u32) -> bool {
         if self.loading.control != Control::Load {
             return true;
@@ -257,8 +259,8 @@ impl<'s> Continuation<'s> {
         norm(&self.metric, &self.unknowns)
     }
 
-    /// Solves for a fraction of the loads, starting from the present configuration. If `rate` is positive, there is viscous damping with this rate
-    /// [1/time²]. Returns the number of iterations.
+    /// Solves for a fraction of the loads, starting from the present configuration.
+    /// If `rate` is positive, there is viscous damping with this rate [1/time²]. Returns the number of iterations.
     ///
     /// The solution is repeated whenever a stop starts to hold a slider or releases it.
     pub(super) fn balance_from(&mut self, factor: f64, rate: f64) -> Result<usize, StepFailure> {
@@ -279,8 +281,8 @@ impl<'s> Continuation<'s> {
         Err(StepFailure::FarSolution)
     }
 
-    /// Largest acceleration of a mass due to the unbalanced forces in the last configuration, divided by the size of the scene [1/time²]. If no
-    /// force is unbalanced, the result is 1, because the dynamic relaxation may then start with any rate.
+    /// Largest acceleration of a mass due to the unbalanced forces in the last configuration, divided by the size of the scene [1/time²].
+    /// If no force is unbalanced, the result is 1, because the dynamic relaxation may then start with any rate.
     pub(super) fn acceleration_by_size(&mut self, factor: f64) -> f64 {
         self.model.predict_unchanged(&mut self.unknowns);
         self.model.begin_movement();
@@ -305,8 +307,8 @@ impl<'s> Continuation<'s> {
         }
     }
 
-    /// Largest allowed distance of the next equilibrium. With load control it is computed from the last displacement per load increment, with
-    /// arc-length control from the longest step.
+    /// Largest allowed distance of the next equilibrium.
+    /// With load control it is computed from the last displacement per load increment, with arc-length control from the longest step.
     fn farthest(&self, factor: f64) -> f64 {
         let [.., before, last] = self.path.points() else { return f64::INFINITY };
         match self.loading.control {

@@ -31,9 +31,9 @@ const ENDLESS_MOVEMENT: f64 = 30.0;
 const MOST_LEAVES: usize = 12;
 
 impl Continuation<'_> {
-    /// Finds an equilibrium under a fraction of the loads: the one that the unloaded scene approaches with viscous damping. The method repeats
-    /// steps `σ M u + F(u) - λ P = 0` with a decreasing rate `σ` (pseudo-transient continuation; Kelley & Keyes, SIAM J. Numer. Anal. 35 (1998)
-    /// 508–523). `movements` is the number of degrees of freedom without restraint in the initial configuration.
+    /// Finds an equilibrium under a fraction of the loads: the one that the unloaded scene approaches with viscous damping.
+    /// The method repeats steps `σ M u + F(u) - λ P = 0` with a decreasing rate `σ` (pseudo-transient continuation; Kelley & Keyes, SIAM J. Numer.
+    /// Anal. 35 (1998) 508–523). `movements` is the number of degrees of freedom without restraint in the initial configuration.
     ///
     /// `K + σ M` is positive definite at the start of every pass, so every pass reduces the potential energy.
     pub(super) fn find_equilibrium(

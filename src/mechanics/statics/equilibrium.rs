@@ -162,8 +162,8 @@ impl Equilibrium {
     }
 }
 
-/// The scene with equal axial, shear and bending stiffnesses of the beams and similar masses. Degrees of freedom without restraint have zero
-/// stiffness in it, and rounding errors of other stiffnesses are small enough to detect this.
+/// The scene with equal axial, shear and bending stiffnesses of the beams and similar masses.
+/// Degrees of freedom without restraint have zero stiffness in it, and rounding errors of other stiffnesses are small enough to detect this.
 fn of_equal_stiffness(scene: &Scene) -> Scene {
     let mut equal = scene.clone();
     for beam in &mut equal.beams {

@@ -33,12 +33,12 @@ pub enum Control {
 
 /// Arc-length control along the path of equilibria.
 ///
-/// References: E. Riks, An incremental approach to the solution of snapping and buckling problems, Int. J. Solids Struct. 15 (1979) 529–551, with
-/// the normal plane of Keller (1977). The step size is controlled as in Crisfield, Comput. Struct. 13 (1981) 55–62.
+/// References: E. Riks, An incremental approach to the solution of snapping and buckling problems, Int. J. Solids Struct.
+/// 15 (1979) 529–551, with the normal plane of Keller (1977). The step size is controlled as in Crisfield, Comput. Struct. 13 (1981) 55–62.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ArcLength {
-    /// Longest step [-, rad]. It is the root mean square of the displacements of all control points, divided by the longest beam, and of their
-    /// rotations.
+    /// Longest step [-, rad].
+    /// It is the root mean square of the displacements of all control points, divided by the longest beam, and of their rotations.
     pub longest: f64,
     /// Largest number of points of the path.
     pub points: usize,

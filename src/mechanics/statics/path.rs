@@ -9,8 +9,8 @@ pub struct PathPoint {
     pub load_factor: f64,
     /// Strain energy [energy].
     pub strain_energy: f64,
-    /// Distance from the previous point [-, rad]. It is the root mean square of the displacements of all control points, divided by the longest
-    /// beam, and of their rotations.
+    /// Distance from the previous point [-, rad].
+    /// It is the root mean square of the displacements of all control points, divided by the longest beam, and of their rotations.
     pub distance: f64,
     /// Number of Newton iterations from the previous point to this one.
     pub iterations: usize,
@@ -49,8 +49,7 @@ impl EquilibriumPath {
         self.points.last().map_or(0.0, |point| point.load_factor)
     }
 
-    /// Limit points: load factors at which the load factor along the path has an extremum [-]. They are computed from parabolas through three
-    /// points.
+    /// Limit points: load factors at which the load factor along the path has an extremum [-]. They are computed from parabolas through three points.
     ///
     /// A structure whose load increases beyond a limit point snaps through.
     pub fn limit_points(&self) -> Vec<f64> {

@@ -36,8 +36,8 @@ impl PathStep {
         }
     }
 
-    /// Solves for an equilibrium at a given distance. The iteration starts from zero displacement, so that the first iteration follows the tangent
-    /// of the path.
+    /// Solves for an equilibrium at a given distance.
+    /// The iteration starts from zero displacement, so that the first iteration follows the tangent of the path.
     pub(super) fn find(
         &mut self,
         mut balance: Balance<'_>,

@@ -145,8 +145,8 @@ impl System {
         self.motion.resolution()
     }
 
-    /// Measures of how well the steps resolve the motion of each beam with material damping, with the index of the beam; empty if the scene has
-    /// only one body.
+    /// Measures of how well the steps resolve the motion of each beam with material damping, with the index of the beam;
+    /// empty if the scene has only one body.
     pub(crate) fn resolution_by_beam(&self) -> impl Iterator<Item = (usize, &Resolution)> {
         self.motion.watched().iter().map(|one| (one.body, one.resolution()))
     }
@@ -199,8 +199,8 @@ impl System {
         self.motion.accelerations.mark_unknown();
     }
 
-    /// Returns true if the present velocity of a slider at a limit is directed beyond the limit. The velocity of a slider that has just left a stop
-    /// is zero, and its sign due to rounding decides nothing.
+    /// Returns true if the present velocity of a slider at a limit is directed beyond the limit.
+    /// The velocity of a slider that has just left a stop is zero, and its sign due to rounding decides nothing.
     pub(crate) fn leads_beyond(&self, limit: MasterLimit) -> bool {
         let slider = &self.sliders[limit.slider];
         let rate = slider.rate(&self.bodies, &self.motion.rates);

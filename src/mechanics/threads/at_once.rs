@@ -9,11 +9,11 @@ use super::pool::{keep_polling, notify_workers, pool};
 /// Number of times that a thread polls for the end of a task before it sleeps. They take about 50 µs, as long as sleeping and waking.
 const MOST_POLLS: usize = 2000;
 
-/// Runs all tasks concurrently: the first task on this thread, each other task on a thread of the pool. Tasks that no thread of the pool has
-/// started also run on this thread.
+/// Runs all tasks concurrently: the first task on this thread, each other task on a thread of the pool.
+/// Tasks that no thread of the pool has started also run on this thread.
 ///
-/// Returns when every task is completed. Each call allocates a few hundred bytes, so the function is suitable for tasks that take much longer than
-/// this.
+/// Returns when every task is completed.
+/// Each call allocates a few hundred bytes, so the function is suitable for tasks that take much longer than this.
 pub fn run_concurrently<T: Send>(tasks: impl IntoIterator<Item = T>, work: impl Fn(T) + Sync) {
     let mut tasks = tasks.into_iter();
     let first = tasks.next();

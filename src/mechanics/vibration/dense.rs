@@ -1,8 +1,10 @@
 //! Computation of all modes of a small scene at once.
 //!
-//! Let `K + σ M = L D Lᵀ` and `M = H Hᵀ`. The squared singular values of `G = D^-½ L⁻¹ H` are `μ = 1/(ω² + σ)`. The rows of `G` become smaller in
-//! the order of the pivots, and rotations of columns preserve the relative accuracy of each row. One-sided Jacobi rotations therefore compute all
-//! singular values, large and small, to almost full accuracy (J. Demmel & K. Veselić, SIAM J. Matrix Anal. Appl. 13 (1992) 1204–1245).
+//! Let `K + σ M = L D Lᵀ` and `M = H Hᵀ`. The squared singular values of `G = D^-½ L⁻¹ H` are `μ = 1/(ω² + σ)`.
+//! The rows of `G` become smaller in the order of the pivots, and rotations of columns preserve the relative accuracy of each row.
+//! One-sided Jacobi rotations therefore compute all singular values, large and small,
+//! to almost full accuracy (J. Demmel & K. Veselić, SIAM J. Matrix Anal.
+//! Appl. 13 (1992) 1204–1245).
 
 use nalgebra::DMatrix;
 
@@ -22,8 +24,8 @@ const MOST_SWEEPS: usize = 60;
 /// Remainder of a diagonal entry of the inertia that is due to rounding, as a fraction of the entry.
 const WITHOUT_INERTIA: f64 = 1e-13;
 
-/// Computes all pairs of an eigenvalue `μ` and a shape `φ` of a small scene with inertia, in decreasing order of `μ`. For degrees of freedom
-/// without inertia, `μ = 0`.
+/// Computes all pairs of an eigenvalue `μ` and a shape `φ` of a small scene with inertia, in decreasing order of `μ`.
+/// For degrees of freedom without inertia, `μ = 0`.
 ///
 /// # Errors
 /// Fails if the search is stopped.
@@ -72,8 +74,8 @@ pub(super) fn all_pairs(
     Ok(Pairs { values: order.iter().map(|at| values[*at]).collect(), strips })
 }
 
-/// Makes the shapes of higher modes orthogonal to those of lower modes, and normalises all to `φᵀ M φ = 1`. Rounding errors of a shape may have
-/// little strain energy but much inertia.
+/// Makes the shapes of higher modes orthogonal to those of lower modes, and normalises all to `φᵀ M φ = 1`.
+/// Rounding errors of a shape may have little strain energy but much inertia.
 fn orthogonalise(pencil: &Pencil, shapes: &mut DMatrix<f64>) {
     let size = pencil.size();
     let mut momenta = vec![0.0; size];

@@ -1,8 +1,9 @@
-//! Stiffness of a configuration in factored form. It consists of the derivatives of strains with respect to displacements, and of stiffnesses of
-//! the strains.
+//! Stiffness of a configuration in factored form.
+//! It consists of the derivatives of strains with respect to displacements, and of stiffnesses of the strains.
 //!
-//! Section forces `n = k s` are unknowns in addition to the displacements `x`. The stiffness `k` multiplies only the mismatch `m = B x - n/k` of a
-//! strain `s = B x`. Hence the rounding errors of residuals are relative to section forces and not to stiffnesses.
+//! Section forces `n = k s` are unknowns in addition to the displacements `x`.
+//! The stiffness `k` multiplies only the mismatch `m = B x - n/k` of a strain `s = B x`.
+//! Hence the rounding errors of residuals are relative to section forces and not to stiffnesses.
 
 use pulp::{Arch, Simd, WithSimd};
 
@@ -102,14 +103,16 @@ impl Elastic {
         self.correct(shapes, movements)
     }
 
-    /// Corrects four shapes by the displacements `δ`: `x ← x + δ` and, for the section forces with the stiffness `k` and the mismatch `m`, `n ← n +
-    /// k (m + B δ)`. Returns the energies of the shapes.
+    /// Corrects four shapes by the displacements `δ`: `x ← x + δ` and,
+    /// for the section forces with the stiffness `k` and the mismatch `m`, `n ← n + k (m + B δ)`.
+    /// Returns the energies of the shapes.
     pub(super) fn correct(&self, shapes: &mut Shapes, by: &VectorStrip) -> Energies {
         Arch::new().dispatch(ShapeCorrection { elastic: self, shapes, by })
     }
 
-    /// Returns the rounding error of twice the energy for given displacements `x`. It consists of `Σ k (ε Σ |B| |x|)²`, with the stiffnesses `k`
-    /// and the machine precision `ε`, and the rounding error of section forces in `xᵀ K_g x`.
+    /// Returns the rounding error of twice the energy for given displacements `x`.
+    /// It consists of `Σ k (ε Σ |B| |x|)²`, with the stiffnesses `k` and the machine precision `ε`,
+    /// and the rounding error of section forces in `xᵀ K_g x`.
     pub(super) fn rounding_of(&self, movements: &VectorStrip) -> FourVectors {
         Arch::new().dispatch(Rounding { elastic: self, movements })
     }

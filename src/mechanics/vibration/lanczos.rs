@@ -1,8 +1,8 @@
 //! Lowest modes, computed by the block Lanczos method with shift and inversion.
 //!
-//! References: Ericsson & Ruhe, Math. Comp. 35 (1980) 1251–1268; R. G. Grimes, J. G. Lewis & H. D. Simon, SIAM J. Matrix Anal. Appl. 15 (1994)
-//! 228–272; K. Wu & H. D. Simon, SIAM J. Matrix Anal. Appl. 22 (2000) 602–616 (thick restarts). All vectors are orthogonal with respect to the
-//! inertia.
+//! References: Ericsson & Ruhe, Math. Comp. 35 (1980) 1251–1268; R. G. Grimes, J. G. Lewis & H. D. Simon, SIAM J. Matrix Anal.
+//! Appl. 15 (1994) 228–272; K. Wu & H. D. Simon, SIAM J. Matrix Anal. Appl. 22 (2000) 602–616 (thick restarts).
+//! All vectors are orthogonal with respect to the inertia.
 
 use nalgebra::{DMatrix, DVector, SymmetricEigen};
 
@@ -23,8 +23,7 @@ const ROUNDING_REDUCTION: f64 = 1e-11;
 /// Ratio of the lengths of a vector after and before orthogonalisation, below which it is orthogonalised a second time.
 const SHRUNK: f64 = 1e-4;
 
-/// Component of a vector in the basis that remains after orthogonalisation, as a fraction of its length. Above this value it is orthogonalised
-/// again.
+/// Component of a vector in the basis that remains after orthogonalisation, as a fraction of its length. Above this value it is orthogonalised again.
 const TRACE: f64 = 1e-8;
 
 /// Tolerance of the scalar products of basis vectors.
@@ -112,8 +111,8 @@ impl<'a> Lanczos<'a> {
         Err(VibrationError::NotConverged { restarts: MOST_RESTARTS })
     }
 
-    /// Continues the search with the pairs found so far and new random vectors. This is needed because the multiplicity of an eigenvalue may exceed
-    /// the number of vectors in a block.
+    /// Continues the search with the pairs found so far and new random vectors.
+    /// This is needed because the multiplicity of an eigenvalue may exceed the number of vectors in a block.
     pub(super) fn continue_with_random(&mut self, found: Pairs) {
         self.projected = DMatrix::from_diagonal(&DVector::from_vec(found.values));
         self.basis = found.strips;
@@ -155,8 +154,8 @@ impl<'a> Lanczos<'a> {
         (self.next, self.next_momenta) = (image, momenta);
     }
 
-    /// Removes the components in the basis from a block. If `columns` is given, they are added to these columns of the projection. Returns the
-    /// largest component.
+    /// Removes the components in the basis from a block. If `columns` is given, they are added to these columns of the projection.
+    /// Returns the largest component.
     fn project(&mut self, image: &mut [FourVectors], columns: Option<usize>) -> f64 {
         self.pencil.inertia.times(image, &mut self.momenta);
         let mut largest = 0.0_f64;
@@ -275,14 +274,15 @@ impl<'a> Lanczos<'a> {
     }
 }
 
-/// Makes vectors orthonormal with respect to the inertia. `momenta` are their products with the inertia. Returns the upper triangular matrix that
-/// expresses the old vectors by the new ones. Vectors that consist of rounding errors become zero, with a zero diagonal entry.
+/// Makes vectors orthonormal with respect to the inertia. `momenta` are their products with the inertia.
+/// Returns the upper triangular matrix that expresses the old vectors by the new ones.
+/// Vectors that consist of rounding errors become zero, with a zero diagonal entry.
 fn orthonormalise(block: &mut [FourVectors], momenta: &mut [FourVectors]) -> Square4 {
     let mut triangle = Square4::default();
     (0..STRIP_WIDTH).for_each(|at| triangle[at][at] = 1.0);
     let mut sizes = None;
-    // The second pass removes the errors of the first pass, which increase with its condition number. For almost parallel vectors a third pass is
-    // needed.
+    // The second pass removes the errors of the first pass, which increase with its condition number.
+    // For almost parallel vectors a third pass is needed.
     for pass in 0..3 {
         let gram = products(block, momenta);
         let sizes = sizes.get_or_insert_with(|| std::array::from_fn(|at| gram[at][at]));
@@ -309,8 +309,8 @@ fn product(a: &Square4, b: &Square4) -> Square4 {
     })
 }
 
-/// Cholesky factor `R` with `Rᵀ R = G`, and its inverse. Rows and columns that are due to rounding are set to zero. They are recognised by
-/// comparison with the initial sizes.
+/// Cholesky factor `R` with `Rᵀ R = G`, and its inverse. Rows and columns that are due to rounding are set to zero.
+/// They are recognised by comparison with the initial sizes.
 fn cholesky(gram: &Square4, sizes: &FourVectors) -> (Square4, Square4) {
     let (mut upper, mut inverse) = (Square4::default(), Square4::default());
     for j in 0..STRIP_WIDTH {

@@ -16,14 +16,15 @@ const UNRESTRAINED: f64 = 1e-10;
 /// Natural mode of small vibration.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Mode {
-    /// Square `ω²` of the angular frequency [1/time²]. It is zero for an unrestrained motion, or if it is smaller than its rounding error. It is
-    /// negative if the configuration is unstable.
+    /// Square `ω²` of the angular frequency [1/time²]. It is zero for an unrestrained motion, or if it is smaller than its rounding error.
+    /// It is negative if the configuration is unstable.
     pub square: f64,
     /// Rounding error of the square `ω²` [1/time²].
     pub rounding: f64,
-    /// Measure of the accuracy of the mode [-]: energy of the next correction of the shape and its section forces, as a fraction of the energy of
-    /// the shape. The relative error of `ω² + σ`, where `σ` is about the square of the lowest bending frequency, is at most this residual. It is
-    /// also at most the square of the residual, divided by the relative distance to the next mode.
+    /// Measure of the accuracy of the mode [-]: energy of the next correction of the shape and its section forces,
+    /// as a fraction of the energy of the shape.
+    /// The relative error of `ω² + σ`, where `σ` is about the square of the lowest bending frequency, is at most this residual.
+    /// It is also at most the square of the residual, divided by the relative distance to the next mode.
     pub residual: f64,
     /// Mode shape: values of the unknowns, normalised to `φᵀ M φ = 1` [length, rad over the square root of a mass].
     pub shape: Vec<f64>,
@@ -69,8 +70,8 @@ pub struct Modes {
 }
 
 impl Modes {
-    /// Computes the modes of a model in its present configuration, which is treated as an equilibrium. `goes_on` is called repeatedly; if it
-    /// returns false, the search stops.
+    /// Computes the modes of a model in its present configuration, which is treated as an equilibrium.
+    /// `goes_on` is called repeatedly; if it returns false, the search stops.
     ///
     /// # Errors
     /// Fails if there are too few modes, a load is a follower load, or the search is stopped.
@@ -115,8 +116,9 @@ impl Modes {
         &self.modes
     }
 
-    /// Decay rates `½ φᵀ D φ` [1/time]. They are exact if damping does not couple modes, for example if the material has one relaxation time for
-    /// all strains. Otherwise they are accurate to first order in the damping.
+    /// Decay rates `½ φᵀ D φ` [1/time].
+    /// They are exact if damping does not couple modes, for example if the material has one relaxation time for all strains.
+    /// Otherwise they are accurate to first order in the damping.
     pub fn decay_rates(&self) -> &[f64] {
         &self.decay_rates
     }
@@ -181,8 +183,8 @@ impl Modes {
     }
 }
 
-/// Number of degrees of freedom that are unrestrained in the present configuration without loads. For scenes without sliders that are too large for
-/// this computation the result is 0.
+/// Number of degrees of freedom that are unrestrained in the present configuration without loads.
+/// For scenes without sliders that are too large for this computation the result is 0.
 pub fn loose_movements(model: &System) -> usize {
     if !is_small(model.unknowns()) && model.slider_names().next().is_none() {
         return 0;

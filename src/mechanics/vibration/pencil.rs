@@ -16,8 +16,8 @@ pub(super) struct Pencil {
     pub(super) inertia: SymmetricSparse,
     pub(super) elastic: Elastic,
     pub(super) order: StaticOrder,
-    /// Estimate of a squared frequency [1/time²]. With beams, it is that of the lowest bending mode. Without beams, it is that of the lowest
-    /// vibration of a chain of the softest springs.
+    /// Estimate of a squared frequency [1/time²]. With beams, it is that of the lowest bending mode.
+    /// Without beams, it is that of the lowest vibration of a chain of the softest springs.
     pub(super) scale: f64,
     /// Number of degrees of freedom with mass, which is the number of modes with a finite frequency.
     pub(super) finite: usize,
@@ -80,8 +80,8 @@ impl Pencil {
     pub(super) fn memory(model: &System) -> usize {
         let order = model.static_order();
         let (size, reach) = (order.count(), order.half_bandwidth() + 1);
-        // The terms are: the stiffness in double-double arithmetic, its factors, the inertia while its entries are sorted, and about two strains
-        // per degree of freedom.
+        // The terms are: the stiffness in double-double arithmetic, its factors, the inertia while its entries are sorted,
+        // and about two strains per degree of freedom.
         size * reach * 8 * size_of::<f64>() + Elastic::memory(2 * size, reach)
     }
 
@@ -103,8 +103,8 @@ impl Pencil {
         (factors.pivots().negative == 0).then_some(factors)
     }
 
-    /// Number of modes with `ω²` below the value `square`; `None` if the elimination is not reliable. By Sylvester's law of inertia, it is the
-    /// number of negative eigenvalues of `K - σ M`, where `σ` is this value.
+    /// Number of modes with `ω²` below the value `square`; `None` if the elimination is not reliable.
+    /// By Sylvester's law of inertia, it is the number of negative eigenvalues of `K - σ M`, where `σ` is this value.
     pub(super) fn modes_below(&self, square: f64) -> Option<usize> {
         match self.stiffness.pivots(-square, &self.inertia) {
             Ok(pivots) if pivots.growth <= MOST_GROWTH => Some(pivots.negative),

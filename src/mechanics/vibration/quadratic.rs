@@ -1,10 +1,11 @@
-//! Quadratic eigenvalue problem `λ² + λ B Bᵀ + Ω² = 0` of damped vibrations. Its eigenvalues are computed in increasing order of magnitude, over a
-//! large range of magnitudes.
+//! Quadratic eigenvalue problem `λ² + λ B Bᵀ + Ω² = 0` of damped vibrations.
+//! Its eigenvalues are computed in increasing order of magnitude, over a large range of magnitudes.
 //!
-//! The damping may have any strength. A dashpot that acts almost as a support relaxes 10¹² times as slowly as the beam vibrates. With material
-//! damping, the fastest vibrations of a fine mesh decay 10¹⁴ times as fast as the slowest. A single matrix would give accurate values only for the
-//! largest eigenvalues. Therefore several problems are solved with increasing positive real shifts ([`Resolvent`]). Each of them gives the
-//! eigenvalues up to about 10⁶ times the shift.
+//! The damping may have any strength. A dashpot that acts almost as a support relaxes 10¹² times as slowly as the beam vibrates.
+//! With material damping, the fastest vibrations of a fine mesh decay 10¹⁴ times as fast as the slowest.
+//! A single matrix would give accurate values only for the largest eigenvalues.
+//! Therefore several problems are solved with increasing positive real shifts ([`Resolvent`]).
+//! Each of them gives the eigenvalues up to about 10⁶ times the shift.
 
 use nalgebra::{Complex, DMatrix};
 
@@ -44,8 +45,8 @@ impl Quadratic {
             free.filter(|(rate, _)| rate.abs() <= least).for_each(|(rate, _)| *rate = 0.0);
         }
         if dampers.ncols() > dampers.nrows() {
-            // The factorisation `Bᵀ = Q R` has a rounding error that is small in comparison with each single row, however small the row is. This is
-            // needed because nearly undamped modes depend on the squares of small rows.
+            // The factorisation `Bᵀ = Q R` has a rounding error that is small in comparison with each single row, however small the row is.
+            // This is needed because nearly undamped modes depend on the squares of small rows.
             dampers = dampers.transpose().qr().r().transpose();
         }
         Self { squares, dampers }
@@ -107,8 +108,8 @@ impl Quadratic {
             .collect())
     }
 
-    /// First shift of the search [1/time]. It is not far above the magnitude of any eigenvalue. If displacements are scaled by `Ω`, restrained
-    /// modes satisfy `ẏ = A y` with `|A⁻¹| ≤ |Ω⁻¹ B|² + |Ω⁻¹|`.
+    /// First shift of the search [1/time]. It is not far above the magnitude of any eigenvalue.
+    /// If displacements are scaled by `Ω`, restrained modes satisfy `ẏ = A y` with `|A⁻¹| ≤ |Ω⁻¹ B|² + |Ω⁻¹|`.
     fn slowest_shift(&self) -> f64 {
         let modes = || self.squares.iter().enumerate();
         let held = modes().filter(|(_, square)| **square != 0.0);

@@ -1,5 +1,5 @@
-//! Verification of pairs of eigenvalue and shape. Each pair is corrected with its section forces as additional unknowns. The size of the last
-//! correction is its residual.
+//! Verification of pairs of eigenvalue and shape. Each pair is corrected with its section forces as additional unknowns.
+//! The size of the last correction is its residual.
 
 use super::VibrationError;
 use super::elastic::{FourVectors, Shapes};
@@ -29,9 +29,10 @@ pub(super) struct RefinedPair {
 
 /// Corrects the first `count` pairs of a search.
 ///
-/// A pair `(x, n)` consists of displacements and section forces; `ω²` is computed from its energies. For the residual force `r = ω² M x - Bᵀ (n + k
-/// m) - K_g x` the correction is `δ = A⁻¹ r`, so that `x` becomes `(ω² + σ) A⁻¹ M x`. Components of other pairs are removed from `δ` and included
-/// in the residual. Otherwise the inverted stiffness would amplify small components of low pairs in high pairs.
+/// A pair `(x, n)` consists of displacements and section forces; `ω²` is computed from its energies.
+/// For the residual force `r = ω² M x - Bᵀ (n + k m) - K_g x` the correction is `δ = A⁻¹ r`, so that `x` becomes `(ω² + σ) A⁻¹ M x`.
+/// Components of other pairs are removed from `δ` and included in the residual.
+/// Otherwise the inverted stiffness would amplify small components of low pairs in high pairs.
 ///
 /// # Errors
 /// Fails if the refinement is stopped.
@@ -200,8 +201,8 @@ impl OtherPairs<'_> {
         self.is_certain(shapes, &squares, &residuals)
     }
 
-    /// Removes the components of all pairs from residual forces. Returns the contribution of these components to the residuals, as a fraction of
-    /// `ω² + σ`.
+    /// Removes the components of all pairs from residual forces.
+    /// Returns the contribution of these components to the residuals, as a fraction of `ω² + σ`.
     ///
     /// Components of lower pairs contribute by their magnitude only, because the inverted stiffness would overestimate them.
     fn remove_other_pairs(

@@ -1,18 +1,20 @@
 //! Damped vibrations with a shift: eigenvalues of `λ² + λ B Bᵀ + Ω²` that are near the shift.
 //!
-//! With `y = (Ω x, ẋ)` the equation of motion is `ẏ = A y`, where `A = [0 Ω; -Ω -B Bᵀ]` is dissipative. Hence `|(A - σ)⁻¹| ≤ 1/σ` for any `σ > 0`
-//! and damping of any strength (Lumer & Phillips, Pacific J. Math. 11 (1961) 679–698). Let `e = (σ² + Ω²)^-½`, `w = Ω e` and `t = σ e` be diagonal
-//! matrices, so that `w² + t² = 1`. Then the matrix
+//! With `y = (Ω x, ẋ)` the equation of motion is `ẏ = A y`, where `A = [0 Ω; -Ω -B Bᵀ]` is dissipative.
+//! Hence `|(A - σ)⁻¹| ≤ 1/σ` for any `σ > 0` and damping of any strength (Lumer & Phillips, Pacific J. Math. 11 (1961) 679–698).
+//! Let `e = (σ² + Ω²)^-½`, `w = Ω e` and `t = σ e` be diagonal matrices, so that `w² + t² = 1`. Then the matrix
 //!
 //! ```text
 //! σ (A - σ)⁻¹ = [ -(t² + w P w)   -w (1 - P) t ]        P = G (1 + Gᵀ G)⁻¹ Gᵀ,   G = √σ e B
 //!               [  t (1 - P) w    -t (1 - P) t ]
 //! ```
 //!
-//! has no large entry, because a dashpot of any strength acts as a projection `P`. With the singular vectors `U` and singular values `s` of `G`, `P
-//! = U s²/(1 + s²) Uᵀ`. One-sided rotations compute them accurately over all magnitudes. The eigenvalues `θ` of the matrix give `λ = σ (1 + 1/θ)`.
-//! Each reported `λ` is corrected by inverse iteration with the Rayleigh quotient of the quadratic problem. The unknowns of this iteration include
-//! the forces of strong dashpots, divided by their damping (F. Tisseur & K. Meerbergen, SIAM Review 43 (2001) 235–286, sections 2 and 3.4).
+//! has no large entry, because a dashpot of any strength acts as a projection `P`.
+//! With the singular vectors `U` and singular values `s` of `G`, `P = U s²/(1 + s²) Uᵀ`.
+//! One-sided rotations compute them accurately over all magnitudes. The eigenvalues `θ` of the matrix give `λ = σ (1 + 1/θ)`.
+//! Each reported `λ` is corrected by inverse iteration with the Rayleigh quotient of the quadratic problem.
+//! The unknowns of this iteration include the forces of strong dashpots, divided by their damping (F. Tisseur & K. Meerbergen,
+//! SIAM Review 43 (2001) 235–286, sections 2 and 3.4).
 
 use nalgebra::{DMatrix, DVector, Schur};
 
@@ -33,16 +35,15 @@ const CORRECTIONS: usize = 4;
 /// Relative change of `λ` above which a correction is rejected, because it has changed to another eigenvalue.
 const FAR: f64 = 1e-4;
 
-/// Relative change of `λ` close to the shift above which a correction is rejected if it is much larger than rounding. Such a change indicates
-/// several eigenvalues close to each other, whose shapes are mixed.
+/// Relative change of `λ` close to the shift above which a correction is rejected if it is much larger than rounding.
+/// Such a change indicates several eigenvalues close to each other, whose shapes are mixed.
 const NEAR: f64 = 1e-10;
 const ROUNDING_CHANGE: f64 = 1e-12;
 
 /// Distance of the shift of the inverse iteration from `λ`, as a fraction of `λ`. At this distance the matrix is not singular.
 const BESIDE: f64 = 1e-8;
 
-/// Damping `s²` above which the force of a dashpot is an unknown. As a matrix entry, such a damping would reduce the accuracy of weakly damped
-/// modes.
+/// Damping `s²` above which the force of a dashpot is an unknown. As a matrix entry, such a damping would reduce the accuracy of weakly damped modes.
 const STRONG: f64 = 1e4;
 
 pub(super) struct Resolvent {
@@ -50,8 +51,8 @@ pub(super) struct Resolvent {
     pub(super) shift: f64,
     /// Scales `w = |ω|/√(σ² + ω²)` and `t = σ/√(σ² + ω²)` of each mode, and the sign of its `ω²` [-].
     scales: Vec<(f64, f64, f64)>,
-    /// Modes whose displacements are variables. These are the restrained modes. The next field contains the modes whose velocities are variables:
-    /// all modes that are restrained or damped.
+    /// Modes whose displacements are variables. These are the restrained modes.
+    /// The next field contains the modes whose velocities are variables: all modes that are restrained or damped.
     places: Vec<usize>,
     velocities: Vec<usize>,
     /// Singular vectors `U`, one column for each squared singular value `s²`.
@@ -101,8 +102,9 @@ impl Resolvent {
         if count == 0 {
             return Ok(Vec::new());
         }
-        // The Schur decomposition compares subdiagonal entries with the diagonal. Next to eigenvalues near zero it may not converge, although these
-        // eigenvalues are not needed. In this case all eigenvalues are shifted away from zero by the largest magnitude.
+        // The Schur decomposition compares subdiagonal entries with the diagonal.
+        // Next to eigenvalues near zero it may not converge, although these eigenvalues are not needed.
+        // In this case all eigenvalues are shifted away from zero by the largest magnitude.
         let search = |part: f64, moved: f64| {
             let mut matrix = matrix.clone();
             (0..count).for_each(|at| matrix[(at, at)] -= moved);

@@ -29,8 +29,8 @@ const EQUAL: f64 = 1e-6;
 /// Multiple of the rounding error of `ω²` below which `ω²` counts as zero.
 const ROUNDING: f64 = 64.0;
 
-/// Size of `ω²` below which it counts as zero, as a fraction of the shift. The computed shapes of rigid motions have such small values of `ω²`,
-/// because rounding adds components of other shapes to them.
+/// Size of `ω²` below which it counts as zero, as a fraction of the shift.
+/// The computed shapes of rigid motions have such small values of `ω²`, because rounding adds components of other shapes to them.
 const HIDDEN: f64 = 1e-14;
 
 /// Largest ratio of the shift to the lowest nonzero `ω²`.

@@ -17,8 +17,8 @@ const TRIANGLE: f64 = 12.0;
 const HATCH: f64 = 5.0;
 const JOINT: f64 = 4.0;
 const SLIDER: f64 = 6.5;
-/// Length of an arrow. The lengths of an arrow of a distributed load and of an arrow head, and the distance of the tip from the loaded point,
-/// follow [pixels].
+/// Length of an arrow.
+/// The lengths of an arrow of a distributed load and of an arrow head, and the distance of the tip from the loaded point, follow [pixels].
 const ARROW: f64 = 34.0;
 const SHORT: f64 = 18.0;
 const HEAD: f64 = 8.0;

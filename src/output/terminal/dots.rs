@@ -1,5 +1,5 @@
-//! Raster of dots for curves in a terminal. Each character has two by four dots. They are approximately square, because characters are about twice
-//! as high as wide.
+//! Raster of dots for curves in a terminal. Each character has two by four dots.
+//! They are approximately square, because characters are about twice as high as wide.
 
 use super::Glyphs;
 use super::character_grid::TerminalColour;
@@ -39,8 +39,8 @@ impl Dots {
         (last(ACROSS * self.columns), last(DOWN * self.rows))
     }
 
-    /// Draws a curve through points. Coordinates are in dots, starting at the upper left dot. Points that are not finite leave a gap. Parts outside
-    /// the raster are not drawn.
+    /// Draws a curve through points. Coordinates are in dots, starting at the upper left dot. Points that are not finite leave a gap.
+    /// Parts outside the raster are not drawn.
     pub fn curve(
         &mut self,
         points: impl IntoIterator<Item = Point>,

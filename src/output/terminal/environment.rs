@@ -14,10 +14,10 @@ const FREE_LINES: usize = 3;
 impl TerminalStyle {
     /// Style of the terminal that environment variables describe. `variable` returns the value of an environment variable.
     ///
-    /// Colours are not used if `NO_COLOR` is set and not empty, or if `TERM` is `dumb` or not set. Braille characters are used if the character set
-    /// is UTF-8, unless `TERM` is `dumb` or `linux` (the console, whose font does not contain them). The character set is given by `LC_ALL`,
-    /// otherwise by `LC_CTYPE`, otherwise by `LANG`. The size is that of `COLUMNS` and `LINES`, or 80 by 24. The height of a picture is a few lines
-    /// less.
+    /// Colours are not used if `NO_COLOR` is set and not empty, or if `TERM` is `dumb` or not set.
+    /// Braille characters are used if the character set is UTF-8, unless `TERM` is `dumb` or `linux` (the console, whose font does not contain them).
+    /// The character set is given by `LC_ALL`, otherwise by `LC_CTYPE`, otherwise by `LANG`. The size is that of `COLUMNS` and `LINES`, or 80 by 24.
+    /// The height of a picture is a few lines less.
     pub fn of_environment(variable: impl Fn(&str) -> Option<String>) -> Self {
         let given = |name: &str| variable(name).filter(|value| !value.is_empty());
         let terminal = given("TERM").unwrap_or_default();

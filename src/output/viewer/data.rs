@@ -45,8 +45,8 @@ pub struct BodyShape {
     pub points: Vec<(String, PointCombination)>,
     /// Outline of the body. It is closed if it ends at its start, otherwise it is a line. It is empty for a body without points.
     pub outline: Vec<PointCombination>,
-    /// Corners of the polygon of the body, if it has one. In this case `outline` is the line from the centre to one of its points. The coordinates
-    /// of the corners are along this line and to its left, in units of its length. The last corner repeats the first.
+    /// Corners of the polygon of the body, if it has one. In this case `outline` is the line from the centre to one of its points.
+    /// The coordinates of the corners are along this line and to its left, in units of its length. The last corner repeats the first.
     pub corners: Vec<(f64, f64)>,
 }
 
@@ -101,8 +101,8 @@ pub struct ColourField {
     pub name: String,
     /// Unit or dimension of the field. It is empty for a pure number.
     pub unit: String,
-    /// Values in each frame, at the stations of the first beam, then of the next beam, and so on. Places whose values are not finite are not
-    /// coloured.
+    /// Values in each frame, at the stations of the first beam, then of the next beam, and so on.
+    /// Places whose values are not finite are not coloured.
     pub values: Vec<Vec<f64>>,
 }
 

@@ -4,8 +4,8 @@
 //! data → thinning, packing → document → HTML with page/template.html, page/style.css and the programs of page/
 //! ```
 //!
-//! Bodies are stored as their control points or nodes, with 16 bits for each coordinate. The browser computes the curves from them. The curves are
-//! exact at every point that is drawn, and need less space than polylines.
+//! Bodies are stored as their control points or nodes, with 16 bits for each coordinate. The browser computes the curves from them.
+//! The curves are exact at every point that is drawn, and need less space than polylines.
 
 mod data;
 mod document;

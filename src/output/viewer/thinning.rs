@@ -2,8 +2,9 @@
 
 const MOST_ROWS: usize = 3000;
 
-/// Returns the indices of the rows that are kept. Many rows are divided into pieces; of each piece, the first row and the rows with the extreme
-/// values of every column are kept. The last row is always kept.
+/// Returns the indices of the rows that are kept.
+/// Many rows are divided into pieces; of each piece, the first row and the rows with the extreme values of every column are kept.
+/// The last row is always kept.
 pub fn rows_to_keep(rows: usize, columns: &[&[f64]]) -> Vec<usize> {
     if rows <= MOST_ROWS {
         return (0..rows).collect();

@@ -63,8 +63,8 @@ fn options_at(operand: &str) -> Option<usize> {
     (at == 0 || operand[..at].ends_with([' ', ','])).then_some(at)
 }
 
-/// Completes an operand that is a map of options as if it were an argument of the unfinished call `call`. Any other operand is completed as an
-/// expression.
+/// Completes an operand that is a map of options as if it were an argument of the unfinished call `call`.
+/// Any other operand is completed as an expression.
 fn in_call(
     call: &str,
     operand: &str,

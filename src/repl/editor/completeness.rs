@@ -33,8 +33,8 @@ pub fn is_command(text: &str) -> bool {
 
 /// Determines whether `text` from a file or a pipe is complete. Empty lines have no meaning in it.
 ///
-/// A wrong closing bracket or a string literal that is not closed cannot be corrected by further lines. Such an input counts as complete, so that
-/// its error is reported.
+/// A wrong closing bracket or a string literal that is not closed cannot be corrected by further lines.
+/// Such an input counts as complete, so that its error is reported.
 pub fn completeness_of_script(text: &str) -> Completeness {
     let tokens = scan(text);
     // A doc comment must be followed by a function.

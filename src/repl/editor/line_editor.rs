@@ -76,8 +76,8 @@ pub struct Editor {
 }
 
 impl Editor {
-    /// Creates a line editor on this terminal. If the history file cannot be read, it is not used, and [`Self::take_history_problem`] returns the
-    /// reason.
+    /// Creates a line editor on this terminal.
+    /// If the history file cannot be read, it is not used, and [`Self::take_history_problem`] returns the reason.
     ///
     /// # Errors
     /// Fails if the terminal cannot be used.

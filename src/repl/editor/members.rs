@@ -7,8 +7,9 @@ use crate::script::bindings::returns::ValueKind;
 use crate::script::bindings::table::{CallSyntax, FunctionBinding};
 use crate::script::source::scanner::is_name;
 
-/// Members of a value as candidates. If the type of the value is unknown, these are the members of all types that match, provided that something
-/// has been typed. If the value is a map in a variable, these are its keys.
+/// Members of a value as candidates.
+/// If the type of the value is unknown, these are the members of all types that match, provided that something has been typed.
+/// If the value is a map in a variable, these are its keys.
 pub fn members(
     of: Option<ValueKind>,
     variable: Option<&Variable>,

@@ -9,8 +9,8 @@ use crate::script::state::context::Context;
 mod jumps;
 mod search;
 
-/// Warns about a function that branches on an expression of its argument and of a variable that depends on a parameter. Each position is reported
-/// once.
+/// Warns about a function that branches on an expression of its argument and of a variable that depends on a parameter.
+/// Each position is reported once.
 pub fn warn_once(native: &NativeCallContext, context: &Context, given: &[Dynamic]) {
     given.iter().for_each(|value| warn_about(native, context, value));
 }

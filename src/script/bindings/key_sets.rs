@@ -1,5 +1,5 @@
-//! Option maps with alternative sets of keys, of which exactly one is given. For example, a section is given by stiffness and inertia, or by a
-//! material and a shape.
+//! Option maps with alternative sets of keys, of which exactly one is given.
+//! For example, a section is given by stiffness and inertia, or by a material and a shape.
 
 use super::options::Options;
 use crate::script::messages::error::{CallPart, ScriptError};
@@ -48,8 +48,8 @@ impl<T: Copy> KeySets<T> {
         }
     }
 
-    /// Returns the set that is selected by a text. If no text selects a set, returns the set of which most keys are given, or the first of several
-    /// such sets.
+    /// Returns the set that is selected by a text.
+    /// If no text selects a set, returns the set of which most keys are given, or the first of several such sets.
     fn meant(&self, options: &Options) -> Option<&'static KeySet<T>> {
         let is_chosen = |set: &&KeySet<T>| {
             let chosen = set.chosen_by.map(|(key, text)| (options.text(key), text));

@@ -1,5 +1,5 @@
-//! Methods and properties of values that depend on parameters. They are evaluated in each variant, for the section, curve, vector or number of this
-//! variant.
+//! Methods and properties of values that depend on parameters.
+//! They are evaluated in each variant, for the section, curve, vector or number of this variant.
 
 use std::collections::BTreeMap;
 

@@ -1,5 +1,5 @@
-//! Source files of script functions, and script lines from which the library is called. The engine does not know the file when native code calls
-//! closures of modules, and it provides the lines of calls only in errors.
+//! Source files of script functions, and script lines from which the library is called.
+//! The engine does not know the file when native code calls closures of modules, and it provides the lines of calls only in errors.
 
 use std::cell::{Cell, RefCell};
 use std::collections::{BTreeMap, HashMap, HashSet};
@@ -104,8 +104,8 @@ impl Sources {
         }
     }
 
-    /// Marks a call into the library from a line of the file `caller`, until the guard is dropped. Within nested library calls, the outermost line
-    /// is kept.
+    /// Marks a call into the library from a line of the file `caller`, until the guard is dropped.
+    /// Within nested library calls, the outermost line is kept.
     pub fn enter_library(&self, caller: Option<&str>, line: Option<usize>) -> LibraryCallGuard {
         let before = self.line.get();
         if !is_library(caller) {

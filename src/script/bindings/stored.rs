@@ -8,8 +8,8 @@ use crate::script::state::context::Context;
 
 /// Script function with its environment, which are the functions, imports and constants of its file.
 ///
-/// A function pointer of Rhai 1.27 contains only a name and captured values. The reference to the engine is weak, because the engine indirectly
-/// owns this function through the scenes of the script.
+/// A function pointer of Rhai 1.27 contains only a name and captured values.
+/// The reference to the engine is weak, because the engine indirectly owns this function through the scenes of the script.
 pub struct StoredFunction {
     function: FnPtr,
     surroundings: GlobalRuntimeState,

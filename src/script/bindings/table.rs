@@ -1,8 +1,9 @@
 //! Table that declares a domain of the language. It contains one binding for each name that scripts can use.
 //!
-//! Registration, argument checks, error messages with suggestions, help, definition files and the language reference are all derived from these
-//! bindings. To add a domain, write `pub const TABLE: BindingTable` in a new file of [`packages`](crate::script::packages) and add it to the list
-//! in this module.
+//! Registration, argument checks, error messages with suggestions, help,
+//! definition files and the language reference are all derived from these bindings.
+//! To add a domain, write `pub const TABLE: BindingTable` in a new file of [`packages`](crate::script::packages) and add it
+//! to the list in this module.
 
 use rhai::Dynamic;
 

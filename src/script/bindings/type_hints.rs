@@ -5,8 +5,7 @@ use rhai::{Array, Dynamic, FnPtr, Map};
 use super::kind::{Kind, NumberRange};
 use crate::script::messages::numbers::{as_number, format_number};
 
-/// Hint for a `value` that was given for a parameter of type `kind`; `None` if the mistake is not a known one. `given` is the type name of the
-/// value.
+/// Hint for a `value` that was given for a parameter of type `kind`; `None` if the mistake is not a known one. `given` is the type name of the value.
 pub fn hint(kind: &Kind, value: &Dynamic, given: &str) -> Option<String> {
     match kind {
         Kind::Number(_) if is_infinite_or_nan(value) => {

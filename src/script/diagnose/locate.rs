@@ -116,8 +116,8 @@ fn argument(program: &Program, call: &[Lexeme], number: usize) -> Option<Locatio
     None
 }
 
-/// Returns the location of an argument from `start` to the separator at `end`, without trailing blanks. If the argument has several lines, the
-/// location is only its first token.
+/// Returns the location of an argument from `start` to the separator at `end`, without trailing blanks.
+/// If the argument has several lines, the location is only its first token.
 fn span(program: &Program, start: Position, end: Position) -> Option<Location> {
     let (line, column) = (start.line()?, start.position()?);
     if end.line()? != line {

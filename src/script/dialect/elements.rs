@@ -1,5 +1,6 @@
-//! Methods of arrays and maps that call a function. They differ from the methods of Rhai in two points: a result that is not a boolean is an error
-//! instead of false, and `for_each` passes the element and not the index to its function.
+//! Methods of arrays and maps that call a function.
+//! They differ from the methods of Rhai in two points: a result that is not a boolean is an error instead of false,
+//! and `for_each` passes the element and not the index to its function.
 
 use std::any::TypeId;
 use std::cell::Cell;

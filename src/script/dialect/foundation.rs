@@ -1,8 +1,8 @@
 //! Packages of Rhai that are part of the language, and functions of Rhai that are not.
 //!
-//! The language does not contain byte arrays, bit fields, reflection, tags, `take` and the JSON parser of Rhai, nor `sleep`, which cannot be
-//! interrupted. Users may expect functions that Rhai does not have or defines in a surprising way. A call of such a function is an error with a
-//! suggestion.
+//! The language does not contain byte arrays, bit fields, reflection, tags, `take` and the JSON parser of Rhai, nor `sleep`,
+//! which cannot be interrupted.
+//! Users may expect functions that Rhai does not have or defines in a surprising way. A call of such a function is an error with a suggestion.
 
 use std::any::TypeId;
 
@@ -20,8 +20,8 @@ rhai::def_package! {
         BasicMathPackage, BasicStringPackage, BasicTimePackage, LogicPackage, MoreStringPackage {}
 }
 
-/// Fixed seed of the hashes in Rhai. The names of closures (`anon$…`), which scripts can print, contain such hashes. Without a fixed seed they
-/// would differ from process to process.
+/// Fixed seed of the hashes in Rhai. The names of closures (`anon$…`), which scripts can print, contain such hashes.
+/// Without a fixed seed they would differ from process to process.
 const SEED: [u64; 4] =
     [0x7769_7468_7920_0001, 0x7769_7468_7920_0002, 0x7769_7468_7920_0003, 0x7769_7468_7920_0004];
 

@@ -1,5 +1,6 @@
-//! The method `map.to_json()`. It differs from the method of Rhai in three points: vectors become arrays, values that depend on parameters become
-//! plain values, and values without a JSON form are an error.
+//! The method `map.to_json()`.
+//! It differs from the method of Rhai in three points: vectors become arrays, values that depend on parameters become plain values,
+//! and values without a JSON form are an error.
 
 use rhai::{
     Array, Dynamic, Engine, EvalAltResult, FnPtr, Map, NativeCallContext, Position,

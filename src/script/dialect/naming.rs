@@ -1,5 +1,6 @@
-//! Check for misleading names, which are rejected before a script runs. A function with the name of a function of the language would replace it
-//! everywhere. If a file has a variable with the name of a constant of the language, functions in the file see the constant and not the variable.
+//! Check for misleading names, which are rejected before a script runs.
+//! A function with the name of a function of the language would replace it everywhere.
+//! If a file has a variable with the name of a constant of the language, functions in the file see the constant and not the variable.
 
 use rhai::{Engine, EvalAltResult, Position, Token};
 
@@ -83,8 +84,8 @@ impl NamedFunction<'_> {
             .into_engine(self.place(*at)))
     }
 
-    /// Rejects a constant of the language in a function if the file has a variable with the same name. A reader would expect the variable, which
-    /// the function cannot see.
+    /// Rejects a constant of the language in a function if the file has a variable with the same name.
+    /// A reader would expect the variable, which the function cannot see.
     fn refuse_hidden(&self, name: &str, line: usize) -> Result<(), Box<EvalAltResult>> {
         let used = self.names().find(|(used, _)| *used == name);
         let Some((_, at)) = used.filter(|_| !self.declares(name)) else { return Ok(()) };

@@ -1,11 +1,11 @@
 //! Arithmetic and comparison of numbers as in scientific languages: implementation of the operators of [`syntax`](crate::script::source::syntax).
 //!
-//! Comparisons follow IEEE 754, also between integers and floats. Division never truncates. A power of integers with a non-negative exponent is an
-//! integer, and integer overflow is an error. Other types keep the operators of the engine, with one exception: an order comparison of values of
-//! different types is an error and not `false`.
+//! Comparisons follow IEEE 754, also between integers and floats. Division never truncates.
+//! A power of integers with a non-negative exponent is an integer, and integer overflow is an error.
+//! Other types keep the operators of the engine, with one exception: an order comparison of values of different types is an error and not `false`.
 //!
-//! Two restrictions of the engine remain. `switch` also compares the number type, so `3.0` does not match `case 3`. A minus sign has precedence
-//! over a power, so `-x^2` is an error.
+//! Two restrictions of the engine remain. `switch` also compares the number type, so `3.0` does not match `case 3`.
+//! A minus sign has precedence over a power, so `-x^2` is an error.
 
 use std::any::TypeId;
 use std::cmp::Ordering;

@@ -1,8 +1,8 @@
 //! Limits on the size of texts, arrays and maps of a script.
 //!
-//! The limits of Rhai count all nested elements in every method call, so that appending elements would take quadratic time. Here, the length of a
-//! variable is checked when the variable is used, and functions that create large values check the size before. The growth of nested values is
-//! bounded by the memory limit.
+//! The limits of Rhai count all nested elements in every method call, so that appending elements would take quadratic time.
+//! Here, the length of a variable is checked when the variable is used, and functions that create large values check the size before.
+//! The growth of nested values is bounded by the memory limit.
 
 use rhai::{Array, Dynamic, Engine, EvalAltResult, INT, ImmutableString, Map, Position};
 

@@ -1,5 +1,6 @@
-//! Sorting, either by a script function or in natural order. The method `sort` of Rhai ignores errors of the function and differences that are not
-//! integers. It also rejects arrays with both integers and floats.
+//! Sorting, either by a script function or in natural order.
+//! The method `sort` of Rhai ignores errors of the function and differences that are not integers.
+//! It also rejects arrays with both integers and floats.
 
 use std::any::TypeId;
 use std::cmp::Ordering;

@@ -1,5 +1,5 @@
-//! Check of the values of `switch`. Numbers, texts, booleans, and arrays and maps of these are allowed. For all other values, Rhai would execute
-//! the default case without an error.
+//! Check of the values of `switch`. Numbers, texts, booleans, and arrays and maps of these are allowed.
+//! For all other values, Rhai would execute the default case without an error.
 
 use rhai::{Array, Dynamic, Engine, FnPtr, Map};
 

@@ -18,8 +18,8 @@ use crate::script::source::syntax;
 use crate::script::state::context::Context;
 use crate::script::state::limits::DEEPEST;
 
-/// Maximum nesting depth of an expression outside functions. The next constant is the maximum in functions, where each level of nesting counts
-/// towards the call depth too.
+/// Maximum nesting depth of an expression outside functions.
+/// The next constant is the maximum in functions, where each level of nesting counts towards the call depth too.
 const EXPRESSION_DEPTH: usize = 256;
 const EXPRESSION_DEPTH_IN_FUNCTION: usize = 64;
 /// Number of operations between checks for interruption.

@@ -34,8 +34,8 @@ pub fn parse(engine: &Engine, program: &Program) -> EngineResult<AST> {
     Ok(ast)
 }
 
-/// Parses and checks a piece of a program. Positions refer to the whole program. `variables` returns the top-level variables of the whole program
-/// and the lines of their declarations.
+/// Parses and checks a piece of a program. Positions refer to the whole program.
+/// `variables` returns the top-level variables of the whole program and the lines of their declarations.
 ///
 /// # Errors
 /// Fails if the piece has an error.

@@ -41,8 +41,8 @@ pub enum Halt {
 }
 
 impl ScriptEngine {
-    /// Creates the environment for the language of `catalog`, within the limits of the settings. Files to be imported are searched in the folder of
-    /// the settings.
+    /// Creates the environment for the language of `catalog`, within the limits of the settings.
+    /// Files to be imported are searched in the folder of the settings.
     ///
     /// # Errors
     /// Fails only because of internal errors.

@@ -40,8 +40,9 @@ pub struct EngineConfig {
 }
 
 impl EngineConfig {
-    /// Collects the data for worker engines. `None` if there is no complete script, as at the prompt, or if the address space is too small for one
-    /// worker. `refusal` is the error message of functions that write files.
+    /// Collects the data for worker engines.
+    /// `None` if there is no complete script, as at the prompt, or if the address space is too small for one worker.
+    /// `refusal` is the error message of functions that write files.
     pub fn of(engine: &Engine, context: &Context, refusal: &'static str) -> Option<Self> {
         let catalog = Sources::of(engine).catalog()?;
         // Time and memory of the whole process are supervised by the run itself.
@@ -157,8 +158,8 @@ impl<J, R> WorkerPool<'_, J, R> {
         let _ = self.jobs.send((number, job));
     }
 
-    /// Waits for results like [`receive`](Self::receive), but for many queued jobs. Results are collected in batches, because each wake-up of the
-    /// thread takes time.
+    /// Waits for results like [`receive`](Self::receive), but for many queued jobs.
+    /// Results are collected in batches, because each wake-up of the thread takes time.
     pub fn receive_batch(&self) -> WorkerEvent<R> {
         match self.results.try_recv() {
             Ok((number, result)) => WorkerEvent::Done(number, result),
@@ -182,8 +183,8 @@ impl<J, R> WorkerPool<'_, J, R> {
     }
 }
 
-/// Calls `drive` with a pool of worker threads, each with its own engine. A job that takes longer than `wall` is stopped. `panicked` converts the
-/// message of a panic to a result. When `drive` returns, jobs that have not ended are stopped.
+/// Calls `drive` with a pool of worker threads, each with its own engine. A job that takes longer than `wall` is stopped.
+/// `panicked` converts the message of a panic to a result. When `drive` returns, jobs that have not ended are stopped.
 ///
 /// # Errors
 /// Fails if no worker can be created.

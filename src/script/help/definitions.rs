@@ -1,7 +1,7 @@
 //! Definition files (`.d.rhai`), which editors read by the Rhai language server. They are generated from the bindings.
 //!
-//! The format has no optional arguments, so a function is declared once for each number of arguments. Allowed values, units, options and examples
-//! are in the comment above the declaration, which editors show.
+//! The format has no optional arguments, so a function is declared once for each number of arguments.
+//! Allowed values, units, options and examples are in the comment above the declaration, which editors show.
 
 mod types;
 

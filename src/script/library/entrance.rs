@@ -1,5 +1,5 @@
-//! Native functions that wrap the functions of the library and store the calling line. A failed check in the library is therefore reported at the
-//! user's line.
+//! Native functions that wrap the functions of the library and store the calling line.
+//! A failed check in the library is therefore reported at the user's line.
 
 use std::any::TypeId;
 

@@ -1,5 +1,5 @@
-//! Help pages of the library. They consist of the comments `//!` of a file and `///` of its functions, which are parsed when help is requested and
-//! not at the import.
+//! Help pages of the library.
+//! They consist of the comments `//!` of a file and `///` of its functions, which are parsed when help is requested and not at the import.
 
 use std::sync::LazyLock;
 

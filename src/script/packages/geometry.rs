@@ -1,7 +1,7 @@
 //! Geometry: knots and basis functions, planar curves, Gauss rules.
 //!
-//! In other domains, a curve is a parameter `object("axis", geometry::CURVE)`, read by `call.get::<Rc<Curve>>("axis")`. Knots are [`KNOTS`] with
-//! the native type `Rc<KnotVector>`. Both are immutable.
+//! In other domains, a curve is a parameter `object("axis", geometry::CURVE)`, read by `call.get::<Rc<Curve>>("axis")`.
+//! Knots are [`KNOTS`] with the native type `Rc<KnotVector>`. Both are immutable.
 
 pub mod curves;
 pub mod knots;

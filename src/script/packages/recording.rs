@@ -89,8 +89,7 @@ pub(super) struct Missing {
     pub instead: &'static str,
 }
 
-/// Reports that the states of a run cannot be computed again from `time` on. If the data were requested explicitly, it is an error, otherwise a
-/// note.
+/// Reports that the states of a run cannot be computed again from `time` on. If the data were requested explicitly, it is an error, otherwise a note.
 pub(super) fn report_diverged_rerun(
     call: &Call,
     of: &SimulationHandle,

@@ -129,8 +129,8 @@ fn write_viewer(call: &mut Call) -> Result<Dynamic, ScriptError> {
     Ok(Dynamic::UNIT)
 }
 
-/// Fields for colouring beams that are computed from the states of a simulation. The states are restored from snapshots or computed again. If the
-/// repeated run differs from the original, the result is `None` with a note, or an error if the fields were requested explicitly.
+/// Fields for colouring beams that are computed from the states of a simulation. The states are restored from snapshots or computed again.
+/// If the repeated run differs from the original, the result is `None` with a note, or an error if the fields were requested explicitly.
 fn inside(
     call: &Call,
     of: &SimulationHandle,

@@ -285,8 +285,8 @@ fn of_loads(scene: &Scene, time: f64) -> impl Iterator<Item = StationSymbol<'_>>
     })
 }
 
-/// Factor of a load just before a time; at time zero, the factor just after it. It is 1 if the load calls script functions, because they are not
-/// called here.
+/// Factor of a load just before a time; at time zero, the factor just after it.
+/// It is 1 if the load calls script functions, because they are not called here.
 fn factor(load: &Load, time: f64) -> f64 {
     if load.schedule.functions() > 0 {
         return 1.0;

@@ -1,9 +1,10 @@
 //! New loop variables in every iteration of a `for` loop, so that a closure captures the values of its own iteration.
 //!
-//! In Rhai all iterations of a loop share one variable, so closures of the first iteration would see the value of the last. If the body contains a
-//! closure that uses the loop variable, an additional first statement declares the variable again in the scope of the iteration. The statement is
-//! inserted into the text before parsing. It replaces blanks around the opening brace, so that columns are unchanged. If there are not two blanks,
-//! the rest of the line is shifted by one or two columns.
+//! In Rhai all iterations of a loop share one variable, so closures of the first iteration would see the value of the last.
+//! If the body contains a closure that uses the loop variable,
+//! an additional first statement declares the variable again in the scope of the iteration.
+//! The statement is inserted into the text before parsing. It replaces blanks around the opening brace, so that columns are unchanged.
+//! If there are not two blanks, the rest of the line is shifted by one or two columns.
 
 use rhai::{Dynamic, Engine, EvalContext, Position, Token};
 

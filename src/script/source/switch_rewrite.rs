@@ -1,8 +1,8 @@
 //! Check of the values of `switch`. For values that it cannot compare, Rhai would execute the default case without an error.
 //!
-//! A private-use character is inserted after the keyword `switch` before parsing. For the parser it is a keyword of a custom syntax, which checks
-//! the value of the expression that follows. The character replaces a blank, so that columns are unchanged. If there is no blank, the rest of the
-//! line is shifted by one column.
+//! A private-use character is inserted after the keyword `switch` before parsing.
+//! For the parser it is a keyword of a custom syntax, which checks the value of the expression that follows.
+//! The character replaces a blank, so that columns are unchanged. If there is no blank, the rest of the line is shifted by one column.
 
 use rhai::{Dynamic, Engine, Position, Token};
 

@@ -1,11 +1,11 @@
 //! Replacement of operators of Rhai before parsing, so that numbers behave as in scientific languages.
 //!
-//! Rhai's built-in comparisons and its integer division bypass all registered functions. Therefore the parser sees
-//! other operator names ([`operators`](crate::script::dialect::operators) implements them):
+//! Rhai's built-in comparisons and its integer division bypass all registered functions.
+//! Therefore the parser sees other operator names ([`operators`](crate::script::dialect::operators) implements them):
 //!
 //! - `/ << >> < > <= >= == !=` become `num/`, `num<`, … of the same precedence;
-//! - `^` and `**` become `num^0`, `num^1`, … along a chain of powers, each binding tighter than the one before, because
-//!   custom operators bind to the left and `2^3^2` would be 64;
+//! - `^` and `**` become `num^0`, `num^1`, … along a chain of powers, each binding tighter than the one before,
+//!   because custom operators bind to the left and `2^3^2` would be 64;
 //! - `-x^2` is an error, because Rhai's minus binds tighter than any operator and would give the square of `-x`;
 //! - `/=`, `^=`, `**=`, `<<=` and `>>=` are converted to two tokens, and loops get an additional statement (`loop_scoping`); see [`mark`].
 //!
@@ -136,8 +136,8 @@ pub fn install(
     Ok(reader)
 }
 
-/// Rewrites `/=`, `^=`, `**=`, `<<=` and `>>=` to an operator and a wrapper of the operand, and marks loop bodies and `switch` expressions. Columns
-/// are unchanged if there are blanks that can be replaced.
+/// Rewrites `/=`, `^=`, `**=`, `<<=` and `>>=` to an operator and a wrapper of the operand, and marks loop bodies and `switch` expressions.
+/// Columns are unchanged if there are blanks that can be replaced.
 pub fn mark(source: &Source) -> Cow<'_, str> {
     let tokens = source.tokens();
     let halves = |token: &Token| -> &[char] {

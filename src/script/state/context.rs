@@ -171,8 +171,8 @@ impl Context {
         self.0.meter.passed()
     }
 
-    /// Resource use and limits of the run. Code that runs a script must first call [`watch`](Meter::watch), and keep the guard until the script has
-    /// ended.
+    /// Resource use and limits of the run.
+    /// Code that runs a script must first call [`watch`](Meter::watch), and keep the guard until the script has ended.
     pub fn meter(&self) -> &Meter {
         &self.0.meter
     }

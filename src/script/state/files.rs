@@ -1,5 +1,5 @@
-//! File access of scripts. They can read files in their own folder and in the output folder. They can write files in the output folder; each file
-//! is replaced atomically. Links are not followed, and only regular files are opened.
+//! File access of scripts. They can read files in their own folder and in the output folder.
+//! They can write files in the output folder; each file is replaced atomically. Links are not followed, and only regular files are opened.
 
 use std::cell::{OnceCell, RefCell};
 use std::collections::{HashMap, HashSet};
@@ -31,8 +31,8 @@ pub struct OutputFolder {
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct WrittenFile {
     pub path: PathBuf,
-    /// Path under which an older file with the same name is kept; `None` if there was none. Such a file was not written by this program, or has
-    /// been changed since.
+    /// Path under which an older file with the same name is kept; `None` if there was none.
+    /// Such a file was not written by this program, or has been changed since.
     pub kept: Option<PathBuf>,
 }
 

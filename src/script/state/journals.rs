@@ -98,8 +98,8 @@ impl Journals {
         Ok(bytes)
     }
 
-    /// Opens the journal of a sweep, if the run uses journals. `about` identifies the sweep. If an existing journal belongs to the same sweep,
-    /// `recall` receives its entries.
+    /// Opens the journal of a sweep, if the run uses journals. `about` identifies the sweep.
+    /// If an existing journal belongs to the same sweep, `recall` receives its entries.
     ///
     /// # Errors
     /// Fails if the journal cannot be read or written.

@@ -47,8 +47,8 @@ pub type HardAbort = Arc<dyn Fn(Stop) + Send + Sync>;
 impl Limits {
     /// Address space of a stack that is sufficient for every script within these limits [bytes].
     ///
-    /// Nested closures are dropped recursively. The stack needed for each of them is smaller than twice its memory, so the memory limit determines
-    /// a sufficient stack.
+    /// Nested closures are dropped recursively.
+    /// The stack needed for each of them is smaller than twice its memory, so the memory limit determines a sufficient stack.
     pub fn stack(&self) -> usize {
         LEAST_STACK + 2 * self.memory_or_default().min(LARGEST_FOR_VALUES)
     }
@@ -102,8 +102,8 @@ const MOST_DRY_ADVANCES: u64 = 100_000;
 /// True if a run of this process has detected an interrupt. The run then stops soon and saves its results.
 pub static INTERRUPT_HEARD: AtomicBool = AtomicBool::new(false);
 
-/// State of the watchdog in which no limit is exceeded. The next two constants are its states for an exceeded time limit and an exceeded memory
-/// limit.
+/// State of the watchdog in which no limit is exceeded.
+/// The next two constants are its states for an exceeded time limit and an exceeded memory limit.
 pub(super) const NO_ALARM: u8 = 0;
 pub(super) const TOO_LATE: u8 = 1;
 pub(super) const TOO_LARGE: u8 = 2;

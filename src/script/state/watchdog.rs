@@ -12,8 +12,8 @@ use crate::script::messages::stop::Stop;
 
 const INTERVAL: Duration = Duration::from_millis(10);
 
-/// Processor time that a run may use after it has exceeded the time limit, as a fraction of the limit. On a machine without other load, the run
-/// then ends within twice the limit.
+/// Processor time that a run may use after it has exceeded the time limit, as a fraction of the limit.
+/// On a machine without other load, the run then ends within twice the limit.
 const OVERTIME: f64 = 0.7;
 const LEAST_OVERTIME: Duration = Duration::from_millis(700);
 const MOST_OVERTIME: Duration = Duration::from_secs(5);
@@ -75,8 +75,7 @@ impl Clocks {
         Self { wall: Instant::now(), processor: processor_time() }
     }
 
-    /// Returns true if both the wall-clock time and the processor time exceed `patience`, or if the wall-clock time exceeds a multiple of
-    /// `patience`.
+    /// Returns true if both the wall-clock time and the processor time exceed `patience`, or if the wall-clock time exceeds a multiple of `patience`.
     fn are_over(self, patience: Duration) -> bool {
         let wall = self.wall.elapsed();
         let had = || match (self.processor, processor_time()) {

@@ -93,9 +93,9 @@ impl<'c> CaseRunner<'c> {
         Ok(Self { context, name: name.to_owned(), journal })
     }
 
-    /// Computes all cases that are not in the journal, in parallel. `steps_of` returns the number of steps of a result, which counts towards the
-    /// limits of the run. A panic affects only its case. If the run computes a part of the study, only the cases of the part are computed, and the
-    /// result is `None`.
+    /// Computes all cases that are not in the journal, in parallel.
+    /// `steps_of` returns the number of steps of a result, which counts towards the limits of the run. A panic affects only its case.
+    /// If the run computes a part of the study, only the cases of the part are computed, and the result is `None`.
     ///
     /// # Errors
     /// Fails if the run is stopped (finished cases are then in the journal), or if a case is missing in merged parts.
@@ -163,8 +163,8 @@ impl<'c> CaseRunner<'c> {
         })
     }
 
-    /// Computes the cases one by one on this thread, for timing. Cases in the journal are skipped. `work` receives a function that returns false if
-    /// the case must stop.
+    /// Computes the cases one by one on this thread, for timing. Cases in the journal are skipped.
+    /// `work` receives a function that returns false if the case must stop.
     ///
     /// # Errors
     /// Fails if the run is stopped; finished cases are in the journal.

@@ -29,8 +29,8 @@ pub fn thrown(call: &Call, error: &EvalAltResult) -> Option<String> {
     }
 }
 
-/// Creates a case from a scene, or from a map with a scene and settings. Missing settings are taken from the values of the cell, or else from the
-/// options of the study.
+/// Creates a case from a scene, or from a map with a scene and settings.
+/// Missing settings are taken from the values of the cell, or else from the options of the study.
 pub fn case(
     call: &Call,
     options: &StabilityOptions,

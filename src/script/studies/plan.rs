@@ -91,8 +91,9 @@ impl ErrorStudyPlan {
         Ok(built.history().clone())
     }
 
-    /// Adds columns of the history to the observables. With a reference table, only the columns that it contains are added. The name of a column in
-    /// the table is a symbol (E, KE, SE, px, py or Lz) or its name in the history. Without a table, all columns of the history are added.
+    /// Adds columns of the history to the observables. With a reference table, only the columns that it contains are added.
+    /// The name of a column in the table is a symbol (E, KE, SE, px, py or Lz) or its name in the history.
+    /// Without a table, all columns of the history are added.
     ///
     /// `given` is the option `columns`. It contains the columns of the history for further names, and replaces columns of the same names.
     pub fn add_columns(

@@ -77,8 +77,8 @@ fn doubled_step(dt: StepSize) -> StepSize {
 pub enum Reference {
     /// An independent solution from a table file.
     Table(String, ParsedCsv),
-    /// A reference run: its description, its case, and the case with twice the step, which gives an error estimate. The second case is missing if
-    /// all runs of the study have the same time settings, so that time errors cancel.
+    /// A reference run: its description, its case, and the case with twice the step, which gives an error estimate.
+    /// The second case is missing if all runs of the study have the same time settings, so that time errors cancel.
     ReferenceRun(String, Vec<Case>),
 }
 

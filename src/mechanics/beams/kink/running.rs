@@ -8,19 +8,20 @@ use crate::geometry::{GaussRule, PiecewisePolynomial, Span, Vec2, lower_splines}
 const SAMPLES: usize = 16;
 
 impl SplineString {
-    /// Correction factor `μ` of the inertia of a moving kink. The kinetic energy that the mesh misses is `½ μ ρA g |a|² v²` for a kink `a` that
-    /// moves with the speed `v`. The factor is averaged over places `ξ` of the kink in evenly spread spans.
+    /// Correction factor `μ` of the inertia of a moving kink.
+    /// The kinetic energy that the mesh misses is `½ μ ρA g |a|² v²` for a kink `a` that moves with the speed `v`.
+    /// The factor is averaged over places `ξ` of the kink in evenly spread spans.
     ///
     /// ```text
     /// μ = ∫ (L - s(ξ) - ∫ u² dX) ds/∫ g ds        u = l(X)ᵀ M⁻¹ t(ξ)/|x_ξ|
     /// ```
     ///
-    /// `L` is the length of the string, `s(ξ)` the arc length at the kink, and `|x_ξ|` the derivative `ds/dξ`. The kink length `g`, the splines `t`,
-    /// their integrals `l` and the matrix `M` are defined at [`unresolved_kink`](super::unresolved_kink).
+    /// `L` is the length of the string, `s(ξ)` the arc length at the kink, and `|x_ξ|` the derivative `ds/dξ`.
+    /// The kink length `g`, the splines `t`, their integrals `l` and the matrix `M` are defined at [`unresolved_kink`](super::unresolved_kink).
     ///
-    /// If the start of the string is held, the points in front of a moving unit kink have the velocity `v`, and the points behind it are at rest. On
-    /// the mesh, the point at the arc length `X` has the velocity `u v` instead, where `u` is a function of `X` and `ξ`. Away from the kink `u` is
-    /// exact, so only the spans around the kink contribute to the difference.
+    /// If the start of the string is held, the points in front of a moving unit kink have the velocity `v`, and the points behind it are at rest.
+    /// On the mesh, the point at the arc length `X` has the velocity `u v` instead, where `u` is a function of `X` and `ξ`.
+    /// Away from the kink `u` is exact, so only the spans around the kink contribute to the difference.
     pub fn inertia(
         &self,
         mesh: &Mesh,
@@ -68,8 +69,8 @@ impl SplineString {
         missed / lengths
     }
 
-    /// Motion of the control points for a kink at a place in a span, as a fraction of the motion of the end of the string. `lower` contains the
-    /// splines of lower degree at the place. The second value is the difference from the motion of the end.
+    /// Motion of the control points for a kink at a place in a span, as a fraction of the motion of the end of the string.
+    /// `lower` contains the splines of lower degree at the place. The second value is the difference from the motion of the end.
     fn motion(&self, span: &Span, lower: &[f64]) -> Vec<[f64; 2]> {
         let mut strains = vec![0.0; self.stretched.len()];
         strains[span.first..][..lower.len()].copy_from_slice(lower);

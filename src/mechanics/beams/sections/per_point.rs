@@ -12,8 +12,8 @@ use crate::beams::simd::{LANES, LaneChunk, Lanes, Vector};
 
 /// Sections at the quadrature points of consecutive spans. A uniform beam stores no sections here and uses a single one.
 pub(in crate::beams) trait Sections: Clone + Debug + Send + Sync {
-    /// Type of the integral of a product of two basis functions. If the inertia varies along the beam, it contains also the integrals weighted with
-    /// the inertia.
+    /// Type of the integral of a product of two basis functions.
+    /// If the inertia varies along the beam, it contains also the integrals weighted with the inertia.
     type MassIntegral: MassIntegral;
     /// Type of a section interpolated between the quadrature points.
     type Interpolation: Interpolation;
@@ -95,8 +95,8 @@ impl Sections for Uniform {
 pub(in crate::beams) struct PerPoint {
     at_force: Vec<Section>,
     at_moment: Vec<Section>,
-    /// Stiffness `diag(EA, GA)` at the quadrature points for the strain `Γ`, in vector lanes. The next field contains `EI` at the quadrature points
-    /// for the curvature `κ`.
+    /// Stiffness `diag(EA, GA)` at the quadrature points for the strain `Γ`, in vector lanes.
+    /// The next field contains `EI` at the quadrature points for the curvature `κ`.
     force_stiffness: Vec<Pair<Lanes>>,
     bending_stiffness: Vec<Lanes>,
 }

@@ -44,8 +44,8 @@ impl ContactUnknowns {
     }
 }
 
-/// Position or direction on the path of a slave along its master, with its derivative with respect to the parameter `ξ1` at the end of the path
-/// [length].
+/// Position or direction on the path of a slave along its master,
+/// with its derivative with respect to the parameter `ξ1` at the end of the path [length].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PathVector {
     /// Place or direction [length].
@@ -54,8 +54,8 @@ pub struct PathVector {
     pub by_end: Vec2,
 }
 
-/// Kink of the axis of a master under the contact force, which the mesh does not represent. The axis is displaced by `g a`, where `a = p/GA` is the
-/// jump of its tangent.
+/// Kink of the axis of a master under the contact force, which the mesh does not represent.
+/// The axis is displaced by `g a`, where `a = p/GA` is the jump of its tangent.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Kink {
     /// Kink length `g` of the master, as a function along the path of the slave [length].
@@ -97,8 +97,7 @@ pub struct KinkMotion {
 pub struct Contact<'a> {
     /// Path of the slave along the master.
     pub path: &'a ContactPath,
-    /// Control points of the master whose basis functions are nonzero on the path, relative to the slave, and their increments in the step
-    /// [length].
+    /// Control points of the master whose basis functions are nonzero on the path, relative to the slave, and their increments in the step [length].
     pub master: (&'a [Vec2], &'a [Vec2]),
     /// Increment `Δx_s` of the slave in the step [length].
     pub slave_movement: Vec2,
@@ -146,14 +145,14 @@ impl Contact<'_> {
         PathVector { value, by_end: self.sum(self.path.slope(), 1.0) }
     }
 
-    /// Product `λ·dx/dξ` of the contact force and the tangent of the master at `ξ1`, at the end of the step [force·length]. It is positive if the
-    /// slave pushes outwards at an end of the master. `outward` is the sign of `dξ` towards this end.
+    /// Product `λ·dx/dξ` of the contact force and the tangent of the master at `ξ1`, at the end of the step [force·length].
+    /// It is positive if the slave pushes outwards at an end of the master. `outward` is the sign of `dξ` towards this end.
     pub fn outward_push(&self, outward: f64) -> f64 {
         self.unknowns.force.dot(&self.end_point().by_end) * outward
     }
 
-    /// Sum `Σ ∂D_i/∂ξ1 x_i1` at the end of the step, with the divided differences `D_i` of the basis functions [length]. For a path of zero length
-    /// it is half the second derivative of the axis.
+    /// Sum `Σ ∂D_i/∂ξ1 x_i1` at the end of the step, with the divided differences `D_i` of the basis functions [length].
+    /// For a path of zero length it is half the second derivative of the axis.
     pub(super) fn end_bend(&self) -> Vec2 {
         self.sum(self.path.change(), 1.0)
     }
@@ -183,8 +182,8 @@ impl Contact<'_> {
         self.path.first()
     }
 
-    /// Factor of the couple in the forces on the master: the sliding increment `Δξ`, or 1 with a kink. With a kink, the displacement of the axis is
-    /// a moment arm even if the path has zero length.
+    /// Factor of the couple in the forces on the master: the sliding increment `Δξ`, or 1 with a kink.
+    /// With a kink, the displacement of the axis is a moment arm even if the path has zero length.
     fn couple_factor(&self) -> f64 {
         self.kink.map_or(self.unknowns.increment, |_| 1.0)
     }
@@ -197,8 +196,8 @@ impl Contact<'_> {
         weights.map(move |(mean, difference)| force * *mean - couple * (share * difference))
     }
 
-    /// Derivatives of the contact forces on the control points of the master. For each control point, they are a factor for the force `λ`, a factor
-    /// for the couple `η`, and a vector for the sliding increment `Δξ`.
+    /// Derivatives of the contact forces on the control points of the master.
+    /// For each control point, they are a factor for the force `λ`, a factor for the couple `η`, and a vector for the sliding increment `Δξ`.
     pub fn master_force_slopes(&self) -> impl Iterator<Item = (f64, f64, Vec2)> + '_ {
         let ContactUnknowns { force, couple, .. } = self.unknowns;
         let share = self.couple_factor();
@@ -232,9 +231,9 @@ impl Contact<'_> {
         })
     }
 
-    /// Equations of a closed gap to a kinked axis at the end of the step, `x_s1 = Σ B_i(ξ1) x_i1 + g1 p1/GA`. The force of the kink `p1` is the
-    /// argument `force`, and `factor` its derivative with respect to the contact force. Without a kink, they are the equations of
-    /// [`closed`](Self::closed).
+    /// Equations of a closed gap to a kinked axis at the end of the step, `x_s1 = Σ B_i(ξ1) x_i1 + g1 p1/GA`.
+    /// The force of the kink `p1` is the argument `force`, and `factor` its derivative with respect to the contact force.
+    /// Without a kink, they are the equations of [`closed`](Self::closed).
     pub(super) fn closed_on_kink(&self, force: Vec2, factor: f64) -> [Equation; 2] {
         let mut equations = self.closed();
         if let Some(kink) = &self.kink {

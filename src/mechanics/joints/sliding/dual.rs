@@ -6,12 +6,13 @@ use super::contact::PathVector;
 use super::{Contact, ContactUnknowns, Equation, Unit};
 use crate::geometry::Vec2;
 
-/// Number of derivatives of a dual number. The variables are the displacement of the slave from the smooth axis, the mean tangent, the quarter
-/// tangent change, the contact force, the couple, and the sliding increment.
+/// Number of derivatives of a dual number.
+/// The variables are the displacement of the slave from the smooth axis, the mean tangent, the quarter tangent change, the contact force, the couple,
+/// and the sliding increment.
 pub(super) const ALL_SLOPES: usize = 11;
 
-/// Number of derivatives if only values are needed. Such values are computed by the same operations as dual numbers, so that both agree to the last
-/// bit.
+/// Number of derivatives if only values are needed.
+/// Such values are computed by the same operations as dual numbers, so that both agree to the last bit.
 pub(super) const NO_SLOPES: usize = 0;
 
 const OFFSET: usize = 0;
@@ -21,8 +22,9 @@ const FORCE: usize = 6;
 const COUPLE: usize = 8;
 const WAY: usize = 10;
 
-/// Number with its derivatives with respect to: the displacement of the slave from the smooth axis, the mean tangent `τ`, the quarter tangent
-/// change `d`, the force `λ`, the couple, and the sliding increment `Δξ`. There are [`ALL_SLOPES`] or [`NO_SLOPES`] derivatives.
+/// Number with its derivatives with respect to: the displacement of the slave from the smooth axis, the mean tangent `τ`,
+/// the quarter tangent change `d`, the force `λ`, the couple, and the sliding increment `Δξ`.
+/// There are [`ALL_SLOPES`] or [`NO_SLOPES`] derivatives.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Dual<const SLOPES: usize> {
     pub value: f64,

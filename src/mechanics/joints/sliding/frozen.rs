@@ -4,8 +4,8 @@ use super::dual::{ContactDuals, Dual, DualVector, NO_SLOPES};
 use super::kink_on_path::{KinkOnPath, vanish};
 use super::{CONTACT_UNKNOWNS, Conserving, Contact, Equation, Kink, KinkState, SlidingLaw};
 
-/// Law of a slider on a master with a kink that rotates with the master but does not depend on the contact force. The gap to the kinked axis is
-/// closed, and energy, linear and angular momentum are conserved for any step size.
+/// Law of a slider on a master with a kink that rotates with the master but does not depend on the contact force.
+/// The gap to the kinked axis is closed, and energy, linear and angular momentum are conserved for any step size.
 ///
 /// ```text
 /// x_s1 = Σ B_i(ξ1) x_i1 + g1 a1          a1 = (1 - q J)⁻¹ (1 + q J) a0          q = 2 Jτ·d/|τ|²

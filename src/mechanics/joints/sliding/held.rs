@@ -19,8 +19,8 @@ impl SlidingLaw for HeldSlider {
     }
 }
 
-/// Force `p1` that would cause the kink at the end of the step, for a slider that does not move along its master [force]. With the mean contact
-/// force `λ` and the force `p0` that would cause the kink at the start, `p1 = 2 λ - p0`.
+/// Force `p1` that would cause the kink at the end of the step, for a slider that does not move along its master [force].
+/// With the mean contact force `λ` and the force `p0` that would cause the kink at the start, `p1 = 2 λ - p0`.
 fn jump_at_end(contact: &Contact<'_>) -> Vec2 {
     let before = contact.kink.as_ref().map_or(Vec2::zeros(), |kink| kink.before);
     contact.unknowns.force * 2.0 - before

@@ -45,8 +45,9 @@ impl<const SLOPES: usize> KinkOnPath<SLOPES> {
         }
     }
 
-    /// Values of the equations of a contact with a kink `jump` [force] at the end of the step: gap to the kinked axis, moment balance, and force
-    /// balance along the path. `balance` is the force balance [force·length].
+    /// Values of the equations of a contact with a kink `jump` [force] at the end of the step:
+    /// gap to the kinked axis, moment balance, and force balance along the path.
+    /// `balance` is the force balance [force·length].
     pub fn imbalances(
         &self,
         (contact, kink): (&Contact<'_>, &Kink),

@@ -1,7 +1,7 @@
 //! Laws of sliding joints: equations of a closed gap, and equations of sliding.
 //!
-//! In a step, each slider has the unknowns contact force `λ` on the master, couple `η` and sliding increment `Δξ`. All laws apply the same forces
-//! to slave and master (see [`Contact`]). They differ in the five equations for these unknowns.
+//! In a step, each slider has the unknowns contact force `λ` on the master, couple `η` and sliding increment `Δξ`.
+//! All laws apply the same forces to slave and master (see [`Contact`]). They differ in the five equations for these unknowns.
 
 mod conserving;
 mod contact;

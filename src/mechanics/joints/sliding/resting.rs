@@ -63,8 +63,8 @@ impl Contact<'_> {
         self.path.end().iter().map(|value| self.unknowns.force * *value)
     }
 
-    /// Derivatives of the static contact forces `B_i(ξ) λ` on the control points of the master. For each control point, they are a factor for the
-    /// force `λ`, a factor for the couple `η`, and a vector for the sliding increment `Δξ`.
+    /// Derivatives of the static contact forces `B_i(ξ) λ` on the control points of the master.
+    /// For each control point, they are a factor for the force `λ`, a factor for the couple `η`, and a vector for the sliding increment `Δξ`.
     pub fn master_force_slopes_at_rest(&self) -> impl Iterator<Item = (f64, f64, Vec2)> + '_ {
         let force = self.unknowns.force;
         let weights = self.path.end().iter().zip(self.path.slope());

@@ -18,8 +18,8 @@ impl Schedule {
         }
     }
 
-    /// Clock of a digital controller; `None` for other schedules. Steps should end at its samples and when its commands start to act. Controllers
-    /// cannot be combined with other schedules.
+    /// Clock of a digital controller; `None` for other schedules. Steps should end at its samples and when its commands start to act.
+    /// Controllers cannot be combined with other schedules.
     pub(crate) fn sample_clock(&self) -> Option<SampleClock> {
         if let Self::DigitalController { clock, .. } = self { Some(*clock) } else { None }
     }

@@ -1,9 +1,10 @@
 //! Means of schedules over steps.
 //!
-//! Between breaks, constants and tables are polynomials, which three Gauss points integrate exactly. Sines, smooth pulses, and their products with
-//! each other and with tables are sums of terms `p(x) cos(κ x + φ)` with a polynomial `p`. They are integrated in closed form. All other schedules
-//! are sampled at five points. Two rules use them: three Gauss points, and the middle point with two additional points. Both rules are exact for
-//! cubic polynomials, so their difference shows what the samples miss.
+//! Between breaks, constants and tables are polynomials, which three Gauss points integrate exactly.
+//! Sines, smooth pulses, and their products with each other and with tables are sums of terms `p(x) cos(κ x + φ)` with a polynomial `p`.
+//! They are integrated in closed form. All other schedules are sampled at five points.
+//! Two rules use them: three Gauss points, and the middle point with two additional points.
+//! Both rules are exact for cubic polynomials, so their difference shows what the samples miss.
 
 use super::{GAUSS, LimitSide, LoadError, Operation, Schedule, table_value};
 use crate::elementary::{cos, sin};

@@ -155,8 +155,8 @@ impl Simulation {
         resampling.as_mut()?.resume(doubling, &mut *self.stepper.integrator, &mut self.model, order)
     }
 
-    /// Returns true if a step is paused in its middle to sample controllers. If the run is stopped there, it may be continued, or the start of the
-    /// step may be [restored](Self::restore_step_start).
+    /// Returns true if a step is paused in its middle to sample controllers.
+    /// If the run is stopped there, it may be continued, or the start of the step may be [restored](Self::restore_step_start).
     pub fn is_paused_in_step(&self) -> bool {
         let adaptive = self.adaptive.as_ref();
         adaptive

@@ -9,8 +9,9 @@ use crate::simulation::{SimulationError, WorkCounts};
 use crate::system::SystemState;
 
 impl Simulation {
-    /// Stores a snapshot after every step, within a memory limit in bytes. If the limit is exceeded, the oldest snapshots except the first are
-    /// discarded. A limit of zero disables snapshots. A reduced limit applies immediately.
+    /// Stores a snapshot after every step, within a memory limit in bytes.
+    /// If the limit is exceeded, the oldest snapshots except the first are discarded. A limit of zero disables snapshots.
+    /// A reduced limit applies immediately.
     pub fn enable_snapshots(&mut self, limit: usize) {
         let mut snapshots = std::mem::take(&mut self.snapshots);
         snapshots.set_limit(limit, || self.snapshot(self.model.state()));
@@ -27,8 +28,8 @@ impl Simulation {
         (self.snapshots.count(), self.snapshots.bytes())
     }
 
-    /// Returns to the state `steps` steps earlier, bit for bit. Two half steps with error control count as in the history. Additional end times of
-    /// steps are kept.
+    /// Returns to the state `steps` steps earlier, bit for bit. Two half steps with error control count as in the history.
+    /// Additional end times of steps are kept.
     ///
     /// # Errors
     /// Fails if fewer steps have been taken, or the state is not stored.

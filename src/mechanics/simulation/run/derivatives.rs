@@ -8,8 +8,8 @@ use crate::simulation::{
 use crate::system::{Scene, System};
 
 impl Simulation {
-    /// Starts a simulation with derivatives. `variations` contains the scenes at perturbed parameters. Each step computes the derivatives too; its
-    /// other results do not change.
+    /// Starts a simulation with derivatives. `variations` contains the scenes at perturbed parameters.
+    /// Each step computes the derivatives too; its other results do not change.
     ///
     /// # Errors
     /// Errors of [`start`](Self::start), or an error if the method provides no derivatives or the scenes differ in more than numbers.
@@ -29,8 +29,8 @@ impl Simulation {
         self.stepper.sensitivities.iter().flat_map(|of| of.parameters())
     }
 
-    /// Perturbed run for a parameter. Its state is the present state plus or minus the derivative times the perturbation. The derivative of any
-    /// result is half the difference between the results of both runs, divided by the perturbation.
+    /// Perturbed run for a parameter. Its state is the present state plus or minus the derivative times the perturbation.
+    /// The derivative of any result is half the difference between the results of both runs, divided by the perturbation.
     ///
     /// # Errors
     /// Fails if there are no derivatives.

@@ -18,8 +18,8 @@ const STRETCHED: f64 = 1.5;
 /// Contact force above which the axis folds, as a fraction of the shear stiffness of the beam.
 const FOLDING_FORCE: f64 = 0.1;
 
-/// Distance of a slider from an end of its master, as a fraction of the length of the master. Below it, the kink under the contact force prevents
-/// the slider from reaching the end.
+/// Distance of a slider from an end of its master, as a fraction of the length of the master.
+/// Below it, the kink under the contact force prevents the slider from reaching the end.
 const END_DISTANCE: f64 = 5e-3;
 
 impl Simulation {

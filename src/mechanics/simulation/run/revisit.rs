@@ -64,8 +64,9 @@ impl Simulation {
         Ok(copy)
     }
 
-    /// Repeats, in this copy, the original run up to a row of its history. Returns true if energies, momenta, work and impulses agree bit for bit
-    /// with that row. They may differ if script functions were called during the original run.
+    /// Repeats, in this copy, the original run up to a row of its history.
+    /// Returns true if energies, momenta, work and impulses agree bit for bit with that row.
+    /// They may differ if script functions were called during the original run.
     ///
     /// # Errors
     /// Errors of [`run_to`](Self::run_to), or an error if the row does not exist.

@@ -63,8 +63,7 @@ impl Simulation {
                             self.keep_row();
                         }
                         let arrived = self.execute_arrivals(&landing);
-                        // If an arrival took place without a step, no snapshot is stored. A run from the previous snapshot reaches the arrival
-                        // again.
+                        // If an arrival took place without a step, no snapshot is stored. A run from the previous snapshot reaches the arrival again.
                         if landing.step.is_some() {
                             self.store_snapshot();
                         }
@@ -104,8 +103,8 @@ impl Simulation {
     }
 
     fn step_or_freeze_kinks(&mut self, interval: Interval) -> Result<NewtonReport, StepError> {
-        // Kinks that were kept constant in the last step follow the contact forces from now on. They were kept until now because queries of the
-        // last step depend on them.
+        // Kinks that were kept constant in the last step follow the contact forces from now on.
+        // They were kept until now because queries of the last step depend on them.
         self.model.unfreeze_kinks();
         let stepped = self.stepper.step(&mut self.model, interval);
         let stepped = match stepped {

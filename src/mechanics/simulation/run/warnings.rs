@@ -12,8 +12,8 @@ use crate::simulation::{Invariant, Sample, StepSize, Warning};
 use crate::system::{LawArgument, RESOLVED_IMPACT, Resolution, SpringLaw, System, SystemFeature};
 use crate::vibration::{Modes, VibrationError};
 
-/// Unresolved fraction of the kinetic energy above which the steps are too long. For a single vibration this is the value at 3.5 steps per period,
-/// where the computed period is 20 % too long.
+/// Unresolved fraction of the kinetic energy above which the steps are too long.
+/// For a single vibration this is the value at 3.5 steps per period, where the computed period is 20 % too long.
 const LARGEST_SHARE: f64 = 0.2;
 
 /// Unresolved fraction above which a warning is given if also the phase exceeds [`HIDDEN_TURN`], even if the motion as a whole is resolved.
@@ -51,8 +51,8 @@ const MOST_TURNS: usize = 20;
 /// Number of adaptive steps above which a warning about their number is given if the other conditions hold.
 const MANY_STEPS: usize = 5000;
 
-/// Ratio of the step size that the motion of the scene needs to the mean step size, above which a warning is given. The steps then follow a
-/// vibration whose amplitude is below a thousandth of the length of the scene.
+/// Ratio of the step size that the motion of the scene needs to the mean step size, above which a warning is given.
+/// The steps then follow a vibration whose amplitude is below a thousandth of the length of the scene.
 const MUCH_SHORTER: f64 = 50.0;
 
 /// Largest number of sliders with a description of their resolution.
@@ -160,8 +160,8 @@ impl Simulation {
         })
     }
 
-    /// Warning about alternating long and short steps in scenes with persistent velocity errors. Each step multiplies such errors by -1. The
-    /// resulting position errors of a long and a short step do not cancel.
+    /// Warning about alternating long and short steps in scenes with persistent velocity errors. Each step multiplies such errors by -1.
+    /// The resulting position errors of a long and a short step do not cancel.
     fn uneven_steps(&self) -> Option<Warning> {
         let keeps = self.model.has_rigid_links() || self.scene.dissipating().next().is_some();
         if !keeps || !matches!(self.settings.dt, StepSize::Fixed(_)) {
@@ -181,8 +181,8 @@ impl Simulation {
         (turns >= MOST_TURNS).then_some(Warning::Uneven { shortest, longest })
     }
 
-    /// Warning about many adaptive steps, if the method is of first order or the steps are much shorter than the motion of the scene as a whole
-    /// needs.
+    /// Warning about many adaptive steps, if the method is of first order or the steps are much shorter than the motion
+    /// of the scene as a whole needs.
     fn many_steps(&self) -> Option<Warning> {
         let Adaptive { tolerance, length, order, .. } = **self.adaptive.as_ref()?;
         let (steps, rows) = (self.counts().steps, self.history().samples());
@@ -205,8 +205,8 @@ impl Simulation {
         if longest > 0.0 { longest.min(self.dt()) } else { self.dt() }
     }
 
-    /// Energy drift that is larger than rounding, although the method claims to conserve energy. Scenes with sliders are excluded, because sliding
-    /// rules have their own claims.
+    /// Energy drift that is larger than rounding, although the method claims to conserve energy.
+    /// Scenes with sliders are excluded, because sliding rules have their own claims.
     fn excess_energy_drift(&self) -> Option<f64> {
         let keeps = self.settings.method.entry().claims.energy == EnergyClaim::Conserved;
         let rows = self.history().samples();
@@ -224,8 +224,8 @@ impl Simulation {
         (drift > LARGEST_DRIFT).then_some(drift)
     }
 
-    /// Name of a method with numerical damping; `None` if it is in use already or would have no effect. Numerical damping acts on strains of beams
-    /// and on springs with a linear law.
+    /// Name of a method with numerical damping; `None` if it is in use already or would have no effect.
+    /// Numerical damping acts on strains of beams and on springs with a linear law.
     fn damping_method(&self) -> Option<&'static str> {
         let entries = INTEGRATORS.iter();
         let damping = entries.filter(|entry| entry.claims.energy == EnergyClaim::NonIncreasing);
@@ -236,9 +236,10 @@ impl Simulation {
         others.find(|name| *name != self.settings.method.entry().name)
     }
 
-    /// Warning that dampers added energy in the method `fourth_order`, whose backward substeps return energy. It is given if the backward substeps
-    /// returned more energy than the dampers took in total, or if a step increased the energy, both by more than rounding. The step with the
-    /// largest return is reported.
+    /// Warning that dampers added energy in the method `fourth_order`, whose backward substeps return energy.
+    /// It is given if the backward substeps returned more energy than the dampers took in total, or if a step increased the energy,
+    /// both by more than rounding.
+    /// The step with the largest return is reported.
     fn energy_gain(&self) -> Option<Warning> {
         if self.settings.method != Method::FourthOrder {
             return None;

@@ -15,8 +15,8 @@ use crate::system::sliders::Sliders;
 use crate::system::state::MotionState;
 use crate::system::{BeamDefinition, Scene, System, SystemError, SystemState};
 
-/// Largest rounding error of strains, as a multiple of the machine precision. It exceeds one, because strains are differences of coordinates that
-/// may be much larger than a span.
+/// Largest rounding error of strains, as a multiple of the machine precision.
+/// It exceeds one, because strains are differences of coordinates that may be much larger than a span.
 const STRAIN_ROUNDINGS: f64 = 100.0;
 
 /// Bodies of a scene with the meshes of the beams. The model is built from them.
@@ -36,8 +36,8 @@ impl System {
         Self::assemble_while(scene, &mut || true)
     }
 
-    /// Builds the mechanism of a scene at its start, with a way to stop the assembly. `goes_on` is called between beams and between phases; if it
-    /// returns false, the assembly ends with an error.
+    /// Builds the mechanism of a scene at its start, with a way to stop the assembly.
+    /// `goes_on` is called between beams and between phases; if it returns false, the assembly ends with an error.
     ///
     /// # Errors
     /// Errors of [`assemble`](Self::assemble), or an error if the assembly is stopped.
@@ -75,8 +75,8 @@ impl System {
         Ok(model)
     }
 
-    /// Builds the mechanism of a scene in the given static state at the given time. Velocities are checked against the sliders in this state, not
-    /// in the scene as drawn.
+    /// Builds the mechanism of a scene in the given static state at the given time.
+    /// Velocities are checked against the sliders in this state, not in the scene as drawn.
     ///
     /// # Errors
     /// Errors of [`assemble`](Self::assemble), or an error if a function has no value at that time.

@@ -1,5 +1,5 @@
-//! Blocks of the linear system in which the contact and the slave of each slider are eliminated independently. They are used if there are many
-//! sliders.
+//! Blocks of the linear system in which the contact and the slave of each slider are eliminated independently.
+//! They are used if there are many sliders.
 
 use super::Numbering;
 use crate::linalg::BlockLayout;

@@ -8,8 +8,8 @@ use crate::system::{Scene, SpringKind, System, SystemError};
 impl System {
     /// Rejects a rigid body with a degree of freedom that has neither inertia nor a restraint, because its acceleration would be undetermined.
     ///
-    /// A restraint is a support, a drive, a tied degree of freedom, a mass at a point, or an element at a point. A point restrains the angle only if
-    /// it is off the centre or rotates with the body.
+    /// A restraint is a support, a drive, a tied degree of freedom, a mass at a point, or an element at a point.
+    /// A point restrains the angle only if it is off the centre or rotates with the body.
     pub(super) fn check_movements_held(&self, scene: &Scene) -> Result<(), SystemError> {
         let inertia = self.diagonal_of_inertia();
         let first = scene.first_rigid_body();

@@ -11,8 +11,8 @@ const UNDETERMINED: f64 = 1e11;
 impl System {
     /// Rejects redundant constraints of rigid bodies and rollers.
     ///
-    /// The check closes small gaps at all constraints, with unit mass at all degrees of freedom. Forces that are determined are then at most as
-    /// large as the gaps times the square of the number of bodies in a chain.
+    /// The check closes small gaps at all constraints, with unit mass at all degrees of freedom.
+    /// Forces that are determined are then at most as large as the gaps times the square of the number of bodies in a chain.
     pub(super) fn check_links(&self, scene: &Scene) -> Result<(), SystemError> {
         if self.links().forces() == 0 {
             return Ok(());

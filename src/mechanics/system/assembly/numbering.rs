@@ -34,8 +34,9 @@ pub struct Numbering {
 }
 
 impl Numbering {
-    /// Numbers the degrees of freedom of bodies. `place` locates stations on the meshes. The `border` contact unknowns are numbered after the
-    /// unknowns and before the supported degrees of freedom. Joints and drives in `released` tie nothing.
+    /// Numbers the degrees of freedom of bodies. `place` locates stations on the meshes.
+    /// The `border` contact unknowns are numbered after the unknowns and before the supported degrees of freedom.
+    /// Joints and drives in `released` tie nothing.
     pub fn new(
         scene: &Scene,
         released: &[Releasable],
@@ -98,8 +99,8 @@ impl Numbering {
         })
     }
 
-    /// Returns the supports in the order of their degrees of freedom (prescribed ones first), and the unknowns. The `border` contact unknowns are
-    /// numbered between the unknowns and the supported degrees of freedom.
+    /// Returns the supports in the order of their degrees of freedom (prescribed ones first), and the unknowns.
+    /// The `border` contact unknowns are numbered between the unknowns and the supported degrees of freedom.
     pub fn supports_and_unknowns(
         &self,
         scene: &Scene,

@@ -14,8 +14,8 @@ use crate::system::sliders::{
 };
 use crate::system::{BeamDefinition, Scene, System, SystemError};
 
-/// Largest start velocity of a slave across its master that counts as zero, as a fraction of the velocity of the fastest point of the scene. At a
-/// dead centre of a mechanism, velocities of this size are due to rounding.
+/// Largest start velocity of a slave across its master that counts as zero, as a fraction of the velocity of the fastest point of the scene.
+/// At a dead centre of a mechanism, velocities of this size are due to rounding.
 const SAME_VELOCITY: f64 = 1e-9;
 
 impl Assembly<'_> {
@@ -94,8 +94,8 @@ impl Assembly<'_> {
         legs.iter().map(leg).collect()
     }
 
-    /// Axis of the master with a kink under the contact force; `None` if the rule of the slider has no kink or the mesh of the master is not
-    /// smooth. Kink lengths are computed once per master and stored in `found`.
+    /// Axis of the master with a kink under the contact force; `None` if the rule of the slider has no kink or the mesh of the master is not smooth.
+    /// Kink lengths are computed once per master and stored in `found`.
     fn kinked_axis(
         &self,
         slider: &Slider,
@@ -159,8 +159,8 @@ impl System {
         Ok(())
     }
 
-    /// Sets a static model to a time. Prescribed motions get the rates of their functions. Points of rigid bodies get the rates that fit the rates
-    /// of their bodies.
+    /// Sets a static model to a time. Prescribed motions get the rates of their functions.
+    /// Points of rigid bodies get the rates that fit the rates of their bodies.
     ///
     /// # Errors
     /// Fails if a function has no value at that time, or velocities contradict the sliders.

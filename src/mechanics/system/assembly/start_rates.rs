@@ -10,8 +10,8 @@ use crate::system::{Scene, StartMotion, StationVelocity, SystemError, Turning};
 /// Largest difference of two start velocities that are tied by a joint, as a fraction of the velocities of the beam.
 const SAME_VELOCITY: f64 = 1e-9;
 
-/// Largest difference between a start velocity and the initial rate of a prescribed motion, as a fraction of that rate. The rate is computed by
-/// finite differences.
+/// Largest difference between a start velocity and the initial rate of a prescribed motion, as a fraction of that rate.
+/// The rate is computed by finite differences.
 const SAME_START: f64 = 1e-6;
 
 /// Names of the components in messages.
@@ -107,8 +107,8 @@ impl Assembly<'_> {
         let first = self.scene.first_rigid_body();
         for (index, body) in (first..).zip(&self.scene.rigid_bodies) {
             let degrees = &numbering.degrees_of_freedom[index];
-            // If all points of a body are at its centre, the body shares no rotation with other bodies. Its size then has no effect and can have
-            // any value.
+            // If all points of a body are at its centre, the body shares no rotation with other bodies.
+            // Its size then has no effect and can have any value.
             let size = if body.size() > 0.0 { body.size() } else { 1.0 };
             self.apply_rigid_motion(index, size, &body.motion, degrees, &mut shared, begun)?;
         }
@@ -177,8 +177,8 @@ impl Assembly<'_> {
                     continue;
                 }
                 if let Some(asked) = shared.requested.get(at).copied().flatten() {
-                    // A node of a beam may have its own velocity. A rigid body cannot, nor can a moving beam joined to a particle with another
-                    // velocity.
+                    // A node of a beam may have its own velocity.
+                    // A rigid body cannot, nor can a moving beam joined to a particle with another velocity.
                     let is_rigid = degrees_of_freedom.len() > 1 && index >= self.scene.beams.len();
                     let moves_apart = !rests && matches!(asked.at.body, BodyIndex::Particle(_));
                     let missed = (rate - asked.rate).abs();

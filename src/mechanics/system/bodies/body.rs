@@ -71,8 +71,8 @@ impl Body {
         }
     }
 
-    /// Divides the body into at most `most` parts that are evaluated concurrently, and returns their number. Results do not change. A body is not
-    /// divided if it is small, or if the rows of its parts are interleaved.
+    /// Divides the body into at most `most` parts that are evaluated concurrently, and returns their number. Results do not change.
+    /// A body is not divided if it is small, or if the rows of its parts are interleaved.
     pub fn divide(&mut self, most: usize) -> usize {
         let points = self.dynamics.divide(most);
         let rows_of = |points: &[[usize; 3]]| {
@@ -248,8 +248,8 @@ impl Body {
     ) {
         let rows = &self.degrees_of_freedom[point];
         for (columns, inertia) in self.degrees_of_freedom[first..].iter().zip(inertia) {
-            // Zero entries are omitted: without a common span, two control points may be numbered so far apart that the entry lies outside the band
-            // of the tangent.
+            // Zero entries are omitted: without a common span, two control points may be numbered so far apart
+            // that the entry lies outside the band of the tangent.
             if *inertia == Movement::default() {
                 continue;
             }

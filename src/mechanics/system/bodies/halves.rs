@@ -1,8 +1,8 @@
 //! Division of many bodies into two halves for two threads. Results are identical to those of one thread.
 //!
-//! Sums are made in the order of the bodies: each body accumulates its own forces, and one thread adds them to the result. In the tangent, the
-//! thread of the second half writes only the rows in which no body of the first half has entries. Bodies of the second half with entries in other
-//! rows are added afterwards.
+//! Sums are made in the order of the bodies: each body accumulates its own forces, and one thread adds them to the result.
+//! In the tangent, the thread of the second half writes only the rows in which no body of the first half has entries.
+//! Bodies of the second half with entries in other rows are added afterwards.
 
 use super::Body;
 

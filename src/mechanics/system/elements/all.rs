@@ -112,8 +112,8 @@ impl Elements {
         self.masses.iter().for_each(|mass| mass.add_inertia(bodies, factor, rates, out));
     }
 
-    /// Calls `add` with the row, column and value of each entry of `factor · M` of all point masses. Values for the same row and column must be
-    /// added up.
+    /// Calls `add` with the row, column and value of each entry of `factor · M` of all point masses.
+    /// Values for the same row and column must be added up.
     pub fn inertia_entries(
         &self,
         bodies: &[Body],

@@ -41,8 +41,9 @@ impl ContactWatch {
         Self { noise: ROUNDING_DEPTH * largest_stiffness * extent, ..Self::default() }
     }
 
-    /// Records a step. The arguments are: whether the spring is slack at the start and at the end, the rates of elongation of the previous step and
-    /// of this step, and the force and the duration.
+    /// Records a step.
+    /// The arguments are: whether the spring is slack at the start and at the end, the rates of elongation of the previous step and of this step,
+    /// and the force and the duration.
     pub fn add(
         &mut self,
         [was_slack, is_slack]: [bool; 2],

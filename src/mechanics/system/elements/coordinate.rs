@@ -2,8 +2,9 @@
 
 /// Length, angle or rate that is a sum of increments, stored together with the rounding error of the sum.
 ///
-/// The method is compensated summation (N. J. Higham, Accuracy and Stability of Numerical Algorithms (2002), section 4.3). Without it, the
-/// elongation of a rope of 1 m that is stretched by a micrometre in an impact would be accurate to ten digits only, and so would its stored energy.
+/// The method is compensated summation (N. J. Higham, Accuracy and Stability of Numerical Algorithms (2002), section 4.3).
+/// Without it, the elongation of a rope of 1 m that is stretched by a micrometre in an impact would be accurate to ten digits only,
+/// and so would its stored energy.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Coordinate {
     pub value: f64,

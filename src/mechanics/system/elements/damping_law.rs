@@ -8,8 +8,8 @@ use super::law_range::LawRange;
 use super::spring_law::SpringLaw;
 use crate::geometry::larger;
 
-/// Force that is attributed to rounding, as a fraction of the largest force of the law. A force of this size is accepted at zero rate, and in the
-/// direction in which it adds energy.
+/// Force that is attributed to rounding, as a fraction of the largest force of the law.
+/// A force of this size is accepted at zero rate, and in the direction in which it adds energy.
 const ROUNDING: f64 = 1e-12;
 
 /// Damping force as a function of the rate `q̇` of an elongation. It is zero at zero rate and opposes the motion otherwise.
@@ -101,8 +101,7 @@ impl DampingLaw {
         *self != Self::Linear(0.0)
     }
 
-    /// Range in which the law adds energy or has a force at zero rate. The result is `None` if the law and its extrapolation dissipate at every
-    /// rate.
+    /// Range in which the law adds energy or has a force at zero rate. The result is `None` if the law and its extrapolation dissipate at every rate.
     pub(crate) fn active_range(&self) -> Option<NegativeDamping> {
         let corners = self.corners();
         let (Some(first), Some(last)) = (corners.first(), corners.last()) else { return None };
@@ -147,8 +146,8 @@ impl DampingLaw {
         }
     }
 
-    /// Derivative of the force with respect to the rate [force·time/length, force·length·time/rad]. At a corner it is the slope of the segment
-    /// above the corner.
+    /// Derivative of the force with respect to the rate [force·time/length, force·length·time/rad].
+    /// At a corner it is the slope of the segment above the corner.
     pub fn slope(&self, rate: f64) -> f64 {
         match self {
             Self::Linear(constant) => *constant,
@@ -156,9 +155,10 @@ impl DampingLaw {
         }
     }
 
-    /// Force and slope for Newton's method. If the impedance of the rest of the system is known, the linearisation uses the segment of the law that
-    /// intersects the straight line through (`rate`, `force`) with the slope `-impedance`. Without this rule, the iteration could alternate between
-    /// two steep segments.
+    /// Force and slope for Newton's method.
+    /// If the impedance of the rest of the system is known, the linearisation uses the segment of the law
+    /// that intersects the straight line through (`rate`, `force`) with the slope `-impedance`.
+    /// Without this rule, the iteration could alternate between two steep segments.
     pub(crate) fn linearised_target(
         &self,
         rate: f64,

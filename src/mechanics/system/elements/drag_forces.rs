@@ -4,9 +4,10 @@
 //! v = Δx/Δt - wind      f_a = -w N_a G(v, t)      D increases by Σ w G·v Δt ≥ 0, W by -Σ w G·wind Δt
 //! ```
 //!
-//! Here `w` are quadrature weights, `N_a` the basis functions, `f_a` the nodal forces, `D` the dissipated energy and `W` the work of the wind. The
-//! power `G·v` is computed from the force `G` alone by means of the law. The difference `G·Δx - G·wind Δt` would be a small difference of large
-//! numbers whose rounding may have either sign. `W` is the remainder to `-G·Δx`, so that the energy balance is exact.
+//! Here `w` are quadrature weights, `N_a` the basis functions, `f_a` the nodal forces, `D` the dissipated energy and `W` the work of the wind.
+//! The power `G·v` is computed from the force `G` alone by means of the law.
+//! The difference `G·Δx - G·wind Δt` would be a small difference of large numbers whose rounding may have either sign.
+//! `W` is the remainder to `-G·Δx`, so that the energy balance is exact.
 //!
 //! `t` is the direction of the axis in the mean configuration.
 

@@ -1,7 +1,8 @@
 //! Drag at a point of a body in a step.
 //!
-//! The force is an independent unknown, in components across and along the line. If it were computed from velocities, it would have their rounding
-//! error times the damping coefficient `c`. Under strong drag or wind this error exceeds the forces in the balance.
+//! The force is an independent unknown, in components across and along the line.
+//! If it were computed from velocities, it would have their rounding error times the damping coefficient `c`.
+//! Under strong drag or wind this error exceeds the forces in the balance.
 
 use super::drag_law::{DragLaw, DragResponse, in_space};
 use crate::beams::{BodyPoint, RateCollocation};
@@ -210,8 +211,8 @@ impl DragPoint {
         in_space(tangent, resisted.force) * self.weight
     }
 
-    /// Calls `give` with the derivatives of the nodal forces with respect to nodal increments. They include the rotation of the line under the
-    /// current force.
+    /// Calls `give` with the derivatives of the nodal forces with respect to nodal increments.
+    /// They include the rotation of the line under the current force.
     pub fn each_derivative(&self, mut give: impl FnMut((usize, usize), (usize, usize), f64)) {
         let DragTrial {
             tangent,
@@ -260,8 +261,8 @@ impl DragPoint {
         law.power(self.force) * self.weight
     }
 
-    /// Displacement of the point minus `duration` times the velocity that the drag law used [length]. It is zero if that velocity is the mean
-    /// velocity of the step.
+    /// Displacement of the point minus `duration` times the velocity that the drag law used [length].
+    /// It is zero if that velocity is the mean velocity of the step.
     pub fn besides(&self, movement: Vec2, duration: f64) -> Vec2 {
         let Some(rates) = self.rates else { return Vec2::zeros() };
         movement * (1.0 - rates.by_change * duration)

@@ -11,8 +11,8 @@ use crate::system::SystemError;
 
 /// Element of a scene: a mass on a body, or forces on bodies.
 ///
-/// To add a kind, add a variant and a file in `system/elements` with its [`ElementDef`] and the [`ExternalForce`] or
-/// [`InternalForce`](super::InternalForce) that it builds.
+/// To add a kind, add a variant and a file in `system/elements` with its [`ElementDef`] and the [`ExternalForce`]
+/// or [`InternalForce`](super::InternalForce) that it builds.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub enum Element {
     /// Mass at a station.

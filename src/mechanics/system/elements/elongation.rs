@@ -4,10 +4,10 @@
 //! length:  Δℓ = Σ e·Δd, e = (d₀ + d₁)/(ℓ₀ + ℓ₁) for each part     angle:  Δθ = r (Δω_b - Δω_a)
 //! ```
 //!
-//! `e` and `r` are secants. A force along a secant does exactly the work `F Δℓ` or `M Δθ`, and the forces at both ends are opposite. Differences of
-//! positions are updated by increments, so that their rounding error does not depend on the distance from the origin. The elongation is stored as
-//! its growth since the start, not as a length minus the natural length. That difference would have the rounding error of the length, which may be
-//! millions of times as large as the elongation.
+//! `e` and `r` are secants. A force along a secant does exactly the work `F Δℓ` or `M Δθ`, and the forces at both ends are opposite.
+//! Differences of positions are updated by increments, so that their rounding error does not depend on the distance from the origin.
+//! The elongation is stored as its growth since the start, not as a length minus the natural length.
+//! That difference would have the rounding error of the length, which may be millions of times as large as the elongation.
 
 mod shares;
 mod term;
@@ -75,16 +75,15 @@ pub struct Elongation {
     corrected: Vec<f64>,
     /// Change `Δq` in the step [length, rad].
     pub change: f64,
-    /// Change of the elongation in the iterate whose force was accepted last, and the further change that this force implies [length, rad]. It is
-    /// more accurate than the change computed from the increments, whose rounding error would store energy in a stiff spring.
+    /// Change of the elongation in the iterate whose force was accepted last, and the further change that this force implies [length, rad].
+    /// It is more accurate than the change computed from the increments, whose rounding error would store energy in a stiff spring.
     settled: (f64, f64),
-    /// Secant `g`, which gives the elongation change as `Δq = Σ g u`. For methods with forces at the end of a step it is the derivative of the
-    /// elongation `q` at the end [-].
+    /// Secant `g`, which gives the elongation change as `Δq = Σ g u`.
+    /// For methods with forces at the end of a step it is the derivative of the elongation `q` at the end [-].
     pub secant: Vec<f64>,
     /// Derivative `∂Δq/∂u` with respect to the coordinates [-].
     pub slope: Vec<f64>,
-    /// Derivative `∂g/∂u` of the secant with respect to the coordinates, row by row, in the iterate in which it was last evaluated [1/length,
-    /// 1/rad].
+    /// Derivative `∂g/∂u` of the secant with respect to the coordinates, row by row, in the iterate in which it was last evaluated [1/length, 1/rad].
     pub secant_slope: Vec<f64>,
     /// Force direction at the time given to [`balance`](Self::balance), minus the secant [-].
     pub lag: Vec<f64>,
@@ -159,8 +158,8 @@ impl Elongation {
         self.growth
     }
 
-    /// Magnitude of the largest term in the sum for the elongation of an iterate, which determines the rounding error of the elongation [length,
-    /// rad].
+    /// Magnitude of the largest term in the sum for the elongation of an iterate,
+    /// which determines the rounding error of the elongation [length, rad].
     pub fn extent(&self) -> f64 {
         let after = (self.value() + self.change).abs();
         match self.measure {
@@ -179,8 +178,8 @@ impl Elongation {
         MOST_ROUNDING * f64::EPSILON * moved
     }
 
-    /// Stores `missing` as a part of the elongation change of the last iterate, if it is within the rounding error of the increments. Returns true
-    /// if it was stored.
+    /// Stores `missing` as a part of the elongation change of the last iterate, if it is within the rounding error of the increments.
+    /// Returns true if it was stored.
     pub fn absorb_rounding(&mut self, missing: f64) -> bool {
         let is_rounding = missing.abs() <= self.rounding();
         self.settled = (self.change, if is_rounding { missing } else { 0.0 });
@@ -214,8 +213,8 @@ impl Elongation {
         self.compare(collocation.rotations);
     }
 
-    /// Evaluates the lag of the last iterate: the force direction at the fraction `share` of the step, minus the secant. The lag is zero if `share`
-    /// is `None`. It is also zero for angles, because their force directions are constant.
+    /// Evaluates the lag of the last iterate: the force direction at the fraction `share` of the step, minus the secant.
+    /// The lag is zero if `share` is `None`. It is also zero for angles, because their force directions are constant.
     pub fn balance(&mut self, share: Option<f64>) {
         let Self { measure, movements: moved, lag, lag_slope: lag_bend, .. } = self;
         [&mut *lag, lag_bend].into_iter().for_each(|all| all.fill(0.0));
@@ -356,8 +355,9 @@ impl Elongation {
         }
     }
 
-    /// Returns for each segment of a path its length, and the derivative of its displacement across itself with respect to the coordinates, in the
-    /// present configuration. The direction of the force rotates with the segment.
+    /// Returns for each segment of a path its length, and the derivative of its displacement across itself with respect to the coordinates,
+    /// in the present configuration.
+    /// The direction of the force rotates with the segment.
     pub fn turned(&self) -> Vec<(f64, Vec<f64>)> {
         let Measure::Length(parts) = &self.measure else { return Vec::new() };
         let of_part = |(index, part): (usize, &Vec2)| {

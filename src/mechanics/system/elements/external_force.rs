@@ -41,9 +41,9 @@ pub struct LoadAccount {
 
 /// Element that applies forces to bodies: a load or the weight.
 ///
-/// Forces are evaluated in every iterate, work and impulse at the end of a step. If an element has a potential, the work of its forces is exactly
-/// the decrease of the potential (a discrete gradient). All methods with a default are optional. Methods are called dynamically, once per element
-/// and iterate.
+/// Forces are evaluated in every iterate, work and impulse at the end of a step.
+/// If an element has a potential, the work of its forces is exactly the decrease of the potential (a discrete gradient).
+/// All methods with a default are optional. Methods are called dynamically, once per element and iterate.
 pub trait ExternalForce {
     fn name(&self) -> &str;
 

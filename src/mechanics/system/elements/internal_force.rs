@@ -19,9 +19,11 @@ pub struct SpringTrialState {
 
 /// Element that resists the motion of bodies and stores or dissipates energy.
 ///
-/// The force is an independent unknown, like the section forces of beams. Residuals use its current value. Linearisations eliminate it by
-/// condensation, and corrections update it together with the increments. Hence the rounding error of the configuration is not multiplied by the
-/// stiffness, and the number of iterations does not increase with the stiffness. Methods are called dynamically, once per element and iterate.
+/// The force is an independent unknown, like the section forces of beams. Residuals use its current value.
+/// Linearisations eliminate it by condensation, and corrections update it together with the increments.
+/// Hence the rounding error of the configuration is not multiplied by the stiffness,
+/// and the number of iterations does not increase with the stiffness.
+/// Methods are called dynamically, once per element and iterate.
 pub trait InternalForce {
     fn name(&self) -> &str;
 
@@ -51,8 +53,8 @@ pub trait InternalForce {
 
     fn correct(&mut self, bodies: &[Body], correction: &[f64]);
 
-    /// Work on the bodies, and impulse on them, by the ground or a flowing medium through the element in a step of length `duration`. The increments
-    /// of the step are stored in the bodies.
+    /// Work on the bodies, and impulse on them, by the ground or a flowing medium through the element in a step of length `duration`.
+    /// The increments of the step are stored in the bodies.
     fn exchange(&self, bodies: &[Body], duration: f64) -> WorkAndImpulse;
 
     /// Updates the element at the end of a step, from the increments stored in the bodies.
@@ -89,8 +91,8 @@ pub trait InternalForce {
         None
     }
 
-    /// Damping force [force] and damping moment [force·length] at a place of a beam, computed from the given rates at the start of the step. `None`
-    /// if the element does not damp this beam.
+    /// Damping force [force] and damping moment [force·length] at a place of a beam, computed from the given rates at the start of the step.
+    /// `None` if the element does not damp this beam.
     fn transmitted(
         &self,
         _bodies: &[Body],
@@ -108,8 +110,8 @@ pub trait InternalForce {
     /// Adds the forces at the start of the step, computed from the given rates.
     fn add_forces_at_start(&self, bodies: &[Body], rates: &[Vec<Movement>], out: &mut [f64]);
 
-    /// Calls `take` with each damped rate at the start of the step and its damping coefficient for small rates. The coefficient times the squared
-    /// rate is the dissipated power. The number and order of calls do not depend on the rates.
+    /// Calls `take` with each damped rate at the start of the step and its damping coefficient for small rates.
+    /// The coefficient times the squared rate is the dissipated power. The number and order of calls do not depend on the rates.
     fn each_damped_rate(&self, bodies: &[Body], rates: &[f64], take: &mut dyn FnMut(f64, f64));
 
     /// Calls `take` with the degrees of freedom of the element and its static stiffness.

@@ -131,8 +131,9 @@ struct AppliedLoad {
     size: f64,
 }
 
-/// Schedule factors at the stages of a step. `start` and `end` are the ends of a straight line that has the mean of the schedule over the step and
-/// its change in the step. Hence every method has the exact impulse of a load. Factors that the step does not use are NaN.
+/// Schedule factors at the stages of a step.
+/// `start` and `end` are the ends of a straight line that has the mean of the schedule over the step and its change in the step.
+/// Hence every method has the exact impulse of a load. Factors that the step does not use are NaN.
 #[derive(Debug, Clone, Copy)]
 struct StageFactors {
     start: f64,

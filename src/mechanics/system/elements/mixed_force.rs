@@ -32,8 +32,8 @@ pub struct ForceTarget {
 }
 
 impl MixedForce {
-    /// Compares the force with its target. Returns the mismatch as a fraction of the force scale, which includes the stiffness times `extent` (a
-    /// length or angle).
+    /// Compares the force with its target.
+    /// Returns the mismatch as a fraction of the force scale, which includes the stiffness times `extent` (a length or angle).
     pub fn compare(&mut self, target: ForceTarget, extent: f64) -> f64 {
         self.mismatch = target.force - self.force;
         self.target_slope = target.stiffness;
@@ -42,8 +42,8 @@ impl MixedForce {
         if self.mismatch == 0.0 { 0.0 } else { self.mismatch.abs() / size }
     }
 
-    /// Change of the elongation increment `Δq` after which the target would equal the current force, to first order. It is infinite if the slope is
-    /// not positive.
+    /// Change of the elongation increment `Δq` after which the target would equal the current force, to first order.
+    /// It is infinite if the slope is not positive.
     pub fn missing_change(&self) -> f64 {
         match self.mismatch == 0.0 {
             true => 0.0,

@@ -4,9 +4,10 @@
 //! v = Δd/Δt      d̄ = d₀ + ½ Δd      e = d̄/|d̄|      F = φ(e·v) e, opposite at both ends      D grows by F·Δd ≥ 0
 //! ```
 //!
-//! The rate of the length, `Δℓ/Δt`, vanishes if the connecting vector reverses through zero within a step, although the ends pass each other at
-//! full speed. The rate along the mean vector `d̄` is correct in this case, and otherwise agrees with `Δℓ/Δt` to second order. The force acts along
-//! the mean line, so that angular momentum is conserved. `D` is the dissipated energy.
+//! The rate of the length, `Δℓ/Δt`, vanishes if the connecting vector reverses through zero within a step,
+//! although the ends pass each other at full speed.
+//! The rate along the mean vector `d̄` is correct in this case, and otherwise agrees with `Δℓ/Δt` to second order.
+//! The force acts along the mean line, so that angular momentum is conserved. `D` is the dissipated energy.
 
 use super::damping_law::DampingLaw;
 use super::elongation::ElongationEnd;

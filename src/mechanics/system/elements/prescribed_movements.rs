@@ -1,8 +1,9 @@
 //! Prescribed motions of supported degrees of freedom: their increments in a step, and the work and impulse of the drives.
 //!
 //! Let `v` be the rates and `v̄` their mean over a step. For prescribed degrees of freedom they are the derivatives of the prescribed functions.
-//! Let `ε = Δx - Δt v̄` be the difference between a prescribed increment and its mean rate times `Δt`. It is of third order in `Δt`, and zero for
-//! unknowns. By the proofs of the energy–momentum step, the changes of energy, momentum and angular momentum are exactly
+//! Let `ε = Δx - Δt v̄` be the difference between a prescribed increment and its mean rate times `Δt`.
+//! It is of third order in `Δt`, and zero for unknowns.
+//! By the proofs of the energy–momentum step, the changes of energy, momentum and angular momentum are exactly
 //!
 //! ```text
 //! ΔE = Σ R·Δx - Σ ε·M Δv/Δt          Δp = Δt Σ R          ΔL = Δt Σ x̄ × R + Σ ε × M v̄          R: residual of the equations, the reaction
@@ -155,8 +156,8 @@ impl PrescribedMovements {
         Ok(())
     }
 
-    /// Replaces the prescribed degrees of freedom by `movements` after a release. They are numbered after the `unknowns` and the multipliers. The
-    /// states of the remaining ones are kept.
+    /// Replaces the prescribed degrees of freedom by `movements` after a release. They are numbered after the `unknowns` and the multipliers.
+    /// The states of the remaining ones are kept.
     pub fn with(self, movements: Vec<PrescribedMovement>, unknowns: usize) -> Self {
         let known = |wanted: &PrescribedMovement| {
             let mut all = self.movements.iter().zip(&self.present);
@@ -270,8 +271,8 @@ impl PrescribedMovements {
         Ok(())
     }
 
-    /// Jumps of prescribed rates at the start of a step, by number of the degree of freedom; `None` without a jump. Rates may jump at declared
-    /// breaks of a function and at samples of a controller.
+    /// Jumps of prescribed rates at the start of a step, by number of the degree of freedom; `None` without a jump.
+    /// Rates may jump at declared breaks of a function and at samples of a controller.
     ///
     /// # Errors
     /// Fails if a function has no finite value.

@@ -33,8 +33,8 @@ impl RateHistory {
 
     /// Coefficients of the rates for a stage with a weight; `None` at the start of a step, where no rates are used.
     ///
-    /// Rates are evaluated once per step. A method with forces at both ends of the step balances forces at the fraction `weight` of the step. The
-    /// rate at that time is extrapolated from the rates at the middle of this step and of the last one.
+    /// Rates are evaluated once per step. A method with forces at both ends of the step balances forces at the fraction `weight` of the step.
+    /// The rate at that time is extrapolated from the rates at the middle of this step and of the last one.
     pub fn at(&self, stage: Stage, weight: f64) -> Option<RateCollocation> {
         let by_change = 1.0 / self.duration;
         let rotations = collocation(stage).rotations;

@@ -21,8 +21,8 @@ const OFF_MIDDLE_MARGIN: f64 = 4.0;
 type Polygon = Vec<(f64, f64)>;
 
 impl SpringLaw {
-    /// Samples a force over a range of elongations. Points are added until the polygon deviates from the function by at most 1e-7 of its largest
-    /// value, up to 20 000 points.
+    /// Samples a force over a range of elongations.
+    /// Points are added until the polygon deviates from the function by at most 1e-7 of its largest value, up to 20 000 points.
     ///
     /// # Errors
     /// Errors of the function.
@@ -66,8 +66,8 @@ fn largest_force(points: &[(f64, f64)]) -> f64 {
     points.iter().map(|(_, force)| force.abs()).fold(0.0, larger)
 }
 
-/// Adds a point to every segment of the polygon that deviates by more than `allowed` at its fraction `part`. Returns the new polygon and the
-/// largest deviation.
+/// Adds a point to every segment of the polygon that deviates by more than `allowed` at its fraction `part`.
+/// Returns the new polygon and the largest deviation.
 fn refined<E>(
     points: &[(f64, f64)],
     force: &mut impl FnMut(f64) -> Result<f64, E>,

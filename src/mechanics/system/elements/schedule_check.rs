@@ -3,8 +3,9 @@
 use crate::integrators::Interval;
 use crate::loads::{Schedule, StepMean};
 
-/// Difference between two quadrature rules for the mean over a step, as a fraction of the largest value, above which the steps do not resolve a
-/// schedule. For a jump, the difference is at least a tenth of the jump. For a sine with 2.7 steps per period, it is the value given here.
+/// Difference between two quadrature rules for the mean over a step, as a fraction of the largest value,
+/// above which the steps do not resolve a schedule.
+/// For a jump, the difference is at least a tenth of the jump. For a sine with 2.7 steps per period, it is the value given here.
 const LARGEST_MISS: f64 = 0.01;
 
 /// Largest difference between two quadrature rules for the mean of a schedule over a step.

@@ -25,8 +25,8 @@ pub enum Anchor {
 /// Quantity measured by a spring.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub enum SpringKind {
-    /// Length of the path through these places. A spring or damper has two places. A tendon has more, and slides over intermediate places without
-    /// friction.
+    /// Length of the path through these places. A spring or damper has two places.
+    /// A tendon has more, and slides over intermediate places without friction.
     Length(Vec<Anchor>),
     /// Angle of the section at the second place, minus the angle of the section at the first. The ground does not rotate.
     Torsion([Anchor; 2]),

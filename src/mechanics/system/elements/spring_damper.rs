@@ -24,8 +24,8 @@ use crate::integrators::{Interval, Stage};
 use crate::linalg::BandedMatrix;
 use crate::system::bodies::Body;
 
-/// Tolerance of forces of laws with corners, as a fraction of the rounding error of the elongation times the stiffness. For a linear law, the
-/// mismatch is zero after the next iteration; for a law with corners it is not.
+/// Tolerance of forces of laws with corners, as a fraction of the rounding error of the elongation times the stiffness.
+/// For a linear law, the mismatch is zero after the next iteration; for a law with corners it is not.
 const CORNER_TOLERANCE: f64 = 2e-4;
 
 #[derive(Debug, Clone)]

@@ -51,8 +51,8 @@ impl SpringLaw {
         match self {
             Self::Linear { stiffness, natural } => stiffness * (q.value - natural),
             Self::Table { points } | Self::Sampled { points, .. } => {
-                // The interpolation starts at the end with the smaller force. From the other end, the rounding error of the larger force would
-                // remain.
+                // The interpolation starts at the end with the smaller force.
+                // From the other end, the rounding error of the larger force would remain.
                 let [first, second] = segment(points, q);
                 let (at, force) = if first.1.abs() <= second.1.abs() { first } else { second };
                 force + self.slope(q) * q.difference(at)
@@ -277,8 +277,8 @@ fn zero((q0, f0): (f64, f64), (q1, f1): (f64, f64)) -> f64 {
     }
 }
 
-/// Elongation of least energy, where the force of a table or its extrapolation changes from negative to positive. Without such an elongation, the
-/// first point.
+/// Elongation of least energy, where the force of a table or its extrapolation changes from negative to positive.
+/// Without such an elongation, the first point.
 fn natural_elongation(points: &[(f64, f64)]) -> f64 {
     let passes = |pair: &&[(f64, f64)]| pair[0].1 <= 0.0 && pair[1].1 >= 0.0;
     let last = points.len() - 1;

@@ -93,8 +93,8 @@ impl Supports {
         sum
     }
 
-    /// Reaction force [force] and moment [force·length] on the given nodes (body and control point) and on the angles of the rigid bodies
-    /// `turning`. `None` if none of them is supported.
+    /// Reaction force [force] and moment [force·length] on the given nodes (body and control point) and on the angles of the rigid bodies `turning`.
+    /// `None` if none of them is supported.
     pub fn force_on(
         &self,
         nodes: &[(usize, usize)],

@@ -1,8 +1,10 @@
 //! Springs of zero natural length, whose ends may coincide.
 //!
-//! A linear spring of zero natural length is a pair of springs along x and y: `U = ½ k (x² + y²)`. A single force `k ℓ` along the connecting vector
-//! would have an unbounded rate of change of its direction where the ends meet. Other laws act on the length. The parallel damper uses the rate
-//! along the mean vector, because the rate of the length is wrong if the ends pass through each other within a step.
+//! A linear spring of zero natural length is a pair of springs along x and y: `U = ½ k (x² + y²)`.
+//! A single force `k ℓ` along the connecting vector would have an unbounded rate of change of its direction where the ends meet.
+//! Other laws act on the length.
+//! The parallel damper uses the rate along the mean vector, because the rate of the length is wrong
+//! if the ends pass through each other within a step.
 
 use super::damping_law::DampingLaw;
 use super::elongation::{Elongation, ElongationEnd};

@@ -57,8 +57,8 @@ impl Links {
         2 * self.rigid.len() + self.rollers().count()
     }
 
-    /// Sum of the forces of the inclined rollers at the given nodes. `force` returns the force of each roller [force]. `None` without a roller at
-    /// these nodes.
+    /// Sum of the forces of the inclined rollers at the given nodes. `force` returns the force of each roller [force].
+    /// `None` without a roller at these nodes.
     pub fn force_of_rollers(
         &self,
         nodes: &[(usize, usize)],
@@ -174,8 +174,8 @@ impl Links {
         self.rigid.iter_mut().zip(others).for_each(|(link, other)| link.exchange_force(other));
     }
 
-    /// Largest constraint violation in a residual [-]. The violation of a link is a fraction of its increments and arm, that of a roller a fraction
-    /// of the size of the scene.
+    /// Largest constraint violation in a residual [-].
+    /// The violation of a link is a fraction of its increments and arm, that of a roller a fraction of the size of the scene.
     pub fn violation(&self, residual: &[f64]) -> f64 {
         let most = self.rigid.iter().fold(0.0, |most, link| larger(most, link.violation(residual)));
         self.rollers.iter().fold(most, |most, roller| larger(most, roller.violation(residual)))

@@ -4,9 +4,9 @@
 //! n·Δx = 0          force on the point: -λ n,   n: unit normal of the line
 //! ```
 //!
-//! The equation is linear in the increments, so the force `-λ n` does no work in any increment that satisfies it. Its impulse `-Δt λ n` acts at the
-//! mean position of the point, as for other supports. For methods with `v1 = 2 Δx/Δt - v0`, velocities stay along the line if the start velocity
-//! does.
+//! The equation is linear in the increments, so the force `-λ n` does no work in any increment that satisfies it.
+//! Its impulse `-Δt λ n` acts at the mean position of the point, as for other supports.
+//! For methods with `v1 = 2 Δx/Δt - v0`, velocities stay along the line if the start velocity does.
 
 use super::rigid_link::ForceUnknowns;
 use crate::beams::{ForceSummary, SpanStiffness};

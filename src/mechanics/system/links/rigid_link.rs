@@ -5,10 +5,12 @@
 //! force on the point -λ,   on the body λ with the moment aτ × λ        aτ = (1-τ) a0 + τ a1,   τ = ½ except for generalized-α and in statics
 //! ```
 //!
-//! `x_p` is the position of the point and `x_b` that of the body; `a` is the arm between them, with the rotation `Λ` of the body and the place `r`
-//! in the body frame. `χ` is the tangent-scaled rotation increment. Since `χ J ā = a1 - a0` holds for every increment, the point is at its position
-//! in the body at the end of every step. With tangent-scaled increments `Δω` and `τ = ½`, the work `λ·Δx_b + (ā × λ) Δω - λ·Δx_p` of the force is
-//! zero, and the sums of forces and of moments in the mean configuration are also zero.
+//! `x_p` is the position of the point and `x_b` that of the body;
+//! `a` is the arm between them, with the rotation `Λ` of the body and the place `r` in the body frame.
+//! `χ` is the tangent-scaled rotation increment.
+//! Since `χ J ā = a1 - a0` holds for every increment, the point is at its position in the body at the end of every step.
+//! With tangent-scaled increments `Δω` and `τ = ½`, the work `λ·Δx_b + (ā × λ) Δω - λ·Δx_p` of the force is zero,
+//! and the sums of forces and of moments in the mean configuration are also zero.
 
 use std::ops::{Add, Div};
 
@@ -247,8 +249,8 @@ impl RigidLink {
     }
 
     /// Returns the difference between the velocity of the linked point and the velocity that the motion of the body gives this point [length/time].
-    /// At the end of a step it is an error of second order, whose sign alternates from step to step. If accelerations are given instead of
-    /// velocities, the result does not contain the centripetal acceleration of the arm.
+    /// At the end of a step it is an error of second order, whose sign alternates from step to step.
+    /// If accelerations are given instead of velocities, the result does not contain the centripetal acceleration of the arm.
     pub fn velocity_violation(&self, bodies: &Bodies, rates: &[f64]) -> Vec2 {
         let body = &bodies[self.body];
         let ([.., rotation], _) = self.degrees(bodies);
@@ -269,8 +271,8 @@ impl RigidLink {
         self.rotation = self.rotation.turned(arms.rotations, now.increment).normalised();
     }
 
-    /// Calls `take` with the static stiffness of the link: a penalty stiffness [force/length] that holds the point at its position in the body, and
-    /// the geometric stiffness of the force.
+    /// Calls `take` with the static stiffness of the link: a penalty stiffness [force/length] that holds the point at its position in the body,
+    /// and the geometric stiffness of the force.
     pub fn at_rest(
         &self,
         bodies: &Bodies,

@@ -1,10 +1,11 @@
 //! Impulses at sliders: consistent start velocities, and impacts at the ends of masters. Simultaneous impacts are computed together.
 //!
-//! Impulses `P` at contacts change the velocities by `M (v⁺ - v⁻) = Σ Gᵀ P`, where `G v` is the velocity of a slave relative to the contact point
-//! of the master. An impulse at a closed contact conserves linear and angular momentum. With the relaxed sliding rule, the slave may have a gap from
-//! the master, and an impulse across a gap changes the angular momentum. In an impact, `G v` is the part of the relative velocity that the steps
-//! resolve ([`Rigidity`]). The work of a contact on the bodies is `½ P (w⁻ + w⁺)`, with the relative velocities `w⁻` before and `w⁺` after the
-//! impact.
+//! Impulses `P` at contacts change the velocities by `M (v⁺ - v⁻) = Σ Gᵀ P`,
+//! where `G v` is the velocity of a slave relative to the contact point of the master.
+//! An impulse at a closed contact conserves linear and angular momentum.
+//! With the relaxed sliding rule, the slave may have a gap from the master, and an impulse across a gap changes the angular momentum.
+//! In an impact, `G v` is the part of the relative velocity that the steps resolve ([`Rigidity`]).
+//! The work of a contact on the bodies is `½ P (w⁻ + w⁺)`, with the relative velocities `w⁻` before and `w⁺` after the impact.
 
 use super::System;
 use super::rigidity::{Deformation, Rigidity};
@@ -20,8 +21,8 @@ pub(super) type ImpactDirection = (usize, Vec2);
 /// Directions of contact impulses, and the deformations that take part in the impact.
 pub(super) type ImpactSelection<'a> = (&'a [ImpactDirection], Deformation);
 
-/// Two velocity responses to an impulse are compared: with the deformations that take part, and with all deformations. If their ratio is below this
-/// value, the direction of the impulse counts as rigid.
+/// Two velocity responses to an impulse are compared: with the deformations that take part, and with all deformations.
+/// If their ratio is below this value, the direction of the impulse counts as rigid.
 pub(super) const GIVES: f64 = 1e-9;
 
 /// Forces of a unit impulse in one direction, and the velocities that it causes.
@@ -130,8 +131,8 @@ impl ImpactProblem {
         self.before.iter().enumerate().map(half_way).collect()
     }
 
-    /// Values by which the velocities would violate the given laws if no contact impulse acted [length/time]. The laws apply to the last directions
-    /// of the impact problem.
+    /// Values by which the velocities would violate the given laws if no contact impulse acted [length/time].
+    /// The laws apply to the last directions of the impact problem.
     pub(super) fn lacks(&self, laws: &[ImpactLaw]) -> Vec<f64> {
         let first = self.before.len() - laws.len();
         let lack =
@@ -191,8 +192,8 @@ impl System {
         if missed.iter().all(|missed| missed.abs() <= negligible) {
             return;
         }
-        // This impulse acts before the start time, so it is not added to the accumulated impulses. A singular matrix is ignored here, because the
-        // first step reports it.
+        // This impulse acts before the start time, so it is not added to the accumulated impulses.
+        // A singular matrix is ignored here, because the first step reports it.
         let before = std::mem::take(&mut self.exchanged);
         let struck = self.apply_transverse_impact();
         self.exchanged = before;
@@ -201,9 +202,10 @@ impl System {
         }
     }
 
-    /// Computes the impact of rigid links and sliders that is caused by jumps of prescribed rates at the start of a step. Without it, the violation
-    /// of the velocity constraints would alternate in sign from step to step. The impact reverses the violation, so that it conserves energy except
-    /// for the work of drives (theory.md 9.5). Returns true if there was a jump.
+    /// Computes the impact of rigid links and sliders that is caused by jumps of prescribed rates at the start of a step.
+    /// Without it, the violation of the velocity constraints would alternate in sign from step to step.
+    /// The impact reverses the violation, so that it conserves energy except for the work of drives (theory.md 9.5).
+    /// Returns true if there was a jump.
     pub(crate) fn apply_drive_jumps(&mut self, interval: Interval) -> bool {
         if self.links.count() == 0 && self.sliders.iter().next().is_none() {
             return false;
@@ -269,8 +271,8 @@ impl System {
         directions.iter().map(answer).collect()
     }
 
-    /// Computes the velocity responses to unit impulses if the given deformations take part. If both bodies respond rigidly to an impulse
-    /// direction, all deformations take part for this direction.
+    /// Computes the velocity responses to unit impulses if the given deformations take part.
+    /// If both bodies respond rigidly to an impulse direction, all deformations take part for this direction.
     ///
     /// # Errors
     /// Fails if the matrix is singular.
@@ -298,8 +300,8 @@ impl System {
         Ok(directions.iter().map(&mut answer).collect())
     }
 
-    /// Creates the impact problem for the given directions. The velocity violation `w` of each rigid link changes by `links · w`. With `links =
-    /// -2`, the impact reverses the violation, and the links do no work.
+    /// Creates the impact problem for the given directions. The velocity violation `w` of each rigid link changes by `links · w`.
+    /// With `links = -2`, the impact reverses the violation, and the links do no work.
     pub(super) fn impact_problem(
         &mut self,
         met: &[ImpactSelection<'_>],

@@ -4,9 +4,10 @@
 //! M a + F(x) - f(t) - Gᵀ λ = r        G a = 2 ξ̇ u·Σ B_i' v_i + ξ̇² u·Σ B_i'' x_i        r = 0 except at supported degrees of freedom
 //! ```
 //!
-//! If the master has a kink under a slider, `λ` follows from the kink. Every method gives configuration and rates at the end of a step with
-//! second-order accuracy, and these results have the same order. They depend on the present state only, so they are the same after a rewind, in a
-//! copy and in a simulation read from a file. They contain unresolved vibrations, which the mean of two consecutive steps does not.
+//! If the master has a kink under a slider, `λ` follows from the kink.
+//! Every method gives configuration and rates at the end of a step with second-order accuracy, and these results have the same order.
+//! They depend on the present state only, so they are the same after a rewind, in a copy and in a simulation read from a file.
+//! They contain unresolved vibrations, which the mean of two consecutive steps does not.
 
 use super::impact::{ImpactDirection, ImpulseResponse};
 use super::{Reactions, System};
@@ -116,8 +117,8 @@ impl System {
         })
     }
 
-    /// Calls a function while the model stores the present forces of its rigid links instead of the forces of the last step, which are zero before
-    /// the first step.
+    /// Calls a function while the model stores the present forces of its rigid links instead of the forces of the last step,
+    /// which are zero before the first step.
     ///
     /// # Errors
     /// Errors of [`instant`](Self::instant), if the model has rigid links.
@@ -197,8 +198,8 @@ impl System {
         Ok((accelerations, contacts))
     }
 
-    /// Adds the friction of sliders that slip to unit forces across their masters. Its direction depends on the sign of the force across, which is
-    /// that of the given forces without friction. Returns true if a slider slips.
+    /// Adds the friction of sliders that slip to unit forces across their masters.
+    /// Its direction depends on the sign of the force across, which is that of the given forces without friction. Returns true if a slider slips.
     fn add_slip_friction(
         &self,
         inertia: &BandedLu<'_>,

@@ -1,7 +1,8 @@
 //! Consistent starts of kinks: a kink begins with the contact force that a rigid contact transmits at that moment.
 //!
-//! A kink is an undamped spring `GA/g` under the slider. If it began without load while the contact force acts at once, it would oscillate between
-//! zero and twice that force. Derived in docs/theory.md, section 10.1.
+//! A kink is an undamped spring `GA/g` under the slider.
+//! If it began without load while the contact force acts at once, it would oscillate between zero and twice that force.
+//! Derived in docs/theory.md, section 10.1.
 
 use super::System;
 use super::impact::ImpactDirection;
@@ -14,8 +15,8 @@ use crate::system::SystemError;
 use crate::system::sliders::{KinkedAxis, SliderContact};
 
 impl System {
-    /// Starts all kinks of a scene as drawn, with the contact forces of rigid contacts at the start. Slaves and masters amid spans are moved apart
-    /// by `g a`. Velocities at ends are rotated from the axis onto the kinked axis.
+    /// Starts all kinks of a scene as drawn, with the contact forces of rigid contacts at the start.
+    /// Slaves and masters amid spans are moved apart by `g a`. Velocities at ends are rotated from the axis onto the kinked axis.
     ///
     /// Kinks begin without load if the contact forces are unknown, for example because a load has no value; the first step reports the reason.
     ///
@@ -82,8 +83,8 @@ impl System {
         Ok(())
     }
 
-    /// Moves slaves and masters apart by the offsets of their kinks with the smallest `Δq·M Δq`: `Δq = M⁻¹ Gᵀ P`, `G Δq = g a`. This is the mean
-    /// position of an oscillation from an unloaded kink, so it does not change the later motion in the mean.
+    /// Moves slaves and masters apart by the offsets of their kinks with the smallest `Δq·M Δq`: `Δq = M⁻¹ Gᵀ P`, `G Δq = g a`.
+    /// This is the mean position of an oscillation from an unloaded kink, so it does not change the later motion in the mean.
     ///
     /// `None` if contacts cannot be opened independently of each other, or if points of rigid bodies would have to follow nonlinear constraints.
     fn open_gaps(&mut self) -> Option<()> {

@@ -39,8 +39,8 @@ impl Reactions {
 }
 
 impl System {
-    /// Computes the forces of joints and supports. `left` contains the residuals of all control points, and `across` the multipliers of all
-    /// inclined rollers.
+    /// Computes the forces of joints and supports.
+    /// `left` contains the residuals of all control points, and `across` the multipliers of all inclined rollers.
     pub(super) fn reactions_from_residuals(&self, left: &[f64], across: &[f64]) -> Reactions {
         let mut residual = vec![0.0; self.degrees_of_freedom()];
         let mut forces = left.chunks_exact(3).map(|force| [force[0], force[1], force[2]]);
@@ -68,8 +68,8 @@ impl System {
         self.held_by(place, &given.residual, |roller| given.roller_forces[roller])
     }
 
-    /// Returns the reaction of supports and inclined rollers at a place; `None` if there is no support. `residual` contains the residual at all
-    /// degrees of freedom, and `of_roller` returns the force of a roller.
+    /// Returns the reaction of supports and inclined rollers at a place; `None` if there is no support.
+    /// `residual` contains the residual at all degrees of freedom, and `of_roller` returns the force of a roller.
     pub(super) fn held_by(
         &self,
         place: &BodyPoint,

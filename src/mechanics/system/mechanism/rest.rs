@@ -1,7 +1,7 @@
 //! Statics of a mechanism: residual of the static equations, and its derivatives.
 //!
-//! Displacements are relative to the present configuration. Rotation increments are increments of the angle, so that the stiffness is the Hessian
-//! of the potential energy.
+//! Displacements are relative to the present configuration.
+//! Rotation increments are increments of the angle, so that the stiffness is the Hessian of the potential energy.
 
 use super::System;
 use crate::beams::{BodyPoint, RotationIncrement};
@@ -36,8 +36,8 @@ impl System {
         self.sliders.predict_unchanged(&mut unknowns[self.unknowns.count()..]);
     }
 
-    /// Adds the internal forces of the current section forces, minus `load_factor` times the loads, and then the contact equations. The unknowns
-    /// are displacements followed by contact unknowns.
+    /// Adds the internal forces of the current section forces, minus `load_factor` times the loads, and then the contact equations.
+    /// The unknowns are displacements followed by contact unknowns.
     pub fn add_static_forces(
         &mut self,
         unknowns: &[f64],
@@ -57,8 +57,8 @@ impl System {
         }
     }
 
-    /// Adds the internal forces with strain mismatches condensed out, minus `load_factor` times the loads, and their derivatives with respect to
-    /// the displacements.
+    /// Adds the internal forces with strain mismatches condensed out, minus `load_factor` times the loads,
+    /// and their derivatives with respect to the displacements.
     pub fn add_linearised_static_forces(
         &mut self,
         unknowns: &[f64],
@@ -83,8 +83,8 @@ impl System {
         larger(self.sliders.violation(equations, relative), self.links.violation(residual))
     }
 
-    /// Holds sliders that a displacement moves beyond stops, and frees sliders with tensile stop forces. Returns true if the state of a slider has
-    /// changed.
+    /// Holds sliders that a displacement moves beyond stops, and frees sliders with tensile stop forces.
+    /// Returns true if the state of a slider has changed.
     ///
     /// # Errors
     /// Returns the slider and the end of its master, if a slider would leave its master.
@@ -108,8 +108,9 @@ impl System {
         self.subtract_loads(Stage::End, movements, load_factor, out)
     }
 
-    /// Accepts a static solution: applies its displacements and rotations [length, rad], its contact unknowns and the prescribed positions under a
-    /// fraction of the load. Afterwards all velocities are zero.
+    /// Accepts a static solution: applies its displacements and rotations [length, rad],
+    /// its contact unknowns and the prescribed positions under a fraction of the load.
+    /// Afterwards all velocities are zero.
     pub(crate) fn move_by(&mut self, unknowns: &[f64], load_factor: f64) {
         let (movements, contacts) = unknowns.split_at(self.unknowns.count());
         let movements = self.supports.prescribed().at_rest(movements, load_factor);

@@ -6,10 +6,11 @@
 //! M a + Bᵀ n = Gᵀ        B a = n/(s C)        f = Gᵀ - Bᵀ n        a = M⁻¹ f
 //! ```
 //!
-//! Here `B` is the strain–rate matrix and `C` the section stiffness. For strains that steps of a length `h` resolve, `s = h²/4`; for suppressed
-//! strains, `1/s = 0`. `f` is the unit impulse together with the impulses of section forces. `n` is a separate unknown and `Bᵀ n` has no resultant,
-//! so momenta are conserved in spite of rounding. Springs and dampers do not take part: their forces are bounded, so their impulse during an impact
-//! is zero.
+//! Here `B` is the strain–rate matrix and `C` the section stiffness.
+//! For strains that steps of a length `h` resolve, `s = h²/4`; for suppressed strains, `1/s = 0`.
+//! `f` is the unit impulse together with the impulses of section forces.
+//! `n` is a separate unknown and `Bᵀ n` has no resultant, so momenta are conserved in spite of rounding.
+//! Springs and dampers do not take part: their forces are bounded, so their impulse during an impact is zero.
 
 use super::System;
 use crate::beams::StrainKind;
@@ -18,8 +19,8 @@ use crate::geometry::larger;
 use crate::integrators::{Inertia, Mechanism};
 use crate::linalg::{BandedLu, BandedMatrix};
 
-/// Largest ratio of weighted stiffness to inertia. Larger ratios are reduced to this value, for which the deformation is rigid to at least five
-/// digits.
+/// Largest ratio of weighted stiffness to inertia.
+/// Larger ratios are reduced to this value, for which the deformation is rigid to at least five digits.
 const MOST: f64 = 1e10;
 
 /// Smallest number of corrections of a solution. Each correction multiplies the error by `MOST` times the machine precision.
@@ -45,8 +46,8 @@ pub(super) enum Deformation {
 struct StrainResistance {
     degrees: Vec<usize>,
     strain: Vec<f64>,
-    /// Resistance of the strain to an impulse: its stiffness times the integration length times `s = h²/4`, for steps of length `h`. For a
-    /// suppressed strain it is a penalty weight.
+    /// Resistance of the strain to an impulse: its stiffness times the integration length times `s = h²/4`, for steps of length `h`.
+    /// For a suppressed strain it is a penalty weight.
     weight: f64,
     is_rigid: bool,
 }

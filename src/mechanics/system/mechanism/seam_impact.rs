@@ -1,17 +1,18 @@
 //! Sliders that pass from beam to beam of a track: effect of a corner at the seam on the velocities.
 //!
-//! The corner is treated as the limit of a rounded corner. Let `w` be the velocity of the slave relative to the contact point of the master. While
-//! the tangent rotates, the contact acts by impulses normal to the tangent, which do no work and conserve the component of `w` along the tangent.
+//! The corner is treated as the limit of a rounded corner. Let `w` be the velocity of the slave relative to the contact point of the master.
+//! While the tangent rotates, the contact acts by impulses normal to the tangent,
+//! which do no work and conserve the component of `w` along the tangent.
 //! Hence `½ w·W⁻¹w` is constant, with `W = G M⁻¹ Gᵀ` as in an impact, and `w` rotates with the tangent in the metric `W⁻¹`:
 //!
 //! ```text
 //! w⁺ = w⁻ + W P        P = γ J ½ (w⁻ + w⁺)        γ = 2 tan(θ/2)/√det W
 //! ```
 //!
-//! Here `θ` is the angle between the tangents before and after the corner in that metric. The rotation has two parts. The first is the rotation
-//! from the section direction on one side to the section direction on the other. It acts on the part `G v` of the velocity that the steps resolve,
-//! in one impact with all simultaneous impacts. The remaining angle is the difference of the shear on both sides; it rotates the full velocity.
-//! Derivation: docs/theory.md, section 10.3.
+//! Here `θ` is the angle between the tangents before and after the corner in that metric. The rotation has two parts.
+//! The first is the rotation from the section direction on one side to the section direction on the other.
+//! It acts on the part `G v` of the velocity that the steps resolve, in one impact with all simultaneous impacts.
+//! The remaining angle is the difference of the shear on both sides; it rotates the full velocity. Derivation: docs/theory.md, section 10.3.
 
 use super::System;
 use super::impact::{ImpactDirection, ImpactImpulses, ImpactLaw, ImpactProblem};
@@ -24,8 +25,9 @@ use crate::system::sliders::{MasterEnd, MasterLimit, Seam};
 /// Angle below which two tangents are equal within rounding [rad].
 const STRAIGHT: f64 = 1e-13;
 
-/// Determinant of the velocity response, as a fraction of its squared trace, below which an impulse can change the velocity of the slider in one
-/// direction only. Such a velocity is not rotated at corners.
+/// Determinant of the velocity response, as a fraction of its squared trace,
+/// below which an impulse can change the velocity of the slider in one direction only.
+/// Such a velocity is not rotated at corners.
 const ONE_WAY: f64 = 1e-20;
 
 /// Largest number of corrections of the rotation angles, for coupled sliders that pass corners simultaneously.
@@ -198,15 +200,16 @@ fn turned(direction: Vec2, [from, to]: [Vec2; 2]) -> Vec2 {
     direction * from.dot(&to) + perpendicular(direction) * cross(from, to)
 }
 
-/// Computes the impulses of an impact in which corners rotate the velocities of sliders. A corner has two components of impulse; all other contacts
-/// have laws.
+/// Computes the impulses of an impact in which corners rotate the velocities of sliders.
+/// A corner has two components of impulse; all other contacts have laws.
 ///
-/// At a corner the impulse is `P = γ J ½ (w⁻ + w⁺)`, with the velocities `w⁻` before and `w⁺` after the impact. The factor `γ` is such that the
-/// velocity rotates by the angle of the corner, to 1e-12 or as accurately as the last correction allows. The result is `None` if sliders also strike
-/// stops and the angles are not reached.
+/// At a corner the impulse is `P = γ J ½ (w⁻ + w⁺)`, with the velocities `w⁻` before and `w⁺` after the impact.
+/// The factor `γ` is such that the velocity rotates by the angle of the corner, to 1e-12 or as accurately as the last correction allows.
+/// The result is `None` if sliders also strike stops and the angles are not reached.
 ///
-/// For any `γ` the impulses solve one complementarity problem. Its rows for corners are `cos(θ/2) √det W P - sin(θ/2) J W P = sin(θ/2) J 2 w̄`,
-/// with the mean velocity `w̄` without impulses. The solution is unique (docs/theory.md, section 10.3).
+/// For any `γ` the impulses solve one complementarity problem.
+/// Its rows for corners are `cos(θ/2) √det W P - sin(θ/2) J W P = sin(θ/2) J 2 w̄`, with the mean velocity `w̄` without impulses.
+/// The solution is unique (docs/theory.md, section 10.3).
 pub(super) fn deflect_at_corners(
     encounter: &ImpactProblem,
     corners: &[SeamCorner],
@@ -251,8 +254,8 @@ pub(super) fn deflect_at_corners(
     Ok(last.filter(|_| !strikes).map(|impulses| encounter.with_works(impulses)))
 }
 
-/// Returns the velocity response `W` of each slider at a corner to its own impulse. The response includes the reactions of the contacts that keep
-/// slaves on their masters.
+/// Returns the velocity response `W` of each slider at a corner to its own impulse.
+/// The response includes the reactions of the contacts that keep slaves on their masters.
 fn own_responses(
     encounter: &ImpactProblem,
     corners: &[SeamCorner],

@@ -8,8 +8,8 @@ use crate::system::SystemError;
 use crate::system::sliders::SliderState;
 use crate::system::state::Prediction;
 
-/// State of a [`System`] that can be restored in the same system. It contains everything that determines the later motion, and the accumulated work
-/// and impulse.
+/// State of a [`System`] that can be restored in the same system.
+/// It contains everything that determines the later motion, and the accumulated work and impulse.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct SystemState {
     numbers: Vec<f64>,

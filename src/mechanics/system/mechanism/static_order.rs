@@ -3,8 +3,8 @@
 use super::System;
 use crate::linalg::reverse_cuthill_mckee;
 
-/// Order of the unknowns in static and modal matrices. Without sliders it is their order in time steps. With sliders, the positions of the sliders
-/// are additional unknowns, and all unknowns are reordered for a narrow band.
+/// Order of the unknowns in static and modal matrices. Without sliders it is their order in time steps.
+/// With sliders, the positions of the sliders are additional unknowns, and all unknowns are reordered for a narrow band.
 #[derive(Debug, Clone)]
 pub struct StaticOrder {
     count: usize,

@@ -13,8 +13,8 @@ use crate::system::elements::{TrialState, WorkAndImpulse, collocation};
 use crate::system::links::ArmRule;
 use crate::system::sliders::InStep;
 
-/// Rule for the lever arms of the forces of rigid links. They are taken at the fraction of the step at which the method balances forces. Any other
-/// fraction would reduce the method to first order.
+/// Rule for the lever arms of the forces of rigid links. They are taken at the fraction of the step at which the method balances forces.
+/// Any other fraction would reduce the method to first order.
 fn arm_rule(stage: Stage, weight: f64) -> ArmRule {
     let Collocation { rotations, configuration, .. } = collocation(stage);
     let share = if stage == Stage::End { weight } else { configuration };
@@ -85,8 +85,8 @@ impl System {
         if duration < 0.0 { sum.negated() } else { sum }
     }
 
-    /// Evaluates the entries of `M Δv` and `M v̄` for the prescribed degrees of freedom in a step, with the change `Δv` and the mean `v̄` of the
-    /// rates.
+    /// Evaluates the entries of `M Δv` and `M v̄` for the prescribed degrees of freedom in a step,
+    /// with the change `Δv` and the mean `v̄` of the rates.
     fn add_prescribed_inertia(&mut self, rates: &[f64]) {
         let Self { bodies, elements, supports, motion, step, .. } = self;
         let movements = supports.prescribed_mut();

@@ -11,13 +11,14 @@ use crate::linalg::{PreciseBand, SymmetricSparse};
 use crate::system::links::RigidLink;
 use crate::system::state::UnknownKind;
 
-/// Penalty stiffness of rigid links, as a multiple of the largest stiffness at their degrees of freedom. The penalty lowers frequencies by a
-/// relative amount that is smaller than the inverse of this number. With 32 digits, all other stiffnesses remain resolved.
+/// Penalty stiffness of rigid links, as a multiple of the largest stiffness at their degrees of freedom.
+/// The penalty lowers frequencies by a relative amount that is smaller than the inverse of this number.
+/// With 32 digits, all other stiffnesses remain resolved.
 const RIGID: f64 = 1e8;
 
 impl System {
-    /// Calls `take` with the static stiffness of every span and spring, and the positions of its unknowns in `order`. Supported degrees of freedom
-    /// follow all unknowns.
+    /// Calls `take` with the static stiffness of every span and spring, and the positions of its unknowns in `order`.
+    /// Supported degrees of freedom follow all unknowns.
     pub(crate) fn for_each_static_span(
         &self,
         order: &StaticOrder,
@@ -49,8 +50,8 @@ impl System {
         power
     }
 
-    /// Calls `take` with each damped rate and its damping coefficient for small rates, in the present configuration. The coefficient times the
-    /// squared rate is the dissipated power [energy/time]. The number and order of calls do not depend on the rates.
+    /// Calls `take` with each damped rate and its damping coefficient for small rates, in the present configuration.
+    /// The coefficient times the squared rate is the dissipated power [energy/time]. The number and order of calls do not depend on the rates.
     pub(crate) fn each_damped_rate(&self, rates: &[f64], take: &mut dyn FnMut(f64, f64)) {
         self.elements.each_damped_rate(&self.bodies, rates, take);
     }
@@ -71,8 +72,8 @@ impl System {
         reaches.fold(self.unknowns.half_bandwidth(), usize::max)
     }
 
-    /// Calls `take` with the penalty stiffness of every rigid link and contact. It is `RIGID` times the largest stiffness at its degrees of
-    /// freedom. `stiffness` returns that value for a position in `order` [force/length, force·length].
+    /// Calls `take` with the penalty stiffness of every rigid link and contact. It is `RIGID` times the largest stiffness at its degrees of freedom.
+    /// `stiffness` returns that value for a position in `order` [force/length, force·length].
     pub(crate) fn for_each_static_constraint(
         &self,
         order: &StaticOrder,
@@ -119,8 +120,8 @@ impl System {
         self.links.forces().saturating_sub(kinds.filter(is_light).count())
     }
 
-    /// Estimate of the square of the lowest bending frequency, as if all beams formed a single beam: the smallest `EI`, divided by the largest `ρA`
-    /// and by the fourth power of the total length; `None` without a beam [1/time²].
+    /// Estimate of the square of the lowest bending frequency, as if all beams formed a single beam:
+    /// the smallest `EI`, divided by the largest `ρA` and by the fourth power of the total length; `None` without a beam [1/time²].
     pub(crate) fn slowest_bending(&self) -> Option<f64> {
         let extents = || self.bodies.iter().filter_map(|body| body.dynamics.extent());
         let length: f64 = extents().map(|(_, length)| length).sum();

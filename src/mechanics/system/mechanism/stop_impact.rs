@@ -1,7 +1,8 @@
 //! Impacts at the ends of masters: simultaneous impacts, energy stored in stops, and sliders that leave a stop.
 //!
-//! When a slider comes to rest at a stop that then holds it, an impulse reduces its speed along the master to zero. The stop acts as an elastic
-//! body: it stores the lost kinetic energy and returns it when the slider leaves. With a coefficient of restitution below one the energy is lost.
+//! When a slider comes to rest at a stop that then holds it, an impulse reduces its speed along the master to zero.
+//! The stop acts as an elastic body: it stores the lost kinetic energy and returns it when the slider leaves.
+//! With a coefficient of restitution below one the energy is lost.
 
 use super::System;
 use super::impact::{GIVES, ImpactDirection, ImpactLaw};
@@ -65,8 +66,8 @@ impl Arriving {
 }
 
 impl System {
-    /// Limits that sliders reach simultaneously with the given limit, in the order of the scene. These sliders are at an end within rounding and
-    /// move beyond it.
+    /// Limits that sliders reach simultaneously with the given limit, in the order of the scene.
+    /// These sliders are at an end within rounding and move beyond it.
     pub(crate) fn simultaneous_arrivals(&self, limit: MasterLimit) -> Vec<MasterLimit> {
         let limits = (0..self.sliders.len()).flat_map(MasterLimit::both);
         let arrives = |other: &MasterLimit| {
@@ -77,8 +78,8 @@ impl System {
         limits.filter(arrives).collect()
     }
 
-    /// Returns true if the velocity of a slider at an end points beyond the end. Only deformations that take part in an impact with steps of length
-    /// `dt` contribute to this velocity [time].
+    /// Returns true if the velocity of a slider at an end points beyond the end.
+    /// Only deformations that take part in an impact with steps of length `dt` contribute to this velocity [time].
     ///
     /// # Errors
     /// Fails if the impulse is not determined.
@@ -95,8 +96,9 @@ impl System {
         Ok(speed < -APPROACHES * self.fastest_speed())
     }
 
-    /// Returns true if steps of length `dt` [time] resolve the impact of a slider at a limit. The impact duration is computed from wave speeds if
-    /// at least one of the bodies is deformable and light enough. The ratio of step length to impact duration is recorded.
+    /// Returns true if steps of length `dt` [time] resolve the impact of a slider at a limit.
+    /// The impact duration is computed from wave speeds if at least one of the bodies is deformable and light enough.
+    /// The ratio of step length to impact duration is recorded.
     ///
     /// # Errors
     /// Fails if the impulse is not determined.
@@ -123,8 +125,9 @@ impl System {
         Ok(self.sliders[limit.slider].impact_duration(&self.bodies, AxialImpact { slave, master }))
     }
 
-    /// Deformations that take part in an impact at limits, for steps of length `dt` [time]. With a coefficient of restitution, axial waves and all
-    /// vibrations faster than the impact are suppressed. In an elastic contact, the deformations that the steps resolve take part.
+    /// Deformations that take part in an impact at limits, for steps of length `dt` [time].
+    /// With a coefficient of restitution, axial waves and all vibrations faster than the impact are suppressed.
+    /// In an elastic contact, the deformations that the steps resolve take part.
     fn deformation_at(&self, limits: &[MasterLimit], dt: f64) -> Result<Deformation, LinearError> {
         let mut longest = None;
         for limit in limits.iter().filter(|at| self.end_action(at.slider) != EndAction::Contact) {
@@ -158,9 +161,10 @@ impl System {
 
     /// Computes the impact of all sliders that arrive at ends of masters and at seams at the present time, for steps of length `dt` [time].
     ///
-    /// All stops have the law `0 ≤ P ⟂ w⁺ + e w⁻ ≥ 0` with the impulse `P`, the coefficient of restitution `e`, and the relative velocities `w⁻`
-    /// before and `w⁺` after the impact. This includes stops at which sliders are held. A corner at a seam rotates the velocity of the slider. All
-    /// other contacts are constraints. Afterwards, a slider that passes a seam is on its other side.
+    /// All stops have the law `0 ≤ P ⟂ w⁺ + e w⁻ ≥ 0` with the impulse `P`, the coefficient of restitution `e`,
+    /// and the relative velocities `w⁻` before and `w⁺` after the impact.
+    /// This includes stops at which sliders are held. A corner at a seam rotates the velocity of the slider. All other contacts are constraints.
+    /// Afterwards, a slider that passes a seam is on its other side.
     ///
     /// # Errors
     /// Fails if the impulses are not determined.
@@ -190,8 +194,9 @@ impl System {
             self.apply_impulses(&hits, corners, [Deformation::Resolved(RIGID * dt), at_stops])?;
         }
         if !arriving.plastic.is_empty() {
-            // The impact above suppressed some deformations of the struck body. After it, rounding may have left a velocity of the slider against
-            // the stop. A second impact with all deformations removes this velocity.
+            // The impact above suppressed some deformations of the struck body.
+            // After it, rounding may have left a velocity of the slider against the stop.
+            // A second impact with all deformations removes this velocity.
             let hits = self.impulse_directions(|_, limit| {
                 arriving.plastic.contains(&limit).then_some(ImpactLaw::Ends)
             });
@@ -201,8 +206,9 @@ impl System {
         self.pass_seams(&passages)
     }
 
-    /// Applies impulses at several contacts at once. Corners rotate the velocities of the sliders that pass them, and all other contacts follow
-    /// their impact laws. All deformations take part in the impulses that hold sliders at a stop.
+    /// Applies impulses at several contacts at once.
+    /// Corners rotate the velocities of the sliders that pass them, and all other contacts follow their impact laws.
+    /// All deformations take part in the impulses that hold sliders at a stop.
     fn apply_impulses(
         &mut self,
         hits: &[ImpactContact],
@@ -268,11 +274,11 @@ impl System {
         Ok(())
     }
 
-    /// Returns the energy stored in stops to the sliders that leave them. The speeds of the sliders are proportional to the square roots of their
-    /// stored energies.
+    /// Returns the energy stored in stops to the sliders that leave them.
+    /// The speeds of the sliders are proportional to the square roots of their stored energies.
     ///
-    /// While the set of active contacts is the same, the impulses are proportional to the common factor of these speeds, and the returned energy to
-    /// its square.
+    /// While the set of active contacts is the same, the impulses are proportional to the common factor of these speeds,
+    /// and the returned energy to its square.
     fn return_stop_energy(&mut self) -> Result<(), LinearError> {
         let hits = self.impulse_directions(|model, limit| {
             let slider = &model.sliders[limit.slider];
@@ -317,8 +323,9 @@ impl System {
         Ok(())
     }
 
-    /// Returns the directions of all contact impulses with their laws [-]. For a slider that is held or has an impact law at a limit, they are the
-    /// directions along and across the master. For any other slider on a master without a kink, it is the direction across the master.
+    /// Returns the directions of all contact impulses with their laws [-].
+    /// For a slider that is held or has an impact law at a limit, they are the directions along and across the master.
+    /// For any other slider on a master without a kink, it is the direction across the master.
     fn impulse_directions(
         &self,
         law: impl Fn(&Self, MasterLimit) -> Option<ImpactLaw>,

@@ -9,8 +9,8 @@ impl System {
         self.supports().prescribed().states()
     }
 
-    /// Finds the first drive whose position under a fraction of the load differs from its function just after a time. Returns its name and both
-    /// positions [length, rad].
+    /// Finds the first drive whose position under a fraction of the load differs from its function just after a time.
+    /// Returns its name and both positions [length, rad].
     pub(crate) fn drive_elsewhere(&self, load_factor: f64, time: f64) -> Option<(&str, [f64; 2])> {
         self.supports().prescribed().first_displaced_drive(load_factor, time)
     }

@@ -1,8 +1,9 @@
 //! Forces transmitted by joints.
 //!
-//! A joint connects two sets of nodes at one place. Joints within one side exert forces that cancel in the sum over its nodes. Hence the force of
-//! the joint on one side is the sum of the forces of joints and supports on all nodes of this side. If one side is the ground, its force is the
-//! opposite of the force on the other side. Scenes reject redundant joints, so no other joint connects both sides.
+//! A joint connects two sets of nodes at one place. Joints within one side exert forces that cancel in the sum over its nodes.
+//! Hence the force of the joint on one side is the sum of the forces of joints and supports on all nodes of this side.
+//! If one side is the ground, its force is the opposite of the force on the other side.
+//! Scenes reject redundant joints, so no other joint connects both sides.
 
 use crate::geometry::Vec2;
 use crate::joints::{Component, Joint, JointKind, Partner, Releasable};

@@ -45,8 +45,8 @@ impl System {
 
     /// Section forces in the present configuration. They follow from the strains by the material law: see [`SectionPlace`].
     ///
-    /// A step of the energy–momentum method balances loads and inertia with the mean of the section forces at its start and end. In a stiff beam
-    /// the section forces may oscillate from step to step; this mean does not.
+    /// A step of the energy–momentum method balances loads and inertia with the mean of the section forces at its start and end.
+    /// In a stiff beam the section forces may oscillate from step to step; this mean does not.
     ///
     /// Forces of material damping are included. They follow from the present rates.
     pub fn section_forces(&self, at: &CrossSection) -> SectionForces {
@@ -68,8 +68,8 @@ impl System {
         viscous.fold(of_strains, SectionForces::with_viscous)
     }
 
-    /// Section forces along a beam from start to end, at the knots and at three places between consecutive knots. A joint inside the beam has two
-    /// rows with the same arc length, one for each part.
+    /// Section forces along a beam from start to end, at the knots and at three places between consecutive knots.
+    /// A joint inside the beam has two rows with the same arc length, one for each part.
     ///
     /// # Errors
     /// Fails if an axis has a point without a tangent.

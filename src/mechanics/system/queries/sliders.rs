@@ -49,14 +49,13 @@ impl System {
         self.slider(slider).contact_force()
     }
 
-    /// Present force at the kink under a slider, if the kink follows the contact force; otherwise the [`contact_force`](Self::contact_force)
-    /// [force].
+    /// Present force at the kink under a slider, if the kink follows the contact force; otherwise the [`contact_force`](Self::contact_force) [force].
     pub fn kink_force(&self, slider: usize) -> Vec2 {
         self.slider(slider).force_of_state()
     }
 
-    /// Friction force of a slider on its master as the mean over the last step, positive towards the end of the master [force]; `None` without
-    /// friction.
+    /// Friction force of a slider on its master as the mean over the last step,
+    /// positive towards the end of the master [force]; `None` without friction.
     pub fn friction_force(&self, slider: usize) -> Option<f64> {
         self.slider(slider).friction_force()
     }
@@ -71,8 +70,8 @@ impl System {
         self.slider(slider).arc_length()
     }
 
-    /// Speed of a slider along its master or track as drawn, positive towards the end [length/time]. It is computed from the present velocities,
-    /// and zero for a slider that is held or released.
+    /// Speed of a slider along its master or track as drawn, positive towards the end [length/time].
+    /// It is computed from the present velocities, and zero for a slider that is held or released.
     pub fn slider_speed(&self, slider: usize) -> f64 {
         self.slider(slider).speed(self.bodies(), self.rates())
     }

@@ -12,8 +12,8 @@ const ROUNDING: f64 = 1e-14;
 pub struct SpringState {
     /// Length [length], or angle of a torsion spring [rad].
     pub elongation: f64,
-    /// Force (positive in tension) or moment [force, force·length], averaged over the last step. For methods with forces at the ends of steps, it
-    /// is the value at the end of the step.
+    /// Force (positive in tension) or moment [force, force·length], averaged over the last step.
+    /// For methods with forces at the ends of steps, it is the value at the end of the step.
     pub force: f64,
     /// Stored energy [energy].
     pub stored: f64,
@@ -81,8 +81,8 @@ impl System {
         all.filter(|(_, energy)| *energy > 0.0).max_by(|a, b| a.1.total_cmp(&b.1))
     }
 
-    /// Dissipated energies of other elements since the start, in the order of the scene: material damping, drag, impacts of sliders with restitution
-    /// below 1, and friction [energy].
+    /// Dissipated energies of other elements since the start, in the order of the scene:
+    /// material damping, drag, impacts of sliders with restitution below 1, and friction [energy].
     pub(crate) fn dissipations(&self) -> impl Iterator<Item = f64> {
         let others = self.elements().resistances().filter(|other| other.stretched().is_none());
         let losing = self.sliders().iter().filter(|slider| slider.dissipates());

@@ -124,8 +124,8 @@ impl RigidBodyDefinition {
         points.filter(|(_, (_, place))| *place != Vec2::zeros()).map(|(at, _)| at + 1)
     }
 
-    /// Reason for rejecting the outline; `None` if it is accepted. A polygon needs at least three corners. The body also needs a point off the
-    /// centre of mass, to show its rotation.
+    /// Reason for rejecting the outline; `None` if it is accepted. A polygon needs at least three corners.
+    /// The body also needs a point off the centre of mass, to show its rotation.
     pub(crate) fn outline_refused(&self) -> Option<&'static str> {
         match self.outline.len() {
             0 => None,

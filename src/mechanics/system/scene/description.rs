@@ -176,8 +176,8 @@ impl Scene {
     /// Adds a sliding joint and returns its index.
     ///
     /// # Errors
-    /// Fails if the name is taken. Fails if the slave is a station of the master, does not lie on it, or already slides on it. Fails if the sliding
-    /// rule does not allow the track or the friction, or if a coefficient of restitution or friction is outside its range.
+    /// Fails if the name is taken. Fails if the slave is a station of the master, does not lie on it, or already slides on it.
+    /// Fails if the sliding rule does not allow the track or the friction, or if a coefficient of restitution or friction is outside its range.
     pub fn add_slider(&mut self, slider: Slider) -> Result<usize, SystemError> {
         self.check_name("slider", &slider.name)?;
         self.check_slider(&slider)?;

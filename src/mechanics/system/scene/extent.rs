@@ -19,8 +19,8 @@ struct Group {
 }
 
 impl Group {
-    /// The larger of two lengths: twice the largest distance of a point from the mean of all points, and the longest natural length. Distances
-    /// within rounding count as zero [length].
+    /// The larger of two lengths: twice the largest distance of a point from the mean of all points, and the longest natural length.
+    /// Distances within rounding count as zero [length].
     fn extent(&self) -> f64 {
         let count = self.points.len().max(1) as f64;
         let centre = self.points.iter().sum::<Vec2>() / count;
@@ -33,8 +33,8 @@ impl Group {
 }
 
 impl Scene {
-    /// Largest extent of a group of connected particles and rigid bodies as drawn [length]. It does not depend on the location of the scene, and is
-    /// zero for isolated particles without size.
+    /// Largest extent of a group of connected particles and rigid bodies as drawn [length].
+    /// It does not depend on the location of the scene, and is zero for isolated particles without size.
     pub fn extent(&self) -> f64 {
         let mut groups = self.groups();
         for (index, particle) in self.particles.iter().enumerate() {
@@ -61,8 +61,9 @@ impl Scene {
         self.longest_beam().or_else(extent)
     }
 
-    /// Rounding error of strain energies [energy]. For beams of length `L` with the stiffnesses `EA` and `EI` it is `ε Σ (EA L + EI/L)`, with the
-    /// machine precision `ε`. Without beams, it is the work that the initial forces do on the rounding errors of positions.
+    /// Rounding error of strain energies [energy].
+    /// For beams of length `L` with the stiffnesses `EA` and `EI` it is `ε Σ (EA L + EI/L)`, with the machine precision `ε`.
+    /// Without beams, it is the work that the initial forces do on the rounding errors of positions.
     pub(crate) fn rounding_energy(&self) -> f64 {
         if self.beams.is_empty() {
             return f64::EPSILON * self.rounded_work();

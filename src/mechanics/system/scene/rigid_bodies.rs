@@ -21,8 +21,8 @@ impl Scene {
     /// Either the mass or the inertia may be zero. Movements without inertia must then be restrained by another element.
     ///
     /// # Errors
-    /// Fails if the name is taken, two points share a name, a number is not finite or is negative, or mass and inertia are both zero. It also fails
-    /// if the outline is not a polygon, or the body has no point that shows its rotation.
+    /// Fails if the name is taken, two points share a name, a number is not finite or is negative, or mass and inertia are both zero.
+    /// It also fails if the outline is not a polygon, or the body has no point that shows its rotation.
     pub fn add_rigid_body(
         &mut self,
         body: RigidBodyDefinition,

@@ -8,8 +8,8 @@ use crate::joints::{Slider, SlidingRule};
 use crate::system::SystemError;
 use crate::system::errors::{Approach, SliderError, SliderParts, written};
 
-/// Largest initial distance of a slave from its master, as a fraction of the length of the master plus the distance from the origin. It admits
-/// coordinates with six digits. The slave is then moved exactly onto its master.
+/// Largest initial distance of a slave from its master, as a fraction of the length of the master plus the distance from the origin.
+/// It admits coordinates with six digits. The slave is then moved exactly onto its master.
 const CLOSED: f64 = 1e-6;
 
 /// Reason why a sliding rule cannot be used on tracks; `None` if it can.

@@ -13,8 +13,8 @@ const CLOSED: f64 = 1e-12;
 /// Angle below which two inclined rollers count as parallel [rad].
 const PARALLEL: f64 = 1e-9;
 
-/// Disjoint sets, implemented by union–find with path halving (R. E. Tarjan, Efficiency of a good but not linear set union algorithm, J. ACM 22
-/// (1975) 215–225).
+/// Disjoint sets, implemented by union–find with path halving (R. E. Tarjan, Efficiency of a good but not linear set union algorithm,
+/// J. ACM 22 (1975) 215–225).
 pub struct Ties {
     parent: Vec<usize>,
 }
@@ -179,8 +179,8 @@ impl Scene {
         })
     }
 
-    /// Stations that joints connect to a station in one component, including the station itself. The second value is true if the ground fixes this
-    /// component. The search ends when it reaches the ground.
+    /// Stations that joints connect to a station in one component, including the station itself.
+    /// The second value is true if the ground fixes this component. The search ends when it reaches the ground.
     fn held_with(&self, station: &Station, component: Component) -> (Vec<Station>, bool) {
         let mut places = vec![*station];
         let mut next = 0;

@@ -9,8 +9,8 @@ use crate::system::SystemError;
 use crate::system::errors::{TrackError, written};
 
 impl Scene {
-    /// Adds a track along consecutive beams and returns its index. The direction of the track on each beam follows from the ends that touch. If the
-    /// first beam could have either direction, the track leads from its start to its end.
+    /// Adds a track along consecutive beams and returns its index. The direction of the track on each beam follows from the ends that touch.
+    /// If the first beam could have either direction, the track leads from its start to its end.
     ///
     /// # Errors
     /// Fails if the name is taken, or if a beam does not start where the previous one ends or is not joined to it.

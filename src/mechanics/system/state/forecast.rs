@@ -16,8 +16,8 @@ pub enum Prediction {
     FromMeanRates,
 }
 
-/// Squared error of the prediction from mean rates, as a fraction of the squared error of the prediction from start rates, below which mean rates
-/// are selected.
+/// Squared error of the prediction from mean rates, as a fraction of the squared error of the prediction from start rates,
+/// below which mean rates are selected.
 const SELECTION_RATIO: f64 = 0.8;
 
 /// Mean rates of the last step, and the selected basis of the prediction.
@@ -41,8 +41,8 @@ impl IncrementPrediction {
         }
     }
 
-    /// Selects the better prediction. Both predictions are compared with the increments of a step, in the norm of the diagonal inertia. Returns
-    /// their errors.
+    /// Selects the better prediction. Both predictions are compared with the increments of a step, in the norm of the diagonal inertia.
+    /// Returns their errors.
     pub fn update(&mut self, at_start: &[f64], increments: &[f64], duration: f64) -> GuessErrors {
         let inverse = 1.0 / duration;
         let mut missed = GuessErrors::default();

@@ -27,10 +27,10 @@ const EQUALLY_LONG: f64 = 1e-3;
 
 /// Measures of how well the steps so far resolve the motion. They are part of the state, so that undone steps do not count.
 ///
-/// A vibration `v = a cos ωt` advances by a phase `φ` in each step of length `h` of the energy–momentum method, with `tan(φ/2) = ω h/2`. Averaged
-/// over the phases, `Σ m v̄² = ½ m a² cos²(φ/2)`, `S = Σ m (v̄ - v0)² = ½ m a² sin²(φ/2)` and `M = Σ m (v̄ - v̄₋)² = ½ m a² sin²φ`. Hence `S - M/4
-/// = ½ m a² sin⁴(φ/2)`. This is the energy of unresolved motion, because resolved motion contributes a negligible amount. For motions with several
-/// frequencies, the sums add up (theory.md, section 13).
+/// A vibration `v = a cos ωt` advances by a phase `φ` in each step of length `h` of the energy–momentum method, with `tan(φ/2) = ω h/2`.
+/// Averaged over the phases, `Σ m v̄² = ½ m a² cos²(φ/2)`, `S = Σ m (v̄ - v0)² = ½ m a² sin²(φ/2)` and `M = Σ m (v̄ - v̄₋)² = ½ m a² sin²φ`.
+/// Hence `S - M/4 = ½ m a² sin⁴(φ/2)`. This is the energy of unresolved motion, because resolved motion contributes a negligible amount.
+/// For motions with several frequencies, the sums add up (theory.md, section 13).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Resolution {
     /// Measure of the kinetic energy: sum of `m v̄² + S` over all steps that are as long as the step before them [energy].
@@ -102,8 +102,8 @@ impl Resolution {
         self.kinetic
     }
 
-    /// Angular frequency `ω`, as a mean over all vibrations weighted by accelerations [rad/time]. It is exact for a single vibration, infinite if
-    /// the period is lost in rounding, and zero without vibration.
+    /// Angular frequency `ω`, as a mean over all vibrations weighted by accelerations [rad/time].
+    /// It is exact for a single vibration, infinite if the period is lost in rounding, and zero without vibration.
     pub fn angular_frequency(&self) -> f64 {
         if self.unresolved <= 0.0 { 0.0 } else { (self.unresolved / self.bent).sqrt() }
     }

@@ -1,5 +1,5 @@
-//! Search for branches that depend on a parameter of a scene. The search covers the syntax tree of a function, the functions that it calls, and
-//! captured functions.
+//! Search for branches that depend on a parameter of a scene.
+//! The search covers the syntax tree of a function, the functions that it calls, and captured functions.
 
 use std::cell::Cell;
 use std::collections::{BTreeMap, BTreeSet};
@@ -117,8 +117,8 @@ impl VariableFacts {
         }
     }
 
-    /// First variable in an expression that contains a schedule whose jumps depend on a parameter, or from which the expression creates such a
-    /// schedule.
+    /// First variable in an expression that contains a schedule whose jumps depend on a parameter,
+    /// or from which the expression creates such a schedule.
     fn jumping_in(&self, expression: &Expr) -> Option<String> {
         first_in(expression, |node| match node {
             Expr::Variable(variable, ..) => self.jumping.get(variable.1.as_str()).cloned(),

@@ -135,8 +135,8 @@ fn expect_plain_whole_numbers(
     }
 }
 
-/// Error for an argument that must not depend on parameters. If the argument is a map of options, the error refers to the option that depends on
-/// them.
+/// Error for an argument that must not depend on parameters.
+/// If the argument is a map of options, the error refers to the option that depends on them.
 fn refusal(
     row: &FunctionBinding,
     parameter: Option<&Parameter>,

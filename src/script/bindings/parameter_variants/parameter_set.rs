@@ -11,12 +11,12 @@ use super::variant_value::VariantValue;
 use crate::output::significant;
 use crate::script::messages::error::{CallPart, ScriptError};
 
-/// Default perturbation, as a fraction of the parameter. The relative error of the difference quotient is about the square of this number, plus the
-/// rounding error divided by it.
+/// Default perturbation, as a fraction of the parameter.
+/// The relative error of the difference quotient is about the square of this number, plus the rounding error divided by it.
 pub const RELATIVE_DISTANCE: f64 = 1e-5;
 
-/// Parameters of a scene. Variant 0 has their values. Variants 1 and 2 perturb the first parameter positively and negatively, variants 3 and 4 the
-/// second one, and so on.
+/// Parameters of a scene. Variant 0 has their values.
+/// Variants 1 and 2 perturb the first parameter positively and negatively, variants 3 and 4 the second one, and so on.
 #[derive(Default)]
 pub struct ParameterSet {
     parameters: RefCell<Vec<DeclaredParameter>>,

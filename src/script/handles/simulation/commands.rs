@@ -1,5 +1,5 @@
-//! Outputs of the controllers of a simulation. The cells of the scene that contain them may be shared with other simulations. Hence each simulation
-//! restores its own values before it is used.
+//! Outputs of the controllers of a simulation. The cells of the scene that contain them may be shared with other simulations.
+//! Hence each simulation restores its own values before it is used.
 
 use std::cell::RefCell;
 

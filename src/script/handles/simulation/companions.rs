@@ -176,8 +176,8 @@ impl CapturedVariables {
         Ok(Self(values))
     }
 
-    /// Restores the variables. Fails if a function has changed a variable, because a companion run would need its value from the start of the
-    /// simulation.
+    /// Restores the variables.
+    /// Fails if a function has changed a variable, because a companion run would need its value from the start of the simulation.
     fn expect_unchanged(self) -> Result<(), ScriptError> {
         let mut changed = None;
         for CapturedVariable { role, mut shared, value } in self.0 {

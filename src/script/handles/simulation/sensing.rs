@@ -236,8 +236,7 @@ impl SimulationHandle {
         !controllers.is_empty() || conditions.iter().any(waits)
     }
 
-    /// Runs to a time. If functions fill columns, the run pauses at recorded steps. If functions control the simulation, it pauses before every
-    /// step.
+    /// Runs to a time. If functions fill columns, the run pauses at recorded steps. If functions control the simulation, it pauses before every step.
     pub(super) fn run_with_callbacks(
         &self,
         context: &Context,

@@ -12,15 +12,15 @@ pub type Look<'l> = &'l mut dyn FnMut(usize, &Simulation) -> Result<(), ScriptEr
 pub enum Visited {
     /// All states were restored or computed again.
     All,
-    /// The repeated run differs from the original run; the value is the first time at which it differs. Either a script function changed the
-    /// simulation during the original run, or that run did not start from the initial state of the scene.
+    /// The repeated run differs from the original run; the value is the first time at which it differs.
+    /// Either a script function changed the simulation during the original run, or that run did not start from the initial state of the scene.
     Diverged(f64),
 }
 
 impl SimulationHandle {
-    /// Calls `look` with the states at the given times of the history. Stored states are visited from the last to the first. If a state is not
-    /// stored, the run is repeated in a copy, which takes time and counts steps, and states are visited in the order of time. The energies and
-    /// momenta of the repeated run are compared with the original bit by bit.
+    /// Calls `look` with the states at the given times of the history. Stored states are visited from the last to the first.
+    /// If a state is not stored, the run is repeated in a copy, which takes time and counts steps, and states are visited in the order of time.
+    /// The energies and momenta of the repeated run are compared with the original bit by bit.
     ///
     /// # Errors
     /// Fails if a step fails that did not fail in the original run, if the run is stopped, or if `look` fails.

@@ -29,8 +29,8 @@ pub enum HelpSubject {
 
 /// All subjects that `name` may refer to, the most likely one first.
 ///
-/// `simulation.run_to` refers to the method of the type `simulation`. If the text before the dot is not a type, as in `sim.run_to`, the methods of
-/// all types are returned.
+/// `simulation.run_to` refers to the method of the type `simulation`.
+/// If the text before the dot is not a type, as in `sim.run_to`, the methods of all types are returned.
 pub fn find(catalog: &Catalog, name: &str) -> Vec<HelpSubject> {
     let name = name.trim();
     let name = name.strip_suffix("()").filter(|name| !name.is_empty()).unwrap_or(name);

@@ -67,8 +67,8 @@ pub fn plot_motion(call: &mut Call) -> Result<Dynamic, ScriptError> {
     }
 }
 
-/// Picture as text for a terminal, with options that were typed at the prompt. It shows only the present configuration unless other times are
-/// requested.
+/// Picture as text for a terminal, with options that were typed at the prompt.
+/// It shows only the present configuration unless other times are requested.
 ///
 /// # Errors
 /// Fails if an option is unknown or invalid, or the interval is empty.

@@ -33,8 +33,8 @@ impl Write for CountedFile<'_> {
 }
 
 impl Context {
-    /// Writes a file in the output folder. If a file with this name exists and was not written by this program, it is kept under another name, and
-    /// the user gets a message.
+    /// Writes a file in the output folder.
+    /// If a file with this name exists and was not written by this program, it is kept under another name, and the user gets a message.
     ///
     /// # Errors
     /// Fails if the file cannot be written, or a limit of the run is exceeded.
@@ -60,8 +60,8 @@ impl Context {
         Ok(self.report_kept(written?))
     }
 
-    /// Writes a file that the script may [read](Self::read_file) later, also in a dry run. An existing file is kept as described for
-    /// [`Self::write_file`].
+    /// Writes a file that the script may [read](Self::read_file) later, also in a dry run.
+    /// An existing file is kept as described for [`Self::write_file`].
     ///
     /// # Errors
     /// Fails if the file cannot be written, or a limit of the run is exceeded.

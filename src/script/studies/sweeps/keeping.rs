@@ -13,8 +13,8 @@ use crate::script::state::parts::{StudyPart, find_parts};
 use crate::script::studies::calls::function::RunFunction;
 
 impl SweepRequest<'_> {
-    /// Opens the journal of the sweep, if the run uses journals, and reads its entries. If parts are merged, all their rows are read and no journal
-    /// is opened.
+    /// Opens the journal of the sweep, if the run uses journals, and reads its entries.
+    /// If parts are merged, all their rows are read and no journal is opened.
     ///
     /// # Errors
     /// Fails if a file cannot be read or written, or if the parts are not the whole sweep.

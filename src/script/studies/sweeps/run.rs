@@ -36,8 +36,8 @@ impl SweepRequest<'_> {
     /// Runs all rows.
     ///
     /// # Errors
-    /// Fails if the function cannot be sent to workers, is wrong, or fails in all rows. Also fails if the run is stopped; finished rows are then in
-    /// the journal.
+    /// Fails if the function cannot be sent to workers, is wrong, or fails in all rows.
+    /// Also fails if the run is stopped; finished rows are then in the journal.
     pub fn run(self, call: &Call) -> Result<FinishedSweep, ScriptError> {
         let context = call.context();
         let function = RunFunction::read(call, "run", self.function)?;
@@ -153,8 +153,8 @@ impl SweepRequest<'_> {
         RunFunction::read(call, "run", self.function)?.call_here(call, "run", values)
     }
 
-    /// Error of a row for which the function seems to be wrong. The function is called again in the script's engine, to find the position of the
-    /// error.
+    /// Error of a row for which the function seems to be wrong.
+    /// The function is called again in the script's engine, to find the position of the error.
     fn located_error(
         &self,
         call: &Call,
@@ -192,8 +192,9 @@ impl SweepRequest<'_> {
     }
 }
 
-/// Sends the unknown rows to the workers, a limited number in advance, and receives results until all are known or the run is stopped. The first
-/// completed row defines the names of the results. Until then, results are processed in the order of the rows, so that the outcome is deterministic.
+/// Sends the unknown rows to the workers, a limited number in advance, and receives results until all are known or the run is stopped.
+/// The first completed row defines the names of the results.
+/// Until then, results are processed in the order of the rows, so that the outcome is deterministic.
 fn drive(
     crew: &WorkerPool<usize, CallWork<RowOutcome>>,
     context: &Context,

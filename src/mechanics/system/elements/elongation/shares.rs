@@ -38,8 +38,8 @@ impl Elongation {
         combine(&self.shares, values, &mut self.movements);
     }
 
-    /// Returns the first-order change of the elongation due to a correction of the increments [length, rad]. `slope` contains the derivatives of
-    /// the elongation.
+    /// Returns the first-order change of the elongation due to a correction of the increments [length, rad].
+    /// `slope` contains the derivatives of the elongation.
     pub fn along(&mut self, slope: &[f64], correction: &[f64]) -> f64 {
         let Self { shares, corrected, .. } = self;
         combine(shares, correction, corrected);

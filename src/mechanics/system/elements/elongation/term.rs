@@ -4,16 +4,16 @@ use crate::beams::RotationIncrement;
 use crate::elementary::atan;
 use crate::geometry::Vec2;
 
-/// Difference of two rotation increments below which the mean derivative between them replaces the difference quotient. The error is of second
-/// order [rad].
+/// Difference of two rotation increments below which the mean derivative between them replaces the difference quotient.
+/// The error is of second order [rad].
 const SAME_TURN: f64 = 1e-5;
 
 pub(super) struct ElongationTerm {
     pub(super) change: f64,
     pub(super) secant: Vec2,
     pub(super) slope: Vec2,
-    /// Factor `inverse` in the derivative of the secant `e`: `∂e/∂d₁ = (I - e⊗s) · inverse`, where `d₁` is the connecting vector at the end and `s`
-    /// its direction [1/length].
+    /// Factor `inverse` in the derivative of the secant `e`: `∂e/∂d₁ = (I - e⊗s) · inverse`,
+    /// where `d₁` is the connecting vector at the end and `s` its direction [1/length].
     inverse: f64,
 }
 
@@ -26,8 +26,8 @@ impl ElongationTerm {
         let both = before + after;
         let mean = direction(start + end, both);
         let slope = direction(end, after);
-        // In methods with forces at the end of a step, rotation increments are increments of the angle, and the direction of the force is that at
-        // the end.
+        // In methods with forces at the end of a step, rotation increments are increments of the angle,
+        // and the direction of the force is that at the end.
         let (secant, inverse) = match rotations {
             RotationIncrement::TangentScaled => (mean, both),
             RotationIncrement::Angle => (slope, after),
@@ -42,8 +42,8 @@ impl ElongationTerm {
     }
 }
 
-/// Relative rotation of two sections. It contains the ratio `r = (Δθ_b - Δθ_a)/(Δω_b - Δω_a)`, and the derivatives of `r` with respect to `Δω_a`
-/// and `Δω_b`.
+/// Relative rotation of two sections.
+/// It contains the ratio `r = (Δθ_b - Δθ_a)/(Δω_b - Δω_a)`, and the derivatives of `r` with respect to `Δω_a` and `Δω_b`.
 pub(super) struct RelativeTurn {
     pub(super) ratio: f64,
     pub(super) derivatives: [f64; 2],

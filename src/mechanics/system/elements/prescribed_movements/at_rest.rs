@@ -25,8 +25,8 @@ impl PrescribedMovements {
         Ok(())
     }
 
-    /// Finds the first drive whose position under a fraction of the load differs from its function just after a time. Returns its name and both
-    /// positions.
+    /// Finds the first drive whose position under a fraction of the load differs from its function just after a time.
+    /// Returns its name and both positions.
     pub fn first_displaced_drive(&self, load_factor: f64, time: f64) -> Option<(&str, [f64; 2])> {
         self.movements.iter().zip(&self.present).find_map(|(movement, present)| {
             let PrescribedMotion::Position(schedule) = &movement.motion else { return None };

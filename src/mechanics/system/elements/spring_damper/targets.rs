@@ -14,8 +14,8 @@ impl SpringDamper {
         self.law.as_ref().map_or(0.0, |law| law.force(self.elongation.grown()))
     }
 
-    /// Returns true if the force is zero in a segment of the law. The result does not change when the spring is released, so the size of the saved
-    /// state is constant.
+    /// Returns true if the force is zero in a segment of the law.
+    /// The result does not change when the spring is released, so the size of the saved state is constant.
     pub(super) fn may_be_slack(&self) -> bool {
         let law = self.released.as_ref().map_or(&self.law, |(law, _)| law);
         law.as_ref().is_some_and(SpringLaw::may_be_slack)
@@ -41,8 +41,8 @@ impl SpringDamper {
             }
             Stage::DampedMidpoint(chi) => {
                 let mean = law.mean(q, change);
-                // Numerical damping needs a positive slope; with a negative slope it would add energy. It is not applied to single components of a
-                // vector, because that would rotate the direction of the damping force.
+                // Numerical damping needs a positive slope; with a negative slope it would add energy.
+                // It is not applied to single components of a vector, because that would rotate the direction of the damping force.
                 let late = match law {
                     _ if self.elongation.is_component() => 0.0,
                     SpringLaw::Linear { stiffness, .. } => 0.5 * chi * stiffness.max(0.0),
@@ -53,17 +53,18 @@ impl SpringDamper {
         }
     }
 
-    /// Target force of the spring for a linearisation. After several iterations, the point of linearisation is the intersection of the law with a
-    /// straight line that represents the impedance of the rest of the system. Otherwise Newton's method would alternate between segments at a
-    /// corner of a stiff law. The intersection is unique if the law is increasing.
+    /// Target force of the spring for a linearisation.
+    /// After several iterations, the point of linearisation is the intersection of the law with a straight line that represents the impedance
+    /// of the rest of the system.
+    /// Otherwise Newton's method would alternate between segments at a corner of a stiff law. The intersection is unique if the law is increasing.
     pub(super) fn spring_target(&mut self, stage: Stage) -> ForceTarget {
         let (asked, change) = (self.restoring(stage), self.elongation.change);
         let impedance = self.spring.impedance(change);
         let Some(impedance) = impedance.filter(|_| self.rises) else { return asked };
         let force = self.spring.force;
         let above = |at: f64, of: ForceTarget| of.force - force + impedance * (at - change);
-        // A law of zero slope would intersect the straight line at the elongation change `reach`. An increasing law intersects it between `change`
-        // and `reach`.
+        // A law of zero slope would intersect the straight line at the elongation change `reach`.
+        // An increasing law intersects it between `change` and `reach`.
         let reach = change - above(change, asked) / impedance;
         let (mut low, mut high) = (change.min(reach), change.max(reach));
         let (mut at, mut met) = (change, asked);
@@ -114,11 +115,11 @@ impl SpringDamper {
         }
     }
 
-    /// Factor for extrapolating the rate beyond the middle of the step. It multiplies the difference between the rates of this step and the last
-    /// one. `None` if the force does not depend on rates.
+    /// Factor for extrapolating the rate beyond the middle of the step. It multiplies the difference between the rates of this step and the last one.
+    /// `None` if the force does not depend on rates.
     ///
-    /// A method with forces at both ends of the step balances forces at the fraction `at.weight` of the step. The rate at that time is extrapolated
-    /// from the rates at the middle of this step and of the last one.
+    /// A method with forces at both ends of the step balances forces at the fraction `at.weight` of the step.
+    /// The rate at that time is extrapolated from the rates at the middle of this step and of the last one.
     fn lateness(&self, at: TrialState<'_>) -> Option<f64> {
         match at.stage {
             Stage::Start => None,
