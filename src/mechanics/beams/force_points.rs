@@ -9,8 +9,8 @@
 //! ```
 //!
 //! `R_a` and `S_a` are the force and moment on control point `a`, with the quadrature weight `w`.
-//! The gradient `g = x'` and the rotation are stored at the point and updated by increments,
-//! so that rounding errors of strains do not depend on the distance from the origin.
+//! Each point stores its gradient `g = x'` and its rotation, and updates them by increments.
+//! The rounding errors of strains therefore do not depend on the distance from the origin.
 
 use pulp::Simd;
 
@@ -38,17 +38,17 @@ pub(super) struct ForcePoints<const N: usize> {
     /// Section force `N` of the present iterate.
     force: Pair<Lanes>,
     /// Section force of the last step, with which the iteration of the next step starts.
-    /// In fast vibration it is closer to the solution than the section force computed from the strain at the start of the step,
-    /// whose sign may alternate from step to step.
+    /// In fast vibration this force is closer to the solution than the section force computed from the strain at the start of the step,
+    /// which may alternate in sign from step to step.
     last_force: Pair<Lanes>,
-    /// Mismatch `m = Γσ - C⁻¹ N` at the last evaluation: the strain of the configuration minus the strain of the section force.
+    /// Strain mismatch `m = Γσ - C⁻¹ N` at the last evaluation: the strain of the configuration minus the strain that belongs to the section force.
     mismatch: Pair<Lanes>,
     linearised_at: StrainKinematics<Lanes>,
     /// Fraction `σ` of the step at the last linearisation.
     linearised_stress: f64,
 }
 
-/// Configuration of an iterate, with the values that corrections of the section force need.
+/// Configuration of an iterate, with the values needed to correct the section force.
 #[derive(Debug, Clone, Copy)]
 struct StrainKinematics<T> {
     end_rotation: Rotation<T>,
@@ -59,7 +59,7 @@ struct StrainKinematics<T> {
     inverse_q: T,
 }
 
-/// Section force `w n` and moment `w gτ × n`, multiplied by the quadrature weight `w`. They are distributed to the control points.
+/// Section force `w n` and moment `w gτ × n` with the quadrature weight `w`, which are distributed to the control points.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Resultant {
     force: Pair<Lanes>,
@@ -67,8 +67,8 @@ pub(super) struct Resultant {
 }
 
 /// Derivatives of the forces on control points.
-/// `rows[i]` contains the derivatives of force component `i` with respect to the gradient and the rotation;
-/// they are multiplied by the quadrature weight and the basis functions.
+/// `rows[i]` contains the derivatives of force component `i` with respect to the gradient and the rotation,
+/// multiplied by the quadrature weight and the basis functions.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct ForceTangent<const N: usize> {
     rows: [[Lanes; 3]; 3],
@@ -289,7 +289,7 @@ impl<const N: usize> ForcePoints<N> {
         tangent: &ForceTangent<N>,
         block: &mut SpanTangent<V, N>,
     ) {
-        // All rows of one component are multiples of the same row.
+        // All rows of a component are multiples of the same row.
         let mut rows: [BlockRow<N>; 3] = [[[0.0; 3]; N]; 3];
         for (row, [by_x, by_y, by_rotation]) in rows.iter_mut().zip(&tangent.rows) {
             let functions = self.axis.slope.iter().zip(&self.axis.shape);
@@ -311,7 +311,7 @@ impl<const N: usize> ForcePoints<N> {
         }
     }
 
-    /// Computes the forces `C m` that would remove the strain mismatch `m`. Their directions are those of the last linearisation.
+    /// Computes the forces `C m` that would remove the strain mismatch `m`. The directions of the forces are those of the last linearisation.
     #[inline(always)]
     pub(super) fn take_mismatch_forces<V: Simd>(
         &self,

@@ -4,9 +4,9 @@
 //! κ1 = κ0 + Δω'/q     1/q = dΔθ/dΔω     M = EI ((1-σ) κ0 + σ κ1)     S_a = w N_a' M/q
 //! ```
 //!
-//! The moment is linear in the curvature, so Newton's method would converge without this unknown.
-//! But a moment computed from the increments has their rounding error times `EI`.
-//! In a stiff beam this error is larger than the forces in the balance.
+//! The moment is linear in the curvature, so Newton's method would converge without the moment as an unknown.
+//! But a moment computed from the increments would have the rounding error of the increments, multiplied by `EI`.
+//! In a stiff beam this rounding error is larger than the forces in the balance.
 
 use pulp::Simd;
 
@@ -27,7 +27,7 @@ pub(super) struct MomentPoints<const N: usize> {
     moment: Lanes,
     /// Moment of the last step, with which the iteration of the next step starts.
     last_moment: Lanes,
-    /// Mismatch `m = κσ - M/EI` at the last evaluation.
+    /// Curvature mismatch `m = κσ - M/EI` at the last evaluation.
     mismatch: Lanes,
     linearised_at: CurvatureKinematics<Lanes>,
     /// Fraction `σ` of the step at the last linearisation.
@@ -38,7 +38,7 @@ pub(super) struct MomentPoints<const N: usize> {
 struct CurvatureKinematics<T> {
     /// Derivative `Δω'` of the rotation increment with respect to arc length.
     slope: T,
-    /// Derivative `1/q = dΔθ/dΔω` of the rotation angle, and its derivative with respect to `Δω`.
+    /// Derivative `1/q = dΔθ/dΔω` of the rotation angle, followed by its derivative with respect to `Δω`.
     inverse_q: T,
     inverse_q_slope: T,
 }
@@ -187,7 +187,7 @@ impl<const N: usize> MomentPoints<N> {
         let w = part.splat(weight) * self.axis.weight.get(part);
         weighted_moment.put(part, w * stiffness * collocated_curvature * now.inverse_q);
 
-        // Derivative δ(M/q). The geometric term contains the moment of the present iterate.
+        // Derivative δ(M/q) of the moment on control points. The geometric term contains the moment of the present iterate.
         let moment = self.moment.get(part);
         let (curvature_by_slope, curvature_by_rotation) = now.curvature_by();
         let resistance = stiffness * part.splat(at.stress) * now.inverse_q;

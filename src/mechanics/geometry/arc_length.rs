@@ -3,10 +3,10 @@
 use super::GaussRule;
 use std::sync::LazyLock;
 
-/// Largest number of times that an interval is halved. It is reached only at cusps.
+/// Largest number of successive halvings of an interval. Only curves with cusps reach it.
 const DEPTH: usize = 48;
 
-/// Largest number of iterations. Newton's method needs about five, bisection alone about 60.
+/// Largest number of iterations. Newton's method needs about five, and bisection alone about 60.
 const STEPS: usize = 100;
 
 static RULE: LazyLock<GaussRule> = LazyLock::new(|| GaussRule::legendre(16));
@@ -39,7 +39,7 @@ fn refine(
 }
 
 /// Parameter `ξ` in `[start, end]` for which the integral of `speed` from `start` to `ξ` equals `length`.
-/// It is found by Newton's method combined with bisection.
+/// The parameter is computed by Newton's method combined with bisection.
 pub(super) fn invert(
     speed: &impl Fn(f64) -> f64,
     start: f64,

@@ -10,8 +10,8 @@ pub(super) struct CollocationRow<R> {
 }
 
 /// Solves a banded system by Gaussian elimination without row exchanges.
-/// This is stable for the totally positive matrices of B-spline collocation (de Boor & Pinkus 1977, Numer. Math. 27).
-/// It causes no additional nonzero entries, because the indices of the first and the last nonzero column do not decrease from row to row.
+/// The elimination is stable for the totally positive matrices of B-spline collocation (de Boor & Pinkus 1977, Numer. Math. 27).
+/// The elimination creates no additional nonzero entries, because the first and the last nonzero column do not move left from row to row.
 pub(super) fn solve<R>(mut rows: Vec<CollocationRow<R>>) -> Vec<R>
 where
     R: Copy + Default + AddAssign + SubAssign + Mul<f64, Output = R> + Div<f64, Output = R>,

@@ -7,7 +7,7 @@ use super::knots::{check_degree, check_inside, check_span_lengths, check_spans};
 use super::values::{BasisValues, FunctionRow};
 use super::{GeometryError, Span};
 
-/// Largest degree of Lagrange elements. For higher degrees equally spaced nodes are unsuitable.
+/// Largest degree of Lagrange elements. Equally spaced nodes are unsuitable for higher degrees.
 const LARGEST_DEGREE: usize = 3;
 
 /// Continuous piecewise Lagrange polynomials with `degree + 1` equally spaced nodes per element.
@@ -31,7 +31,7 @@ impl LagrangeBasis {
     /// Creates elements of `degree` 1 to 3 between consecutive `breaks` (dimensionless, increasing).
     ///
     /// # Errors
-    /// Fails for an unavailable degree; breaks that are fewer than two, not finite, not increasing, or closer than 1e-12 of the domain;
+    /// Fails for a degree out of range; fewer than two breaks; breaks that are not finite, not increasing or closer than 1e-12 of the domain;
     /// more than [`MAX_SPANS`](super::MAX_SPANS) elements.
     pub fn new(degree: usize, breaks: Vec<f64>) -> Result<Self, GeometryError> {
         check_degree(degree, LARGEST_DEGREE)?;
@@ -86,7 +86,7 @@ impl LagrangeBasis {
         (0..self.breaks.len() - 1).map(|element| self.span(element)).collect()
     }
 
-    /// Element that contains the parameter `xi` [-]. At a break it is the element on the right.
+    /// Element that contains the parameter `xi` [-]. At a break, the element on the right is returned.
     ///
     /// # Errors
     /// Fails if `xi` is outside the domain or NaN.
@@ -134,7 +134,7 @@ impl LagrangeBasis {
         }
     }
 
-    /// Polynomial `L_j = Π_{m≠j} (ξ - ξ_m) / (ξ_j - ξ_m)` and its derivatives. It is multiplied factor by factor.
+    /// Polynomial `L_j = Π_{m≠j} (ξ - ξ_m) / (ξ_j - ξ_m)` with its derivatives, computed by multiplying the linear factors.
     /// For a linear factor `f`, Leibniz' rule is `(f g)⁽ᵏ⁾ = f g⁽ᵏ⁾ + k f' g⁽ᵏ⁻¹⁾`.
     fn polynomial(&self, span: &Span, j: usize, xi: f64) -> FunctionRow {
         let mut derivatives = FunctionRow::default();

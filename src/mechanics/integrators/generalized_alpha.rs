@@ -7,8 +7,8 @@ use crate::elementary::square;
 use crate::newton::{NewtonReport, Tolerance};
 
 /// Generalized-α method: Newmark's formulas, with inertia and forces balanced at different times.
-/// High frequencies are damped by a factor of down to `ρ∞` per step, low frequencies very little. Neither energy nor momenta are conserved.
-/// Second order.
+/// High frequencies are damped by a factor of down to `ρ∞` per step, low frequencies very little. The method conserves neither energy nor momenta.
+/// The method is of second order.
 ///
 /// ```text
 /// M ((1-αm) a1 + αm a0) + (1-αf) F(end) + αf F(start) = 0
@@ -17,8 +17,8 @@ use crate::newton::{NewtonReport, Tolerance};
 /// ```
 ///
 /// Rotation increments are increments of the angle. Accelerations `a` are part of the state.
-/// They are unknown at the start, after an impact, and at a jump of a load.
-/// In these cases a step of the trapezoidal rule determines them as `(v1 - v0)/Δt`. With `ρ∞ = 1` all steps are steps of the trapezoidal rule.
+/// Accelerations are unknown at the start, after an impact, and at a jump of a load.
+/// If accelerations are unknown, a step of the trapezoidal rule determines them as `(v1 - v0)/Δt`. With `ρ∞ = 1`, all steps use the trapezoidal rule.
 ///
 /// Reference: J. Chung & G. M. Hulbert, J. Appl. Mech. 60 (1993) 371–375.
 #[derive(Debug, Clone)]
@@ -104,7 +104,7 @@ impl GeneralizedAlpha {
             inertia: (1.0 - inertia_before) / beta,
             stage: Stage::End,
             weight: 1.0 - forces_before,
-            // Prescribed accelerations are taken at the time of the forces.
+            // Prescribed accelerations are evaluated at the same time as the forces.
             prescribed: BalancedAt::Fraction(1.0 - forces_before),
         };
         let report = solver.solve(mechanism, interval, rule)?;

@@ -1,4 +1,4 @@
-//! Sliding joints, as described by a scene.
+//! Sliding joints in a scene.
 
 use serde::{Deserialize, Serialize};
 
@@ -12,7 +12,7 @@ pub struct Slider {
     pub name: String,
     /// Slave: the sliding point.
     pub slave: Station,
-    /// Index of the master beam. For a slider on a track it is the master at the start.
+    /// Index of the master beam. A slider on a track has several masters; this is the first one.
     pub master: usize,
     /// Index of the track; `None` for a slider on a single beam.
     pub track: Option<usize>,
@@ -20,7 +20,7 @@ pub struct Slider {
     pub arc_length: f64,
     /// Sliding rule.
     pub rule: SlidingRule,
-    /// Behaviour at the ends of its master or track.
+    /// Behaviour at the ends of the master or track.
     pub ends: EndAction,
     /// Coefficient of restitution at the ends, from 0 to 1 [-].
     pub restitution: f64,

@@ -5,7 +5,7 @@ use super::{CONTACT_UNKNOWNS, Contact, ContactUnknowns, Equation, SlidingLaw, Un
 use crate::elementary::square;
 use crate::geometry::{cross, perpendicular};
 
-/// Conserving law of sliding on the smooth axis of a mesh.
+/// Conserving sliding law on the smooth axis of a mesh.
 /// The gap is closed at the end of every step, and energy, linear and angular momentum are conserved for any step size.
 /// The mesh represents the kink of the axis under the contact force only approximately.
 ///
@@ -13,8 +13,9 @@ use crate::geometry::{cross, perpendicular};
 /// x_s1 = Σ B_i(ξ1) x_i1          |τ|² η + (d × λ) Jτ = 0          λ·τ + 4 η·d = 0
 /// ```
 ///
-/// The mean position of the slave, `Σ B̄_i x̄_i + Δξ d`, is not the point at which `λ` acts on the master, so the two opposite forces have a moment.
-/// The law uses the smallest `η` that balances this moment. The sliding equation follows from conservation of energy.
+/// The mean position of the slave, `Σ B̄_i x̄_i + Δξ d`, is not the point at which `λ` acts on the master.
+/// Hence the two opposite forces have a moment.
+/// The law uses the smallest `η` that balances this moment. The sliding equation follows from the conservation of energy.
 /// Derivation: docs/theory.md, section 10.
 #[derive(Debug, Clone, Copy)]
 pub struct Conserving;

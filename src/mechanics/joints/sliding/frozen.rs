@@ -1,10 +1,10 @@
-//! Law of a slider on a master whose kink is kept constant in a step.
+//! Sliding law for a master whose kink is kept constant in a step.
 
 use super::dual::{ContactDuals, Dual, DualVector, NO_SLOPES};
 use super::kink_on_path::{KinkOnPath, vanish};
 use super::{CONTACT_UNKNOWNS, Conserving, Contact, Equation, Kink, KinkState, SlidingLaw};
 
-/// Law of a slider on a master with a kink that rotates with the master but does not depend on the contact force.
+/// Sliding law for a master with a kink that rotates with the master but does not depend on the contact force.
 /// The gap to the kinked axis is closed, and energy, linear and angular momentum are conserved for any step size.
 ///
 /// ```text
@@ -13,7 +13,8 @@ use super::{CONTACT_UNKNOWNS, Conserving, Contact, Equation, Kink, KinkState, Sl
 /// (λ - (Δπ/Δt) e)·w = κ ½ GA |a|² Δg/Δξ  w = τ - 2 q J d + (Δg/Δξ) (1 + q J) a0
 /// ```
 ///
-/// Here `π`, `e` and `v1` are those of the law [`Kinked`](super::Kinked), and `κ = 1 - ρA v0 v1/GA`. Derivation: docs/theory.md, section 10.1.
+/// The quantities `π`, `e` and `v1` are those of the law [`Kinked`](super::Kinked), and `κ = 1 - ρA v0 v1/GA`.
+/// Derivation: docs/theory.md, section 10.1.
 #[derive(Debug, Clone, Copy)]
 pub struct Frozen;
 
@@ -36,7 +37,7 @@ impl SlidingLaw for Frozen {
 /// Quantities of the kink in an iterate of a step.
 struct FrozenInStep<const SLOPES: usize> {
     on_path: KinkOnPath<SLOPES>,
-    /// Vector `w` along the path [length].
+    /// Vector `w` along the path of the slave [length].
     direction: DualVector<SLOPES>,
     /// Speed `v1` of the kink along the master at the end of the step [length/time].
     speed: Dual<SLOPES>,

@@ -1,10 +1,10 @@
-//! Sliding rule that conserves energy, both momenta and the closed gap to a kinked axis.
+//! Sliding rule that conserves energy, linear and angular momentum and the closed gap to a kinked axis.
 
 use super::dual::{ContactDuals, Dual, DualVector, NO_SLOPES};
 use super::kink_on_path::{KinkOnPath, UNITS, vanish};
 use super::{CONTACT_UNKNOWNS, Conserving, Contact, Equation, Kink, KinkState, SlidingLaw, Unit};
 
-/// Conserving law of sliding on an axis with a kink.
+/// Conserving sliding law for an axis with a kink.
 /// The gap is closed at the end of every step, and energy, linear and angular momentum are conserved for any step size.
 ///
 /// ```text
@@ -14,10 +14,11 @@ use super::{CONTACT_UNKNOWNS, Conserving, Contact, Equation, Kink, KinkState, Sl
 /// ½ (v0 + v1) Δt = (Δs/Δξ) τ·u/|τ|²                      u = Δξ τ + Δ(g a) - 4 b J r
 /// ```
 ///
-/// The slave is on the axis, which has a kink under the contact force:
-/// the tangent of the axis jumps by `a` at the slave, and the kink moves along the master with the speed `v`.
-/// The mesh does not contain the energy `½ g |a|² (GA + ρA v²)` of the kink, in which `ρA` is slightly larger than that of the beam.
-/// The jump at the end of the step follows from the component of `λ` across the master and from the second line.
+/// The slave is on the axis, which has a kink under the contact force.
+/// The tangent of the axis jumps by `a` at the slave, and the kink moves along the master with the speed `v`.
+/// The mesh does not contain the energy `½ g |a|² (GA + ρA v²)` of the kink.
+/// In this formula, `ρA` is slightly larger than the mass per length of the beam.
+/// The jump at the end of the step follows from the component of `λ` across the master and from the second line of equations.
 /// The remaining equation is the balance of forces along the master. Without a [`Kink`] the law is [`Conserving`].
 /// Derivation: docs/theory.md, sections 10 and 10.1.
 #[derive(Debug, Clone, Copy)]
