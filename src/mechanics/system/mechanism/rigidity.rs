@@ -1,4 +1,4 @@
-//! Response of beams to an impulse, if only selected deformations take part.
+//! Response of beams to an impulse, with only selected deformations.
 //!
 //! The velocity response `a` to a unit impulse `Gᵀ`, and the impulses `n` of the section forces, satisfy
 //!
@@ -8,9 +8,9 @@
 //!
 //! Here `B` is the strain–rate matrix and `C` the section stiffness.
 //! For strains that steps of a length `h` resolve, `s = h²/4`; for suppressed strains, `1/s = 0`.
-//! `f` is the unit impulse together with the impulses of section forces.
-//! `n` is a separate unknown and `Bᵀ n` has no resultant, so momenta are conserved in spite of rounding.
-//! Springs and dampers do not take part: their forces are bounded, so their impulse during an impact is zero.
+//! The vector `f` is the unit impulse together with the impulses of section forces.
+//! The impulses `n` are separate unknowns and `Bᵀ n` has no resultant. Momenta are therefore conserved in spite of rounding.
+//! Springs and dampers are ignored: their forces are bounded, so their impulse during an impact is zero.
 
 use super::System;
 use crate::beams::StrainKind;
@@ -32,14 +32,14 @@ const MOST_CORRECTIONS: usize = 60;
 /// Energy of the suppressed strains that counts as zero, as a fraction of the energy of the impulse [-].
 const NO_STRAIN: f64 = 1e-20;
 
-/// Deformations that take part in an impact.
+/// Deformations that an impact includes.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Deformation {
     /// All deformations: only inertia resists the impulse.
     All,
     /// Deformations that steps of the given length resolve [time].
     Resolved(f64),
-    /// Deformations that steps of the given length resolve [time], except axial strain.
+    /// Deformations that steps of the given length resolve [time], without axial strain.
     Inextensible(f64),
 }
 
@@ -47,7 +47,7 @@ struct StrainResistance {
     degrees: Vec<usize>,
     strain: Vec<f64>,
     /// Resistance of the strain to an impulse: its stiffness times the integration length times `s = h²/4`, for steps of length `h`.
-    /// For a suppressed strain it is a penalty weight.
+    /// For a suppressed strain, the field is a penalty weight.
     weight: f64,
     is_rigid: bool,
 }
@@ -107,7 +107,7 @@ impl Rigidity {
 
     /// Adds the impulses of section forces to a unit impulse. `factors` are the factors of the [`matrix`](Self::matrix).
     ///
-    /// Suppressed strains are reduced to zero by the method of multipliers (Hestenes 1969). Returns the impulses `n` of the section forces.
+    /// The method of multipliers reduces suppressed strains to zero (Hestenes 1969). Returns the impulses `n` of the section forces.
     pub(super) fn transmit_unit_impulse(
         &self,
         model: &mut System,
@@ -170,7 +170,7 @@ fn fastest<'r>(inertia: &[f64], resistances: impl Iterator<Item = &'r StrainResi
     with_inertia.map(|(k, m)| k / m).fold(0.0, larger)
 }
 
-/// Calls `take` for every strain with a nonzero stiffness, with degrees of freedom, coefficients, stiffness and type.
+/// Calls `take` for every strain with a nonzero stiffness. Arguments: degrees of freedom, coefficients, stiffness and type.
 fn for_each_stiff_strain(model: &System, mut take: impl FnMut(&[usize], &[f64], f64, StrainKind)) {
     model.each_span_of_bodies(&mut |degrees, span| {
         let rows = span.stiffness.iter().zip(&span.kinds).zip(span.strains.chunks(degrees.len()));
@@ -179,7 +179,7 @@ fn for_each_stiff_strain(model: &System, mut take: impl FnMut(&[usize], &[f64], 
     });
 }
 
-/// Adds the impulses `Bᵀ n` of section forces in an impact, in the current numbering. `passed` is empty if no strain resists the impulse.
+/// Adds the impulses `Bᵀ n` of section forces in an impact, in the present numbering. `passed` is empty if no strain resists the impulse.
 pub(super) fn add_transmitted_impulses(model: &System, passed: &[f64], out: &mut [f64]) {
     let mut passed = passed.iter();
     for_each_stiff_strain(model, |degrees, row, _, _| {

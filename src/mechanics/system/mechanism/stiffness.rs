@@ -12,8 +12,8 @@ use crate::system::links::RigidLink;
 use crate::system::state::UnknownKind;
 
 /// Penalty stiffness of rigid links, as a multiple of the largest stiffness at their degrees of freedom.
-/// The penalty lowers frequencies by a relative amount that is smaller than the inverse of this number.
-/// With 32 digits, all other stiffnesses remain resolved.
+/// The penalty changes frequencies by a relative amount below the inverse of this number.
+/// All other stiffnesses remain resolved, because the matrices have 32 digits.
 const RIGID: f64 = 1e8;
 
 impl System {
@@ -43,7 +43,7 @@ impl System {
         }
     }
 
-    /// Power that dampers, damped materials and drag dissipate at given rates of the unknowns in the present configuration [energy/time].
+    /// Power that dampers, damped materials and drag dissipate at the given rates of the unknowns in the present configuration [energy/time].
     pub(crate) fn dissipation(&self, rates: &[f64]) -> f64 {
         let mut power = 0.0;
         self.each_damped_rate(rates, &mut |damping, rate| power += damping * square(rate));
@@ -72,8 +72,9 @@ impl System {
         reaches.fold(self.unknowns.half_bandwidth(), usize::max)
     }
 
-    /// Calls `take` with the penalty stiffness of every rigid link and contact. It is `RIGID` times the largest stiffness at its degrees of freedom.
-    /// `stiffness` returns that value for a position in `order` [force/length, force·length].
+    /// Calls `take` with the penalty stiffness of every rigid link and contact,
+    /// which is `RIGID` times the largest stiffness at its degrees of freedom.
+    /// `stiffness` returns the largest stiffness for a position in `order` [force/length, force·length].
     pub(crate) fn for_each_static_constraint(
         &self,
         order: &StaticOrder,
@@ -120,8 +121,9 @@ impl System {
         self.links.forces().saturating_sub(kinds.filter(is_light).count())
     }
 
-    /// Estimate of the square of the lowest bending frequency, as if all beams formed a single beam:
-    /// the smallest `EI`, divided by the largest `ρA` and by the fourth power of the total length; `None` without a beam [1/time²].
+    /// Estimate of the square of the lowest bending frequency, as if all beams formed a single beam [1/time²]:
+    /// the smallest `EI`, divided by the largest `ρA` and by the fourth power of the total length.
+    /// `None` without a beam.
     pub(crate) fn slowest_bending(&self) -> Option<f64> {
         let extents = || self.bodies.iter().filter_map(|body| body.dynamics.extent());
         let length: f64 = extents().map(|(_, length)| length).sum();
@@ -131,7 +133,7 @@ impl System {
         (length > 0.0).then(|| bending / mass / square(square(length)))
     }
 
-    /// Number of negative eigenvalues of the stiffness, for loads of fixed direction.
+    /// Number of negative eigenvalues of the stiffness for loads of fixed direction.
     pub(crate) fn negative_stiffness_count(&self) -> usize {
         self.negative_stiffness_count_with_inertia(0.0)
     }

@@ -18,7 +18,7 @@ impl Scene {
     ///
     /// # Errors
     /// Fails if the name is taken, the station does not exist, or a component is supported or prescribed already.
-    /// It also fails if a motion is undefined at its start, does not start at the station, or jumps.
+    /// Also fails if a motion is undefined at its start, does not start at the station, or jumps.
     pub fn add_drive(&mut self, drive: Drive) -> Result<(), SystemError> {
         self.check_name(drive.kind.name(), &drive.name)?;
         self.check_station("a drive", &drive.station)?;
