@@ -1,4 +1,4 @@
-//! Grades the attempts of a class in parallel. Each attempt is judged independently of the others; the marks are reported in a fixed order.
+//! Grades the attempts of a class in parallel. Each attempt is judged independently. The marks are reported in a fixed order.
 
 use std::collections::BTreeMap;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};

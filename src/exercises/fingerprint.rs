@@ -8,7 +8,7 @@ use crate::sandbox_fs::Folder;
 use crate::script::source::text::Source;
 
 /// Returns the fingerprint of a student's attempt.
-/// It covers the text of the attempt, the files that the attempt may read, the exercise, the limits, and this program.
+/// The fingerprint covers the text of the attempt, the files that the attempt may read, the exercise, the limits, and this program.
 pub fn fingerprint(submission: &Submission, exercise: &Exercise, limits: &[String]) -> String {
     let file = submission.attempt(exercise);
     let attempt = match file.as_deref().map(|path| attempt::load(path, &submission.folder)) {
@@ -33,7 +33,7 @@ fn reads_files(attempt: &Source) -> bool {
 }
 
 /// Maximum number of files that a fingerprint covers, and maximum size of a file whose content is covered [bytes].
-/// For a larger file, the fingerprint covers its length and the time of its last change.
+/// The fingerprint of a larger file covers its length and the time of its last change.
 const MOST_FILES: usize = 1000;
 const MOST_READ: u64 = 1 << 20;
 

@@ -1,7 +1,7 @@
 //! Detects that the file of an attempt was saved.
 //!
 //! All files are read a few times per second and compared with their previous contents.
-//! This works with all file systems, and with all editors, including editors that replace the file. A file that was saved without changes is ignored.
+//! Polling works with all file systems and all editors, including editors that replace the file. A file that was saved without changes is ignored.
 
 use std::time::Duration;
 
@@ -26,7 +26,7 @@ struct Seen {
 }
 
 impl<'a> Watcher<'a> {
-    /// Reads all attempts of a workbook. Later changes are detected relative to these contents.
+    /// Reads all attempts of a workbook. Later changes are relative to the content at this time.
     pub fn new(workbook: &'a Workbook) -> Self {
         let look = |exercise| Seen { content: content(workbook, exercise), was_missing: false };
         Self { workbook, files: EXERCISES.iter().map(look).collect() }
@@ -49,7 +49,7 @@ impl<'a> Watcher<'a> {
     }
 }
 
-/// Returns the content of an exercise file; `None` if it is unreadable. The next run of the attempt then reports the error.
+/// Content of an exercise file; `None` if it is unreadable. The next run of the attempt then reports the error.
 fn content(workbook: &Workbook, exercise: &Exercise) -> Option<Vec<u8>> {
     read_file(&workbook.file(exercise), LARGEST).ok()
 }

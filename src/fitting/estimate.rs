@@ -16,12 +16,12 @@ pub struct Estimate {
 }
 
 impl Estimate {
-    /// Computes the estimate from the derivatives `J` of the weighted residuals at the minimum:
-    /// `C = s² (JᵀJ)⁻¹` with the covariance matrix `C` and the variance `s²` of a residual.
+    /// Computes the estimate from the derivatives `J` of the weighted residuals at the minimum.
+    /// With the variance `s²` of a residual, the covariance matrix is `C = s² (JᵀJ)⁻¹`.
     /// `squares` is the sum of the squared residuals.
     ///
     /// Returns `None` if there are no degrees of freedom or the derivatives are linearly dependent.
-    /// A parameter that is not `free`, because it is at a bound, counts as known.
+    /// A parameter at a bound is not `free` and counts as known.
     /// The covariances of a parameter on which no residual depends are NaN.
     pub fn of(derivatives: &DMatrix<f64>, squares: f64, free: &[bool]) -> Option<Self> {
         let columns: Vec<usize> = (0..free.len()).filter(|at| free[*at]).collect();
@@ -67,7 +67,7 @@ impl Estimate {
 mod tests {
     use super::*;
 
-    /// The errors of slope and intercept of a fitted straight line must agree with the formulas of textbooks.
+    /// The standard errors of slope and intercept of a fitted straight line must agree with the formulas of textbooks.
     #[test]
     fn errors_of_a_straight_line_are_those_of_textbooks() {
         let x = [0.0, 1.0, 2.0, 3.0, 4.0];
