@@ -19,7 +19,7 @@ impl Random {
     }
 
     /// Returns a uniform random number in the open interval (0, 1).
-    /// The interval is divided into 2⁵³ equal parts; the number is the rounded midpoint of one of them.
+    /// The interval is divided into 2⁵³ equal parts. The number is the rounded midpoint of a part.
     pub fn unit(&mut self) -> f64 {
         let part = self.0.next_u64() >> (u64::BITS - BITS);
         ((part as f64 + 0.5) / (1_u64 << BITS) as f64).min(1.0 - f64::EPSILON / 2.0)
@@ -30,7 +30,7 @@ impl Random {
     }
 
     /// Returns a uniform random integer below `count`.
-    /// The largest values of the generator are rejected, because otherwise some integers would be slightly more probable than others.
+    /// The largest values of the generator are rejected. Otherwise, some integers would be slightly more probable than others.
     pub fn below(&mut self, count: u64) -> u64 {
         let whole = u64::MAX - u64::MAX % count.max(1);
         loop {

@@ -38,7 +38,7 @@ impl Folder {
     /// Opens a subfolder by its name. A link is not followed.
     ///
     /// # Errors
-    /// Fails if there is no folder of this name, or if it is a link.
+    /// Fails if no folder has this name, or if it is a link.
     pub fn below(&self, name: &OsStr) -> io::Result<Self> {
         match is_plain(Path::new(name)) {
             true => self.enter(name),

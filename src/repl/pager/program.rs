@@ -27,7 +27,7 @@ pub fn show(program: &str, text: &str, was_interrupted: &dyn Fn() -> bool) -> io
     let mut child = command.spawn()?;
     if let Some(mut input) = child.stdin.take() {
         let text = format!("{text}\n");
-        // The program may quit before it has read the whole text. The error is ignored.
+        // The program may quit before it has read the whole text, so the error is ignored.
         thread::spawn(move || input.write_all(text.as_bytes()));
     }
     while child.try_wait()?.is_none() {

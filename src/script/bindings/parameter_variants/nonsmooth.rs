@@ -34,7 +34,7 @@ pub enum NoDerivative {
 /// Check of a function for kinks, jumps and infinite slopes between the perturbed arguments.
 pub type NonsmoothCheck = fn(&Sides) -> Option<NoDerivative>;
 
-/// Error message if the function has no derivative at the given arguments; `None` if it has one.
+/// Error message if the function has no derivative at the given arguments; `None` if the derivative exists.
 pub fn corner_of(
     (name, corner): (&str, NonsmoothCheck),
     family: &ParameterSet,
