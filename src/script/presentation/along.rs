@@ -15,7 +15,7 @@ const DIGITS: usize = 6;
 
 /// Section results of some beams at one time.
 pub struct SectionForceProfile {
-    /// First part of titles. The name of the quantity follows it.
+    /// First part of titles. The name of the quantity is appended.
     pub title: String,
     /// Time as text; may be empty.
     pub when: String,
@@ -74,7 +74,7 @@ impl SectionForceProfile {
         })
     }
 
-    /// Removes symbols if there are so many that they would hide the beams.
+    /// Removes all symbols if there are so many that they would hide the beams.
     pub fn with_uncrowded_symbols(mut self) -> Self {
         self.scenery.symbols = uncrowded(self.scenery.symbols);
         self
@@ -122,7 +122,7 @@ impl SectionForceProfile {
         })
     }
 
-    /// Picture in which colour and width of the beams show the magnitude of the quantity.
+    /// Picture in which the colour and width of the beams show the magnitude of the quantity.
     pub fn field(&self, quantity: &BeamQuantity) -> FieldPicture {
         let label = match quantity.sign {
             sign if sign.len() == 1 => format!("|{sign}| [{}]", quantity.dimension),
