@@ -61,7 +61,7 @@ impl SweepProgress {
         is_new
     }
 
-    /// Reads a journal entry. Entries of other sweeps are ignored.
+    /// Reads a journal entry. Entries with a wrong number of values are ignored.
     pub fn recall(&mut self, entry: RowEntry) {
         match entry {
             RowEntry::Sweep { .. } => (),
