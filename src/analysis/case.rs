@@ -115,7 +115,7 @@ impl Case {
     }
 
     /// Runs a simulation from its start to the last observation time, and calls `look` at every observation time.
-    /// `is_wanted` is called after every step. If it returns false, the run stops and its outcome is not valid.
+    /// The callback `is_wanted` is called after every step. If it returns false, the run stops and its outcome is not valid.
     pub fn run_to_stops(
         &self,
         simulation: &mut Simulation,

@@ -164,11 +164,11 @@ impl RefinementLevels<'_> {
     }
 
     /// Time until which the runs converge if they differ strongly at the end.
-    /// `None` if they never converge, or if the distances do not grow afterwards.
+    /// Returns `None` if the runs never converge, or if the distances do not grow afterwards.
     fn last_convergence(&self, near: &[(f64, f64)], far: &[(f64, f64)]) -> Option<f64> {
         let end = near.last()?.0;
         let start = near.first()?.0;
-        // Zero crossings of the distances are smoothed by windows of a twentieth of the run.
+        // The zero crossings of the distances are smoothed by windows whose length is a twentieth of the run.
         let window = (end - start) / 20.0;
         let within = |distances: &[(f64, f64)], to: f64| {
             let inside =

@@ -193,7 +193,7 @@ impl Sweep {
     }
 
     /// For each parameter in order, the fraction of the variance of a result that the parameter explains.
-    /// `None` if the result is constant, some rows of a grid failed, or there are too few points.
+    /// Returns `None` if the result is constant, some rows of a grid failed, or there are too few points.
     pub fn variance_fractions(&self, result: &str) -> Option<Vec<VarianceShare>> {
         let results = self.results.column(result)?;
         let parameters = &self.design.parameters;

@@ -60,7 +60,7 @@ pub fn run(options: &RunOptions) -> Exit {
 
 /// Estimation of the errors of a run, as selected by the options.
 /// With `auto`, the estimation depends on the run time.
-/// It is done only on a terminal, because output that a program reads must not depend on the run time.
+/// The estimation is done only on a terminal, because output that a program reads must not depend on the run time.
 fn error_estimation(options: &RunOptions) -> ErrorEstimation {
     match options.error {
         ErrorChoice::Always => ErrorEstimation::Always,
@@ -171,8 +171,7 @@ fn exit_for_study(outcome: &RunOutcome, out: &Path) -> Exit {
 }
 
 /// Returns the exit code of a run that computes only a part of the studies.
-/// If the script fails after the studies, the run still counts as successful,
-/// because the statements after the studies lack the results of the other parts.
+/// If the script fails after the studies, the run still counts as successful. Statements after the studies lack the results of the other parts.
 fn exit_for_part(outcome: &RunOutcome, options: &StudyOptions) -> Exit {
     let cases = match outcome.kept_cases {
         1 => "1 finished case is".to_owned(),

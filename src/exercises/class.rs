@@ -11,8 +11,8 @@ use super::submissions::Submission;
 
 /// Grades a class: `workers` threads call `judge` for each exercise of each submission.
 ///
-/// `note` receives each mark as soon as it is known.
-/// `tell` receives the marks in order: student by student, and for each student in the order of the exercises.
+/// The callback `note` receives each mark as soon as it is known.
+/// The callback `tell` receives the marks student by student, and for each student in the order of the exercises.
 /// Returns true if all marks were reported. Grading ends early if `judge` returns `None` or `stop` is set.
 pub fn grade<M: Send>(
     submissions: &[Submission],

@@ -47,7 +47,7 @@ impl Stencil {
 /// Computes the derivatives of all values with respect to all parameters. The result has one column per parameter.
 ///
 /// The differences are of second order. They need two evaluations per parameter, which are all requested in one call of `evaluate`.
-/// `here` contains the values at the point `x`.
+/// The argument `here` contains the values at the point `x`.
 ///
 /// # Errors
 /// Returns an error of `evaluate`. The inner error contains the reason why a run failed.

@@ -18,7 +18,7 @@ pub struct Estimate {
 impl Estimate {
     /// Computes the estimate from the derivatives `J` of the weighted residuals at the minimum.
     /// With the variance `s²` of a residual, the covariance matrix is `C = s² (JᵀJ)⁻¹`.
-    /// `squares` is the sum of the squared residuals.
+    /// The argument `squares` is the sum of the squared residuals.
     ///
     /// Returns `None` if there are no degrees of freedom or the derivatives are linearly dependent.
     /// A parameter at a bound is not `free` and counts as known.
@@ -56,7 +56,7 @@ impl Estimate {
     }
 
     /// Returns half the width of the confidence interval of a parameter, by Student's distribution.
-    /// `probability` is the confidence level, for example 0.95. Returns `None` if no residual depends on the parameter.
+    /// The argument `probability` is the confidence level, for example 0.95. Returns `None` if no residual depends on the parameter.
     pub fn half_width(&self, parameter: usize, probability: f64) -> Option<f64> {
         let quantile = student_quantile(0.5 + probability / 2.0, self.freedom as f64);
         Some(self.error(parameter)? * quantile)

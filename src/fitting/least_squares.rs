@@ -90,8 +90,8 @@ impl LeastSquaresState {
         cosines.fold(0.0, f64::max)
     }
 
-    /// Step `δ` of the free parameters that minimises `|r + J δ|² + λ |D δ|²`, with the residuals `r`, their Jacobian `J`,
-    /// the damping `λ` and the diagonal scaling `D`.
+    /// Step `δ` of the free parameters that minimises `|r + J δ|² + λ |D δ|²`.
+    /// Here `r` are the residuals, `J` the Jacobian, `λ` the damping and `D` the diagonal scaling.
     /// A parameter that would exceed a bound is fixed at the bound, and the step of the other parameters is computed again.
     fn step(&self, ranges: &[SearchRange]) -> DVector<f64> {
         let mut free = self.free(ranges);
@@ -143,7 +143,7 @@ impl LeastSquaresState {
     }
 
     /// Updates the derivatives after a step by the rank-one correction of C. G. Broyden (1965), in scaled parameters.
-    /// `change` is the change of the residuals in this step.
+    /// The argument `change` is the change of the residuals in this step.
     fn update_derivatives(&mut self, step: &DVector<f64>, change: &DVector<f64>) {
         let scaled =
             DVector::from_fn(step.len(), |at, _| step[at] * self.sizes[at] * self.sizes[at]);
@@ -179,13 +179,13 @@ impl LeastSquares {
     ///
     /// The derivatives are computed by central differences at the start and are updated after each step.
     /// The derivatives are computed again when updated derivatives no longer reduce the sum of squares.
-    /// They are also computed again when the search seems to have converged far from their point.
+    /// The derivatives are also computed again when the search seems to have converged far from the point at which they were computed.
     /// A step that fails is shortened.
     ///
     /// # Errors
     /// Returns an error of `evaluate`.
-    /// The inner error is the reason why the search cannot start or continue:
-    /// a required evaluation has failed, or has returned values that are not finite.
+    /// The inner error is the reason why the search cannot start or continue.
+    /// A required evaluation has failed, or has returned values that are not finite.
     pub fn solve<E>(&self, evaluate: &mut Evaluate<'_, E>) -> Result<Result<Fitted, String>, E> {
         self.solve_with(evaluate, &mut |_| Ok(Err("differences are wanted".into())))
     }

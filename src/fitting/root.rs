@@ -27,7 +27,7 @@ pub enum RootError<E> {
 /// Root of `function` between `from` and `to`, where the function must have different signs. `tolerance` is the tolerance of the argument.
 ///
 /// Brent's method (Algorithms for Minimization without Derivatives, 1973, chapter 4) is used.
-/// It keeps the root in an interval and approaches it by secants and inverse quadratic interpolation.
+/// Brent's method keeps the root in an interval and approaches it by secants and inverse quadratic interpolation.
 ///
 /// # Errors
 /// Fails if the signs are equal, if a value is not finite, if the sign changes at a pole, if the search does not converge, or if the function fails.
@@ -54,7 +54,7 @@ pub fn root<E>(
     let (mut c, mut fc) = (a, fa);
     let (mut last, mut step) = (b - a, b - a);
     for _ in 0..MOST_CALLS {
-        // `b` is the best estimate of the root. The function has opposite signs at `b` and `c`.
+        // The variable `b` is the best estimate of the root. The function has opposite signs at `b` and `c`.
         if fb.signum() == fc.signum() {
             (c, fc) = (a, fa);
             step = b - a;

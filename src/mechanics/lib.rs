@@ -8,7 +8,7 @@
 //! ```
 //!
 //! The lowest level consists of [`elementary`] and `threads`. [`elementary`] contains functions with identical results on every machine.
-//! `threads` processes beams, bands and bodies concurrently.
+//! The module `threads` processes beams, bands and bodies concurrently.
 
 #![forbid(unsafe_code)]
 #![cfg_attr(not(test), warn(clippy::disallowed_methods))]

@@ -10,7 +10,7 @@ pub struct VarianceShare {
     /// The index is the variance of this average, as a fraction of the variance of the result.
     pub first: f64,
     /// Total index: the mean variance that remains if all other parameters are known, as a fraction of the variance of the result.
-    /// `None` if it cannot be estimated.
+    /// The total index is `None` if it cannot be estimated.
     pub total: Option<f64>,
 }
 
@@ -47,8 +47,8 @@ pub fn grid_indices(lengths: &[usize], results: &[f64]) -> Option<Vec<VarianceSh
     })
 }
 
-/// Indices of all parameters from results at the points of [`saltelli`](super::saltelli),
-/// by the estimators of M. J. W. Jansen (Computer Physics Communications 117 (1999) 35-43).
+/// Indices of all parameters from results at the points of [`saltelli`](super::saltelli).
+/// Estimators: M. J. W. Jansen, Computer Physics Communications 117 (1999) 35-43.
 ///
 /// Blocks with a result that is not finite are omitted. Returns `None` if fewer than 30 blocks remain or the result is constant.
 pub fn saltelli_indices(parameters: usize, results: &[f64]) -> Option<Vec<VarianceShare>> {

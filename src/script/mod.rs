@@ -5,9 +5,8 @@
 //! [`diagnose`] converts every error to a message with line and column of the script.
 //! These modules contain no mechanics: bindings are short and call the solver library.
 //!
-//! A module may use only modules that precede it in this list:
-//! [`messages`], [`source`], [`state`], [`bindings`], `dialect`, [`library`], [`diagnose`], [`engine`], [`help`], [`presentation`],
-//! `handles`, `studies`, [`packages`].
+//! A module may use only modules that precede it in this order:
+//! Order: `messages, source, state, bindings, dialect, library, diagnose, engine, help, presentation, handles, studies, packages`.
 
 pub mod bindings;
 pub mod diagnose;

@@ -117,7 +117,7 @@ fn killed_report(status: ExitStatus, limits: &Limits) -> AttemptReport {
 }
 
 /// Returns true if the process probably ended because of its memory use.
-/// It aborts when an allocation fails, and the system kills a process that uses too much memory.
+/// A process aborts when an allocation fails. The system kills a process that uses too much memory.
 #[cfg(unix)]
 fn is_out_of_memory(status: ExitStatus) -> bool {
     use nix::libc::{SIGABRT, SIGKILL};

@@ -48,7 +48,7 @@ impl ForceSummary {
 pub type BlockSink<'a> = &'a mut (dyn FnMut(usize, &[f64]) + Send);
 
 /// Dynamics of a beam, particle or rigid body.
-/// It contains reference quantities, the state at the start of a step, and the present iterate of the step.
+/// The implementing type contains reference quantities, the state at the start of a step, and the present iterate of the step.
 ///
 /// Increments, rates and forces are given for all control points.
 pub trait BodyDynamics: Send + Sync {

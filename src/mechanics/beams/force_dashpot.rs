@@ -5,7 +5,8 @@
 //! R_a = w N_a' n      S_a = -w N_a gs × n      δΔΓ = Λ1ᵀ δg - J (Γ1 + e1) δω/q
 //! ```
 //!
-//! `R_a` and `S_a` are the force and moment on control point `a`, `g = x'` is the derivative of the position with respect to arc length,
+//! The vectors `R_a` and `S_a` are the force and moment on control point `a`.
+//! The vector `g = x'` is the derivative of the position with respect to arc length.
 //! The number `s` is the fraction of the step at which the directions are evaluated.
 //! Index 0 denotes the start of the step and 1 its end.
 
@@ -96,7 +97,7 @@ impl ForceDashpot {
     }
 
     /// Returns the error of the axial and shear rates in the last accepted step.
-    /// `share` is the start of the last step on a scaled time axis.
+    /// The argument `share` is the start of the last step on a scaled time axis.
     /// On this axis the middle of the step before is 0, and the middle of the last step is 1.
     pub(super) fn last_rate_mismatch(&self, share: f64) -> [RateMismatch; 2] {
         let of = |axis: usize| {

@@ -8,7 +8,7 @@
 //! R_a = w N_a' n             S_a = -w N_a gτ × n
 //! ```
 //!
-//! `R_a` and `S_a` are the force and moment on control point `a`, with the quadrature weight `w`.
+//! The vectors `R_a` and `S_a` are the force and moment on control point `a`. The quadrature weight is `w`.
 //! Each point stores its gradient `g = x'` and its rotation, and updates them by increments.
 //! The rounding errors of strains therefore do not depend on the distance from the origin.
 
@@ -38,8 +38,8 @@ pub(super) struct ForcePoints<const N: usize> {
     /// Section force `N` of the present iterate.
     force: Pair<Lanes>,
     /// Section force of the last step, with which the iteration of the next step starts.
-    /// In fast vibration this force is closer to the solution than the section force computed from the strain at the start of the step,
-    /// which may alternate in sign from step to step.
+    /// In fast vibration, this force is closer to the solution than the section force for the strain at the start of the step.
+    /// The latter may alternate in sign from step to step.
     last_force: Pair<Lanes>,
     /// Strain mismatch `m = Γσ - C⁻¹ N` at the last evaluation: the strain of the configuration minus the strain that belongs to the section force.
     mismatch: Pair<Lanes>,
@@ -67,8 +67,8 @@ pub(super) struct Resultant {
 }
 
 /// Derivatives of the forces on control points.
-/// `rows[i]` contains the derivatives of force component `i` with respect to the gradient and the rotation,
-/// multiplied by the quadrature weight and the basis functions.
+/// The entry `rows[i]` contains the derivatives of force component `i` with respect to the gradient and the rotation.
+/// They are multiplied by the quadrature weight and the basis functions.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct ForceTangent<const N: usize> {
     rows: [[Lanes; 3]; 3],

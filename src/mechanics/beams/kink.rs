@@ -33,9 +33,9 @@ pub struct MissedKink {
 /// ```
 ///
 /// The matrix `M` contains products of the splines `t` of one degree less, summed over the points and weights of the shear strain.
-/// The length `g` is the compliance of the exact string under a point load minus the compliance of the string on the mesh,
-/// for any supports of its ends.
-/// `g` is a polynomial of twice the degree on each span, and zero where the basis is C⁰.
+/// The length `g` is the compliance of the exact string under a point load minus the compliance of the string on the mesh.
+/// It does not depend on the supports of the string.
+/// The kink length `g` is a polynomial of twice the degree on each span, and zero where the basis is C⁰.
 /// Returns `None` if `g` is not positive at a point where the basis is smoother. This occurs with fewer quadrature points than the patch rule has.
 ///
 /// # Errors

@@ -69,13 +69,13 @@ impl MomentDashpot {
     }
 
     /// Curvature rate at the start of the step, extrapolated from the mean rates of the last two steps.
-    /// `late` is the time since the middle of the last step, as a fraction of the time between the middles of the last two steps.
+    /// The argument `late` is the time since the middle of the last step, as a fraction of the time between the middles of the last two steps.
     fn carried(&self, late: f64) -> f64 {
         self.last_rate + (self.last_rate - self.rate_before) * late
     }
 
     /// Returns the error of the rate in the last accepted step.
-    /// `fraction` is the start of the last step on a scaled time axis.
+    /// The argument `fraction` is the start of the last step on a scaled time axis.
     /// On this axis the middle of the step before is 0, and the middle of the last step is 1.
     pub(super) fn last_rate_mismatch(&self, fraction: f64) -> RateMismatch {
         let damping = self.functions.weight * self.damping;

@@ -151,8 +151,8 @@ impl<const N: usize> MomentPoints<N> {
         }
     }
 
-    /// Computes the weighted moments `w M/q` in the present iterate,
-    /// with the quadrature weight `w` and the derivative `1/q = dΔθ/dΔω` of the rotation angle.
+    /// Computes the weighted moments `w M/q` in the present iterate.
+    /// `w` is the quadrature weight, and `1/q = dΔθ/dΔω` is the derivative of the rotation angle.
     #[inline(always)]
     pub(super) fn take_forces<V: Simd>(
         &mut self,

@@ -18,8 +18,8 @@ pub(super) struct DashpotRates<'a> {
 }
 
 /// Two squared differences of rates, multiplied by the damping coefficient of axial, shear or bending dashpots [energy/time].
-/// `off` is the difference between the rate at the start of a step and the interpolation of the mean rates of this step and the previous one.
-/// `apart` is the difference of the two mean rates.
+/// The field `off` is the difference between the rate at the start of a step and the interpolation of the mean rates of two steps.
+/// The field `apart` is the difference of the mean rates of this step and the previous one.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub(super) struct RateMismatch {
     pub(super) off: f64,
@@ -28,8 +28,8 @@ pub(super) struct RateMismatch {
 
 impl RateMismatch {
     /// Errors of a rate of a dashpot with the given damping coefficient [force·time; energy/time].
-    /// `start` is the rate at the start of a step. `before` and `now` are the mean rates of the previous step and of this step.
-    /// `fraction` is the start of the step on a scaled time axis.
+    /// The argument `start` is the rate at the start of a step. The mean rates of the previous step and of this step are `before` and `now`.
+    /// The argument `fraction` is the start of the step on a scaled time axis.
     /// On this axis the middle of the previous step is 0, and the middle of this step is 1.
     pub(super) fn of(damping: f64, start: f64, [before, now]: [f64; 2], fraction: f64) -> Self {
         let (change, off) = (now - before, start - before);
@@ -47,7 +47,7 @@ impl RateMismatch {
 const KEPT: f64 = 0.8;
 
 /// Largest deviation of the rate at the start of a step that counts as resolved, as a fraction of the change of the mean rates.
-/// Vibrations with the frequency `ω` have smaller deviations if `ω h < 2`, with the step length `h`.
+/// Vibrations have smaller deviations if their frequency `ω` and the step length `h` satisfy `ω h < 2`.
 const MOST_OFF: f64 = 0.5;
 
 /// Measure of the accuracy with which the recent steps resolve the dashpot rates.
@@ -64,7 +64,7 @@ pub(super) struct RateResolution {
 
 impl RateResolution {
     /// Start of a step on a scaled time axis. On this axis the middle of the previous step is 0, and the middle of this step is 1.
-    /// `duration` is the length of this step [time]. Returns `None` if there is no previous step.
+    /// The argument `duration` is the length of this step [time]. Returns `None` if there is no previous step.
     pub(super) fn fraction(&self, duration: f64) -> Option<f64> {
         let between = duration + self.before;
         // A substep of the fourth-order method runs backwards in time.

@@ -108,7 +108,7 @@ impl SpanPartition {
 
     /// Adds contributions of spans to control points. The parts of the beam are processed concurrently.
     ///
-    /// `work` is called with the context of a part, some spans, the first control point of their sums, and the sums.
+    /// The callback `work` receives the context of a part, some spans, the first control point of their sums, and the sums.
     /// For spans across a cut, `work` is called twice and must compute the same values both times.
     pub(super) fn sum<const N: usize, S: Sections, C: Send>(
         &self,

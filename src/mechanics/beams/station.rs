@@ -90,7 +90,7 @@ impl BodyPoint {
     }
 
     /// Position of a point of a rigid body.
-    /// `point` is the index of its control point (0 is the centre of mass), `angle` the initial angle of the body [rad].
+    /// The argument `point` is the index of its control point (0 is the centre of mass). The initial angle of the body is `angle` [rad].
     pub fn of_point(body: usize, point: usize, angle: f64) -> Self {
         let mut shape = [0.0; MAX_DEGREE + 1];
         shape[0] = 1.0;

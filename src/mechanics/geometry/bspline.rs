@@ -46,7 +46,7 @@ pub(super) fn fill<const WIDTH: usize>(
 }
 
 /// Returns the values of the basis functions at `xi` that have one degree more than the functions `lower`.
-/// `supports` contains the ends of the supports of `lower`.
+/// The argument `supports` contains the ends of the supports of `lower`.
 #[inline(always)]
 fn raise<const WIDTH: usize>(
     lower: &[f64; WIDTH],

@@ -7,8 +7,8 @@ use super::values::{FunctionRow, LOW_ORDERS, LowDerivatives};
 use super::{Basis, GaussRule, MAX_DEGREE, PiecewisePolynomial, Span};
 
 /// Basis functions `B_i` along a path from the parameter ξ₀ to ξ₁. The path belongs to a point that slides along `Σ B_i(ξ) x_i` during a time step.
-/// The divided differences `(B_i(ξ₁) - B_i(ξ₀)) / (ξ₁ - ξ₀)` are accurate for paths of any length, including zero,
-/// and across breaks of any continuity.
+/// The divided differences `(B_i(ξ₁) - B_i(ξ₀)) / (ξ₁ - ξ₀)` are accurate for paths of any length, including zero.
+/// They are also accurate across breaks of any continuity.
 ///
 /// The functions `first, first + 1, …` are all functions that are nonzero somewhere on the spans of the path.
 /// Every accessor returns one value for each of these functions. Parameters and results are dimensionless.
@@ -194,7 +194,7 @@ impl ContactPath {
         function.in_span(self.interval.arrival, self.interval.to)
     }
 
-    /// Length of the path between two parameters in spans, including fractions of spans.
+    /// Number of spans that the path between two parameters covers, including fractions of spans.
     /// For a path within one span, this is the length of the path divided by the length of the span.
     pub(crate) fn spans_between(&self, from: f64, to: f64) -> f64 {
         let (from, to) = if from <= to { (from, to) } else { (to, from) };
@@ -288,8 +288,8 @@ impl ContactPath {
         add(mean, 0, 0.5, end);
     }
 
-    /// Adds two integrals over the path with `0 < s < 1`: `D = ∫ B'(ξ₀ + s Δξ) ds`,
-    /// and its derivative `∫ s B''(ξ₀ + s Δξ) ds` unless `B'` jumps on the path.
+    /// Adds the integral `D = ∫ B'(ξ₀ + s Δξ) ds` over the path, with `0 < s < 1`.
+    /// Unless `B'` jumps on the path, adds also its derivative `∫ s B''(ξ₀ + s Δξ) ds`.
     fn add_quotients<const WIDTH: usize>(&mut self, interval: PathInterval) {
         let PathSupport { basis, spans, kinks, rule } = &*self.line;
         let [.., slope, difference, change] = rows(&mut self.numbers, self.length);

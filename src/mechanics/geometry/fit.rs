@@ -6,7 +6,7 @@ use super::{Basis, Curve, GeometryError, Vec2};
 /// Returns the control points (splines) or nodes (Lagrange elements) that represent `curve` in `basis`, one per function [length].
 /// The parameter of the basis is mapped to the parameter of the curve by an affine map.
 ///
-/// The result is exact for lines, and for splines with the same knots.
+/// The interpolation is exact for lines, and for splines with the same knots.
 /// Other curves are interpolated at the [abscissae](Basis::abscissae) of the basis, which include the ends.
 /// For smooth curves the error is of order `degree + 1` in the span length. Kinks of the curve are represented only at C⁰ breaks of the basis.
 ///

@@ -47,8 +47,9 @@ impl KnotVector {
     /// Creates the knot vector of `degree` 1 to [`MAX_DEGREE`] with the given `knots`.
     ///
     /// # Errors
-    /// Fails for a degree out of range; too few, infinite, decreasing or equal knots; end knots not repeated `degree + 1` times;
-    /// interior knots repeated more than `degree` times; spans shorter than 1e-12 of the domain; more than [`MAX_SPANS`] spans.
+    /// Fails for a degree out of range, too few knots, and knots that are infinite, decreasing or all equal.
+    /// Fails if end knots are not repeated `degree + 1` times, or interior knots are repeated more than `degree` times.
+    /// Fails for spans shorter than 1e-12 of the domain, or more than [`MAX_SPANS`] spans.
     pub fn new(degree: usize, knots: Vec<f64>) -> Result<Self, GeometryError> {
         check_degree(degree, MAX_DEGREE)?;
         if knots.len() < 2 * (degree + 1) {

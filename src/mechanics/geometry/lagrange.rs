@@ -31,8 +31,8 @@ impl LagrangeBasis {
     /// Creates elements of `degree` 1 to 3 between consecutive `breaks` (dimensionless, increasing).
     ///
     /// # Errors
-    /// Fails for a degree out of range; fewer than two breaks; breaks that are not finite, not increasing or closer than 1e-12 of the domain;
-    /// more than [`MAX_SPANS`](super::MAX_SPANS) elements.
+    /// Fails for a degree out of range, fewer than two breaks, and breaks that are not finite or not increasing.
+    /// Fails for spans shorter than 1e-12 of the domain, or more than [`MAX_SPANS`](super::MAX_SPANS) elements.
     pub fn new(degree: usize, breaks: Vec<f64>) -> Result<Self, GeometryError> {
         check_degree(degree, LARGEST_DEGREE)?;
         check_spans(breaks.len().saturating_sub(1))?;

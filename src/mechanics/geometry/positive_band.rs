@@ -78,8 +78,7 @@ impl PositiveFactors {
 
     /// Entries of the inverse that are up to `width` columns away from its diagonal. `width` must be at least the half-bandwidth.
     ///
-    /// With the inverse `Z`, the entries follow from `Lᵀ Z = D⁻¹ L⁻¹`, starting with the last row (Takahashi,
-    /// Fagan & Chin 1973; Erisman & Tinney 1975).
+    /// With the inverse `Z`, the entries follow from `Lᵀ Z = D⁻¹ L⁻¹`, starting with the last row (Erisman & Tinney 1975).
     pub fn inverse(&self, width: usize) -> PositiveBand {
         let size = self.columns.len();
         let mut inverse = PositiveBand::zeros(size, width);

@@ -11,7 +11,7 @@ const EQUAL: f64 = 1e-9;
 
 /// Computes the patch rule of a run of spans.
 /// The rule has as many points as there are linearly independent derivatives of the basis functions.
-/// Its weights integrate all these derivatives exactly.
+/// The weights of the rule integrate all these derivatives exactly.
 ///
 /// The spans are consecutive and joined at least C¹.
 /// The derivatives of the `F` basis functions of degree `p` form the space of the `P = F - 1` splines `T` of degree `p - 1`.
@@ -20,8 +20,8 @@ const EQUAL: f64 = 1e-9;
 /// On equal spans of full continuity, far from the ends, the orthogonal spline alternates.
 /// The zeros of the alternating spline are the centres of spans for odd degrees, and the knots for even degrees.
 ///
-/// For cubic functions of full continuity on three or more equal spans, another rule has half the error:
-/// two Gauss points in the first and the last span, and the centres of the other spans (docs/theory.md, section 4).
+/// For cubic functions of full continuity on three or more equal spans, another rule has half the error (docs/theory.md, section 4).
+/// It uses two Gauss points in the first and the last span, and the centres of the other spans.
 ///
 /// The orthogonal spline has `P` zeros because of total positivity (de Boor, A Practical Guide to Splines, rev. ed. 2001, chapter XI).
 /// Tests for every degree and continuity confirm that the weights are positive and that `Σ w T² ≥ 0.79 ∫ T² dξ`. There is no proof.
@@ -200,7 +200,7 @@ impl Polynomial {
 
 /// Weights for which the quadrature points integrate the derivatives of all basis functions of a run of spans exactly.
 ///
-/// `points` lists the quadrature points of each span; their total is one less than the number of basis functions.
+/// The argument `points` lists the quadrature points of each span. Their total number is one less than the number of basis functions.
 /// Returns `None` if no such weights exist or a weight is not finite.
 ///
 /// The weights solve a collocation system with the splines of one degree less. Its matrix is totally positive.

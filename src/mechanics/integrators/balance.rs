@@ -282,7 +282,7 @@ impl StepSolver {
     }
 
     /// Ends the step with the present increments.
-    /// `rate` computes the final rate of an unknown from its index, its initial rate and the deviation `d` from a motion with constant velocity.
+    /// The callback `rate` computes the final rate of an unknown from its index, initial rate and deviation `d` from a motion with constant velocity.
     pub(super) fn accept(
         &mut self,
         mechanism: &mut dyn Mechanism,

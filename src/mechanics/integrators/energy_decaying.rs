@@ -14,7 +14,7 @@ use crate::newton::{NewtonReport, Tolerance};
 /// For `χ = 0` the method is the energy–momentum method, which is of second order.
 ///
 /// The method follows F. Armero & I. Romero, Comput. Methods Appl. Mech. Eng. 190 (2001) 2603–2649.
-/// They add dissipation to the averaged stresses of a conserving method. Here the added stress is linear in the strain.
+/// The authors add dissipation to the averaged stresses of a conserving method. In this program, the added stress is linear in the strain.
 #[derive(Debug, Clone)]
 pub struct EnergyDecaying {
     solver: StepSolver,

@@ -9,8 +9,7 @@ use crate::newton::{NewtonReport, Tolerance};
 ///
 /// Balance of a step: `M (v1 - v0)/Δt + F(midpoint) = 0`, `(v0 + v1)/2 = Δq/Δt`. The method is of second order.
 ///
-/// Reference: N. Stander & E. Stein, An energy-conserving planar finite beam element for dynamics of flexible mechanisms,
-/// Eng. Comput. 13 (1996) 60–85.
+/// Reference: N. Stander & E. Stein, Eng. Comput. 13 (1996) 60–85 (planar finite beam element for flexible mechanisms).
 /// Reference: J. C. Simo, N. Tarnow & M. Doblaré, Int. J. Numer. Methods Eng. 38 (1995) 1431–1473.
 #[derive(Debug, Clone)]
 pub struct EnergyMomentum {

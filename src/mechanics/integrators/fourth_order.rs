@@ -5,8 +5,8 @@ use crate::newton::{NewtonReport, Tolerance};
 
 /// Lengths of the first three of seven substeps, as fractions of the step. The last three have the same lengths in reverse order.
 ///
-/// The lengths satisfy five equations: the conditions of order four,
-/// and the conditions that slow loads do not excite vibrations with a phase of 2π or 4π per step (theory.md 8.3).
+/// The lengths satisfy the conditions of order four.
+/// They also satisfy the conditions that slow loads do not excite vibrations with a phase of 2π or 4π per step (theory.md 8.3).
 const SHARES: [f64; 3] =
     [0.161_052_153_814_088_86, 0.193_890_122_365_726_64, 0.426_192_546_250_769_94];
 
@@ -40,7 +40,7 @@ impl FourthOrder {
 
     /// Creates the method, and allocates memory for a mechanism.
     pub fn new(mechanism: &mut dyn Mechanism, tolerance: Tolerance) -> Self {
-        // This call allocates the memory for the saved state before the first step.
+        // The call of `save_state` allocates the memory for the saved state before the first step.
         mechanism.checkpoint().save_state();
         Self { substep: EnergyMomentum::new(mechanism, tolerance) }
     }

@@ -8,8 +8,8 @@ pub trait Integrator {
     /// Advances the mechanism over the interval. If the step fails, the mechanism is unchanged.
     ///
     /// # Errors
-    /// Fails if the equations have no solution, a rotation increment is too large, a load has no value,
-    /// or a constraint limit lies within the interval.
+    /// Fails if the equations have no solution, a rotation increment is too large, or a load has no value.
+    /// Fails also if a constraint limit lies within the interval.
     fn step(
         &mut self,
         mechanism: &mut dyn Mechanism,

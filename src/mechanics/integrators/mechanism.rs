@@ -14,9 +14,9 @@ pub enum Stage {
     ///
     /// At this stage, the work of the internal forces is exactly the change of the strain energy (Stander & Stein 1996; Simo, Tarnow & Doblaré 1995).
     Midpoint,
-    /// Middle of the step as for [`Midpoint`](Self::Midpoint), but with section forces of a later strain:
-    /// the mean strain plus `χ/2` times the change of the strain in the step.
-    /// The value in the variant is `χ`.
+    /// Middle of the step as for [`Midpoint`](Self::Midpoint), but with section forces of a later strain.
+    /// This strain is the mean strain plus `χ/2` times the change of the strain in the step.
+    /// The value in the enum variant is the dissipation parameter `χ`.
     ///
     /// At this stage, the internal forces do additional work: `χ/2` times the integral of `ΔΓ·C ΔΓ + EI Δκ²`.
     DampedMidpoint(f64),
@@ -166,7 +166,7 @@ pub trait Mechanism: Inertia + Forces + Constraints {
 
 /// Mechanical system that can store one of its states, for methods with substeps.
 pub trait Checkpoint {
-    /// Stores the present state, which is the start of a step. The state stored before is overwritten.
+    /// Stores the present state at the start of a step. The previously stored state is overwritten.
     fn save_state(&mut self);
 
     /// Restores the stored state bit for bit.

@@ -1,6 +1,6 @@
 //! Joints. A joint ties displacement components of two stations, which then share an unknown.
 //!
-//! Both stations have the same increments in every step, for every integrator.
+//! Both stations of a joint have the same increments in every step, for every integrator.
 //! Hence a joint has no gap, does no work, and transmits force and moment unchanged.
 
 use serde::{Deserialize, Serialize};

@@ -78,9 +78,9 @@ impl EndAction {
 /// Treatment of velocities of the slave across the master at the start.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 pub enum StartVelocities {
-    /// The scene is rejected if there are such velocities.
+    /// The scene is rejected if the slave has a velocity across its master.
     #[default]
     Check,
-    /// Such velocities are removed by the smallest change of all velocities, in the norm of the kinetic energy.
+    /// Velocities across the master are removed by the smallest change of all velocities, in the norm of the kinetic energy.
     Project,
 }

@@ -56,8 +56,8 @@ impl TrackDirection {
         }
     }
 
-    /// Converts arc lengths of a beam [length]: between the arc length from the point where the track enters the beam,
-    /// and the arc length from the start of the beam.
+    /// Converts an arc length along the track to an arc length along the beam, or vice versa [length].
+    /// The first is measured from the point where the track enters the beam, the second from the start of the beam.
     pub fn along(self, length: f64, arc_length: f64) -> f64 {
         match self {
             Self::Forward => arc_length,

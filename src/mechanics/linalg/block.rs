@@ -3,8 +3,8 @@
 //!
 //! The block is a small dense matrix, like the front of a multifrontal method (Duff & Reid, ACM Trans. Math. Softw. 9 (1983) 302–325).
 //! The own unknowns of a block are eliminated with complete pivoting. The Schur complement for the touched unknowns is added to the band.
-//! Some unknowns of the block may have no pivot yet, because only a constraint couples them
-//! to the band (for example the contact force of a supported slave).
+//! Some unknowns of the block may have no pivot yet, for example the contact force of a supported slave.
+//! Only a constraint couples such an unknown to the band.
 //! Unknowns without pivot are *delayed*: they are inserted into the band after the touched unknowns.
 
 use pulp::{Simd, WithSimd};
@@ -20,8 +20,7 @@ const LANES: usize = 4;
 /// Largest number of delayed unknowns of a block.
 pub(super) const MOST_DELAYED: usize = 2;
 
-/// Largest contribution of a pivot to a diagonal entry of the band in the elimination,
-/// as a multiple of the largest diagonal entry at the touched unknowns.
+/// Largest contribution of a pivot to a diagonal entry of the band. It is a multiple of the largest diagonal entry at the touched unknowns.
 const LARGEST_FILL: f64 = 100.0;
 
 /// Placeholder index for an unknown of the band that a block does not touch.
@@ -359,8 +358,8 @@ impl Block {
     }
 
     /// Applies the elimination to a right-hand side.
-    /// `own` contains the entries for the own unknowns and the block, in the order of the pivots.
-    /// `subtract` receives the contributions to the entries of touched unknowns.
+    /// The argument `own` contains the entries for the own unknowns and the block, in the order of the pivots.
+    /// The callback `subtract` receives the contributions to the entries of touched unknowns.
     pub(super) fn substitute(&self, own: &mut [f64], mut subtract: impl FnMut(usize, f64)) {
         let rows = self.front.chunks_exact(self.stride());
         for (at, row) in rows.enumerate() {

@@ -51,7 +51,7 @@ impl BorderUnit {
     }
 
     /// Factor that converts derivatives with respect to an unknown of this unit to derivatives with respect to a length.
-    /// `stiffness` is a typical stiffness in the band [force/length].
+    /// The argument `stiffness` is a typical stiffness in the band [force/length].
     pub(super) fn column_factor(self, stiffness: f64) -> f64 {
         match self {
             Self::Force => stiffness,
@@ -121,7 +121,7 @@ impl Border {
     }
 
     /// Adds the couplings of an unknown of the band with consecutive unknowns of the border, starting with `first`.
-    /// They are entries in a row of `B` and in a column of `C`.
+    /// The couplings are entries in a row of `B` and in a column of `C`.
     /// In a border of blocks, these border unknowns must belong to the same block.
     pub(crate) fn add_couplings(
         &mut self,
@@ -371,7 +371,7 @@ mod tests {
     }
 
     /// Solves a contact problem on a band of positions and angles in the given units of length and force.
-    /// The result is converted back to the original units.
+    /// The solution is converted back to the original units.
     fn in_units(length: f64, force: f64, mut matrix: BorderedMatrix, seed: f64) -> Vec<f64> {
         // Units of the rows and of the unknowns of the band.
         let of_band = [(force, length), (force, length), (force * length, 1.0)];

@@ -20,7 +20,7 @@ const NOTHING: f64 = 1e-13;
 /// Solves a linear complementarity problem for the unknowns `z` with the responses `w = A z + q`.
 /// Equality pairs satisfy `w = 0`, complementary pairs `0 ≤ z ⟂ w ≥ 0`.
 ///
-/// `A` is given by its rows and need not be symmetric.
+/// The matrix `A` is given by its rows and need not be symmetric.
 /// The solution is unique if `A` is positive definite, at least after the elimination of the equality pairs.
 /// The method is block principal pivoting: all violating pairs are exchanged at once (Júdice & Pires 1994).
 /// The result does not depend on the order of the pairs.

@@ -16,7 +16,7 @@ pub struct SymmetricSparse {
 
 impl SymmetricSparse {
     /// Creates the matrix from entries (row, column, value) of both triangles, given in any order. Values for the same row and column are added up.
-    /// `give` is called twice, first to count the entries and then to store them.
+    /// The callback `give` is called twice, first to count the entries and then to store them.
     ///
     /// # Panics
     /// Panics if there are more than 2³² rows.

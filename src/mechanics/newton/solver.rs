@@ -46,7 +46,7 @@ impl Default for Tolerance {
 
 impl Tolerance {
     /// Returns true if a further correction with the present factors is useful.
-    /// `factor` is the reduction of the residual by the last correction. `corrections` is the number of corrections that are still allowed.
+    /// The argument `factor` is the reduction of the residual by the last correction. The number of corrections still allowed is `corrections`.
     fn is_worth_correcting(
         &self,
         imbalance: &ResidualNorms,
@@ -122,7 +122,7 @@ impl Newton {
 
     /// Iterates `u` until the equations are satisfied. Afterwards `residual` contains the last residual.
     ///
-    /// `residual` may be longer than the unknowns. Its additional entries are reactions, which need not be zero.
+    /// The vector `residual` may be longer than the unknowns. Its additional entries are reactions, which need not be zero.
     ///
     /// # Errors
     /// Fails if the iteration limit is reached, the tangent is singular, a number is not finite, or the equations stop the solution.
@@ -202,7 +202,7 @@ impl Newton {
     ) -> Result<NewtonReport, NewtonError> {
         self.tangent.clear();
         residual.fill(0.0);
-        // This call condenses out the internal unknowns. Its tangent is not used.
+        // This call of `linearise` condenses out the internal unknowns. Its tangent is not used.
         equations.linearise(u, residual, &mut self.tangent);
         let mut before = f64::INFINITY;
         for corrections in 1..=MOST_SHARED_CORRECTIONS {

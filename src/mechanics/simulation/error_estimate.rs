@@ -40,7 +40,7 @@ impl DoubledStep {
     }
 
     /// Returns the step after its second half has been repeated.
-    /// `report` contains the total work. `error` is an additional error as a fraction of the allowed error.
+    /// The argument `report` contains the total work. The argument `error` is an additional error as a fraction of the allowed error.
     pub(super) fn resampled(self, report: NewtonReport, error: f64) -> Self {
         let trial = TriedStep { error: larger(self.tried_step.error, error), ..self.tried_step };
         Self { report, tried_step: trial, position_error: larger(self.position_error, error) }

@@ -197,7 +197,7 @@ impl History {
     /// The gap of joints is not divided by a scale.
     ///
     /// If all bodies have zero momentum, the scale of momenta is at least `sqrt(2 m K)`, with the kinetic energy `K`.
-    /// It is also at least the sum of the magnitudes of all exchanged impulses.
+    /// The scale is also at least the sum of the magnitudes of all exchanged impulses.
     pub fn drifts(&self, invariant: Invariant) -> Vec<f64> {
         let Some(first) = self.samples.first().map(|row| row.measures) else { return Vec::new() };
         let scale = self.scale(invariant, &first);
@@ -238,7 +238,7 @@ impl History {
     }
 
     /// Largest increase of `E - W + D` above an earlier value, divided by the scale of [`drifts`](Self::drifts).
-    /// The result is NaN if an energy is NaN or there are no rows.
+    /// The growth is NaN if an energy is NaN or there are no rows.
     pub fn energy_growth(&self) -> f64 {
         let Some(first) = self.samples.first().map(|row| row.measures) else { return f64::NAN };
         let mut least = f64::INFINITY;

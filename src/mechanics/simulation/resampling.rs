@@ -16,7 +16,7 @@ const SHARE: f64 = 4.0;
 /// First, the whole step and its halves use the controller values at the start of the step. Their difference is the error of the method.
 /// Then the run pauses in the middle of the step, the controllers are sampled, and the second half is repeated.
 /// A sampled force is late by half a step on average.
-/// This delay changes positions by the third power of the step size in one step, and by the first power over a run.
+/// The delay of the force changes positions by the third power of the step size in one step, and by the first power over a run.
 /// For a sampled rate, the change in one step is of the second power of the step size.
 /// The allowed difference between the two results of the second half therefore has the same power of the tolerance.
 pub(super) struct Resampling {

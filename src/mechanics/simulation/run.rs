@@ -83,7 +83,7 @@ impl Simulation {
     }
 
     /// Builds a scene and starts the simulation. The caller can stop the assembly.
-    /// `goes_on` is called repeatedly during the assembly. If it returns false, the start fails.
+    /// The callback `goes_on` is called repeatedly during the assembly. If it returns false, the start fails.
     ///
     /// # Errors
     /// Fails in the same cases as [`start`](Self::start), or if the assembly is stopped.

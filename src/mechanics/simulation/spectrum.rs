@@ -3,7 +3,7 @@
 //! The mean is subtracted, the rows are weighted with a Blackman–Harris window (F. J. Harris 1978: side lobes of -92 dB), and zeros are appended.
 //! A parabola through the logarithms of the three values around each maximum gives the frequency and amplitude of the maximum.
 //! The Fourier transform is computed by the algorithm of Cooley and Tukey (1965).
-//! It uses the sines of this crate, so that results are identical on all machines.
+//! The transform uses the sines of this crate, so that results are identical on all machines.
 
 use std::f64::consts::TAU;
 

@@ -180,8 +180,8 @@ impl<'s> Continuation<'s> {
     }
 
     /// Distance from the last point to the turning point of the load factor.
-    /// The distance is returned if the path crosses the requested load factor both before and after the turning point,
-    /// because the first crossing is the solution.
+    /// The distance is returned if the path crosses the requested load factor before the turning point and again after it.
+    /// The first crossing is the solution.
     fn distance_to_turning_point(&self, goal: f64, factor: f64, distance: f64) -> Option<f64> {
         let [.., before, last] = self.path.points() else { return None };
         let factors = [before.load_factor, last.load_factor, factor];

@@ -33,7 +33,7 @@ const MOST_LEAVES: usize = 12;
 impl Continuation<'_> {
     /// Finds an equilibrium under a fraction of the loads. The unloaded scene approaches it under viscous damping.
     /// The method repeats steps `σ M u + F(u) - λ P = 0` with a decreasing rate `σ` (pseudo-transient continuation; Kelley & Keyes 1998).
-    /// `movements` is the number of degrees of freedom without restraint in the initial configuration.
+    /// The argument `movements` is the number of degrees of freedom without restraint in the initial configuration.
     ///
     /// `K + σ M` is positive definite at the start of every pass, so every pass reduces the potential energy.
     pub(super) fn find_equilibrium(

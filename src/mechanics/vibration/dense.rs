@@ -2,9 +2,7 @@
 //!
 //! Let `K + σ M = L D Lᵀ` and `M = H Hᵀ`. The squared singular values of `G = D^-½ L⁻¹ H` are `μ = 1/(ω² + σ)`.
 //! The rows of `G` become smaller in the order of the pivots. Rotations of columns preserve the relative accuracy of each row.
-//! One-sided Jacobi rotations therefore compute all singular values, large and small,
-//! to almost full accuracy (J. Demmel & K. Veselić, SIAM J. Matrix Anal.
-//! Appl. 13 (1992) 1204–1245).
+//! One-sided Jacobi rotations therefore compute large and small singular values to almost full accuracy (J. Demmel & K. Veselić 1992).
 
 use nalgebra::DMatrix;
 

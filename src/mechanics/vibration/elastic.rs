@@ -111,8 +111,8 @@ impl Elastic {
     }
 
     /// Rounding error of twice the energy for given displacements `x`.
-    /// The error is `Σ k (ε Σ |B| |x|)²` plus the rounding error of section forces in `xᵀ K_g x`,
-    /// with the stiffnesses `k` and the machine precision `ε`.
+    /// The error is `Σ k (ε Σ |B| |x|)²` plus the rounding error of section forces in `xᵀ K_g x`.
+    /// `k` are the stiffnesses, and `ε` is the machine precision.
     pub(super) fn rounding_of(&self, movements: &VectorStrip) -> FourVectors {
         Arch::new().dispatch(Rounding { elastic: self, movements })
     }

@@ -21,8 +21,8 @@ pub struct Mode {
     pub square: f64,
     /// Rounding error of the squared frequency `ω²` [1/time²].
     pub rounding: f64,
-    /// Residual [-], a measure of the accuracy of the mode: energy of the next correction of the shape and its section forces,
-    /// as a fraction of the energy of the shape.
+    /// Residual [-], a measure of the accuracy of the mode.
+    /// It is the energy of the next correction of the shape and its section forces, as a fraction of the energy of the shape.
     /// The residual is an upper bound of the relative error of `ω² + σ`, where `σ` is about the square of the lowest bending frequency.
     /// A second bound is the square of the residual, divided by the relative distance to the next mode.
     pub residual: f64,
@@ -71,7 +71,7 @@ pub struct Modes {
 
 impl Modes {
     /// Computes the modes of a model in its present configuration, which is treated as an equilibrium.
-    /// `goes_on` is called repeatedly. If it returns false, the search stops.
+    /// The callback `goes_on` is called repeatedly. If it returns false, the search stops.
     ///
     /// # Errors
     /// Fails if there are too few modes, a load is a follower load, or the search is stopped.

@@ -2,7 +2,7 @@
 //!
 //! With `y = (Ω x, ẋ)` the equation of motion is `ẏ = A y`, where `A = [0 Ω; -Ω -B Bᵀ]` is dissipative.
 //! Hence `|(A - σ)⁻¹| ≤ 1/σ` for any `σ > 0` and damping of any strength (Lumer & Phillips, Pacific J. Math. 11 (1961) 679–698).
-//! Let `e = (σ² + Ω²)^-½`, `w = Ω e` and `t = σ e` be diagonal matrices, so that `w² + t² = 1`. Then the matrix
+//! Let `e = (σ² + Ω²)^-½`, `w = Ω e` and `t = σ e` be diagonal matrices, so that `w² + t² = 1`. The shifted inverse is then:
 //!
 //! ```text
 //! σ (A - σ)⁻¹ = [ -(t² + w P w)   -w (1 - P) t ]        P = G (1 + Gᵀ G)⁻¹ Gᵀ,   G = √σ e B
@@ -13,8 +13,7 @@
 //! With the singular vectors `U` and singular values `s` of `G`, `P = U s²/(1 + s²) Uᵀ`.
 //! One-sided rotations compute `U` and `s` accurately over all magnitudes. The eigenvalues `θ` of the matrix give `λ = σ (1 + 1/θ)`.
 //! Each reported `λ` is corrected by inverse iteration with the Rayleigh quotient of the quadratic problem.
-//! The unknowns of this iteration include the forces of strong dashpots, divided by their damping (Tisseur & Meerbergen,
-//! SIAM Review 43 (2001) 235–286, sections 2 and 3.4).
+//! The unknowns of this iteration include the forces of strong dashpots, divided by their damping (Tisseur & Meerbergen 2001, sections 2 and 3.4).
 
 use nalgebra::{DMatrix, DVector, Schur};
 
@@ -36,7 +35,7 @@ const CORRECTIONS: usize = 4;
 const FAR: f64 = 1e-4;
 
 /// Relative change of `λ` near the shift above which a correction is rejected if the change is much larger than rounding.
-/// Such a change indicates several close eigenvalues whose shapes are mixed.
+/// A larger change indicates several close eigenvalues whose shapes are mixed.
 const NEAR: f64 = 1e-10;
 const ROUNDING_CHANGE: f64 = 1e-12;
 

@@ -18,8 +18,7 @@ const HATCH: f64 = 5.0;
 const JOINT: f64 = 4.0;
 const SLIDER: f64 = 6.5;
 /// Length of an arrow [pixels].
-/// The next constants are the length of an arrow of a distributed load, the length of an arrow head,
-/// and the distance of the tip from the loaded point.
+/// The next constants are the lengths of an arrow of a distributed load and of an arrow head, and the distance of the tip from the loaded point.
 const ARROW: f64 = 34.0;
 const SHORT: f64 = 18.0;
 const HEAD: f64 = 8.0;

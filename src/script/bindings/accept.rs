@@ -14,7 +14,7 @@ use crate::system::refusal_of_name;
 
 /// Converts `value` to the form that native functions read: numbers become `f64`, points [`Vec2`], and option maps [`Options`].
 ///
-/// `owner` is the function or option map that messages name.
+/// The argument `owner` is the function or option map that messages name.
 pub fn accept(
     engine: &Engine,
     owner: &str,

@@ -1,8 +1,8 @@
 //! Table that declares a domain of the language. It contains one binding for each name that scripts can use.
 //!
 //! Registration, argument checks, error messages with suggestions, help, definition files and the language reference are derived from these bindings.
-//! To add a domain, write `pub const TABLE: BindingTable` in a new file of [`packages`](crate::script::packages) and add it
-//! to the list in that module.
+//! To add a domain, write `pub const TABLE: BindingTable` in a new file of [`packages`](crate::script::packages).
+//! Add the table to the list in that module.
 
 use rhai::Dynamic;
 

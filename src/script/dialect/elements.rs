@@ -1,6 +1,6 @@
 //! Methods of arrays and maps that call a function.
 //! There are two differences from the methods of Rhai. A result that is not a boolean is an error instead of false.
-//! `for_each` passes the element instead of the index to its function.
+//! The method `for_each` passes the element instead of the index to its function.
 
 use std::any::TypeId;
 use std::cell::Cell;

@@ -1,7 +1,7 @@
 //! Packages of Rhai that belong to the language, and functions of Rhai that are rejected.
 //!
 //! The language does not contain byte arrays, bit fields, reflection, tags, `take` and the JSON parser of Rhai.
-//! It does not contain `sleep`, which cannot be interrupted.
+//! The language does not contain `sleep` either, because it cannot be interrupted.
 //! Users may expect functions that Rhai lacks or defines in a surprising way. A call of such a function is an error with a suggestion.
 
 use std::any::TypeId;

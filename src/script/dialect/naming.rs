@@ -12,7 +12,7 @@ use crate::script::source::definitions::{Definition, definitions};
 use crate::script::source::text::{Source, moved_down, name_of};
 
 /// Checks the names of the functions in `source`, and the variables used by them. `source` starts after `lines_before` lines of a file.
-/// `variables` returns the top-level variables of the file with the lines of their declarations.
+/// The callback `variables` returns the top-level variables of the file with the lines of their declarations.
 ///
 /// # Errors
 /// Fails at the position of the first misleading name.

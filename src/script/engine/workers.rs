@@ -42,7 +42,7 @@ pub struct EngineConfig {
 impl EngineConfig {
     /// Collects the data for worker engines.
     /// Returns `None` if there is no complete script, as at the prompt, or if the address space is too small for one worker.
-    /// `refusal` is the error message of functions that write files.
+    /// The argument `refusal` is the error message of functions that write files.
     pub fn of(engine: &Engine, context: &Context, refusal: &'static str) -> Option<Self> {
         let catalog = Sources::of(engine).catalog()?;
         // The run supervises the time and memory of the whole process.
@@ -184,7 +184,7 @@ impl<J, R> WorkerPool<'_, J, R> {
 }
 
 /// Calls `drive` with a pool of worker threads with separate engines. A job that takes longer than `wall` is stopped.
-/// `panicked` converts the message of a panic to a result. When `drive` returns, jobs that have not ended are stopped.
+/// The callback `panicked` converts the message of a panic to a result. When `drive` returns, jobs that have not ended are stopped.
 ///
 /// # Errors
 /// Fails if no worker can be created.

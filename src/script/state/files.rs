@@ -32,7 +32,7 @@ pub struct OutputFolder {
 pub struct WrittenFile {
     pub path: PathBuf,
     /// Path under which an older file with the same name is kept; `None` if there was no such file.
-    /// Such a file was not written by this program, or has been changed since it was written.
+    /// An older file is kept if it was not written by this program, or has been changed since it was written.
     pub kept: Option<PathBuf>,
 }
 

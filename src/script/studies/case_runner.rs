@@ -94,7 +94,7 @@ impl<'c> CaseRunner<'c> {
     }
 
     /// Computes all cases that are not in the journal, in parallel.
-    /// `steps_of` returns the number of steps of a result, which count towards the limits of the run. A panic affects only its case.
+    /// The callback `steps_of` returns the number of steps of a result, which count towards the limits of the run. A panic affects only its case.
     /// If the run computes a part of the study, only the cases of this part are computed, and the result is `None`.
     ///
     /// # Errors
@@ -164,7 +164,7 @@ impl<'c> CaseRunner<'c> {
     }
 
     /// Computes the cases one by one on this thread, for timing. Cases in the journal are skipped.
-    /// `work` receives a function that returns false if the case must stop.
+    /// The callback `work` receives a function that returns false if the case must stop.
     ///
     /// # Errors
     /// Fails if the run is stopped. Finished cases are then in the journal.

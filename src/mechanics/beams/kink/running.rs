@@ -16,7 +16,7 @@ impl SplineString {
     /// μ = ∫ (L - s(ξ) - ∫ u² dX) ds/∫ g ds        u = l(X)ᵀ M⁻¹ t(ξ)/|x_ξ|
     /// ```
     ///
-    /// `L` is the length of the string, `s(ξ)` the arc length at the kink, and `|x_ξ|` the derivative `ds/dξ`.
+    /// The length of the string is `L`, the arc length at the kink `s(ξ)`, and the derivative `ds/dξ` is `|x_ξ|`.
     /// The kink length `g`, the splines `t`, their integrals `l` and the matrix `M` are defined at [`unresolved_kink`](super::unresolved_kink).
     ///
     /// Consider a string whose start is held. The points in front of a moving unit kink have the velocity `v`, and the points behind it are at rest.
@@ -70,7 +70,7 @@ impl SplineString {
     }
 
     /// Motion of the control points for a kink at a position in a span, as a fraction of the motion of the end of the string.
-    /// `lower` contains the values of the splines of lower degree at this position.
+    /// The argument `lower` contains the values of the splines of lower degree at this position.
     /// The second value of each pair is the difference from the motion of the end.
     fn motion(&self, span: &Span, lower: &[f64]) -> Vec<[f64; 2]> {
         let mut strains = vec![0.0; self.stretched.len()];

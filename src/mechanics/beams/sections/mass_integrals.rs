@@ -15,8 +15,8 @@ pub(in crate::beams) trait MassIntegral:
     /// Integral of the product of the functions, without the inertia per length [length].
     fn length(self) -> f64;
 
-    /// Integrals to which the inertia of each component is proportional:
-    /// the unweighted integral for every component, or integrals weighted with mass and inertia.
+    /// Integrals to which the inertia of each component is proportional.
+    /// They are the unweighted integral for every component, or integrals weighted with mass and inertia.
     fn weights(self) -> Movement;
 
     /// Factors that convert the [`weights`](Self::weights) to inertia: the mass and rotary inertia per length, or one.

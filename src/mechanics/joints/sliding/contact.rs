@@ -44,8 +44,8 @@ impl ContactUnknowns {
     }
 }
 
-/// Position or direction on the path of a slave along its master [length],
-/// with its derivative with respect to the parameter `ξ1` at the end of the path.
+/// Position or direction on the path of a slave along its master [length].
+/// Its derivative is taken with respect to the parameter `ξ1` at the end of the path.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PathVector {
     /// Position or direction [length].
@@ -92,8 +92,8 @@ pub struct KinkMotion {
 
 /// Kinematics of a sliding contact in a step. All positions are relative to the position of the slave at the start of the step.
 ///
-/// All sliding laws have the same forces: `-λ` on the slave, and on control point `i` of the master `B̄_i λ - Δξ D_i η`,
-/// or with a kink `B̄_i λ - D_i χ`.
+/// All sliding laws have the force `-λ` on the slave.
+/// The force on control point `i` of the master is `B̄_i λ - Δξ D_i η`, or with a kink `B̄_i λ - D_i χ`.
 #[derive(Debug, Clone, Copy)]
 pub struct Contact<'a> {
     /// Path of the slave along the master.

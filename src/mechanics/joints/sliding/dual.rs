@@ -21,8 +21,9 @@ const FORCE: usize = 6;
 const COUPLE: usize = 8;
 const WAY: usize = 10;
 
-/// Number with its derivatives with respect to: displacement of the slave from the smooth axis, mean tangent `τ`, quarter tangent change `d`,
-/// force `λ`, couple, sliding increment `Δξ`.
+/// Number with its derivatives.
+/// The variables are: displacement of the slave from the smooth axis, mean tangent `τ`, quarter tangent change `d`,
+/// force `λ`, couple, increment `Δξ`.
 /// The number of derivatives is [`ALL_SLOPES`] or [`NO_SLOPES`].
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Dual<const SLOPES: usize> {

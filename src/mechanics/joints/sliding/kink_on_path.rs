@@ -45,9 +45,9 @@ impl<const SLOPES: usize> KinkOnPath<SLOPES> {
         }
     }
 
-    /// Residuals of the contact equations for a kink `jump` [force] at the end of the step:
-    /// gap to the kinked axis, moment balance, force balance along the path.
-    /// `balance` is the residual of the force balance along the path [force·length].
+    /// Residuals of the contact equations for a kink `jump` [force] at the end of the step.
+    /// The equations are: gap to the kinked axis, moment balance, force balance along the path.
+    /// The argument `balance` is the residual of the force balance along the path [force·length].
     pub fn imbalances(
         &self,
         (contact, kink): (&Contact<'_>, &Kink),

@@ -2,9 +2,9 @@
 //!
 //! Between breaks, constants and tables are polynomials, which a three-point Gauss rule integrates exactly.
 //! Sines and smooth pulses, and their products with each other and with tables, are sums of terms `p(x) cos(κ x + φ)` with a polynomial `p`.
-//! These terms are integrated in closed form. All other schedules are sampled at five points.
+//! Terms of this form are integrated in closed form. All other schedules are sampled at five points.
 //! Two quadrature rules use the five points: three Gauss points, and the middle point with two additional points.
-//! Both rules are exact for cubic polynomials. The difference of their results is an estimate of the sampling error.
+//! Both quadrature rules are exact for cubic polynomials. The difference of their results is an estimate of the sampling error.
 
 use super::{GAUSS, LimitSide, LoadError, Operation, Schedule, table_value};
 use crate::elementary::{cos, sin};

@@ -29,7 +29,7 @@ impl Simulation {
     }
 
     /// Returns to the state `steps` steps earlier, bit for bit. With error control, two half steps count as one step.
-    /// Additional end times of steps are not removed.
+    /// Additional end times of steps, which the caller has requested, are not removed.
     ///
     /// # Errors
     /// Fails if fewer steps have been taken, or the state is not stored.

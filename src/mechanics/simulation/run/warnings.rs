@@ -52,7 +52,7 @@ const MOST_TURNS: usize = 20;
 const MANY_STEPS: usize = 5000;
 
 /// Ratio of the step size that resolves the motion of the scene to the mean step size, above which a warning is given.
-/// Such short steps follow a vibration whose amplitude is below a thousandth of the length of the scene.
+/// With this ratio, the steps follow a vibration whose amplitude is below a thousandth of the length of the scene.
 const MUCH_SHORTER: f64 = 50.0;
 
 /// Largest number of sliders whose resolution is described.
@@ -181,8 +181,7 @@ impl Simulation {
         (turns >= MOST_TURNS).then_some(Warning::Uneven { shortest, longest })
     }
 
-    /// Warning about many adaptive steps, if the method is of first order,
-    /// or if the steps are much shorter than the motion of the whole scene requires.
+    /// Warning about many adaptive steps. The method is of first order, or the steps are much shorter than the motion of the whole scene requires.
     fn many_steps(&self) -> Option<Warning> {
         let Adaptive { tolerance, length, order, .. } = **self.adaptive.as_ref()?;
         let (steps, rows) = (self.counts().steps, self.history().samples());
@@ -214,7 +213,7 @@ impl Simulation {
         if !keeps || !self.scene.sliders.is_empty() {
             return None;
         }
-        // The other rows are examined only if the first and the last row differ too much.
+        // The other rows of the history are examined only if the energies of the first and the last row differ too much.
         let apart = Invariant::Energy.value(&last) - Invariant::Energy.value(&first);
         let now = last.energy.kinetic + last.energy.strain + last.energy.stored;
         if apart.norm() <= LARGEST_DRIFT * now {
@@ -237,8 +236,8 @@ impl Simulation {
     }
 
     /// Warning that dampers added energy with the method `fourth_order`, whose backward substeps return energy.
-    /// The warning is given if the backward substeps returned more energy than the dampers dissipated in total, or if a step increased the energy,
-    /// in both cases by more than rounding.
+    /// The warning is given if the backward substeps returned more energy than the dampers dissipated in total.
+    /// It is also given if a step increased the energy. Differences within rounding are ignored.
     /// The warning reports the step with the largest returned energy.
     fn energy_gain(&self) -> Option<Warning> {
         if self.settings.method != Method::FourthOrder {

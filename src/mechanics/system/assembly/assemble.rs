@@ -37,7 +37,7 @@ impl System {
     }
 
     /// Builds the mechanism of a scene in its initial state. The caller can stop the assembly.
-    /// `goes_on` is called between beams and between phases. If it returns false, the assembly fails.
+    /// The callback `goes_on` is called between beams and between phases. If it returns false, the assembly fails.
     ///
     /// # Errors
     /// Fails in the same cases as [`assemble`](Self::assemble), or if the assembly is stopped.

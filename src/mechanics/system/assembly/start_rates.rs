@@ -88,8 +88,8 @@ impl RequestedRate<'_> {
 impl Assembly<'_> {
     /// Rates of the unknowns at the start, compatible with joints and start velocities [length/time, 1/time].
     ///
-    /// The rates of the unknowns are followed by entries for the `constraints` contact unknowns,
-    /// then by the rates of the prescribed degrees of freedom.
+    /// The result contains the rates of the unknowns, zeros for the `constraints` contact unknowns,
+    /// and the rates of the prescribed degrees of freedom.
     pub fn start_rates(
         &self,
         numbering: &Numbering,

@@ -178,7 +178,7 @@ impl Elements {
         }
     }
 
-    /// Name of the internal force that differed most from its law in the last iterate, and the relative difference;
+    /// Internal force that differed most from its law in the last iterate, given by its name and the relative difference.
     /// `None` if all differences are zero.
     pub fn farthest(&self) -> Option<(&str, f64)> {
         let (missing, index) = self.largest_mismatch;

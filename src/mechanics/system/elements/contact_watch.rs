@@ -42,8 +42,7 @@ impl ContactWatch {
     }
 
     /// Records a step.
-    /// Arguments: flags for a slack spring at the start and at the end, the rates of elongation of the previous step and of this step,
-    /// the force and the duration.
+    /// The flags tell if the spring is slack at the start and at the end. The rates of elongation are those of the previous step and of this step.
     pub fn add(
         &mut self,
         [was_slack, is_slack]: [bool; 2],

@@ -4,7 +4,7 @@
 ///
 /// The method is compensated summation (N. J. Higham, Accuracy and Stability of Numerical Algorithms (2002), section 4.3).
 /// Without this method, the elongation of a rope of 1 m that is stretched by a micrometre would have only ten accurate digits.
-/// Its stored energy would be equally inaccurate.
+/// The stored energy of the rope would be equally inaccurate.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Coordinate {
     pub value: f64,

@@ -157,8 +157,8 @@ impl DampingLaw {
     }
 
     /// Force and slope for Newton's method.
-    /// If the impedance of the rest of the system is known, the linearisation uses another segment of the law:
-    /// the intersection with the straight line through (`rate`, `force`) with the slope `-impedance`.
+    /// If the impedance of the rest of the system is known, the linearisation uses the segment of the law that intersects a certain straight line.
+    /// This line passes through (`rate`, `force`) with the slope `-impedance`.
     /// Without this rule, the iteration could alternate between two steep segments.
     pub(crate) fn linearised_target(
         &self,

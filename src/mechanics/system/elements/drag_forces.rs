@@ -7,7 +7,7 @@
 //! Here `w` are quadrature weights, `N_a` the basis functions, `f_a` the nodal forces, `D` the dissipated energy and `W` the work of the wind.
 //! The power `G·v` is computed from the force `G` alone by means of the law.
 //! The difference `G·Δx - G·wind Δt` would be a small difference of large numbers, and rounding could change its sign.
-//! `W` is computed as the remainder to `-G·Δx`, so that the energy balance is exact.
+//! The work `W` is computed as the remainder to `-G·Δx`, so that the energy balance is exact.
 //!
 //! The direction `t` of the axis is that of the mean configuration.
 

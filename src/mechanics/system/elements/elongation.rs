@@ -4,7 +4,7 @@
 //! length:  Δℓ = Σ e·Δd, e = (d₀ + d₁)/(ℓ₀ + ℓ₁) for each part     angle:  Δθ = r (Δω_b - Δω_a)
 //! ```
 //!
-//! `e` and `r` are secants. A force along a secant does exactly the work `F Δℓ` or `M Δθ`. The forces at both ends are opposite.
+//! The vectors `e` and `r` are secants. A force along a secant does exactly the work `F Δℓ` or `M Δθ`. The forces at both ends are opposite.
 //! Differences of positions are updated by increments. Their rounding error does not depend on the distance from the origin.
 //! The elongation is stored as its growth since the start.
 //! A length minus the natural length would have the rounding error of the length, which may be much larger than that of the elongation.
@@ -76,7 +76,7 @@ pub struct Elongation {
     /// Change `Δq` in the step [length, rad].
     pub change: f64,
     /// Change of the elongation in the last accepted iterate, and the further change that its force implies [length, rad].
-    /// This change is more accurate than a change computed from increments, whose rounding error would store energy in a stiff spring.
+    /// This stored change is more accurate than a change computed from increments, whose rounding error would store energy in a stiff spring.
     settled: (f64, f64),
     /// Secant `g`, which gives the elongation change as `Δq = Σ g u` [-].
     /// For methods with forces at the end of a step, the secant is the derivative of the elongation `q` at the end.
@@ -354,8 +354,8 @@ impl Elongation {
         }
     }
 
-    /// For each segment of a path, returns its length in the present configuration,
-    /// and the derivative of its displacement across itself with respect to the coordinates.
+    /// Lengths of the segments of a path in the present configuration.
+    /// The vectors are the derivatives of the displacement across each segment with respect to the coordinates.
     /// The direction of the force rotates with the segment.
     pub fn turned(&self) -> Vec<(f64, Vec<f64>)> {
         let Measure::Length(parts) = &self.measure else { return Vec::new() };

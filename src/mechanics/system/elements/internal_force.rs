@@ -48,7 +48,7 @@ pub trait InternalForce {
     );
 
     /// Adds `weight` times the forces that would remove the present residuals of the force laws.
-    /// Their directions are those of the last linearisation.
+    /// The directions of these forces are those of the last linearisation.
     fn add_mismatch_forces(&self, bodies: &[Body], weight: f64, out: &mut [f64]);
 
     fn correct(&mut self, bodies: &[Body], correction: &[f64]);
@@ -92,7 +92,7 @@ pub trait InternalForce {
     }
 
     /// Damping force [force] and damping moment [force·length] at a section of a beam, computed from the given rates at the start of the step.
-    /// `None` if the element does not damp this beam.
+    /// Returns `None` if the element does not damp this beam.
     fn transmitted(
         &self,
         _bodies: &[Body],

@@ -321,7 +321,7 @@ impl PrescribedMovements {
 
     /// Work and impulse of the drives in the step whose increments are stored in the bodies. The work is added to the work of each drive.
     ///
-    /// `mean` returns the mean rate of a degree of freedom.
+    /// The callback `mean` returns the mean rate of a degree of freedom.
     pub fn exchange(
         &mut self,
         bodies: &[Body],

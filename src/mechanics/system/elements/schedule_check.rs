@@ -4,7 +4,7 @@ use crate::integrators::Interval;
 use crate::loads::{Schedule, StepMean};
 
 /// Difference between two quadrature rules for the mean over a step, above which the steps do not resolve a schedule.
-/// It is a fraction of the largest value.
+/// The difference is a fraction of the largest value.
 /// For a jump, the difference is at least a tenth of the jump. A sine with 2.7 steps per period has exactly this difference.
 const LARGEST_MISS: f64 = 0.01;
 

@@ -5,7 +5,7 @@
 //! forces at the ends   U'(q₀) and U'(q₁); once per step the damper force d(q̇), at the time and in the direction of the force balance
 //! ```
 //!
-//! `U` is the stored energy, `d` the damping law and `D` the dissipated energy.
+//! Symbols: stored energy `U`, damping law `d`, and dissipated energy `D`.
 
 mod targets;
 

@@ -13,8 +13,7 @@ const LONGEST: usize = 100;
 const FORMULA: [char; 4] = ['=', '+', '-', '@'];
 
 /// Characters that are invisible or look like ordinary letters.
-/// The list follows Unicode 16: invisible characters of the general categories Cf and Mn, fillers, variation selectors,
-/// full-width forms and mathematical alphabets.
+/// Unicode 16 categories in this list: invisible Cf and Mn, fillers, variation selectors, full-width forms, mathematical alphabets.
 const INVISIBLE_OR_COPIES: [RangeInclusive<u32>; 14] = [
     0xAD..=0xAD,
     0x34F..=0x34F,

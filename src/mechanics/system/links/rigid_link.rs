@@ -29,7 +29,7 @@ pub enum ForceUnknowns {
 }
 
 impl ForceUnknowns {
-    /// Force for a value of its unknown. `last` is the force before the step or displacement [force].
+    /// Force for a value of the force unknown. The argument `last` is the force before the step or displacement [force].
     pub fn force<F>(self, last: F, unknown: F) -> F
     where
         F: Add<Output = F> + Div<f64, Output = F>,
@@ -272,8 +272,8 @@ impl RigidLink {
     }
 
     /// Calls `take` with the static stiffness of the link.
-    /// It consists of the geometric stiffness of the force, and of a penalty stiffness [force/length] that holds the point
-    /// at its position in the body.
+    /// It consists of the geometric stiffness of the force and a penalty stiffness [force/length].
+    /// The penalty holds the point at its position in the body.
     pub fn at_rest(
         &self,
         bodies: &Bodies,

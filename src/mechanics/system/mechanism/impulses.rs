@@ -40,8 +40,8 @@ pub struct Impulses {
     values: Vec<f64>,
     /// Residual of the balance, with additional space for contact equations.
     residual: Vec<f64>,
-    /// Impulses since the end of the last step by control point,
-    /// then the impulses of the multipliers of inclined rollers [force·time, force·length·time].
+    /// Impulses since the end of the last step [force·time, force·length·time].
+    /// Impulses on control points are followed by impulses of inclined rollers.
     present: Vec<f64>,
     /// Mean forces of the last step in the same order [force, force·length]. Before the first step, the list contains the present forces.
     means: Vec<f64>,

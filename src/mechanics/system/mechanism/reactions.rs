@@ -40,7 +40,7 @@ impl Reactions {
 
 impl System {
     /// Computes the forces of joints and supports.
-    /// `left` contains the residuals of all control points, and `across` the multipliers of all inclined rollers.
+    /// The argument `left` contains the residuals of all control points, and `across` the multipliers of all inclined rollers.
     pub(super) fn reactions_from_residuals(&self, left: &[f64], across: &[f64]) -> Reactions {
         let mut residual = vec![0.0; self.degrees_of_freedom()];
         let mut forces = left.chunks_exact(3).map(|force| [force[0], force[1], force[2]]);
@@ -69,7 +69,7 @@ impl System {
     }
 
     /// Returns the reaction of supports and inclined rollers at a point; `None` if there is no support.
-    /// `residual` contains the residual at all degrees of freedom. `of_roller` returns the force of a roller.
+    /// The argument `residual` contains the residual at all degrees of freedom. The callback `of_roller` returns the force of a roller.
     pub(super) fn held_by(
         &self,
         place: &BodyPoint,

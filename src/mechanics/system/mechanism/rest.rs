@@ -109,7 +109,7 @@ impl System {
     }
 
     /// Accepts a static solution.
-    /// It applies displacements and rotations [length, rad], contact unknowns, and the prescribed positions for a fraction of the load.
+    /// The solution contains displacements and rotations [length, rad], contact unknowns, and the prescribed positions for a fraction of the load.
     /// After a static solution, all velocities are zero.
     pub(crate) fn move_by(&mut self, unknowns: &[f64], load_factor: f64) {
         let (movements, contacts) = unknowns.split_at(self.unknowns.count());

@@ -1,6 +1,6 @@
 //! Response of beams to an impulse, with only selected deformations.
 //!
-//! The velocity response `a` to a unit impulse `Gᵀ`, and the impulses `n` of the section forces, satisfy
+//! The equations below give the velocity response `a` to a unit impulse `Gᵀ`, and the impulses `n` of the section forces.
 //!
 //! ```text
 //! M a + Bᵀ n = Gᵀ        B a = n/(s C)        f = Gᵀ - Bᵀ n        a = M⁻¹ f

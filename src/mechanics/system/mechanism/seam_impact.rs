@@ -2,7 +2,7 @@
 //!
 //! The corner is treated as the limit of a rounded corner. Let `w` be the velocity of the slave relative to the contact point of the master.
 //! While the tangent rotates, the contact acts by impulses normal to the tangent.
-//! They do no work and conserve the component of `w` along the tangent.
+//! The impulses do no work and conserve the component of `w` along the tangent.
 //! Hence `½ w·W⁻¹w` is constant with `W = G M⁻¹ Gᵀ`, and `w` rotates with the tangent in the metric `W⁻¹`:
 //!
 //! ```text
@@ -25,9 +25,9 @@ use crate::system::sliders::{MasterEnd, MasterLimit, Seam};
 /// Angle below which two tangents count as parallel [rad].
 const STRAIGHT: f64 = 1e-13;
 
-/// Determinant of the velocity response below which an impulse can change the velocity of the slider in one direction only,
+/// Smallest determinant of the velocity response for which an impulse can change the velocity of the slider in two directions,
 /// as a fraction of the squared trace.
-/// The velocity of such a slider is not rotated at corners.
+/// If the determinant is smaller, the velocity of the slider is not rotated.
 const ONE_WAY: f64 = 1e-20;
 
 /// Largest number of corrections of the rotation angles, for coupled sliders that pass corners simultaneously.
@@ -204,8 +204,7 @@ fn turned(direction: Vec2, [from, to]: [Vec2; 2]) -> Vec2 {
 /// A corner has two components of impulse. All other contacts have impact laws.
 ///
 /// At a corner the impulse is `P = γ J ½ (w⁻ + w⁺)`, with the velocities `w⁻` before and `w⁺` after the impact.
-/// The factor `γ` is determined so that the velocity rotates by the angle of the corner,
-/// with an error of at most 1e-12 or the smallest possible error.
+/// The factor `γ` is determined so that the velocity rotates by the angle of the corner. The error is at most 1e-12 or the smallest possible error.
 /// Returns `None` if the angles are not reached in a case where sliders also strike stops.
 ///
 /// For any `γ`, the impulses are the solution of a complementarity problem.

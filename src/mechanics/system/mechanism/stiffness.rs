@@ -72,9 +72,9 @@ impl System {
         reaches.fold(self.unknowns.half_bandwidth(), usize::max)
     }
 
-    /// Calls `take` with the penalty stiffness of every rigid link and contact,
-    /// which is `RIGID` times the largest stiffness at its degrees of freedom.
-    /// `stiffness` returns the largest stiffness for a position in `order` [force/length, force·length].
+    /// Calls `take` with the penalty stiffness of every rigid link and contact.
+    /// It is `RIGID` times the largest stiffness at the degrees of freedom of the link or contact.
+    /// The callback `stiffness` returns the largest stiffness for a position in `order` [force/length, force·length].
     pub(crate) fn for_each_static_constraint(
         &self,
         order: &StaticOrder,
@@ -121,9 +121,8 @@ impl System {
         self.links.forces().saturating_sub(kinds.filter(is_light).count())
     }
 
-    /// Estimate of the square of the lowest bending frequency, as if all beams formed a single beam [1/time²]:
-    /// the smallest `EI`, divided by the largest `ρA` and by the fourth power of the total length.
-    /// `None` without a beam.
+    /// Estimate of the square of the lowest bending frequency [1/time²]; `None` without a beam.
+    /// The estimate is the smallest `EI`, divided by the largest `ρA` and by the fourth power of the total length of the beams.
     pub(crate) fn slowest_bending(&self) -> Option<f64> {
         let extents = || self.bodies.iter().filter_map(|body| body.dynamics.extent());
         let length: f64 = extents().map(|(_, length)| length).sum();

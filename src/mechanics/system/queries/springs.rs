@@ -81,8 +81,8 @@ impl System {
         all.filter(|(_, energy)| *energy > 0.0).max_by(|a, b| a.1.total_cmp(&b.1))
     }
 
-    /// Dissipated energies of other elements since the start, in the order of the scene [energy]:
-    /// material damping, drag, impacts of sliders with restitution below 1, and friction.
+    /// Dissipated energies of other elements since the start, in the order of the scene [energy].
+    /// They include material damping, drag, impacts of sliders with restitution below 1, and friction.
     pub(crate) fn dissipations(&self) -> impl Iterator<Item = f64> {
         let others = self.elements().resistances().filter(|other| other.stretched().is_none());
         let losing = self.sliders().iter().filter(|slider| slider.dissipates());

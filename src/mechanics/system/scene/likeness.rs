@@ -16,8 +16,8 @@ const TOLERANCE: f64 = 1e-9;
 const ROUNDING: f64 = 64.0 * f64::EPSILON;
 
 impl Scene {
-    /// Returns true if both scenes have equal beams, particles, rigid bodies, joints, tracks, sliders, masses,
-    /// velocities and loads, in the same order.
+    /// Returns true if both scenes have equal objects, start velocities and loads in the same order.
+    /// Objects are beams, particles, rigid bodies, joints, tracks, sliders and masses.
     /// Names and observed stations are ignored. Script functions cannot be compared, so scenes that contain them are never equal.
     pub fn is_like(&self, other: &Self) -> bool {
         match (self.without_names(), other.without_names()) {

@@ -46,7 +46,7 @@ impl MotionState {
     }
 
     /// Continues the motion with renumbered unknowns, with their rates and diagonal inertia. The accelerations are discarded.
-    /// `movements` returns the degrees of freedom of a body.
+    /// The callback `movements` returns the degrees of freedom of a body.
     pub fn renumber(
         &mut self,
         rates: Vec<f64>,

@@ -174,7 +174,7 @@ impl<'w> Evaluator<'w> {
     }
 
     /// Values and derivatives with respect to all parameters at a point, from one call with values that depend on parameters.
-    /// `point` contains the value and the perturbation of each parameter. The inner error is the reason for missing derivatives.
+    /// The argument `point` contains the value and the perturbation of each parameter. The inner error is the reason for missing derivatives.
     ///
     /// # Errors
     /// Fails if the run is stopped.

@@ -39,7 +39,7 @@ impl Elongation {
     }
 
     /// Returns the first-order change of the elongation due to a correction of the increments [length, rad].
-    /// `slope` contains the derivatives of the elongation with respect to its coordinates.
+    /// The argument `slope` contains the derivatives of the elongation with respect to its coordinates.
     pub fn along(&mut self, slope: &[f64], correction: &[f64]) -> f64 {
         let Self { shares, corrected, .. } = self;
         combine(shares, correction, corrected);

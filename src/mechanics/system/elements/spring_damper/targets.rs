@@ -54,9 +54,10 @@ impl SpringDamper {
     }
 
     /// Target force of the spring for a linearisation.
-    /// After several iterations, the linearisation uses another point:
-    /// the intersection of the law with a straight line that represents the impedance of the rest of the system.
-    /// Without this point, Newton's method would alternate between segments at a corner of a stiff law.
+    /// After several iterations, the linearisation uses the intersection of the law with a straight line.
+    /// The line represents the impedance of the rest of the system.
+    /// Without the intersection, Newton's method would alternate between segments at a corner of a stiff law.
+    /// The intersection is unique if the law is increasing.
     /// The intersection is unique if the law is increasing.
     pub(super) fn spring_target(&mut self, stage: Stage) -> ForceTarget {
         let (asked, change) = (self.restoring(stage), self.elongation.change);
@@ -117,7 +118,7 @@ impl SpringDamper {
     }
 
     /// Factor of the extrapolation of the rate beyond the middle of the step.
-    /// It multiplies the difference between the rates of this step and the previous step.
+    /// The factor multiplies the difference between the rates of this step and the previous step.
     /// Returns `None` if the force does not depend on rates.
     ///
     /// A method with forces at both ends of the step evaluates the balance at the fraction `at.weight` of the step.
