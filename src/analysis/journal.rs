@@ -196,7 +196,7 @@ impl Journal {
     /// Fingerprint of a case: a hash of all data on which its result depends.
     ///
     /// The hash includes the program, because another build may give different results.
-    /// If another compiler changes the hash, the cases are run again.
+    /// If another compiler changes the hash, the study runs all cases again.
     pub fn fingerprint(parts: &[&[u8]]) -> u64 {
         let mut hasher = DefaultHasher::new();
         (FORMAT, build()).hash(&mut hasher);

@@ -25,7 +25,7 @@ pub enum SweptValues {
 #[derive(Clone, Debug, PartialEq)]
 pub enum Choice {
     /// Full grid. Each level applies to the given number of consecutive rows, followed by the next level.
-    /// The sequence of levels is repeated until the last row.
+    /// In a full grid, the sequence of levels is repeated until the last row.
     Grid(usize),
     /// Level index for each row.
     Drawn(Vec<u32>),

@@ -15,7 +15,7 @@ const PULSE: Duration = Duration::from_millis(50);
 
 /// Runs cases on all processor cores. Cases whose loads call script functions run last, on the calling thread.
 ///
-/// On the calling thread, `heed` is called with the index and the result of each completed case, and periodically with `None`.
+/// On the calling thread, the callback `heed` receives the index and the result of each completed case, and periodically `None`.
 /// If `heed` returns `Break`, `stop` is set, and cases that have not ended get no result. Results are in the order of the cases.
 /// If a case panics, its result is the panic message.
 pub fn on_all_cores<R: Send>(

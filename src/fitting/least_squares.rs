@@ -13,7 +13,7 @@ const SETTLED: f64 = 1e-7;
 /// Largest change of a parameter for which the derivatives still count as accurate, as a fraction of the size of the parameter.
 const NEAR: f64 = 0.02;
 /// Largest cosine of the angle between the residuals and a column of the Jacobian at convergence.
-/// If all cosines are smaller than this value, the search has converged.
+/// If all these cosines are smaller than this constant, the search has converged.
 const ORTHOGONAL: f64 = 1e-7;
 /// Smallest predicted relative reduction of the sum of squares for which the search continues.
 /// With a smaller reduction, parameters change by less than `1e-3 √(n - p)` of their standard errors, for `n` residuals and `p` parameters.
@@ -180,12 +180,12 @@ impl LeastSquares {
     /// The derivatives are computed by central differences at the start and are updated after each step.
     /// The derivatives are computed again when updated derivatives no longer reduce the sum of squares.
     /// The derivatives are also computed again when the search seems to have converged far from the point at which they were computed.
-    /// A step that fails is shortened.
+    /// A failed step is repeated with a smaller length.
     ///
     /// # Errors
     /// Returns an error of `evaluate`.
     /// The inner error is the reason why the search cannot start or continue.
-    /// A required evaluation has failed, or has returned values that are not finite.
+    /// The reason is a required evaluation that has failed or has returned values that are not finite.
     pub fn solve<E>(&self, evaluate: &mut Evaluate<'_, E>) -> Result<Result<Fitted, String>, E> {
         self.solve_with(evaluate, &mut |_| Ok(Err("differences are wanted".into())))
     }

@@ -26,7 +26,7 @@ impl SearchRange {
     }
 
     /// Size of the parameter at the value `x`: the magnitude of `x`, but at least a hundredth of the scale of the parameter.
-    /// Changes of the parameter are compared with this size.
+    /// Changes of a parameter are compared with the size of the parameter.
     pub fn size(self, x: f64) -> f64 {
         let range = self.high - self.low;
         let least = if range.is_finite() { 0.01 * range } else { 1e-3 * self.start.abs() };

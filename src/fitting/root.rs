@@ -17,7 +17,7 @@ pub enum RootError<E> {
     /// The function value is not finite. The fields are the argument and the value.
     NotFinite(f64, f64),
     /// The sign changes at a pole: the values near the pole are larger in magnitude than at both ends of the interval.
-    /// The fields are an argument near the pole and the value at this argument.
+    /// The fields are an argument near the pole and the function value at this argument.
     Pole(f64, f64),
     /// The search did not converge within the maximum number of calls. The fields are the best argument and its value.
     Unfinished(f64, f64),

@@ -57,7 +57,7 @@ impl DataValues {
 
 impl DataTable {
     /// Writes the CSV file in pieces. Numbers have 17 digits, from which a float can be restored exactly.
-    /// An error of `file` ends the writing, so that the output of a long table can be interrupted.
+    /// An error of the argument `file` ends the writing, so that the output of a long table can be interrupted.
     ///
     /// # Errors
     /// Fails if writing to `file` fails, or if the columns have different lengths.

@@ -159,7 +159,7 @@ impl MotionPicture {
     }
 
     /// Paths are dashed and have colours that no beam has.
-    /// With a single beam, paths are vermilion, which differs from the colours of the snapshots.
+    /// In a picture with a single beam, paths are vermilion, which differs from the colours of the snapshots.
     fn trace_style(&self, index: usize) -> (Colour, Stroke) {
         let first = if self.beam_count() > 1 { self.beam_count() } else { 1 };
         (hue(first + index), if index < HUE_COUNT { Stroke::Dashed } else { Stroke::Dotted })

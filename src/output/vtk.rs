@@ -1,6 +1,6 @@
 //! VTK files for ParaView and other programs. There is one grid for each frame, and a collection with the times of the frames.
 //!
-//! The files are XML with base64 data after a byte count. This format keeps every bit.
+//! The files are XML. A byte count precedes the base64 data. The base64 format keeps every bit.
 //! The base64 format can contain denormal numbers and NaN, which programs reject in the text format.
 //! Reference: VTK User's Guide, "VTK File Formats": XML file formats; uncompressed, `header_type="UInt64"`.
 

@@ -61,7 +61,7 @@ impl SessionRecord {
             if steps != was.steps {
                 let method = if time > was.time { "run_to" } else { "rewind" };
                 // When the saved script repeats the movement, it may call the failed script function again, and this call may also fail.
-                // Hence the generated script catches the error.
+                // Hence the generated script catches the error of the repeated call.
                 let call = format!("{}.{method}({});", was.name, format_number(time));
                 self.entries
                     .push(RecordedInput::Moved(format!("try {{ {call} }} catch {{ }}").into()));

@@ -12,7 +12,7 @@ fn polynomial(coefficients: [f64; 8], x: f64) -> f64 {
 /// Quantile of the standard normal distribution. The quantile is infinite for the probabilities 0 and 1.
 ///
 /// Rational approximations of M. J. Wichura, Applied Statistics 37 (1988) 477-484, algorithm AS 241 (PPND16).
-/// The relative error is about 1e-16.
+/// The relative error of the quantile is about 1e-16.
 pub fn normal_quantile(probability: f64) -> f64 {
     let from_middle = probability - 0.5;
     if from_middle.abs() <= CENTRE {

@@ -7,7 +7,7 @@ const FEWEST: usize = 30;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct VarianceShare {
     /// First-order index (main effect). The average of the result over all other parameters still varies with this parameter.
-    /// The index is the variance of this average, as a fraction of the variance of the result.
+    /// The index is the variance of the averaged result, as a fraction of the variance of the result.
     pub first: f64,
     /// Total index: the mean variance that remains if all other parameters are known, as a fraction of the variance of the result.
     /// The total index is `None` if it cannot be estimated.
@@ -111,7 +111,7 @@ mod tests {
     }
 
     /// Indices of the Ishigami function in closed form.
-    /// The contributions to the variance are 1/2 (1 + b π⁴/5)², a²/8 and 0 for the three parameters.
+    /// The contributions of the three parameters to the variance are 1/2 (1 + b π⁴/5)², a²/8 and 0.
     /// The interaction of the first and the third parameter contributes 8 π⁸ b²/225.
     fn known() -> ([f64; 3], [f64; 3]) {
         let fourth = power(PI, 4.0);

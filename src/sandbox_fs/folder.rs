@@ -187,7 +187,7 @@ impl Folder {
     }
 
     /// Writes the folder to disk, so that renamed files keep their new names after a power failure.
-    /// Has no effect on systems that cannot write folders to disk.
+    /// This function has no effect on systems that cannot write folders to disk.
     pub(super) fn sync(&self) -> io::Result<()> {
         #[cfg(unix)]
         {

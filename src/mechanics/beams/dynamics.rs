@@ -24,7 +24,7 @@ pub struct Collocation {
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct ForceSummary {
     /// Largest difference between the strain of the configuration and the strain that belongs to the section force [-].
-    /// Curvatures are multiplied by a length.
+    /// In the strain mismatch, curvatures are multiplied by a length.
     pub strain_mismatch: f64,
     /// Largest section force [force].
     pub force: f64,
@@ -81,10 +81,10 @@ pub trait BodyDynamics: Send + Sync {
     ) -> ForceSummary;
 
     /// Adds `weight` times the internal forces, with the strain mismatches condensed out.
-    /// Calls the sink of each part with `weight` times the derivatives of these forces, span by span.
+    /// Calls the sink of each part, span by span, with `weight` times the derivatives of the internal forces.
     ///
     /// The spans across the cut between two parts are passed to the sinks of both parts.
-    /// The part after the cut receives such a span before its own spans. The part before the cut receives it after its own spans.
+    /// The part after the cut receives these spans before its own spans. The part before the cut receives them after its own spans.
     /// Each sink must use only the rows of the control points of its part.
     fn add_linearised_forces(
         &mut self,
@@ -134,7 +134,7 @@ pub trait BodyDynamics: Send + Sync {
     fn extent(&self) -> Option<(Section, f64)>;
 
     /// Appends the unit normals of the sections at the start of the step, as vectors in space [-].
-    /// There is one normal for each quadrature point for the strain `Γ`.
+    /// The list contains one normal for each quadrature point for the strain `Γ`.
     fn write_normals(&self, normals: &mut Vec<Vec2>);
 
     /// Strain energy at the start of the step [energy].

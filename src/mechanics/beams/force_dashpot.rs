@@ -1,8 +1,8 @@
 //! Dashpot for axial and shear strain at a quadrature point.
 //!
 //! ```text
-//! N = C τ (by_change · ΔΓ - by_last · Γ̇)      n = Λs N      Λs = (1-s) Λ0 + s Λ1      gs = g0 + s Δg
-//! R_a = w N_a' n      S_a = -w N_a gs × n      δΔΓ = Λ1ᵀ δg - J (Γ1 + e1) δω/q
+//! force N = C τ (by_change · ΔΓ - by_last · Γ̇)      in space n = Λs N      rotation Λs = (1-s) Λ0 + s Λ1      gradient gs = g0 + s Δg
+//! nodal force R_a = w N_a' n      nodal moment S_a = -w N_a gs × n      strain δΔΓ = Λ1ᵀ δg - J (Γ1 + e1) δω/q
 //! ```
 //!
 //! The vectors `R_a` and `S_a` are the force and moment on control point `a`.
@@ -98,7 +98,7 @@ impl ForceDashpot {
 
     /// Returns the error of the axial and shear rates in the last accepted step.
     /// The argument `share` is the start of the last step on a scaled time axis.
-    /// On this axis the middle of the step before is 0, and the middle of the last step is 1.
+    /// On the scaled time axis, the middle of the step before is 0, and the middle of the last step is 1.
     pub(super) fn last_rate_mismatch(&self, share: f64) -> [RateMismatch; 2] {
         let of = |axis: usize| {
             let means = [self.rate_before[axis], self.last_rate[axis]];
@@ -249,7 +249,7 @@ impl ForceDashpot {
     }
 
     /// Returns the strain rates at the start of the step.
-    /// For each component, `selected` chooses between the present rate and a rate that is extrapolated from the last two steps.
+    /// For each component, the argument `selected` chooses between the present rate and a rate extrapolated from the last two steps.
     fn selected_rates(&self, selected: DashpotRates<'_>) -> Vec2 {
         let (present, carried) =
             (self.rate(selected.present), self.carried(selected.extrapolation));
@@ -261,7 +261,7 @@ impl ForceDashpot {
     }
 
     /// Returns the dashpot force in space at the start of the step [force], and its contribution to the moment [force·length].
-    /// The contribution is `w x' × n`, with the quadrature weight `w` and the derivative `x'` of the axis.
+    /// The moment contribution is `w x' × n`, with the quadrature weight `w` and the derivative `x'` of the axis.
     pub(super) fn transmitted(&self, rates: DashpotRates<'_>) -> (Vec2, f64) {
         let force = self.rotation.to_space(self.damping.component_mul(&self.selected_rates(rates)));
         (force, self.functions.weight * cross(self.gradient, force))

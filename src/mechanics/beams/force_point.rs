@@ -70,7 +70,7 @@ impl<const N: usize> ForcePoint<N> {
     /// Section force for the present strain. The second value is true if the section force of the last solution is returned.
     ///
     /// A section force from the last solution has a small rounding error, in proportion to its own size.
-    /// A section force computed from the strain has a larger rounding error: that of a number close to one, multiplied by the stiffness.
+    /// A section force computed from the strain has a larger rounding error: the stiffness times the rounding error of a number close to one.
     fn present_force(&self, section: &Section) -> (Vec2, bool) {
         let missing = self.strain - strain_from(section, self.last_force);
         let is_known = larger(missing.x.abs(), missing.y.abs()) <= SAME_STRAIN;
@@ -78,7 +78,7 @@ impl<const N: usize> ForcePoint<N> {
     }
 
     /// Returns the section force `n` in space [force] and its contribution to the moment [force·length] at the start of the step.
-    /// The contribution is `w x' × n`, with the quadrature weight `w` and the derivative `x'` of the axis.
+    /// The moment contribution is `w x' × n`, with the quadrature weight `w` and the derivative `x'` of the axis.
     pub(super) fn transmitted(&self, section: &Section) -> (Vec2, f64) {
         let force = self.rotation.to_space(self.present_force(section).0);
         (force, self.axis.weight * cross(self.gradient, force))

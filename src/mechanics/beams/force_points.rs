@@ -3,9 +3,9 @@
 //! Definitions: `Δg = Σ N_a' Δx_a`, `Δω = Σ N_a Δω_a`, `1/q = dΔθ/dΔω` and `C = diag(EA, GA)`.
 //!
 //! ```text
-//! Λ1 = Λ0 R(Δθ(Δω))    Γ1 = Λ1ᵀ (g0 + Δg) - e1
-//! gτ = g0 + τ Δg             Λτ = (1-τ) Λ0 + τ Λ1        N = C ((1-σ) Γ0 + σ Γ1)      n = Λτ N
-//! R_a = w N_a' n             S_a = -w N_a gτ × n
+//! rotation Λ1 = Λ0 R(Δθ(Δω))      strain Γ1 = Λ1ᵀ (g0 + Δg) - e1
+//! gradient gτ = g0 + τ Δg      rotation Λτ = (1-τ) Λ0 + τ Λ1      force N = C ((1-σ) Γ0 + σ Γ1)      in space n = Λτ N
+//! nodal force R_a = w N_a' n      nodal moment S_a = -w N_a gτ × n
 //! ```
 //!
 //! The vectors `R_a` and `S_a` are the force and moment on control point `a`. The quadrature weight is `w`.
@@ -38,8 +38,8 @@ pub(super) struct ForcePoints<const N: usize> {
     /// Section force `N` of the present iterate.
     force: Pair<Lanes>,
     /// Section force of the last step, with which the iteration of the next step starts.
-    /// In fast vibration, this force is closer to the solution than the section force for the strain at the start of the step.
-    /// The latter may alternate in sign from step to step.
+    /// In fast vibration, the last section force is closer to the solution than the section force for the strain at the start of the step.
+    /// The section force for the strain at the start may alternate in sign from step to step.
     last_force: Pair<Lanes>,
     /// Strain mismatch `m = Γσ - C⁻¹ N` at the last evaluation: the strain of the configuration minus the strain that belongs to the section force.
     mismatch: Pair<Lanes>,
@@ -68,7 +68,7 @@ pub(super) struct Resultant {
 
 /// Derivatives of the forces on control points.
 /// The entry `rows[i]` contains the derivatives of force component `i` with respect to the gradient and the rotation.
-/// They are multiplied by the quadrature weight and the basis functions.
+/// The derivatives are multiplied by the quadrature weight and the basis functions.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct ForceTangent<const N: usize> {
     rows: [[Lanes; 3]; 3],
@@ -326,7 +326,7 @@ impl<const N: usize> ForcePoints<N> {
     }
 
     /// Corrects the section forces after a correction of the increments:
-    /// `N ← N + C (m + σ δΓ1)`, with the mismatch `m` and the strain correction `δΓ1 = Λ1ᵀ δg - J (Γ1 + e1) δω/q`.
+    /// Formula: `N ← N + C (m + σ δΓ1)`, with the strain mismatch `m` and the strain correction `δΓ1 = Λ1ᵀ δg - J (Γ1 + e1) δω/q`.
     #[inline(always)]
     pub(super) fn correct_section_forces<V: Simd>(
         &mut self,

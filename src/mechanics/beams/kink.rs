@@ -21,7 +21,7 @@ pub struct MissedKink {
     pub length: PiecewisePolynomial,
     /// Correction factor `μ` of the inertia of a moving kink [-].
     /// The kinetic energy that the mesh misses is `½ μ ρA g |a|² v²`, with the kink `a` and its speed `v`, averaged over the positions of the kink.
-    /// For exactly integrated strains `μ = 1`.
+    /// For exactly integrated strains, the correction factor is `μ = 1`.
     pub inertia: f64,
 }
 
@@ -29,12 +29,12 @@ pub struct MissedKink {
 /// A force `λ` across the beam at `ξ` displaces the axis at `ξ` by `g(ξ) λ/GA` more than the mesh represents.
 ///
 /// ```text
-/// g(ξ) = l(ξ)ᵀ M⁻¹ r(ξ)        M = Σ w t tᵀ/|x_ξ|        l = ∫ t dξ up to ξ, r = ∫ t dξ from ξ on
+/// kink length g(ξ) = l(ξ)ᵀ M⁻¹ r(ξ)      matrix M = Σ w t tᵀ/|x_ξ|      integrals l = ∫ t dξ up to ξ, r = ∫ t dξ from ξ on
 /// ```
 ///
 /// The matrix `M` contains products of the splines `t` of one degree less, summed over the points and weights of the shear strain.
 /// The length `g` is the compliance of the exact string under a point load minus the compliance of the string on the mesh.
-/// It does not depend on the supports of the string.
+/// The kink length does not depend on the supports of the string.
 /// The kink length `g` is a polynomial of twice the degree on each span, and zero where the basis is C⁰.
 /// Returns `None` if `g` is not positive at a point where the basis is smoother. This occurs with fewer quadrature points than the patch rule has.
 ///
@@ -84,7 +84,7 @@ fn control_polygon_length(control_points: &[Vec2], span: &Span, degree: usize) -
 }
 
 /// For each B-spline of degree p-1 on a span, returns the integral from the start of the span as coefficients of a polynomial.
-/// The polynomial has a coordinate from -1 to 1 over the span. The integrals are the sums `Σ_(a > t) N_a` of splines of degree p.
+/// The polynomial has a coordinate from -1 to 1 over the span. Its values are the sums `Σ_(a > t) N_a` of splines of degree p.
 fn fractions(mesh: &Mesh, span: &Span) -> Vec<Vec<f64>> {
     let degree = mesh.basis().degree();
     let half = 0.5 * (span.end - span.start);

@@ -12,7 +12,7 @@ use crate::geometry::{
 pub enum Quadrature {
     /// Patch rule ([`patch_rule`]).
     /// The number of points in each smooth section of the mesh equals the number of linearly independent derivatives of the basis functions.
-    /// The rule avoids locking and zero-energy modes, and passes the patch test.
+    /// The patch rule avoids locking and zero-energy modes, and passes the patch test.
     #[default]
     Patch,
     /// Fixed number of Gauss points per span. Too many points cause locking, too few leave zero-energy modes.
@@ -39,7 +39,7 @@ pub struct PointCounts {
 }
 
 /// Span of the mesh, its quadrature points for the strain `Γ`, and the number of points for the curvature `κ`.
-/// Integrals are `∫ f dξ ≈ Σ weight · f(point)`.
+/// The quadrature is `∫ f dξ ≈ Σ weight · f(point)`.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct QuadratureSpan {
     pub(super) span: Span,

@@ -1,7 +1,7 @@
 //! Dashpot for the curvature at a quadrature point.
 //!
 //! ```text
-//! M = EI τ (by_change · Δκ - by_last · κ̇)      Δκ = Δω'/q      S_a = w N_a' M/q
+//! moment M = EI τ (by_change · Δκ - by_last · κ̇)      curvature Δκ = Δω'/q      nodal moment S_a = w N_a' M/q
 //! ```
 
 use super::RotationIncrement;
@@ -76,7 +76,7 @@ impl MomentDashpot {
 
     /// Returns the error of the rate in the last accepted step.
     /// The argument `fraction` is the start of the last step on a scaled time axis.
-    /// On this axis the middle of the step before is 0, and the middle of the last step is 1.
+    /// On the scaled time axis, the middle of the step before is 0, and the middle of the last step is 1.
     pub(super) fn last_rate_mismatch(&self, fraction: f64) -> RateMismatch {
         let damping = self.functions.weight * self.damping;
         RateMismatch::of(damping, self.start_rate, [self.rate_before, self.last_rate], fraction)

@@ -1,7 +1,7 @@
 //! Quadrature points for the curvature `κ` in vector lanes. The moment is an independent unknown.
 //!
 //! ```text
-//! κ1 = κ0 + Δω'/q     1/q = dΔθ/dΔω     M = EI ((1-σ) κ0 + σ κ1)     S_a = w N_a' M/q
+//! curvature κ1 = κ0 + Δω'/q     1/q = dΔθ/dΔω     moment M = EI ((1-σ) κ0 + σ κ1)     nodal moment S_a = w N_a' M/q
 //! ```
 //!
 //! The moment is linear in the curvature, so Newton's method would converge without the moment as an unknown.
@@ -152,7 +152,7 @@ impl<const N: usize> MomentPoints<N> {
     }
 
     /// Computes the weighted moments `w M/q` in the present iterate.
-    /// `w` is the quadrature weight, and `1/q = dΔθ/dΔω` is the derivative of the rotation angle.
+    /// The quadrature weight is `w`, and the derivative of the rotation angle is `1/q = dΔθ/dΔω`.
     #[inline(always)]
     pub(super) fn take_forces<V: Simd>(
         &mut self,

@@ -1,7 +1,7 @@
 //! Strain rates at the end of a step. They are accurate even if the steps are longer than the relaxation time of the dashpots.
 //!
 //! In the energy–momentum method, a rate that decays within a step changes from `v0` to about `-v0`.
-//! If a stiff dashpot moves with a large motion, this rate error, multiplied by the damping, appears in the forces at the end of a step.
+//! If a stiff dashpot moves with a large motion, the error of the end rate, multiplied by the damping, appears in the forces at the end of a step.
 //! The mean rate over a step is accurate, but the rates at the start and the end of the step are not.
 //! The mean rates of the last two steps, extrapolated to the end, have an error of second order.
 
@@ -30,7 +30,7 @@ impl RateMismatch {
     /// Errors of a rate of a dashpot with the given damping coefficient [force·time; energy/time].
     /// The argument `start` is the rate at the start of a step. The mean rates of the previous step and of this step are `before` and `now`.
     /// The argument `fraction` is the start of the step on a scaled time axis.
-    /// On this axis the middle of the previous step is 0, and the middle of this step is 1.
+    /// On the scaled time axis, the middle of the previous step is 0, and the middle of this step is 1.
     pub(super) fn of(damping: f64, start: f64, [before, now]: [f64; 2], fraction: f64) -> Self {
         let (change, off) = (now - before, start - before);
         let off = off - fraction * change;
@@ -68,7 +68,7 @@ impl RateResolution {
     pub(super) fn fraction(&self, duration: f64) -> Option<f64> {
         let between = duration + self.before;
         // A substep of the fourth-order method runs backwards in time.
-        // The middles of two substeps may then coincide, and no interpolation between them exists.
+        // The middles of two such substeps may coincide, and no interpolation between them exists.
         let is_there = duration.is_finite() && self.before * between > 0.0;
         is_there.then(|| self.before / between)
     }

@@ -4,7 +4,7 @@
 //! The integrals are weighted with derivatives of the basis functions and evaluated by the quadrature of the beam:
 //!
 //! ```text
-//! Σ w N_a' n = F_a          Σ w N_a' M - Σ w N_a (x' × n) = T_a          F_a, T_a: loads minus inertia, known exactly
+//! forces Σ w N_a' n = F_a      moments Σ w N_a' M - Σ w N_a (x' × n) = T_a      F_a, T_a: loads minus inertia, known exactly
 //! ```
 //!
 //! The forces `n` and moments `M` at the quadrature points satisfy these equations.
@@ -13,13 +13,13 @@
 //! The computed forces are elements of the space `T` of all derivatives of the basis functions in a run (a sequence of smoothly joined spans):
 //!
 //! ```text
-//! ∫ t n̂ dξ = Σ w t n               for all t in T
-//! ∫ t M̂ dξ = Σ w t M + ∫ v (Π m) dξ - Σ w v m      for all t in T, v' = t;  m = x' × n,  ∫ t Π m dξ = Σ w t m
+//! forces:  ∫ t n̂ dξ = Σ w t n               for all t in T
+//! moments: ∫ t M̂ dξ = Σ w t M + ∫ v (Π m) dξ - Σ w v m      for all t in T, v' = t;  m = x' × n,  ∫ t Π m dξ = Σ w t m
 //! ```
 //!
 //! The computed forces are projections of the exact section forces, also at the ends.
 //! In terms of the span length, the error of `n` is of order `p`, the degree.
-//! The error of `M` is at least of order 2; on linear elements, where `M` is constant, it is of order 1.
+//! The error of `M` is at least of order 2. On linear elements, where `M` is constant, it is of order 1.
 //! With the reproducing kernel of `T`, the forces are weighted sums over the quadrature points, with weights that decay within a few spans.
 //! Different runs are independent. Two runs meet at a joint or at a node of Lagrange elements, where each run has its own value.
 
@@ -201,7 +201,7 @@ impl SectionPoints {
     }
 
     /// Positions along the whole beam with their parameters: the knots, and `within` positions in each span.
-    /// Where two runs meet there are two positions, first that on the first run.
+    /// At the meeting point of two runs there are two positions. The first of them belongs to the first run.
     ///
     /// # Errors
     /// Fails in the same cases as [`of`](Self::of).

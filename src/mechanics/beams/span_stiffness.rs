@@ -1,8 +1,8 @@
 //! Static stiffness of a span in factored form: strains with their stiffnesses, and the geometric stiffness due to section forces.
 //!
 //! ```text
-//! δΓ = Λᵀ δg - J (Γ + e1) δω        δκ = δω'        these are the rows of B, with the stiffness C: w diag(EA, GA) and w EI
-//! K_g = p qᵀ + q pᵀ      p·δ = w (Λ J N·δg - ½ g·ΛN δω)      q·δ = δω
+//! strain δΓ = Λᵀ δg - J (Γ + e1) δω      curvature δκ = δω'      these are the rows of B, with the stiffness C: w diag(EA, GA) and w EI
+//! geometric stiffness K_g = p qᵀ + q pᵀ      p·δ = w (Λ J N·δg - ½ g·ΛN δω)      q·δ = δω
 //! ```
 //!
 //! The stiffness is `K = Bᵀ C B + K_g`. This sum is not formed, because rounding errors of the large first term would exceed its small eigenvalues.
@@ -24,7 +24,7 @@ pub struct SpanStiffness {
     /// First control point of the span.
     pub first: usize,
     /// Rows of derivatives of strains and curvatures with respect to displacements and rotations, stored one after the other.
-    /// Units: [1/length]; shear by rotation [-]; curvature by rotation [1/length].
+    /// Units of the rows: [1/length]; shear by rotation [-]; curvature by rotation [1/length].
     pub strains: Vec<f64>,
     /// Stiffness for each strain or curvature, times the integration length [force·length, force·length³].
     pub stiffness: Vec<f64>,

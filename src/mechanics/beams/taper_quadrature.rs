@@ -19,7 +19,7 @@ pub struct TaperQuadrature {
 
 impl TaperQuadrature {
     /// Computes the quadrature errors for the sections of a beam. Positions along the beam are converted to the same fractions of the parameter.
-    /// The conversion is exact for spans of equal length.
+    /// The conversion of positions to parameters is exact for spans of equal length.
     ///
     /// # Errors
     /// Fails if the mesh has no quadrature.

@@ -98,7 +98,7 @@ impl Basis {
     }
 
     /// Computes functions of degree `WIDTH - 1` like [`evaluate_in`](Self::evaluate_in), up to third derivatives.
-    /// The largest width works for any degree.
+    /// The largest width can be used for any degree.
     #[inline]
     pub(super) fn evaluate_low<const WIDTH: usize>(
         &self,
@@ -139,7 +139,7 @@ impl Basis {
 
     /// Returns a basis of the same type with about `ratio` times as many spans.
     /// Breaks of reduced continuity are kept, with at least one span between two such breaks.
-    /// The spans between kept breaks have lengths that vary as in this basis.
+    /// The spans between kept breaks have the same relative lengths as in this basis.
     ///
     /// # Errors
     /// Fails if the basis has too many or too short spans.

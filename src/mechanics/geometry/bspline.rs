@@ -7,7 +7,7 @@ use super::{KnotVector, Span};
 ///
 /// The functions and their derivatives are computed from the splines of one degree less.
 /// The spline `N_m` of degree `q - 1` has the support `[ξ_m, ξ_{m+q}]` of length `h_m`, and contributes to two splines of degree `q`.
-/// (The NURBS Book, equations 2.5 and 2.7; the results are those of algorithm A2.3.)
+/// Reference: The NURBS Book, equations 2.5 and 2.7. The results are those of algorithm A2.3.
 ///
 /// ```text
 /// N_{m-1}   gets   (ξ_{m+q} - ξ) / h_m · N_m       its derivatives   -q / h_m · (derivatives of N_m of one order less)
@@ -63,7 +63,7 @@ fn raise<const WIDTH: usize>(
 }
 
 /// Computes the derivatives of one order of the splines of degree `q`.
-/// Input: the derivatives of the next lower order of the splines of degree `q - 1`.
+/// The input contains the derivatives of the next lower order of the splines of degree `q - 1`.
 #[inline(always)]
 fn differentiate<const WIDTH: usize>(
     lower: &[f64; WIDTH],

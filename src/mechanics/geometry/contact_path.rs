@@ -8,7 +8,7 @@ use super::{Basis, GaussRule, MAX_DEGREE, PiecewisePolynomial, Span};
 
 /// Basis functions `B_i` along a path from the parameter ξ₀ to ξ₁. The path belongs to a point that slides along `Σ B_i(ξ) x_i` during a time step.
 /// The divided differences `(B_i(ξ₁) - B_i(ξ₀)) / (ξ₁ - ξ₀)` are accurate for paths of any length, including zero.
-/// They are also accurate across breaks of any continuity.
+/// The divided differences are also accurate across breaks of any continuity.
 ///
 /// The functions `first, first + 1, …` are all functions that are nonzero somewhere on the spans of the path.
 /// Every accessor returns one value for each of these functions. Parameters and results are dimensionless.
@@ -195,7 +195,7 @@ impl ContactPath {
     }
 
     /// Number of spans that the path between two parameters covers, including fractions of spans.
-    /// For a path within one span, this is the length of the path divided by the length of the span.
+    /// For a path within one span, the number is the length of the path divided by the length of the span.
     pub(crate) fn spans_between(&self, from: f64, to: f64) -> f64 {
         let (from, to) = if from <= to { (from, to) } else { (to, from) };
         let PathInterval { departure, arrival, .. } = self.interval(from, to);
@@ -256,7 +256,7 @@ impl ContactPath {
     /// The integrals of [`add_quotients`](Self::add_quotients) follow from the derivatives at the end of the path, with `h = Δξ`:
     ///
     /// ```text
-    /// D = B' - h/2 B'' + h²/6 B'''        ∂D/∂ξ1 = ½ B'' - h/6 B'''
+    /// divided difference D = B' - h/2 B'' + h²/6 B'''        its derivative ∂D/∂ξ1 = ½ B'' - h/6 B'''
     /// ```
     fn set_in_span<const WIDTH: usize>(
         &mut self,
@@ -346,7 +346,7 @@ impl PathInterval {
 }
 
 /// For each span, counts the breaks at or before its start at which first derivatives of the basis jump.
-/// At such a break, at most one function is nonzero on both sides.
+/// At a break with a jump of the derivative, at most one function is nonzero on both sides.
 fn kinks(spans: &[Span], degree: usize) -> Vec<usize> {
     let jumps = spans.windows(2).map(|pair| usize::from(pair[1].first - pair[0].first >= degree));
     std::iter::once(0)

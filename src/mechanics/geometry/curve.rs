@@ -146,7 +146,7 @@ impl Curve {
     }
 
     /// Parameter [-] at an arc length from the start [length].
-    /// If the arc length exceeds an end only by rounding, the parameter of the end is returned.
+    /// If the arc length exceeds the length of the curve only by rounding, the parameter of the end is returned.
     ///
     /// # Errors
     /// Fails if `arc_length` is outside `[0, length]` or NaN.

@@ -4,7 +4,7 @@ use super::error::finite_point;
 use super::{GeometryError, KnotVector, SplineCurve, Vec2, cross};
 
 /// Largest angle between two chords that count as parallel [rad].
-/// The same number limits the length of a sum of chords that counts as zero, as a fraction of the lengths of the chords.
+/// A sum of chords counts as zero if it is shorter than this number times the lengths of the chords.
 const PARALLEL: f64 = 1e-12;
 
 /// Local cubic interpolation (The NURBS Book, section 9.3.4) through `n + 1` points. One cubic piece joins each pair of consecutive points.
@@ -56,7 +56,7 @@ fn common_speed(chord: Vec2, tangent_sum: Vec2) -> f64 {
 
 /// Unit tangents at the points between consecutive `chords` and at both ends.
 /// Akima's rule computes a tangent from two chords on either side (equations 9.29 and 9.31).
-/// Equation 9.33 gives the additional chords beyond the ends.
+/// Equation 9.33 of The NURBS Book gives the additional chords beyond the ends.
 fn tangents(chords: &[Vec2]) -> Vec<Vec2> {
     let count = chords.len();
     let before = continued(chords[0], chords[1.min(count - 1)]);

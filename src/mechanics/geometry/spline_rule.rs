@@ -16,12 +16,12 @@ const EQUAL: f64 = 1e-9;
 /// The spans are consecutive and joined at least C¹.
 /// The derivatives of the `F` basis functions of degree `p` form the space of the `P = F - 1` splines `T` of degree `p - 1`.
 /// The points of the rule are the zeros of the spline of degree `p` that is orthogonal to all splines `T`.
-/// For a single span they are the Gauss points.
+/// For a single span, the points of the rule are the Gauss points.
 /// On equal spans of full continuity, far from the ends, the orthogonal spline alternates.
 /// The zeros of the alternating spline are the centres of spans for odd degrees, and the knots for even degrees.
 ///
 /// For cubic functions of full continuity on three or more equal spans, another rule has half the error (docs/theory.md, section 4).
-/// It uses two Gauss points in the first and the last span, and the centres of the other spans.
+/// The better rule uses two Gauss points in the first and the last span, and the centres of the other spans.
 ///
 /// The orthogonal spline has `P` zeros because of total positivity (de Boor, A Practical Guide to Splines, rev. ed. 2001, chapter XI).
 /// Tests for every degree and continuity confirm that the weights are positive and that `Σ w T² ≥ 0.79 ∫ T² dξ`. There is no proof.
@@ -65,7 +65,7 @@ fn middles(run: &[Span]) -> Option<Vec<Vec<f64>>> {
 }
 
 /// Splines of one degree less, computed as sums of derivatives.
-/// `T_t = -Σ_(a ≤ t) N'_a` is a positive multiple of a B-spline, and its integral is one.
+/// Each spline `T_t = -Σ_(a ≤ t) N'_a` is a positive multiple of a B-spline, and its integral is one.
 /// The splines that are nonzero on a span have the same indices as the functions of the span, without the last index.
 pub fn lower_splines(values: &BasisValues) -> impl Iterator<Item = f64> + '_ {
     let partial = values.slopes().iter().scan(0.0, |sum, slope| {
@@ -85,7 +85,7 @@ fn empty_rows(count: usize, room: usize) -> Vec<CollocationRow<f64>> {
 }
 
 /// Coefficients `q_s` of a spline on a run of spans. The spline is orthogonal to all splines of one degree less on this run.
-/// The last coefficient is normalised to one.
+/// The last coefficient of the spline is normalised to one.
 ///
 /// The equations are `Σ_s q_s ∫ T_t N_s dξ = 0` for each spline `T_t` of one degree less, with the basis functions `N_s`.
 /// The matrix of these equations is totally positive and has one more column than rows.

@@ -54,7 +54,7 @@ impl BasisValues {
     pub(crate) fn combine(&self, order: usize, points: &[Vec2]) -> Vec2 {
         let points = &points[self.first..=self.first + self.degree];
         // The derivatives sum to zero, so the origin of the points affects rounding only.
-        // The rounding error is smallest for an origin near the points.
+        // The rounding error is smallest if the origin is near the points.
         let origin = if order == 0 { Vec2::zeros() } else { points[0] };
         self.derivatives(order).iter().zip(points).map(|(n, point)| *n * (point - origin)).sum()
     }

@@ -203,7 +203,7 @@ impl StepSolver {
     }
 
     /// Solves the balance of the step by the function `way`.
-    /// The function receives the Newton solver, the equations, their unknowns and their residual.
+    /// The function `way` receives the Newton solver, the equations, their unknowns and their residual.
     pub(super) fn solve_by(
         &mut self,
         mechanism: &mut dyn Mechanism,

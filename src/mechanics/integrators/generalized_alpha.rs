@@ -11,9 +11,9 @@ use crate::newton::{NewtonReport, Tolerance};
 /// The method is of second order.
 ///
 /// ```text
-/// M ((1-αm) a1 + αm a0) + (1-αf) F(end) + αf F(start) = 0
-/// Δq = Δt v0 + Δt² ((½-β) a0 + β a1)          v1 = v0 + Δt ((1-γ) a0 + γ a1)
-/// αm = (2ρ∞ - 1)/(ρ∞ + 1)     αf = ρ∞/(ρ∞ + 1)     γ = ½ - αm + αf     β = ¼ (1 - αm + αf)²
+/// balance: M ((1-αm) a1 + αm a0) + (1-αf) F(end) + αf F(start) = 0
+/// Newmark: Δq = Δt v0 + Δt² ((½-β) a0 + β a1)          v1 = v0 + Δt ((1-γ) a0 + γ a1)
+/// coefficients: αm = (2ρ∞ - 1)/(ρ∞ + 1)     αf = ρ∞/(ρ∞ + 1)     γ = ½ - αm + αf     β = ¼ (1 - αm + αf)²
 /// ```
 ///
 /// Rotation increments are increments of the angle. Accelerations `a` are part of the state.

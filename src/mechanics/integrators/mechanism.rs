@@ -15,7 +15,7 @@ pub enum Stage {
     /// At this stage, the work of the internal forces is exactly the change of the strain energy (Stander & Stein 1996; Simo, Tarnow & Doblaré 1995).
     Midpoint,
     /// Middle of the step as for [`Midpoint`](Self::Midpoint), but with section forces of a later strain.
-    /// This strain is the mean strain plus `χ/2` times the change of the strain in the step.
+    /// The later strain is the mean strain plus `χ/2` times the change of the strain in the step.
     /// The value in the enum variant is the dissipation parameter `χ`.
     ///
     /// At this stage, the internal forces do additional work: `χ/2` times the integral of `ΔΓ·C ΔΓ + EI Δκ²`.
@@ -95,7 +95,7 @@ pub trait Constraints {
     fn add_constraints(&mut self, increments: &[f64], unknowns: &[f64], out: &mut [f64]);
 
     /// Adds constraint forces and violations to `out`.
-    /// Adds their derivatives with respect to increments and constraint unknowns to the border of the tangent.
+    /// Adds the derivatives of both with respect to increments and constraint unknowns to the border of the tangent.
     fn add_linearised_constraints(
         &mut self,
         increments: &[f64],
@@ -197,8 +197,8 @@ pub struct Solution<'a> {
     /// Residual of the equations [force, force·length]. At supported degrees of freedom it is the support reaction.
     pub residual: &'a [f64],
     /// Stages at which forces are evaluated, with their weights [-].
-    /// The weighted sum of the forces at these stages is the rate of change of the momenta.
-    /// The list is empty if the method balances accelerations instead of momenta.
+    /// The weighted sum of the forces at the balanced stages is the rate of change of the momenta.
+    /// The list of balanced stages is empty if the method balances accelerations instead of momenta.
     pub balanced: &'a [(Stage, f64)],
 }
 

@@ -1,7 +1,7 @@
 //! Prescribed motions of degrees of freedom, which are not unknowns.
 
 /// Prescribed motions of a mechanism in the present step. They are numbered after the unknowns and the constraint multipliers.
-/// All vectors are empty without prescribed motions.
+/// All vectors of this struct are empty without prescribed motions.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct PrescribedKinematics {
     /// Increments in the step [length, rad]. As in the other vectors, the first entries are zeros for the constraint multipliers.

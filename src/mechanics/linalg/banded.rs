@@ -210,7 +210,7 @@ mod tests {
             let singular = |unknown| LinearError::Singular { unknown, size: 12 };
             assert_eq!(column.factorise().unwrap_err(), singular(zero));
             // Row exchanges move the zero row down until it is followed only by the last row.
-            // In this column the last row has only a diagonal entry, so it is not exchanged.
+            // In this column, the last row has only a diagonal entry, so the two rows are not exchanged.
             assert_eq!(row.factorise().unwrap_err(), singular(zero.max(10)));
         }
     }

@@ -1,8 +1,7 @@
 //! Gaussian elimination of a banded matrix by panels of columns.
 //!
 //! A panel of columns is eliminated without row exchanges if all multipliers are small.
-//! The size of the multipliers depends only on the panel (threshold pivoting:
-//! Duff, Erisman & Reid, Direct Methods for Sparse Matrices, 2nd ed., section 5.2).
+//! The size of the multipliers depends only on the panel (threshold pivoting: Duff, Erisman & Reid, Direct Methods for Sparse Matrices, section 5.2).
 //! The rows below the panel are then updated once for the whole panel, without additional nonzero entries.
 //! If a multiplier is large, the columns of the panel are eliminated one by one with partial pivoting.
 //!

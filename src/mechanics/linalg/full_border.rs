@@ -1,8 +1,8 @@
 //! Dense border of a banded matrix, which is eliminated with the factors of the band.
 //!
 //! ```text
-//! [ A  B ] [x]   [f]        Z = A⁻¹ B      y = A⁻¹ f
-//! [ C  D ] [z] = [g]        (D - C Z) z = g - C y      x = y - Z z
+//! [ A  B ] [x]   [f]        solutions of the band: Z = A⁻¹ B      y = A⁻¹ f
+//! [ C  D ] [z] = [g]        system of the border: (D - C Z) z = g - C y      x = y - Z z
 //! ```
 //!
 //! The border may have entries anywhere without changing the width of the band (Govaerts & Pryce, BIT 30 (1990) 490–507).
@@ -16,7 +16,7 @@ const STRIP: usize = 5;
 
 /// Weight of length rows relative to force rows in the choice of pivots.
 /// Force rows, such as the equation of a frictionless contact, are preferred as long as this loses at most four digits.
-/// With this preference, a zero force is exactly zero.
+/// With the preference for force rows, a zero force is exactly zero.
 const LENGTHS: f64 = 1e-4;
 
 /// Several columns of the border `B`. After the factorisation, they contain columns of the solution `Z = A⁻¹ B`.

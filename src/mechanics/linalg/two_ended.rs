@@ -1,8 +1,7 @@
 //! Elimination of a long band from both ends in two concurrent threads.
 //!
 //! The rows after the middle are stored in reverse (last row and last column first) and eliminated like the first rows.
-//! A small dense matrix remains in the middle (twisted or "burn at both ends" factorisation:
-//! Golub & Van Loan, Matrix Computations, 4th ed., section 4.3; van der Vorst 1987).
+//! A small dense matrix remains in the middle ("burn at both ends" factorisation: Golub & Van Loan, 4th ed., section 4.3; van der Vorst 1987).
 //! With one thread, the same operations are executed in the same order, so the results are identical.
 
 use pulp::Arch;

@@ -5,7 +5,7 @@
 //! To detect a jump within a step, the differences of consecutive values are compared.
 //! If one difference exceeds the sum of all others, the interval of this difference is bisected thirty times.
 //! Each bisection keeps the half with the larger difference.
-//! At a jump the remaining difference is constant; otherwise it tends to zero.
+//! If the function jumps, the remaining difference is constant; otherwise it tends to zero.
 
 use super::{LimitSide, LoadError, Schedule};
 use crate::elementary::whole_power;

@@ -17,7 +17,7 @@ const MOST_CORRECTIONS: i32 = 5;
 const MOST_SHARED_CORRECTIONS: usize = 12;
 
 /// Residual norm at which a solution with the factors of similar equations is accepted [-].
-/// This norm is a billionth of the residual change due to a perturbation.
+/// This residual norm is a billionth of the residual change due to a perturbation.
 const FOLLOWED: f64 = 1e-14;
 
 /// Ratio of two successive residuals, above which rounding prevents a further reduction.
@@ -189,7 +189,7 @@ impl Newton {
 
     /// Solves the equations almost to rounding with the factors of similar equations.
     /// The iteration starts from the solution of the similar equations.
-    /// If this iteration does not converge, it is continued by [`solve`](Self::solve).
+    /// If the iteration with shared factors does not converge, it is continued by [`solve`](Self::solve).
     ///
     /// # Errors
     /// Fails in the same cases as [`solve`](Self::solve).

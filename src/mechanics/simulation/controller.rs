@@ -1,7 +1,7 @@
 //! PI controller of the step size.
 //!
 //! References: K. Gustafsson, ACM Trans. Math. Softw.
-//! 17 (1991) 533–554; E. Hairer & G. Wanner, Solving Ordinary Differential Equations II (1996), section IV.2.
+//! 17 (1991) 533–554; E. Hairer & G. Wanner, Solving Ordinary Differential Equations II, section IV.2.
 
 use serde::{Deserialize, Serialize};
 
@@ -136,7 +136,7 @@ mod tests {
         StepController { order: 3.0, first: 0.1, smallest: 1e-3, largest: 10.0 };
 
     /// Sizes of the accepted steps up to t = 1.
-    /// A step has the allowed error if its size is `right`. Its error is proportional to the third power of its size.
+    /// A step has the allowed error if its size is `right`. The error of a step is proportional to the third power of its size.
     fn sizes(first: f64, right: impl Fn(usize) -> f64) -> (Vec<f64>, usize) {
         let mut state = StepSizeState { unconstrained_size: first, ..CONTROLLER.start() };
         let (mut sizes, mut rejected) = (Vec::new(), 0);

@@ -7,7 +7,7 @@ use crate::system::{Along, Branch, System};
 ///
 /// Suppose that a step ends shortly after contact with a stiff bumper has begun.
 /// The whole step and its halves then give nearly equal positions, even if their impact times differ.
-/// The rates after the impact differ strongly, because only some of these steps contain the reversal.
+/// The rates after the impact differ strongly, because only some of the steps contain the reversal.
 /// Hence, if a spring changes its branch within a step, the difference of the rates times the step duration is added to the error.
 #[derive(Default)]
 pub(super) struct CornerCrossings {

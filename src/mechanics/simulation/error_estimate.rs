@@ -94,7 +94,7 @@ impl StepDoubling {
     }
 
     /// Takes one of the three steps of a call of [`step`](Self::step).
-    /// If it fails, the model is restored to the start of the first of these steps.
+    /// If the step fails, the model is restored to the start of the first of the three steps.
     pub(super) fn take_or_restore(
         &self,
         integrator: &mut dyn Integrator,

@@ -9,14 +9,14 @@ use crate::system::{Scene, System, UnknownKind};
 const PART: f64 = 1e-3;
 
 /// Smallest distance `v²/g` that serves as a length scale, as a fraction of the largest distance of a body from the origin.
-/// In this distance, `v` is the start speed and `g` the gravity.
+/// The symbol `v` is the start speed, and `g` is the gravity.
 const SHORTEST_WAY: f64 = 1e-3;
 
 /// Length scale of a scene: the [size](Scene::size) of the scene.
 /// For isolated particles, the scale is the distance `v²/g`, in which gravity `g` generates the start speed `v`.
-/// If this distance is very short, the scale is the largest distance of a body from the origin.
+/// If the distance `v²/g` is very short, the scale is the largest distance of a body from the origin.
 ///
-/// A scene may have none of these lengths, for example a particle that starts at the origin almost at rest.
+/// A scene may have none of the lengths above, for example a particle that starts at the origin almost at rest.
 /// The length scale of such a scene is 1 [length]. Only in this case the steps depend on the unit of length.
 pub(super) fn length_of(scene: &Scene) -> f64 {
     let is_length = |length: &f64| *length > 0.0 && length.is_finite();
@@ -49,9 +49,9 @@ pub(super) fn shortest_wave_time(scene: &Scene) -> Option<f64> {
 
 /// Initial size of variable steps [time].
 ///
-/// With beams, the size is the [shortest wave time](shortest_wave_time).
-/// Without beams, it is a fraction of the time in which start velocities or weight displace a body by the length scale.
-/// Without start velocities and weight, the other forces determine the size. If nothing moves, the time scale is 1 [time].
+/// With beams, the first step is the [shortest wave time](shortest_wave_time).
+/// Without beams, the first step is a fraction of the time in which start velocities or weight displace a body by the length scale.
+/// Without start velocities and weight, the other forces determine the first step. If nothing moves, the time scale is 1 [time].
 pub(super) fn first_step(scene: &Scene, model: &mut System) -> f64 {
     if let Some(shortest) = shortest_wave_time(scene) {
         return shortest;

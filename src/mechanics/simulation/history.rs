@@ -193,11 +193,11 @@ impl History {
     }
 
     /// Difference of an invariant from its value in the first row, divided by a scale.
-    /// The scale is the largest energy, momentum or angular momentum of all rows.
+    /// The scale of a drift is the largest energy, momentum or angular momentum of all rows.
     /// The gap of joints is not divided by a scale.
     ///
     /// If all bodies have zero momentum, the scale of momenta is at least `sqrt(2 m K)`, with the kinetic energy `K`.
-    /// The scale is also at least the sum of the magnitudes of all exchanged impulses.
+    /// The scale of momenta is also at least the sum of the magnitudes of all exchanged impulses.
     pub fn drifts(&self, invariant: Invariant) -> Vec<f64> {
         let Some(first) = self.samples.first().map(|row| row.measures) else { return Vec::new() };
         let scale = self.scale(invariant, &first);

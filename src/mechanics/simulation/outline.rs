@@ -18,7 +18,7 @@ pub struct Outline {
     line: Vec<BodyPoint>,
     marks: Vec<BodyPoint>,
     /// Corners of the polygon of a rigid body, in the frame of a line from the centre to a point of the body.
-    /// The coordinates are along the line and to its left, in units of its length.
+    /// The coordinates of the corners are along the line and to its left, in units of its length.
     corners: Vec<Vec2>,
 }
 
@@ -64,7 +64,7 @@ impl Outline {
     }
 
     /// For a body with one point, the drawn line starts at the centre and ends at the point.
-    /// With two points, the line passes through the centre. With more points, it is a polygon around the centre.
+    /// With two points, the drawn line passes through the centre. With more points, it is a polygon around the centre.
     fn of_rigid_body(index: usize, body: &RigidBodyDefinition) -> Self {
         if !body.outline.is_empty() {
             return Self::polygon(index, body);
@@ -98,7 +98,7 @@ impl Outline {
     }
 
     /// Corners of the closed polygon of a rigid body, in the frame of the line between the two points of [`line`](Self::line).
-    /// The coordinates are along the line and to its left, in units of its length.
+    /// The coordinates of the corners are along the line and to its left, in units of its length.
     pub fn corners(&self) -> &[Vec2] {
         &self.corners
     }

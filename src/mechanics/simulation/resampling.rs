@@ -8,7 +8,7 @@ use crate::integrators::{Integrator, Interval};
 use crate::system::{Drive, Placement, Scene, System, SystemState};
 
 /// Allowed distance between the two results of the second half step. Its unit is the length scale times a power of the tolerance.
-/// With this value, the measured error that accumulates in the time scale of a motion is about half the tolerance (theory.md, section 13.1).
+/// With this constant, the measured error that accumulates in the time scale of a motion is about half the tolerance (theory.md, section 13.1).
 const SHARE: f64 = 4.0;
 
 /// Error estimate for steps in which controllers are sampled at the start of each half.
@@ -18,7 +18,7 @@ const SHARE: f64 = 4.0;
 /// A sampled force is late by half a step on average.
 /// The delay of the force changes positions by the third power of the step size in one step, and by the first power over a run.
 /// For a sampled rate, the change in one step is of the second power of the step size.
-/// The allowed difference between the two results of the second half therefore has the same power of the tolerance.
+/// The allowed difference between the two results of the second half step therefore has the same power of the tolerance.
 pub(super) struct Resampling {
     /// Power of the step size in the difference of positions in one step [-].
     order: i32,

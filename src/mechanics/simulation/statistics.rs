@@ -61,7 +61,7 @@ impl TimeSeries {
     }
 
     /// Time derivative at every row: the slope of the parabola through the row and its neighbours, which is of second order also for uneven spacing.
-    /// At the ends it is one-sided.
+    /// At the ends of the column, the difference quotient is one-sided.
     /// A jump consists of two rows of equal time. Each of the two rows uses the difference quotient on its side of the jump.
     pub fn derivative(&self) -> Vec<f64> {
         let count = self.values.len();

@@ -34,7 +34,7 @@ impl Balance<'_> {
 }
 
 /// Equations `F(u) - λ P(u) + σ M u = 0` for a given load factor `λ`. For `σ = 0` they are the equations of equilibrium.
-/// For `σ > 0` they describe a pseudo-transient step with a viscous damping proportional to the mass.
+/// For `σ > 0` the equations describe a pseudo-transient step with a viscous damping proportional to the mass.
 pub(super) struct UnderLoad<'a> {
     pub(super) balance: Balance<'a>,
     pub(super) factor: f64,

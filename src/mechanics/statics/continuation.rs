@@ -61,7 +61,7 @@ struct PathDirection {
 impl PathDirection {
     /// Returns true if the next step has nearly the same direction as this step.
     /// Otherwise the next step may have reached another branch of the path, for example near the buckling load of a straight column.
-    /// Smaller steps are needed in this case.
+    /// Smaller steps are needed if the next step has reached another branch.
     fn is_aligned_with(&self, next: &Self, metric: &[f64]) -> bool {
         let ways = metric.iter().zip(&self.movements).zip(&next.movements);
         let along: f64 = ways.map(|((weight, before), now)| weight * before * now).sum();
@@ -181,7 +181,7 @@ impl<'s> Continuation<'s> {
 
     /// Distance from the last point to the turning point of the load factor.
     /// The distance is returned if the path crosses the requested load factor before the turning point and again after it.
-    /// The first crossing is the solution.
+    /// The first crossing of the requested load factor is the solution.
     fn distance_to_turning_point(&self, goal: f64, factor: f64, distance: f64) -> Option<f64> {
         let [.., before, last] = self.path.points() else { return None };
         let factors = [before.load_factor, last.load_factor, factor];
@@ -307,8 +307,8 @@ impl<'s> Continuation<'s> {
     }
 
     /// Largest allowed distance of the next equilibrium.
-    /// With load control, the distance follows from the last displacement per load increment.
-    /// With arc-length control, it follows from the longest step.
+    /// With load control, the largest distance follows from the last displacement per load increment.
+    /// With arc-length control, the largest distance follows from the longest step.
     fn farthest(&self, factor: f64) -> f64 {
         let [.., before, last] = self.path.points() else { return f64::INFINITY };
         match self.loading.control {

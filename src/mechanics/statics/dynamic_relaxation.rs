@@ -35,7 +35,7 @@ impl Continuation<'_> {
     /// The method repeats steps `σ M u + F(u) - λ P = 0` with a decreasing rate `σ` (pseudo-transient continuation; Kelley & Keyes 1998).
     /// The argument `movements` is the number of degrees of freedom without restraint in the initial configuration.
     ///
-    /// `K + σ M` is positive definite at the start of every pass, so every pass reduces the potential energy.
+    /// The matrix `K + σ M` is positive definite at the start of every pass, so every pass reduces the potential energy.
     pub(super) fn find_equilibrium(
         &mut self,
         factor: f64,

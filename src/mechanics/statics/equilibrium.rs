@@ -163,7 +163,8 @@ impl Equilibrium {
 }
 
 /// Returns the scene with equal axial, shear and bending stiffnesses of the beams and similar masses.
-/// In this scene, degrees of freedom without restraint have zero stiffness. Rounding errors of other stiffnesses are small enough to detect this.
+/// In the scene with equal stiffnesses, degrees of freedom without restraint have zero stiffness.
+/// Rounding errors of other stiffnesses are small enough to detect this.
 fn of_equal_stiffness(scene: &Scene) -> Scene {
     let mut equal = scene.clone();
     for beam in &mut equal.beams {

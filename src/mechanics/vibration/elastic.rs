@@ -112,7 +112,7 @@ impl Elastic {
 
     /// Rounding error of twice the energy for given displacements `x`.
     /// The error is `Σ k (ε Σ |B| |x|)²` plus the rounding error of section forces in `xᵀ K_g x`.
-    /// `k` are the stiffnesses, and `ε` is the machine precision.
+    /// The stiffnesses are `k`, and the machine precision is `ε`.
     pub(super) fn rounding_of(&self, movements: &VectorStrip) -> FourVectors {
         Arch::new().dispatch(Rounding { elastic: self, movements })
     }

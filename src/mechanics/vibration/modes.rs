@@ -22,7 +22,7 @@ pub struct Mode {
     /// Rounding error of the squared frequency `ω²` [1/time²].
     pub rounding: f64,
     /// Residual [-], a measure of the accuracy of the mode.
-    /// It is the energy of the next correction of the shape and its section forces, as a fraction of the energy of the shape.
+    /// The residual is the energy of the next correction of the shape and its section forces, as a fraction of the energy of the shape.
     /// The residual is an upper bound of the relative error of `ω² + σ`, where `σ` is about the square of the lowest bending frequency.
     /// A second bound is the square of the residual, divided by the relative distance to the next mode.
     pub residual: f64,

@@ -80,8 +80,7 @@ impl Pencil {
     pub(super) fn memory(model: &System) -> usize {
         let order = model.static_order();
         let (size, reach) = (order.count(), order.half_bandwidth() + 1);
-        // The terms are: double-double stiffness, its factors, the inertia during the sorting of its entries,
-        // and about two strains per degree of freedom.
+        // The memory is that of the double-double stiffness, its factors, the inertia during sorting, and about two strains per degree of freedom.
         size * reach * 8 * size_of::<f64>() + Elastic::memory(2 * size, reach)
     }
 

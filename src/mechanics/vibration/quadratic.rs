@@ -46,7 +46,7 @@ impl Quadratic {
         }
         if dampers.ncols() > dampers.nrows() {
             // The factorisation `Bᵀ = Q R` has a rounding error that is small in comparison with every single row, even a small one.
-            // This accuracy is needed, because nearly undamped modes depend on the squares of small rows.
+            // Accurate small rows are needed, because nearly undamped modes depend on their squares.
             dampers = dampers.transpose().qr().r().transpose();
         }
         Self { squares, dampers }

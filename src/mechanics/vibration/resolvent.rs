@@ -2,7 +2,7 @@
 //!
 //! With `y = (Ω x, ẋ)` the equation of motion is `ẏ = A y`, where `A = [0 Ω; -Ω -B Bᵀ]` is dissipative.
 //! Hence `|(A - σ)⁻¹| ≤ 1/σ` for any `σ > 0` and damping of any strength (Lumer & Phillips, Pacific J. Math. 11 (1961) 679–698).
-//! Let `e = (σ² + Ω²)^-½`, `w = Ω e` and `t = σ e` be diagonal matrices, so that `w² + t² = 1`. The shifted inverse is then:
+//! Let `e = (σ² + Ω²)^-½`, `w = Ω e` and `t = σ e` be diagonal matrices, so that `w² + t² = 1`. The shifted inverse is:
 //!
 //! ```text
 //! σ (A - σ)⁻¹ = [ -(t² + w P w)   -w (1 - P) t ]        P = G (1 + Gᵀ G)⁻¹ Gᵀ,   G = √σ e B
@@ -102,8 +102,8 @@ impl Resolvent {
             return Ok(Vec::new());
         }
         // The Schur decomposition compares subdiagonal entries with the diagonal.
-        // Near eigenvalues close to zero, it may not converge, although these eigenvalues are not needed.
-        // After such a failure, all eigenvalues are shifted away from zero by the largest magnitude.
+        // The decomposition may not converge near eigenvalues close to zero, although these eigenvalues are not needed.
+        // If the decomposition fails, all eigenvalues are shifted away from zero by the largest magnitude.
         let search = |part: f64, moved: f64| {
             let mut matrix = matrix.clone();
             (0..count).for_each(|at| matrix[(at, at)] -= moved);

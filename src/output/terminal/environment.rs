@@ -17,7 +17,7 @@ impl TerminalStyle {
     /// Colours are not used if `NO_COLOR` is set and not empty, or if `TERM` is `dumb` or not set.
     /// Braille characters are used for UTF-8, unless `TERM` is `dumb` or `linux` (the console, whose font lacks these characters).
     /// The character set is given by `LC_ALL`, otherwise by `LC_CTYPE`, otherwise by `LANG`. The size is that of `COLUMNS` and `LINES`, or 80 by 24.
-    /// The height of a picture is a few lines smaller than the terminal.
+    /// The height of a picture is a few lines smaller than the height of the terminal.
     pub fn of_environment(variable: impl Fn(&str) -> Option<String>) -> Self {
         let given = |name: &str| variable(name).filter(|value| !value.is_empty());
         let terminal = given("TERM").unwrap_or_default();

@@ -4,7 +4,7 @@ const MOST_ROWS: usize = 3000;
 
 /// Indices of the rows that are kept.
 /// Many rows are divided into pieces. Of each piece, the first row and the rows with the extreme values of every column are kept.
-/// The last row is always kept.
+/// The last row of the history is always kept.
 pub fn rows_to_keep(rows: usize, columns: &[&[f64]]) -> Vec<usize> {
     if rows <= MOST_ROWS {
         return (0..rows).collect();

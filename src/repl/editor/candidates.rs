@@ -20,7 +20,7 @@ impl Candidate {
     }
 
     /// Candidate for a function, displayed with its arguments in parentheses such as `(from, to)`. Accepting it inserts the opening parenthesis.
-    /// Without arguments, both parentheses are inserted.
+    /// For a function without arguments, both parentheses are inserted.
     pub fn call(name: &str, arguments: &str, summary: &str) -> Self {
         let brackets = if arguments == "()" { "()" } else { "(" };
         Self {
@@ -81,7 +81,7 @@ pub fn arguments(parameters: &[Parameter]) -> String {
 }
 
 /// Candidates that match `typed`, sorted and without duplicates. These are the candidates that begin with `typed`.
-/// If there are none, they are the candidates that begin with `typed` in a different case, or contain its letters in the same order.
+/// If no candidate begins with `typed`, candidates with the same beginning in a different case, or with the same letters in order, are returned.
 pub fn fitting(typed: &str, candidates: impl IntoIterator<Item = Candidate>) -> Vec<Candidate> {
     let mut all: Vec<Candidate> = candidates.into_iter().collect();
     all.sort_by_key(|candidate| (candidate.name().to_lowercase(), candidate.clone()));

@@ -64,7 +64,7 @@ fn options_at(operand: &str) -> Option<usize> {
 }
 
 /// Completes an operand that is a map of options like an argument of the unfinished call `call`.
-/// Other operands are completed like expressions.
+/// Operands of other commands are completed like expressions.
 fn in_call(
     call: &str,
     operand: &str,

@@ -34,7 +34,7 @@ pub fn is_command(text: &str) -> bool {
 /// Determines whether `text` from a file or a pipe is complete. Empty lines have no effect.
 ///
 /// A wrong closing bracket or an unclosed string literal cannot be corrected by further lines.
-/// Such an input counts as complete, so that its error is reported.
+/// An input that cannot be corrected counts as complete, so that its error is reported.
 pub fn completeness_of_script(text: &str) -> Completeness {
     let tokens = scan(text);
     // A doc comment must be followed by a function.

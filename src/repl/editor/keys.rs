@@ -81,8 +81,8 @@ fn is_indentation(line: &str, at: usize) -> bool {
 
 /// Returns true if an arrow key searches the history for entries with the same beginning as the line. The condition is text before the cursor.
 ///
-/// There are two exceptions. If the line is a history entry with the cursor at its end, the arrow key selects the next entry.
-/// In an input of several lines, the arrow key moves the cursor.
+/// First exception: if the line is a history entry with the cursor at its end, the arrow key selects the next entry.
+/// Second exception: in an input of several lines, the arrow key moves the cursor.
 fn searches(line: &str, at: usize, is_entry: bool) -> bool {
     let is_fetched = is_entry && at == line.len();
     at > 0 && !line.contains('\n') && !is_fetched

@@ -9,7 +9,7 @@ use crate::script::source::scanner::is_name;
 
 /// Members of a value as completion candidates.
 /// If the type of the value is unknown, matching members of all types are returned, provided that something has been typed.
-/// For a map in a variable, the keys of the map are returned.
+/// If the value is a map in a variable, the keys of the map are returned.
 pub fn members(
     of: Option<ValueKind>,
     variable: Option<&Variable>,

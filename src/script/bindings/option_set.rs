@@ -62,7 +62,7 @@ held_as_they_are!(FnPtr, Array, Vec<f64>, Method);
 
 /// Declares a struct whose fields are the keys of an option map, in the form `field: Type = parameter`. The parameter contains the help text.
 ///
-/// `KEYS` contains the keys in the order of the fields. The function `of` reads the struct from checked options.
+/// The constant `KEYS` contains the keys in the order of the fields. The function `of` reads the struct from checked options.
 macro_rules! option_set {
     (
         $(#[$about:meta])*

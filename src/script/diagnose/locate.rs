@@ -117,7 +117,7 @@ fn argument(program: &Program, call: &[Lexeme], number: usize) -> Option<Locatio
 }
 
 /// Location of an argument from `start` to the separator at `end`, without trailing blanks.
-/// For an argument of several lines, the location of its first token.
+/// If the argument has several lines, the location of its first token is returned.
 fn span(program: &Program, start: Position, end: Position) -> Option<Location> {
     let (line, column) = (start.line()?, start.position()?);
     if end.line()? != line {

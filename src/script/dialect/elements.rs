@@ -1,5 +1,5 @@
 //! Methods of arrays and maps that call a function.
-//! There are two differences from the methods of Rhai. A result that is not a boolean is an error instead of false.
+//! Two differences from the methods of Rhai: a result that is not a boolean is an error instead of false.
 //! The method `for_each` passes the element instead of the index to its function.
 
 use std::any::TypeId;

@@ -8,7 +8,7 @@ use crate::script::diagnose::Diagnostic;
 use crate::script::state::limits::Limits;
 
 /// Calls `work` on a thread whose stack is large enough for the limits of the script.
-/// The stack is smaller if the address space of the process is limited.
+/// If the address space of the process is limited, the stack is smaller.
 ///
 /// # Errors
 /// Fails if no thread can be started, or if `work` panics.

@@ -1,5 +1,5 @@
 //! Native functions that wrap the functions of the library and store the calling line.
-//! With this line, a failed check in the library is reported at the user's line.
+//! The calling line is used to report a failed check in the library at the user's line.
 
 use std::any::TypeId;
 

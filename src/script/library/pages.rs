@@ -1,5 +1,5 @@
 //! Help pages of the library.
-//! The pages consist of the comments `//!` of a file and `///` of its functions. These are parsed when help is requested, not at the import.
+//! The pages consist of the comments `//!` of a file and `///` of its functions. The comments are parsed when help is requested, not at the import.
 
 use std::sync::LazyLock;
 

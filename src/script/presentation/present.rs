@@ -57,7 +57,7 @@ impl OutputLine {
 }
 
 /// Formats a value on lines of `width` columns. Numbers have up to ten digits. Long arrays and maps are abbreviated.
-/// Native values are followed by their summary. The unit value gives an empty text.
+/// Native values are followed by their summary. The unit value is shown as an empty text.
 pub fn present(catalog: &Catalog, value: &Dynamic, width: usize) -> String {
     Presenter { catalog, width: width.max(20) }.show(value)
 }

@@ -3,11 +3,12 @@
 //! Rhai's built-in comparisons and integer division ignore registered functions.
 //! Therefore the parser uses other operator names, which [`operators`](crate::script::dialect::operators) implements:
 //!
-//! - `/ << >> < > <= >= == !=` become `num/`, `num<`, … of the same precedence;
-//! - `^` and `**` become `num^0`, `num^1`, … along a chain of powers, each binding tighter than the one before,
-//!   because custom operators bind to the left and `2^3^2` would be 64;
-//! - `-x^2` is an error, because Rhai's minus binds tighter than any operator and would give the square of `-x`;
-//! - `/=`, `^=`, `**=`, `<<=` and `>>=` are converted to two tokens, and loops get an additional statement (`loop_scoping`); see [`mark`].
+//! - The operators `/ << >> < > <= >= == !=` become `num/`, `num<`, … of the same precedence.
+//! - Along a chain of powers, `^` and `**` become `num^0`, `num^1`, … with increasing precedence.
+//!   Custom operators bind to the left, so `2^3^2` would be 64.
+//! - The expression `-x^2` is an error, because Rhai's minus binds tighter than any operator and would give the square of `-x`.
+//! - The operators `/=`, `^=`, `**=`, `<<=` and `>>=` are converted to two tokens,
+//!   and loops get an additional statement (`loop_scoping`); see [`mark`].
 //!
 //! Rhai declares the functions used here as subject to change. They are used only in this file and in `lexing`.
 

@@ -13,7 +13,7 @@ use crate::script::messages::stop::Stop;
 const INTERVAL: Duration = Duration::from_millis(10);
 
 /// Processor time that a run may use after the time limit, as a fraction of the limit.
-/// On a machine without other load, the run then ends within twice the limit.
+/// On a machine without other load, the run then ends within twice the time limit.
 const OVERTIME: f64 = 0.7;
 const LEAST_OVERTIME: Duration = Duration::from_millis(700);
 const MOST_OVERTIME: Duration = Duration::from_secs(5);

@@ -95,7 +95,7 @@ impl ErrorStudyPlan {
     /// The name of a column in the table is a symbol (E, KE, SE, px, py or Lz) or its name in the history.
     /// Without a table, all columns of the history are added.
     ///
-    /// The option `columns` in `given` assigns history columns to further names, and replaces columns with the same names.
+    /// The option `columns` (argument `given`) assigns history columns to further names, and replaces columns with the same names.
     pub fn add_columns(
         &mut self,
         call: &Call,

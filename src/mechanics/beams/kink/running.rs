@@ -13,7 +13,7 @@ impl SplineString {
     /// The factor is averaged over positions `ξ` of the kink in evenly spread spans.
     ///
     /// ```text
-    /// μ = ∫ (L - s(ξ) - ∫ u² dX) ds/∫ g ds        u = l(X)ᵀ M⁻¹ t(ξ)/|x_ξ|
+    /// correction factor μ = ∫ (L - s(ξ) - ∫ u² dX) ds/∫ g ds        velocity ratio u = l(X)ᵀ M⁻¹ t(ξ)/|x_ξ|
     /// ```
     ///
     /// The length of the string is `L`, the arc length at the kink `s(ξ)`, and the derivative `ds/dξ` is `|x_ξ|`.
@@ -71,7 +71,7 @@ impl SplineString {
 
     /// Motion of the control points for a kink at a position in a span, as a fraction of the motion of the end of the string.
     /// The argument `lower` contains the values of the splines of lower degree at this position.
-    /// The second value of each pair is the difference from the motion of the end.
+    /// The second value of each pair is the difference between the motion of the control point and the motion of the end.
     fn motion(&self, span: &Span, lower: &[f64]) -> Vec<[f64; 2]> {
         let mut strains = vec![0.0; self.stretched.len()];
         strains[span.first..][..lower.len()].copy_from_slice(lower);

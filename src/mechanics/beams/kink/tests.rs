@@ -174,7 +174,7 @@ fn a_mesh_with_too_few_points_has_no_missed_kink() {
 
 /// Missing energy of a kink at rest and of a moving kink on equal spans without ends, averaged over the positions of the kink.
 /// The energy is computed by Fourier sums: the waves of the exact string minus the waves of splines of the given degree.
-/// There is one strain point per span. For odd degrees, this point is half a span from a knot.
+/// The mesh has one strain point per span. For odd degrees, this point is half a span from a knot.
 fn fourier(degree: usize, is_exact: bool) -> f64 {
     let (tau, order) = (2.0 * std::f64::consts::PI, degree as i32 + 1);
     let hat = |k: f64| (elementary::sin(0.5 * k) / (0.5 * k)).powi(order);

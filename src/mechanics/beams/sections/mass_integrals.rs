@@ -16,7 +16,7 @@ pub(in crate::beams) trait MassIntegral:
     fn length(self) -> f64;
 
     /// Integrals to which the inertia of each component is proportional.
-    /// They are the unweighted integral for every component, or integrals weighted with mass and inertia.
+    /// The integrals are unweighted for every component, or weighted with mass and inertia.
     fn weights(self) -> Movement;
 
     /// Factors that convert the [`weights`](Self::weights) to inertia: the mass and rotary inertia per length, or one.

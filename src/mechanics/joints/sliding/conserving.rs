@@ -10,12 +10,12 @@ use crate::geometry::{cross, perpendicular};
 /// The mesh represents the kink of the axis under the contact force only approximately.
 ///
 /// ```text
-/// x_s1 = Σ B_i(ξ1) x_i1          |τ|² η + (d × λ) Jτ = 0          λ·τ + 4 η·d = 0
+/// closed gap x_s1 = Σ B_i(ξ1) x_i1      moment balance |τ|² η + (d × λ) Jτ = 0      no work λ·τ + 4 η·d = 0
 /// ```
 ///
 /// The mean position of the slave, `Σ B̄_i x̄_i + Δξ d`, is not the point at which `λ` acts on the master.
-/// Hence the two opposite forces have a moment.
-/// The law uses the smallest `η` that balances this moment. The sliding equation follows from the conservation of energy.
+/// Hence the contact forces on slave and master, which are opposite, have a moment.
+/// The law uses the smallest couple `η` that balances this moment. The sliding equation follows from the conservation of energy.
 /// Derivation: docs/theory.md, section 10.
 #[derive(Debug, Clone, Copy)]
 pub struct Conserving;

@@ -45,7 +45,7 @@ impl ContactUnknowns {
 }
 
 /// Position or direction on the path of a slave along its master [length].
-/// Its derivative is taken with respect to the parameter `ξ1` at the end of the path.
+/// The derivative is taken with respect to the parameter `ξ1` at the end of the path.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PathVector {
     /// Position or direction [length].
@@ -55,7 +55,7 @@ pub struct PathVector {
 }
 
 /// Kink of the axis of a master under the contact force, which the mesh does not represent.
-/// The axis is displaced by `g a`, where `a = p/GA` is the jump of its tangent.
+/// The kink displaces the axis by `g a`, where `a = p/GA` is the jump of the tangent of the axis.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Kink {
     /// Kink length `g` of the master, as a function along the path of the slave [length].

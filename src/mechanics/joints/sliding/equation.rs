@@ -46,7 +46,7 @@ impl Equation {
     }
 
     /// Derivative with respect to the increment of a control point of the master.
-    /// The argument contains the weights `B_i(ξ1)`, `B̄_i` and `D_i` of the point.
+    /// The argument contains the weights `B_i(ξ1)`, `B̄_i` and `D_i` of the control point.
     pub fn by_master(&self, (end, mean, difference): (f64, f64, f64)) -> Vec2 {
         self.by_end * end + self.by_mean * mean + self.by_difference * difference
     }

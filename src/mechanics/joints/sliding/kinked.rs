@@ -8,16 +8,16 @@ use super::{CONTACT_UNKNOWNS, Conserving, Contact, Equation, Kink, KinkState, Sl
 /// The gap is closed at the end of every step, and energy, linear and angular momentum are conserved for any step size.
 ///
 /// ```text
-/// x_s1 = Σ B_i(ξ1) x_i1 + g1 a1                          |τ|² χ + (r × λ) Jτ = 0          r = Δξ d + ½ (g0 a0 + g1 a1)
-/// ā·w + (Δg/Δξ) (½ a0·a1 + b a0 × a1) = 0                w = τ - 4 b J d                  b = Jτ·d/|τ|²
-/// λ = (GA - ρA v0 v1) ā + (Δπ/Δt) (Δs/Δξ) τ/|τ|²         π = ρA g |a|² v
-/// ½ (v0 + v1) Δt = (Δs/Δξ) τ·u/|τ|²                      u = Δξ τ + Δ(g a) - 4 b J r
+/// closed gap x_s1 = Σ B_i(ξ1) x_i1 + g1 a1      moment balance |τ|² χ + (r × λ) Jτ = 0      arm r = Δξ d + ½ (g0 a0 + g1 a1)
+/// jump of the tangent ā·w + (Δg/Δξ) (½ a0·a1 + b a0 × a1) = 0      w = τ - 4 b J d      b = Jτ·d/|τ|²
+/// contact force λ = (GA - ρA v0 v1) ā + (Δπ/Δt) (Δs/Δξ) τ/|τ|²      momentum π = ρA g |a|² v
+/// speed of the kink ½ (v0 + v1) Δt = (Δs/Δξ) τ·u/|τ|²      u = Δξ τ + Δ(g a) - 4 b J r
 /// ```
 ///
 /// The slave is on the axis, which has a kink under the contact force.
 /// The tangent of the axis jumps by `a` at the slave, and the kink moves along the master with the speed `v`.
 /// The mesh does not contain the energy `½ g |a|² (GA + ρA v²)` of the kink.
-/// In this formula, `ρA` is slightly larger than the mass per length of the beam.
+/// In the energy of the kink, `ρA` is slightly larger than the mass per length of the beam.
 /// The jump at the end of the step follows from the component of `λ` across the master and from the second line of equations.
 /// The remaining equation is the balance of forces along the master. Without a [`Kink`] the law is [`Conserving`].
 /// Derivation: docs/theory.md, sections 10 and 10.1.

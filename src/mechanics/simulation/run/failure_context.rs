@@ -18,8 +18,8 @@ const STRETCHED: f64 = 1.5;
 /// Contact force above which the axis folds, as a fraction of the shear stiffness of the beam.
 const FOLDING_FORCE: f64 = 0.1;
 
-/// Smallest distance of a slider from an end of its master that the slider can reach, as a fraction of the length of the master.
-/// At smaller distances, the kink under the contact force prevents the slider from reaching the end.
+/// Smallest distance from an end of its master that a slider can reach, as a fraction of the length of the master.
+/// The kink under the contact force prevents smaller distances.
 const END_DISTANCE: f64 = 5e-3;
 
 impl Simulation {

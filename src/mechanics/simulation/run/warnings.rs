@@ -161,7 +161,7 @@ impl Simulation {
     }
 
     /// Warning about alternating long and short steps in scenes with persistent velocity errors. Each step multiplies these errors by -1.
-    /// The position errors of a long and a short step do not cancel.
+    /// In such scenes, the position errors of a long and a short step do not cancel.
     fn uneven_steps(&self) -> Option<Warning> {
         let keeps = self.model.has_rigid_links() || self.scene.dissipating().next().is_some();
         if !keeps || !matches!(self.settings.dt, StepSize::Fixed(_)) {
@@ -237,7 +237,7 @@ impl Simulation {
 
     /// Warning that dampers added energy with the method `fourth_order`, whose backward substeps return energy.
     /// The warning is given if the backward substeps returned more energy than the dampers dissipated in total.
-    /// It is also given if a step increased the energy. Differences within rounding are ignored.
+    /// The warning is also given if a step increased the energy. Differences within rounding are ignored.
     /// The warning reports the step with the largest returned energy.
     fn energy_gain(&self) -> Option<Warning> {
         if self.settings.method != Method::FourthOrder {

@@ -142,7 +142,7 @@ fn bar(beam: &BeamDefinition) -> ImpactBar {
 impl System {
     /// Applies the rule of each slider for start velocities: the velocity across the master is either checked or projected to zero.
     ///
-    /// A speed `w` across a master counts as zero if the strain `w/c` of its wave is below the rounding error `ε`. `c` is the wave speed.
+    /// A speed `w` across a master counts as zero if the strain `w/c` of its wave is below the rounding error `ε`. The wave speed is `c`.
     pub(super) fn project_start_velocities(&mut self, scene: &Scene) -> Result<(), SystemError> {
         let negligible = self.negligible_velocity(scene);
         let mut is_projected = false;

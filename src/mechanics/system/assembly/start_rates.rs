@@ -88,8 +88,7 @@ impl RequestedRate<'_> {
 impl Assembly<'_> {
     /// Rates of the unknowns at the start, compatible with joints and start velocities [length/time, 1/time].
     ///
-    /// The result contains the rates of the unknowns, zeros for the `constraints` contact unknowns,
-    /// and the rates of the prescribed degrees of freedom.
+    /// The result contains the rates of the unknowns, zeros for the contact unknowns, and the rates of the prescribed degrees of freedom.
     pub fn start_rates(
         &self,
         numbering: &Numbering,
@@ -109,7 +108,7 @@ impl Assembly<'_> {
         for (index, body) in (first..).zip(&self.scene.rigid_bodies) {
             let degrees = &numbering.degrees_of_freedom[index];
             // If all points of a body are at its centre, the body shares no rotation with other bodies.
-            // The size of such a body has no effect and can have any value.
+            // If all points of a body coincide, the size of the body has no effect and can have any value.
             let size = if body.size() > 0.0 { body.size() } else { 1.0 };
             self.apply_rigid_motion(index, size, &body.motion, degrees, &mut shared, begun)?;
         }

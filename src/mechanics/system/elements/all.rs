@@ -179,7 +179,7 @@ impl Elements {
     }
 
     /// Internal force that differed most from its law in the last iterate, given by its name and the relative difference.
-    /// `None` if all differences are zero.
+    /// Returns `None` if all differences are zero.
     pub fn farthest(&self) -> Option<(&str, f64)> {
         let (missing, index) = self.largest_mismatch;
         let resistance = self.resistances.get(index)?;

@@ -42,7 +42,8 @@ impl ContactWatch {
     }
 
     /// Records a step.
-    /// The flags tell if the spring is slack at the start and at the end. The rates of elongation are those of the previous step and of this step.
+    /// The flags are true if the spring is slack at the start and at the end.
+    /// The rates of elongation are those of the previous step and of this step.
     pub fn add(
         &mut self,
         [was_slack, is_slack]: [bool; 2],

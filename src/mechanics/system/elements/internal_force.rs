@@ -48,13 +48,13 @@ pub trait InternalForce {
     );
 
     /// Adds `weight` times the forces that would remove the present residuals of the force laws.
-    /// The directions of these forces are those of the last linearisation.
+    /// The directions of the forces are those of the last linearisation.
     fn add_mismatch_forces(&self, bodies: &[Body], weight: f64, out: &mut [f64]);
 
     fn correct(&mut self, bodies: &[Body], correction: &[f64]);
 
     /// Work and impulse that the ground or a flowing medium exerts on the bodies through the element, in a step of length `duration`.
-    /// The increments of the step are stored in the bodies.
+    /// The increments of the step must be stored in the bodies.
     fn exchange(&self, bodies: &[Body], duration: f64) -> WorkAndImpulse;
 
     /// Updates the element at the end of a step, from the increments stored in the bodies.

@@ -44,7 +44,7 @@ impl MixedForce {
     }
 
     /// Change of the elongation increment `Δq` for which the target would equal the present force, to first order.
-    /// The change is infinite if the slope is not positive.
+    /// The missing change is infinite if the slope is not positive.
     pub fn missing_change(&self) -> f64 {
         match self.mismatch == 0.0 {
             true => 0.0,

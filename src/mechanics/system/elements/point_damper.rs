@@ -1,13 +1,13 @@
 //! Damper along the line between two points. The distance of the points may pass through zero.
 //!
 //! ```text
-//! v = Δd/Δt      d̄ = d₀ + ½ Δd      e = d̄/|d̄|      F = φ(e·v) e, opposite at both ends      D grows by F·Δd ≥ 0
+//! velocity v = Δd/Δt      mean d̄ = d₀ + ½ Δd      direction e = d̄/|d̄|      force F = φ(e·v) e, opposite at both ends      D grows by F·Δd ≥ 0
 //! ```
 //!
 //! The rate of the length, `Δℓ/Δt`, vanishes if the connecting vector reverses through zero within a step.
-//! The ends then pass each other at full speed.
-//! The rate along the mean vector `d̄` is correct in this case. In other cases it agrees with `Δℓ/Δt` to second order.
-//! The force acts along the mean line, so that angular momentum is conserved. `D` is the dissipated energy.
+//! The ends then pass each other at full speed, although the rate of the length is zero.
+//! The rate along the mean vector `d̄` is correct even then. In other cases it agrees with `Δℓ/Δt` to second order.
+//! The force acts along the mean line, so that angular momentum is conserved. The dissipated energy is `D`.
 
 use super::damping_law::DampingLaw;
 use super::elongation::ElongationEnd;

@@ -6,10 +6,10 @@
 //! The proofs for the energy–momentum step give the exact changes of energy, momentum and angular momentum:
 //!
 //! ```text
-//! ΔE = Σ R·Δx - Σ ε·M Δv/Δt          Δp = Δt Σ R          ΔL = Δt Σ x̄ × R + Σ ε × M v̄          R: residual of the equations, the reaction
+//! energy ΔE = Σ R·Δx - Σ ε·M Δv/Δt      momentum Δp = Δt Σ R      angular momentum ΔL = Δt Σ x̄ × R + Σ ε × M v̄      R: reaction
 //! ```
 //!
-//! The sums extend over the prescribed degrees of freedom. They are the work, impulse and angular impulse of the drives.
+//! The sums extend over the prescribed degrees of freedom and give the work, impulse and angular impulse of the drives.
 
 mod at_rest;
 

@@ -4,8 +4,8 @@ use crate::integrators::Interval;
 use crate::loads::{Schedule, StepMean};
 
 /// Difference between two quadrature rules for the mean over a step, above which the steps do not resolve a schedule.
-/// The difference is a fraction of the largest value.
-/// For a jump, the difference is at least a tenth of the jump. A sine with 2.7 steps per period has exactly this difference.
+/// The difference between the two quadrature rules is a fraction of the largest value.
+/// For a jump, the difference is at least a tenth of the jump. For a sine with 2.7 steps per period, it equals this constant.
 const LARGEST_MISS: f64 = 0.01;
 
 /// Largest difference between two quadrature rules for the mean of a schedule over a step.

@@ -148,7 +148,7 @@ impl Links {
     }
 
     /// Adds the constraint forces to the forces on bodies. The constraint forces are contained in `unknowns`.
-    /// The arms of the forces are those at the start of a step.
+    /// The arms of the constraint forces are those at the start of a step.
     pub fn transmit(&self, bodies: &Bodies, unknowns: &[f64], out: &mut [f64]) {
         for link in &self.rigid {
             let force = Vec2::new(unknowns[link.unknowns[0]], unknowns[link.unknowns[1]]);

@@ -1,7 +1,7 @@
 //! Rigid link in a step: a point fixed in the frame of a rigid body, and its constraint force.
 //!
 //! ```text
-//! Δx_p - Δx_b - χ J ā = 0        a = Λ r,   ā = ½ (a0 + a1),   χ = 2 tan(Δθ/2)
+//! constraint Δx_p - Δx_b - χ J ā = 0      arm a = Λ r,   mean arm ā = ½ (a0 + a1),   χ = 2 tan(Δθ/2)
 //! force on the point -λ,   on the body λ with the moment aτ × λ        aτ = (1-τ) a0 + τ a1,   τ = ½ except for generalized-α and in statics
 //! ```
 //!
@@ -249,7 +249,7 @@ impl RigidLink {
     }
 
     /// Difference between the velocity of the linked point and the velocity of the body at this point [length/time].
-    /// At the end of a step, this difference is an error of second order, whose sign alternates from step to step.
+    /// At the end of a step, the velocity difference is an error of second order, whose sign alternates from step to step.
     /// If accelerations are given instead of velocities, the result does not contain the centripetal acceleration of the arm.
     pub fn velocity_violation(&self, bodies: &Bodies, rates: &[f64]) -> Vec2 {
         let body = &bodies[self.body];
@@ -272,8 +272,8 @@ impl RigidLink {
     }
 
     /// Calls `take` with the static stiffness of the link.
-    /// It consists of the geometric stiffness of the force and a penalty stiffness [force/length].
-    /// The penalty holds the point at its position in the body.
+    /// The stiffness consists of the geometric stiffness of the force and a penalty stiffness [force/length].
+    /// The penalty stiffness holds the point at its position in the body.
     pub fn at_rest(
         &self,
         bodies: &Bodies,

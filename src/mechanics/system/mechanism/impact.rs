@@ -22,7 +22,7 @@ pub(super) type ImpactDirection = (usize, Vec2);
 pub(super) type ImpactSelection<'a> = (&'a [ImpactDirection], Deformation);
 
 /// Smallest ratio of two velocity responses to an impulse: with the included deformations, and with all deformations.
-/// Below this ratio, the direction of the impulse counts as rigid.
+/// Below this ratio of the two responses, the direction of the impulse counts as rigid.
 pub(super) const GIVES: f64 = 1e-9;
 
 /// Forces of a unit impulse in one direction, with the resulting velocities.
@@ -204,7 +204,7 @@ impl System {
 
     /// Computes the impact of rigid links and sliders due to jumps of prescribed rates at the start of a step.
     /// Without this impact, the violation of the velocity constraints would alternate in sign from step to step.
-    /// The impact reverses the violation. It conserves energy except for the work of drives (theory.md 9.5).
+    /// The impact reverses the violation of the constraints. It conserves energy except for the work of drives (theory.md 9.5).
     /// Returns true if there was a jump.
     pub(crate) fn apply_drive_jumps(&mut self, interval: Interval) -> bool {
         if self.links.count() == 0 && self.sliders.iter().next().is_none() {
@@ -301,7 +301,7 @@ impl System {
     }
 
     /// Creates the impact problem for the given directions. The velocity violation `w` of each rigid link changes by `links · w`.
-    /// With `links = -2`, the impact reverses the violation, and the links do no work.
+    /// With `links = -2`, the impact reverses the violation of the links, and the links do no work.
     pub(super) fn impact_problem(
         &mut self,
         met: &[ImpactSelection<'_>],

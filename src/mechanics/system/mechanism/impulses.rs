@@ -4,7 +4,7 @@
 //! The residual at each control point is the force of joints and supports. Impulses of impacts are added.
 //!
 //! ```text
-//! M (v1 - v0)/Δt + Σ share · F(stage) + G = r        p1 - p0 = Δt Σ (r + loads)
+//! balance M (v1 - v0)/Δt + Σ share · F(stage) + G = r      impulse p1 - p0 = Δt Σ (r + loads)
 //! ```
 //!
 //! Methods that balance accelerations instead of momenta do not provide mean forces.
@@ -29,10 +29,10 @@ pub struct ExchangeLedger {
 /// Impulses on all control points, with preallocated buffers.
 pub struct Impulses {
     /// Degrees of freedom that are numbered separately for every control point, even if joints tie control points.
-    /// During an evaluation, they replace the degrees of freedom of the model.
+    /// During an evaluation, the separate degrees of freedom replace the degrees of freedom of the model.
     numbers: Vec<DegreesOfFreedom>,
     /// Force unknowns of rigid links, numbered after all separate degrees of freedom.
-    /// During an evaluation, they replace the force unknowns in the model.
+    /// During an evaluation, these force unknowns replace the force unknowns in the model.
     links: Vec<[usize; 2]>,
     /// List with `None` for each inclined roller, because the forces of rollers are summed separately.
     /// During an evaluation, the list replaces the force unknowns of rollers in the model.

@@ -1,7 +1,7 @@
 //! Solution of the equations of motion at the present time: accelerations, and forces of supports, joints and contacts.
 //!
 //! ```text
-//! M a + F(x) - f(t) - Gᵀ λ = r        G a = 2 ξ̇ u·Σ B_i' v_i + ξ̇² u·Σ B_i'' x_i        r = 0 except at supported degrees of freedom
+//! motion M a + F(x) - f(t) - Gᵀ λ = r      contact G a = 2 ξ̇ u·Σ B_i' v_i + ξ̇² u·Σ B_i'' x_i      r = 0 except at supported degrees of freedom
 //! ```
 //!
 //! If the master has a kink under a slider, the contact force `λ` follows from the kink.
@@ -118,7 +118,7 @@ impl System {
     }
 
     /// Calls a function while the model stores the present forces of its rigid links.
-    /// Otherwise the model stores the forces of the last step, which are zero before the first step.
+    /// During other calls, the model stores the forces of the last step, which are zero before the first step.
     ///
     /// # Errors
     /// Fails in the same cases as [`instant`](Self::instant), if the model has rigid links.

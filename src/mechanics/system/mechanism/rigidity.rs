@@ -3,7 +3,7 @@
 //! The equations below give the velocity response `a` to a unit impulse `Gᵀ`, and the impulses `n` of the section forces.
 //!
 //! ```text
-//! M a + Bᵀ n = Gᵀ        B a = n/(s C)        f = Gᵀ - Bᵀ n        a = M⁻¹ f
+//! balance M a + Bᵀ n = Gᵀ      strains B a = n/(s C)      forces f = Gᵀ - Bᵀ n      velocities a = M⁻¹ f
 //! ```
 //!
 //! Here `B` is the strain–rate matrix and `C` the section stiffness.

@@ -6,7 +6,7 @@
 //! Hence `½ w·W⁻¹w` is constant with `W = G M⁻¹ Gᵀ`, and `w` rotates with the tangent in the metric `W⁻¹`:
 //!
 //! ```text
-//! w⁺ = w⁻ + W P        P = γ J ½ (w⁻ + w⁺)        γ = 2 tan(θ/2)/√det W
+//! velocity w⁺ = w⁻ + W P      impulse P = γ J ½ (w⁻ + w⁺)      factor γ = 2 tan(θ/2)/√det W
 //! ```
 //!
 //! Here `θ` is the angle between the tangents before and after the corner in the metric `W⁻¹`. The rotation consists of two parts.
@@ -25,9 +25,9 @@ use crate::system::sliders::{MasterEnd, MasterLimit, Seam};
 /// Angle below which two tangents count as parallel [rad].
 const STRAIGHT: f64 = 1e-13;
 
-/// Smallest determinant of the velocity response for which an impulse can change the velocity of the slider in two directions,
-/// as a fraction of the squared trace.
-/// If the determinant is smaller, the velocity of the slider is not rotated.
+/// Smallest determinant of the velocity response `W`, as a fraction of its squared trace,
+/// for which an impulse changes the velocity in two directions.
+/// If the determinant of `W` is smaller, the velocity of the slider is not rotated.
 const ONE_WAY: f64 = 1e-20;
 
 /// Largest number of corrections of the rotation angles, for coupled sliders that pass corners simultaneously.
@@ -204,7 +204,7 @@ fn turned(direction: Vec2, [from, to]: [Vec2; 2]) -> Vec2 {
 /// A corner has two components of impulse. All other contacts have impact laws.
 ///
 /// At a corner the impulse is `P = γ J ½ (w⁻ + w⁺)`, with the velocities `w⁻` before and `w⁺` after the impact.
-/// The factor `γ` is determined so that the velocity rotates by the angle of the corner. The error is at most 1e-12 or the smallest possible error.
+/// The factor `γ` is determined so that the velocity rotates by the angle of the corner, to 1e-12 or as accurately as possible.
 /// Returns `None` if the angles are not reached in a case where sliders also strike stops.
 ///
 /// For any `γ`, the impulses are the solution of a complementarity problem.

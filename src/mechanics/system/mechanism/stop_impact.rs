@@ -2,7 +2,7 @@
 //!
 //! When a slider comes to rest at a stop and is held there, an impulse reduces its speed along the master to zero.
 //! The stop acts like an elastic body: it stores the lost kinetic energy and returns it when the slider leaves.
-//! With a coefficient of restitution below one, this energy is lost.
+//! With a coefficient of restitution below one, the lost kinetic energy is not returned.
 
 use super::System;
 use super::impact::{GIVES, ImpactDirection, ImpactLaw};
@@ -196,7 +196,7 @@ impl System {
         if !arriving.plastic.is_empty() {
             // The first impact suppressed some deformations of the struck body.
             // After the first impact, rounding may have left a velocity of the slider towards the stop.
-            // A second impact with all deformations removes this velocity.
+            // A second impact with all deformations removes the remaining velocity.
             let hits = self.impulse_directions(|_, limit| {
                 arriving.plastic.contains(&limit).then_some(ImpactLaw::Ends)
             });
@@ -207,7 +207,7 @@ impl System {
     }
 
     /// Applies impulses at several contacts at once.
-    /// Corners rotate the velocities of the sliders that pass them, and all other contacts follow their impact laws.
+    /// Corners rotate the velocities of the sliders that pass them. All other contacts follow their impact laws.
     /// Impulses that hold sliders at a stop include all deformations.
     fn apply_impulses(
         &mut self,
@@ -277,8 +277,8 @@ impl System {
     /// Returns the energy stored in stops to the sliders that leave them.
     /// The speeds of the sliders are proportional to the square roots of their stored energies.
     ///
-    /// While the set of active contacts is the same, the impulses are proportional to the common factor of these speeds.
-    /// The returned energy is proportional to its square.
+    /// While the set of active contacts does not change, the impulses are proportional to the common factor of these speeds.
+    /// The returned energy is proportional to the square of the common factor.
     fn return_stop_energy(&mut self) -> Result<(), LinearError> {
         let hits = self.impulse_directions(|model, limit| {
             let slider = &model.sliders[limit.slider];

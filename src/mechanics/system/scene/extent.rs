@@ -20,7 +20,7 @@ struct Group {
 
 impl Group {
     /// Larger of two lengths [length]: twice the largest distance of a point from the mean of all points, and the longest natural length.
-    /// Distances within rounding count as zero.
+    /// Distances within rounding count as zero in the extent.
     fn extent(&self) -> f64 {
         let count = self.points.len().max(1) as f64;
         let centre = self.points.iter().sum::<Vec2>() / count;

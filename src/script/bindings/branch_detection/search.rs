@@ -118,7 +118,7 @@ impl VariableFacts {
     }
 
     /// First variable in an expression with a jumping schedule whose jump times depend on a parameter.
-    /// The schedule is in the variable, or the expression creates it from the variable.
+    /// Either the variable contains the schedule, or the expression creates the schedule from the variable.
     fn jumping_in(&self, expression: &Expr) -> Option<String> {
         first_in(expression, |node| match node {
             Expr::Variable(variable, ..) => self.jumping.get(variable.1.as_str()).cloned(),

@@ -13,14 +13,14 @@ pub enum Visited {
     /// All states were restored or computed again.
     All,
     /// The repeated run differs from the original run. The value is the first time with a difference.
-    /// A possible cause is a script function that changed the simulation during the original run.
-    /// Another is a start different from the initial state of the scene.
+    /// The difference may be due to a script function that changed the simulation during the original run.
+    /// The difference may also be due to a start different from the initial state of the scene.
     Diverged(f64),
 }
 
 impl SimulationHandle {
     /// Calls `look` with the states at the given times of the history. Stored states are visited from the last to the first.
-    /// If a state is not stored, the run is repeated in a copy. This takes time and counts steps; states are visited in the order of time.
+    /// If a state is not stored, the run is repeated in a copy, which takes time and counts steps. States are then visited in the order of time.
     /// The energies and momenta of the repeated run are compared with the original bit by bit.
     ///
     /// # Errors

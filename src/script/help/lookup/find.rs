@@ -29,7 +29,7 @@ pub enum HelpSubject {
 
 /// All subjects with the name `name`, the most likely subject first.
 ///
-/// `simulation.run_to` refers to the method of the type `simulation`.
+/// The name `simulation.run_to` refers to the method of the type `simulation`.
 /// If the text before the dot is not a type, as in `sim.run_to`, the methods of all types are returned.
 pub fn find(catalog: &Catalog, name: &str) -> Vec<HelpSubject> {
     let name = name.trim();

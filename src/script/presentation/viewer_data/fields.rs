@@ -25,7 +25,7 @@ const fn kind(name: &'static str, source: FieldSource) -> FieldKind {
 }
 
 /// All fields, in the order of [`FIELDS`]. The stretch is the relative elongation of the axis [-].
-/// The curvature is the change of the axis curvature from the start [1/length].
+/// The field `curvature` is the change of the axis curvature from the start [1/length].
 const KINDS: [FieldKind; 7] = [
     kind("speed", FieldSource::AdjacentFrames),
     kind("M", FieldSource::State),

@@ -37,7 +37,7 @@ impl SweepRequest<'_> {
     ///
     /// # Errors
     /// Fails if the function cannot be sent to workers, is wrong, or fails in all rows.
-    /// Also fails if the run is stopped. Finished rows are then in the journal.
+    /// Also fails if the run is stopped. The journal then contains the finished rows.
     pub fn run(self, call: &Call) -> Result<FinishedSweep, ScriptError> {
         let context = call.context();
         let function = RunFunction::read(call, "run", self.function)?;

@@ -12,7 +12,7 @@ pub(super) struct ElongationTerm {
     pub(super) secant: Vec2,
     pub(super) slope: Vec2,
     /// Factor `inverse` in the derivative of the secant `e`: `∂e/∂d₁ = (I - e⊗s) · inverse` [1/length].
-    /// The vector `d₁` connects the ends at the end of the step, and `s` is its direction.
+    /// The vector `d₁` connects the ends of the segment at the end of the step, and `s` is its direction.
     inverse: f64,
 }
 

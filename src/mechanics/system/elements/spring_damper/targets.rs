@@ -55,9 +55,8 @@ impl SpringDamper {
 
     /// Target force of the spring for a linearisation.
     /// After several iterations, the linearisation uses the intersection of the law with a straight line.
-    /// The line represents the impedance of the rest of the system.
+    /// The straight line represents the impedance of the rest of the system.
     /// Without the intersection, Newton's method would alternate between segments at a corner of a stiff law.
-    /// The intersection is unique if the law is increasing.
     /// The intersection is unique if the law is increasing.
     pub(super) fn spring_target(&mut self, stage: Stage) -> ForceTarget {
         let (asked, change) = (self.restoring(stage), self.elongation.change);
@@ -66,7 +65,7 @@ impl SpringDamper {
         let force = self.spring.force;
         let above = |at: f64, of: ForceTarget| of.force - force + impedance * (at - change);
         // A law of zero slope would intersect the straight line at the elongation change `reach`.
-        // An increasing law intersects it between `change` and `reach`.
+        // An increasing law intersects the straight line between `change` and `reach`.
         let reach = change - above(change, asked) / impedance;
         let (mut low, mut high) = (change.min(reach), change.max(reach));
         let (mut at, mut met) = (change, asked);
@@ -118,11 +117,11 @@ impl SpringDamper {
     }
 
     /// Factor of the extrapolation of the rate beyond the middle of the step.
-    /// The factor multiplies the difference between the rates of this step and the previous step.
+    /// The extrapolation factor multiplies the difference between the rates of this step and the previous step.
     /// Returns `None` if the force does not depend on rates.
     ///
     /// A method with forces at both ends of the step evaluates the balance at the fraction `at.weight` of the step.
-    /// The rate at that time is extrapolated from the rates at the middle of this step and of the previous step.
+    /// The rate at this fraction of the step is extrapolated from the rates at the middle of this step and of the previous step.
     fn lateness(&self, at: TrialState<'_>) -> Option<f64> {
         match at.stage {
             Stage::Start => None,
