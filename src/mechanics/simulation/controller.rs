@@ -1,7 +1,6 @@
 //! PI controller of the step size.
 //!
-//! References: K. Gustafsson, ACM Trans. Math. Softw.
-//! 17 (1991) 533–554; E. Hairer & G. Wanner, Solving Ordinary Differential Equations II, section IV.2.
+//! References: K. Gustafsson, ACM Trans. Math. Softw. 17 (1991); E. Hairer & G. Wanner, Solving Ordinary Differential Equations II, section IV.2.
 
 use serde::{Deserialize, Serialize};
 

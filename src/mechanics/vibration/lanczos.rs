@@ -1,7 +1,6 @@
 //! Lowest modes, computed by the block Lanczos method with shift and inversion.
 //!
-//! References: Ericsson & Ruhe 1980; Grimes, Lewis & Simon, SIAM J. Matrix Anal. Appl. 15 (1994); Wu & Simon, SIAM J. Matrix Anal.
-//! Appl. 22 (2000) (thick restarts).
+//! References: Ericsson & Ruhe 1980; Grimes, Lewis & Simon 1994; Wu & Simon, SIAM J. Matrix Anal. Appl. 22 (2000) 602–616 (thick restarts).
 //! All vectors are orthogonal with respect to the inertia.
 
 use nalgebra::{DMatrix, DVector, SymmetricEigen};

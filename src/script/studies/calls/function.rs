@@ -102,7 +102,7 @@ impl RunFunction {
         Ok(())
     }
 
-    /// Captured values and arguments on this thread. `function_of` finds functions.
+    /// Captured values and arguments of the function on this thread. The callback `function_of` finds functions.
     ///
     /// Returns `None` if a function is not found.
     pub fn arguments(
