@@ -221,8 +221,8 @@ mod tests {
     fn a_load_that_does_not_come_back_is_given_up() {
         let mut case = spinning(0.1, &[1.0]);
         let station = case.scene.station(0, 0.0).unwrap();
-        // This function behaves like a script function that does not return.
-        // The script engine stops such a function with an error after the deadline.
+        // The function in this test behaves like a script function that does not return.
+        // The script engine stops a function that does not return with an error after the deadline.
         let function = Rc::new(|t: f64| match t {
             0.5.. => {
                 while !is_past_deadline() {}

@@ -124,7 +124,7 @@ mod tests {
         let rivals =
             ExternalResult::of_sheet(&sheet, &observables, &truth, (&[1.0], 10.0)).unwrap();
         assert_eq!(rivals[0].error, 0.05);
-        // This run equals the reference, so it has only rounding errors.
+        // The second run equals the reference, so it has only rounding errors.
         assert!(rivals[1].error < 1e-13, "{}", rivals[1].error);
         assert_eq!(rivals[0].setting, "euler, dt = 0.1");
         assert!(rivals[1].energy_drift.is_nan());

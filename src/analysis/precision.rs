@@ -92,7 +92,7 @@ impl Precision {
 
     /// Fastest combination with an error of at most `error` [-], confirmed by smaller steps.
     /// A combination is confirmed if there are runs with smaller steps on the same mesh, and their errors are also at most `error`.
-    /// Without this condition, the errors of mesh and steps might cancel by chance.
+    /// Without confirmation by smaller steps, the errors of mesh and steps might cancel by chance.
     pub fn cheapest_confirmed(&self, error: f64) -> Option<&PrecisionRow> {
         let is_right = |row: &&PrecisionRow| row.cost_and_error().1 <= error;
         let is_confirmed = |row: &&PrecisionRow| {

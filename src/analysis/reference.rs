@@ -16,7 +16,7 @@ pub struct Deviation {
     /// Estimated error of the reference, in the unit of the observable; zero if unknown.
     pub estimated_error: f64,
     /// True if the reference is a run of this program. All errors are then reported as upper bounds.
-    /// A result with the same error as the reference would otherwise appear to be exact.
+    /// Without this rule, a result with the same error as the reference would appear to be exact.
     pub is_of_own_run: bool,
 }
 
@@ -99,7 +99,7 @@ pub struct ReferenceSolution {
     known: Vec<Vec<Option<KnownValue>>>,
 }
 
-/// Largest difference of two times that count as equal, as a fraction of the time or of one.
+/// Largest difference of two times that count as equal. For times above 1 the difference is relative, otherwise absolute.
 const SAME_TIME: f64 = 1e-9;
 
 fn row_at(sheet: &ParsedCsv, time: f64) -> Result<usize, ReferenceError> {

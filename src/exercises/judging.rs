@@ -1,5 +1,5 @@
 //! Runs an attempt and then the script of its judge. The judge can access only the variables of the attempt that its header names.
-//! Thus other names of the attempt cannot replace names of the judge. Only the calls of `check` in the script of the judge count.
+//! Other names in the attempt cannot replace names in the judge. Only the calls of `check` in the script of the judge count.
 
 use std::any::TypeId;
 use std::time::Duration;

@@ -33,7 +33,7 @@ pub enum Advice {
 
 impl Workbook {
     /// Workbook of the folder `here`: the nearest workbook among `here` and its parent folders, otherwise a new subfolder of `here`.
-    /// This function does not write any files.
+    /// Finding the workbook does not write any files.
     pub fn near(here: &Path) -> Self {
         // If the path cannot be resolved, it is used as given. An error is then reported when the folder is read.
         let real = here.canonicalize().unwrap_or_else(|_| here.into());

@@ -32,8 +32,8 @@ pub fn test_points(ranges: &[SearchRange], x: &[f64]) -> [Vec<f64>; 2] {
 
 /// Returns true if derivatives agree with the values at two points and at the point `here` between them.
 ///
-/// The callback `change` returns the difference of a value between the two points that the derivatives predict.
-/// The actual difference must agree with the predicted one. The mean of the values at the two points must be close to the value between them.
+/// The callback `change` returns the difference between the values at the two points, as predicted by the derivatives.
+/// The actual difference must agree with the predicted one. The mean of the values at the two points must be close to the value at `here`.
 pub fn matches_derivatives(
     values: [&[f64]; 2],
     here: &[f64],

@@ -35,7 +35,7 @@ pub struct Margins {
 }
 
 impl Margins {
-    /// Margins that are the larger ones of two panels on each side.
+    /// On each side, the larger of the margins of two panels.
     pub fn widest(self, other: Self) -> Self {
         Self {
             left: self.left.max(other.left),

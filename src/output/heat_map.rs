@@ -47,7 +47,7 @@ pub struct HeatMap {
 }
 
 impl HeatMap {
-    /// Creates a heat map without cells. Numbers up to the first power of ten are palest, and numbers from the second power of ten on are darkest.
+    /// Creates a heat map without cells. The two `powers` of ten are the ends of the colour scale, from the palest to the darkest colour.
     pub fn new(title: impl Into<String>, shows: impl Into<String>, powers: (i32, i32)) -> Self {
         Self {
             title: title.into(),

@@ -54,7 +54,7 @@ pub enum PlotShape {
     /// All points of a curve, and the type of its horizontal axis.
     Whole(CurveAbscissa, Vec<Point>),
     Number(f64),
-    /// Vector: one point on each of two curves.
+    /// Plane vector: its components are points of two separate curves.
     Vector(Vec2),
     /// Value that cannot be drawn. The text contains the reason.
     None(String),

@@ -53,7 +53,7 @@ impl SessionRecord {
     }
 
     /// Records the advances and rewinds of simulations by a failed statement, by comparison with their positions `before`.
-    /// Returns true if there were any.
+    /// Returns true if a simulation was advanced or rewound.
     pub fn record_movement(&mut self, before: &[SimulationPositions]) -> bool {
         let known = self.entries.len();
         for was in before {
@@ -61,7 +61,7 @@ impl SessionRecord {
             if steps != was.steps {
                 let method = if time > was.time { "run_to" } else { "rewind" };
                 // When the saved script repeats the movement, it may call the failed script function again, and this call may also fail.
-                // Hence the generated script catches the error of the repeated call.
+                // The generated script catches the error of the repeated call.
                 let call = format!("{}.{method}({});", was.name, format_number(time));
                 self.entries
                     .push(RecordedInput::Moved(format!("try {{ {call} }} catch {{ }}").into()));

@@ -160,7 +160,8 @@ impl Session {
         self.record.worked(text);
     }
 
-    /// Records the advances and rewinds of simulations by actions that are not recorded themselves. Returns true if there were any.
+    /// Records the advances and rewinds of simulations by actions that are not recorded themselves.
+    /// Returns true if a simulation was advanced or rewound.
     pub fn record_movement(&mut self, before: &[SimulationPositions]) -> bool {
         self.record.record_movement(before)
     }

@@ -142,17 +142,18 @@ impl SplineString {
     /// Coefficients of `g = lᵀ M⁻¹ r` on a span. `fractions` contains the parts of the splines of the span that lie in front of the kink.
     /// The splines of earlier spans lie entirely in front of the kink, and the splines of later spans behind it.
     ///
-    /// The earlier (or later) splines contribute the response to a load that is one up to an index.
+    /// The splines before the kink, and those after the kink, contribute the response to a load that is one for all splines up to an index.
     /// The response consists of the strains under a constant force up to the index, and the response to the residual.
     fn polynomial(&self, span: &Span, fractions: &[Vec<f64>]) -> Vec<f64> {
         let own = span.first..span.first + self.degree;
         let (before, behind) = (self.load_residual(own.start), self.load_residual(own.end));
         let mut sum = vec![0.0; 2 * self.degree + 1];
-        // Product of earlier and later splines.
+        // Products of splines before the kink with splines after the kink.
         sum[0] -=
             (before.0..).zip(&before.1).map(|(at, r)| r * self.response(at, &behind)).sum::<f64>();
         for (i, part) in own.clone().zip(fractions) {
-            // Products of earlier splines with the part of this spline behind the kink, and of its part in front of the kink with later splines.
+            // Two products: splines of earlier spans times the part of this spline behind the kink,
+            // and its part in front of the kink times splines of later spans.
             let (earlier, later) = (self.response(i, &before), -self.response(i, &behind));
             sum[0] += earlier;
             sum.iter_mut().zip(part).for_each(|(sum, c)| *sum += (later - earlier) * c);

@@ -11,7 +11,7 @@ pub const MAX_DEGREE: usize = 10;
 /// Largest number of spans (elements) of a basis.
 pub const MAX_SPANS: usize = 400_000;
 
-/// Length of the longest span that is rejected because its length is due to rounding, as a fraction of the domain.
+/// Largest span length that is attributed to rounding, as a fraction of the domain. A knot vector with such a span is rejected.
 const SHORTEST_SPAN: f64 = 1e-12;
 
 /// Open knot vector of degree `p`: knots `ξ_0 ≤ … ≤ ξ_m` on an interval `[a, b]`.

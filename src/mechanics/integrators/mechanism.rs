@@ -12,13 +12,14 @@ pub enum Stage {
     Start,
     /// Middle of the step: mean configuration, averaged section forces, mean loads.
     ///
-    /// At this stage, the work of the internal forces is exactly the change of the strain energy (Stander & Stein 1996; Simo, Tarnow & Doblaré 1995).
+    /// In the middle of the step, the work of the internal forces is exactly the change of the strain energy (Stander & Stein 1996;
+    /// Simo, Tarnow & Doblaré 1995).
     Midpoint,
     /// Middle of the step as for [`Midpoint`](Self::Midpoint), but with section forces of a later strain.
     /// The later strain is the mean strain plus `χ/2` times the change of the strain in the step.
     /// The value in the enum variant is the dissipation parameter `χ`.
     ///
-    /// At this stage, the internal forces do additional work: `χ/2` times the integral of `ΔΓ·C ΔΓ + EI Δκ²`.
+    /// With section forces of this later strain, the internal forces do additional work: `χ/2` times the integral of `ΔΓ·C ΔΓ + EI Δκ²`.
     DampedMidpoint(f64),
     /// End of the step. A load is replaced by a linear function of time with the same mean over the step and the same change in the step.
     /// The value of the load is the value of this linear function at the end.

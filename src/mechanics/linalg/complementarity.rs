@@ -120,7 +120,7 @@ mod tests {
                     }
                 }
             }
-            // The same problem in reverse order.
+            // The same complementarity problem with its pairs in reverse order.
             let turned: Vec<Vec<f64>> = matrix.iter().rev().map(|row| row.iter().rev().copied().collect()).collect();
             let q: Vec<f64> = q.into_iter().rev().collect();
             let pairings: Vec<Pairing> = pairings.into_iter().rev().collect();

@@ -2,7 +2,8 @@
 //!
 //! For a positive definite sum of terms with very different magnitudes, the pivots have very different magnitudes, but the columns of `L` do not.
 //! The factors `L` and `D` are rounded to 16 digits at the end.
-//! This rounding has the same effect as rounding the entries of `B`: each term of the sum changes by a small relative amount (theory, section 15).
+//! Rounding `L` and `D` has the same effect as rounding the entries of `B`:
+//! each term of the sum changes by a small relative amount (theory, section 15).
 
 use pulp::{Arch, Simd, WithSimd};
 

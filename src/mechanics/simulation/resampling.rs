@@ -14,11 +14,11 @@ const SHARE: f64 = 4.0;
 /// Error estimate for steps in which controllers are sampled at the start of each half.
 ///
 /// First, the whole step and its halves use the controller values at the start of the step. Their difference is the error of the method.
-/// Then the run pauses in the middle of the step, the controllers are sampled, and the second half is repeated.
+/// After the error of the method is known, the run pauses in the middle of the step, the controllers are sampled, and the second half is repeated.
 /// A sampled force is late by half a step on average.
 /// The delay of the force changes positions by the third power of the step size in one step, and by the first power over a run.
-/// For a sampled rate, the change in one step is of the second power of the step size.
-/// The allowed difference between the two results of the second half step therefore has the same power of the tolerance.
+/// A sampled rate changes positions by the second power of the step size in one step.
+/// The allowed difference between both results of the second half step has the same power of the tolerance as the error due to the delay.
 pub(super) struct Resampling {
     /// Power of the step size in the difference of positions in one step [-].
     order: i32,

@@ -20,7 +20,7 @@ const MOST_HALVINGS: u32 = 8;
 /// Equilibria that are farther apart may lie on different parts of the path.
 const FAR: f64 = 2.0;
 
-/// Displacement per load increment above which the structure has snapped through, as a multiple of that in the last step.
+/// Ratio of the displacements per load increment in two consecutive steps, above which the structure has snapped through.
 const SNAP_THROUGH_RATIO: f64 = 4.0;
 
 /// Smallest reference displacement for the detection of snap-through, as a fraction of the size of the scene.
@@ -60,7 +60,7 @@ struct PathDirection {
 
 impl PathDirection {
     /// Returns true if the next step has nearly the same direction as this step.
-    /// Otherwise the next step may have reached another branch of the path, for example near the buckling load of a straight column.
+    /// If the directions differ, the next step may have reached another branch of the path, for example near the buckling load of a straight column.
     /// Smaller steps are needed if the next step has reached another branch.
     fn is_aligned_with(&self, next: &Self, metric: &[f64]) -> bool {
         let ways = metric.iter().zip(&self.movements).zip(&next.movements);

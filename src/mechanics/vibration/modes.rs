@@ -118,7 +118,7 @@ impl Modes {
 
     /// Decay rates `½ φᵀ D φ` [1/time].
     /// The rates are exact if damping does not couple modes, for example if the material has one relaxation time for all strains.
-    /// In other cases, the rates are accurate to first order in the damping.
+    /// If damping couples modes, the rates are accurate to first order in the damping.
     pub fn decay_rates(&self) -> &[f64] {
         &self.decay_rates
     }

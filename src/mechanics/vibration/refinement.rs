@@ -31,8 +31,8 @@ pub(super) struct RefinedPair {
 ///
 /// A pair `(x, n)` consists of displacements and section forces. Its energies determine `ω²`.
 /// For the residual force `r = ω² M x - Bᵀ (n + k m) - K_g x` the correction is `δ = A⁻¹ r`, so that `x` becomes `(ω² + σ) A⁻¹ M x`.
-/// Components of other pairs are removed from `δ` and included in the residual.
-/// Without this removal, the inverted stiffness would amplify small components of low pairs in high pairs.
+/// Components of other pairs are removed from the correction `δ` and included in the residual.
+/// If these components were not removed, the inverted stiffness would amplify small components of low pairs in high pairs.
 ///
 /// # Errors
 /// Fails if the refinement is stopped.

@@ -79,7 +79,7 @@ fn is_indentation(line: &str, at: usize) -> bool {
         && here.is_some_and(|here| is_blank(here) && here.len() % INDENTATION.len() == 0)
 }
 
-/// Returns true if an arrow key searches the history for entries with the same beginning as the line. The condition is text before the cursor.
+/// Returns true if an arrow key searches the history for entries that begin with the text before the cursor. An empty text is not searched.
 ///
 /// First exception: if the line is a history entry with the cursor at its end, the arrow key selects the next entry.
 /// Second exception: in an input of several lines, the arrow key moves the cursor.

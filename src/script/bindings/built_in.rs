@@ -38,7 +38,7 @@ pub struct FunctionForm {
     pub ending: NameSuffix,
 }
 
-/// Text after the name of a function.
+/// Text after the name of a function in its notation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum NameSuffix {
     Property,

@@ -5,10 +5,10 @@
 //!
 //! - The operators `/ << >> < > <= >= == !=` become `num/`, `num<`, … of the same precedence.
 //! - Along a chain of powers, `^` and `**` become `num^0`, `num^1`, … with increasing precedence.
-//!   Custom operators bind to the left, so `2^3^2` would be 64.
+//!   Custom operators are left-associative, so a single power operator would evaluate `2^3^2` to 64.
 //! - The expression `-x^2` is an error, because Rhai's minus binds tighter than any operator and would give the square of `-x`.
-//! - The operators `/=`, `^=`, `**=`, `<<=` and `>>=` are converted to two tokens,
-//!   and loops get an additional statement (`loop_scoping`); see [`mark`].
+//! - The operators `/=`, `^=`, `**=`, `<<=` and `>>=` are converted to two tokens (see [`mark`]).
+//! - The module `loop_scoping` adds a statement to loops.
 //!
 //! Rhai declares the functions used here as subject to change. They are used only in this file and in `lexing`.
 

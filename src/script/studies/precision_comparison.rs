@@ -77,7 +77,7 @@ fn confirmation(study: &Precision, error: f64) -> Option<String> {
     Some(format!("\n{error} also at all smaller steps of the mesh, confirmed: {message}"))
 }
 
-/// Other programs with a run of at most this error. If there is no such run, the first other program.
+/// Other programs that have a run with an error of at most `error`. If no program has such a run, only the first program is returned.
 fn programs_with_error(study: &Precision, error: f64) -> Vec<Option<&str>> {
     let peers = study.program_names();
     let able = peers.iter().copied().filter(|peer| study.cheapest_of(peer, error).is_some());

@@ -22,8 +22,7 @@ const COUPLE: usize = 8;
 const WAY: usize = 10;
 
 /// Number with its derivatives.
-/// The variables are: displacement of the slave from the smooth axis, mean tangent `τ`, quarter tangent change `d`,
-/// force `λ`, couple, increment `Δξ`.
+/// The variables are: slave displacement from the smooth axis, mean tangent `τ`, quarter tangent change `d`, force `λ`, couple, increment `Δξ`.
 /// The number of derivatives is [`ALL_SLOPES`] or [`NO_SLOPES`].
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Dual<const SLOPES: usize> {
@@ -43,7 +42,7 @@ pub(super) struct ContactDuals<const SLOPES: usize> {
     pub offset: DualVector<SLOPES>,
     /// Mean tangent `τ` of the path [length].
     pub tangent: DualVector<SLOPES>,
-    /// Quarter `d` of the change of the tangent in the step [length].
+    /// Vector `d`, a quarter of the change of the tangent in the step [length].
     pub tangent_change: DualVector<SLOPES>,
     /// Contact force `λ` on the master [force].
     pub force: DualVector<SLOPES>,

@@ -31,7 +31,7 @@ struct Content<'a> {
     samples: Cow<'a, [Sample]>,
     permanent_rows: usize,
     extra: Cow<'a, [f64]>,
-    /// Interval between stored configurations: the trajectory keeps one configuration of this number.
+    /// Number `n` for which the trajectory keeps every n-th recorded configuration.
     every: usize,
     times: Cow<'a, [f64]>,
     numbers: Cow<'a, [f64]>,

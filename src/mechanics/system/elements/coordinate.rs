@@ -3,8 +3,7 @@
 /// Length, angle or rate, accumulated from increments and stored together with the rounding error of the sum.
 ///
 /// The method is compensated summation (N. J. Higham, Accuracy and Stability of Numerical Algorithms (2002), section 4.3).
-/// Without this method, the elongation of a rope of 1 m that is stretched by a micrometre, and its stored energy,
-/// would have only ten accurate digits.
+/// Without compensated summation, the elongation of a 1 m rope stretched by a micrometre, and its stored energy, would have only ten accurate digits.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Coordinate {
     pub value: f64,

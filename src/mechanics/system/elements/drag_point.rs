@@ -262,7 +262,7 @@ impl DragPoint {
     }
 
     /// Displacement of the point minus `duration` times the velocity in the drag law [length].
-    /// The result is zero if this velocity is the mean velocity of the step.
+    /// The result is zero if the velocity in the drag law is the mean velocity of the step.
     pub fn besides(&self, movement: Vec2, duration: f64) -> Vec2 {
         let Some(rates) = self.rates else { return Vec2::zeros() };
         movement * (1.0 - rates.by_change * duration)

@@ -76,7 +76,7 @@ pub struct Elongation {
     /// Change `Δq` in the step [length, rad].
     pub change: f64,
     /// Change of the elongation in the last accepted iterate, and the further change that its force implies [length, rad].
-    /// This stored change is more accurate than a change computed from increments, whose rounding error would store energy in a stiff spring.
+    /// The stored change is more accurate than a change computed from increments, whose rounding error would store energy in a stiff spring.
     settled: (f64, f64),
     /// Secant `g`, which gives the elongation change as `Δq = Σ g u` [-].
     /// For methods with forces at the end of a step, the secant is the derivative of the elongation `q` at the end.

@@ -133,7 +133,7 @@ struct AppliedLoad {
 
 /// Values of a schedule at the stages of a step.
 /// The fields `start` and `end` are the ends of a straight line that has the mean and the change of the schedule in the step.
-/// With this line, every method has the exact impulse of a load. Factors that the step does not use are NaN.
+/// With the straight line, every method has the exact impulse of a load. Factors that the step does not use are NaN.
 #[derive(Debug, Clone, Copy)]
 struct StageFactors {
     start: f64,

@@ -182,7 +182,7 @@ impl System {
     }
 
     /// Adjusts the velocities of points of rigid bodies to the initial rates of drives. Differences below `negligible` are ignored [length/time].
-    /// Without this adjustment, the difference would alternate in sign from step to step.
+    /// Without the adjustment, the difference of the velocities would alternate in sign from step to step.
     pub(in crate::system) fn fit_links_to_drives(&mut self, negligible: f64) {
         if self.links.count() == 0 || !self.supports.prescribed().has_start_rate() {
             return;
@@ -192,7 +192,7 @@ impl System {
         if missed.iter().all(|missed| missed.abs() <= negligible) {
             return;
         }
-        // This impulse acts before the start time, so it is not added to the accumulated impulses.
+        // The adjusting impulse acts before the start time, so it is not added to the accumulated impulses.
         // A singular matrix is ignored, because the first step reports it.
         let before = std::mem::take(&mut self.exchanged);
         let struck = self.apply_transverse_impact();
@@ -203,7 +203,7 @@ impl System {
     }
 
     /// Computes the impact of rigid links and sliders due to jumps of prescribed rates at the start of a step.
-    /// Without this impact, the violation of the velocity constraints would alternate in sign from step to step.
+    /// Without the impact, the violation of the velocity constraints would alternate in sign from step to step.
     /// The impact reverses the violation of the constraints. It conserves energy except for the work of drives (theory.md 9.5).
     /// Returns true if there was a jump.
     pub(crate) fn apply_drive_jumps(&mut self, interval: Interval) -> bool {

@@ -25,9 +25,8 @@ use crate::system::sliders::{MasterEnd, MasterLimit, Seam};
 /// Angle below which two tangents count as parallel [rad].
 const STRAIGHT: f64 = 1e-13;
 
-/// Smallest determinant of the velocity response `W`, as a fraction of its squared trace,
-/// for which an impulse changes the velocity in two directions.
-/// If the determinant of `W` is smaller, the velocity of the slider is not rotated.
+/// Smallest determinant of the velocity response `W`, as a fraction of its squared trace.
+/// With a smaller determinant, an impulse changes the velocity in only one direction, and the velocity of the slider is not rotated.
 const ONE_WAY: f64 = 1e-20;
 
 /// Largest number of corrections of the rotation angles, for coupled sliders that pass corners simultaneously.

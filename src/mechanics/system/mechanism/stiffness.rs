@@ -73,7 +73,7 @@ impl System {
     }
 
     /// Calls `take` with the penalty stiffness of every rigid link and contact.
-    /// It is `RIGID` times the largest stiffness at the degrees of freedom of the link or contact.
+    /// The penalty stiffness is `RIGID` times the largest stiffness at the degrees of freedom of the link or contact.
     /// The callback `stiffness` returns the largest stiffness for a position in `order` [force/length, force·length].
     pub(crate) fn for_each_static_constraint(
         &self,

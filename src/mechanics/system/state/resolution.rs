@@ -30,14 +30,15 @@ const EQUALLY_LONG: f64 = 1e-3;
 /// A vibration `v = a cos ωt` advances by a phase `φ` in each step of length `h` of the energy–momentum method, with `tan(φ/2) = ω h/2`.
 /// Averaged over the phases, `Σ m v̄² = ½ m a² cos²(φ/2)`, `S = Σ m (v̄ - v0)² = ½ m a² sin²(φ/2)` and `M = Σ m (v̄ - v̄₋)² = ½ m a² sin²φ`.
 /// Hence `S - M/4 = ½ m a² sin⁴(φ/2)` is the energy of unresolved motion. The contribution of resolved motion is negligible.
-/// For motions with several frequencies, the sums are additive (theory.md, section 13).
+/// For a motion with several frequencies, the energies of all frequencies are added (theory.md, section 13).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Resolution {
     /// Measure of the kinetic energy: sum of `m v̄² + S` over all steps that have the same length as the previous step [energy].
     kinetic: f64,
     /// Sum of `S - M/4` over the steps that have the same length as the previous step [energy].
     unresolved: f64,
-    /// Sum of `h² M/16` over these steps [energy·time²]. The squared frequency is `ω² = unresolved / bent`.
+    /// Sum of `h² M/16` over the steps that have the same length as the previous step [energy·time²].
+    /// The squared frequency is `ω² = unresolved / bent`.
     bent: f64,
     /// Length of the last step [time].
     last: f64,

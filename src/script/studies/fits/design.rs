@@ -22,9 +22,9 @@ const DIGITS: usize = 6;
 
 #[derive(Clone, Debug, PartialEq)]
 pub enum Objective {
-    /// The result with this name is minimised.
+    /// The result with this name is to be minimised.
     Least(String),
-    /// The result with this name is maximised.
+    /// The result with this name is to be maximised.
     Largest(String),
 }
 
