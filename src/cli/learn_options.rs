@@ -50,9 +50,8 @@ pub enum LearnAction {
     },
     /// Shows task, result and hints on one screen, and judges an attempt each time it is saved.
     ///
-    /// Keys: h hint, l list of all exercises, r run again, n next, p previous, s a solution after passing,
-    /// arrows and PageUp and PageDown scroll, q quit.
-    /// Without a terminal it writes lines.
+    /// Keys: h hint, l list of all exercises, r run again, n next, p previous, s a solution after passing, arrows and PageUp
+    /// and PageDown scroll, q quit. Without a terminal it writes lines.
     #[command(verbatim_doc_comment)]
     Watch {
         /// Limits of an attempt.

@@ -29,7 +29,7 @@ pub trait Panel {
     /// Space around the plot, for a panel of the given size [pixels].
     fn margins(&self, width: f64, height: f64) -> Margins;
 
-    /// Draws the panel in `area`. Its plot is in `plot`.
+    /// Draws the panel in `area`. The argument `plot` is the area of its plot.
     fn draw(&self, canvas: &mut Canvas, area: &Area, plot: &Area);
 
     /// Panel as a separate picture.

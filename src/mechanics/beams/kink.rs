@@ -1,8 +1,8 @@
 //! Kink of a beam axis under a point force. The smooth basis functions of a mesh cannot represent the displacement due to the kink.
 //!
 //! A point force on a shear-flexible beam causes a jump of the tangent of its axis. A smooth mesh lacks a part of the displacement under the force.
-//! The missing displacement is the same as in a string with the same basis functions, quadrature points and weights (derivation:
-//! docs/theory.md, section 10.1).
+//! The missing displacement is the same as in a string with the same basis functions, quadrature points and weights.
+//! Derivation: docs/theory.md, section 10.1.
 
 mod running;
 
@@ -152,8 +152,8 @@ impl SplineString {
         sum[0] -=
             (before.0..).zip(&before.1).map(|(at, r)| r * self.response(at, &behind)).sum::<f64>();
         for (i, part) in own.clone().zip(fractions) {
-            // Two products: splines of earlier spans times the part of this spline behind the kink,
-            // and its part in front of the kink times splines of later spans.
+            // Product of the splines of earlier spans and the part of this spline behind the kink.
+            // Product of the part of this spline in front of the kink and the splines of later spans.
             let (earlier, later) = (self.response(i, &before), -self.response(i, &behind));
             sum[0] += earlier;
             sum.iter_mut().zip(part).for_each(|(sum, c)| *sum += (later - earlier) * c);

@@ -12,8 +12,8 @@ pub enum Stage {
     Start,
     /// Middle of the step: mean configuration, averaged section forces, mean loads.
     ///
-    /// In the middle of the step, the work of the internal forces is exactly the change of the strain energy (Stander & Stein 1996;
-    /// Simo, Tarnow & Doblaré 1995).
+    /// In the middle of the step, the work of the internal forces is exactly the change of the strain energy.
+    /// References: Stander & Stein 1996; Simo, Tarnow & Doblaré 1995.
     Midpoint,
     /// Middle of the step as for [`Midpoint`](Self::Midpoint), but with section forces of a later strain.
     /// The later strain is the mean strain plus `χ/2` times the change of the strain in the step.

@@ -131,7 +131,7 @@ impl ImpactProblem {
         self.before.iter().enumerate().map(half_way).collect()
     }
 
-    /// Violations of the given laws by the velocities if no contact impulse acted [length/time].
+    /// Violations of the given impact laws by the velocities that would result without contact impulses [length/time].
     /// The laws apply to the last directions of the impact problem.
     pub(super) fn lacks(&self, laws: &[ImpactLaw]) -> Vec<f64> {
         let first = self.before.len() - laws.len();
