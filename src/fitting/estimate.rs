@@ -7,7 +7,7 @@ use super::student_quantile;
 /// Uncertainty of the parameters of a fit, computed from the scatter of the residuals.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Estimate {
-    /// Standard deviation of a weighted residual: the square root of the ratio of the sum of squares to the degrees of freedom.
+    /// Standard deviation of a weighted residual: `√(S/f)` with the sum of squares `S` and the degrees of freedom `f`.
     pub deviation: f64,
     /// Degrees of freedom: number of residuals minus number of free parameters.
     pub freedom: usize,

@@ -59,7 +59,7 @@ pub fn run(shell: &mut Shell, lines: impl BufRead) -> CommandOutcome {
             );
         }
         // The next line is read to decide whether an input is complete.
-        // A program that uses the pipe interactively must therefore end an input with a semicolon or an empty line.
+        // A program that uses the pipe interactively must end an input with a semicolon or an empty line.
         let is_complete = is_command(&input)
             || completeness_of_script(&input) == Completeness::Complete
                 && (input.trim_end().ends_with(';')

@@ -10,7 +10,7 @@
 //!
 //! The vectors `R_a` and `S_a` are the force and moment on control point `a`. The quadrature weight is `w`.
 //! Each point stores its gradient `g = x'` and its rotation, and updates them by increments.
-//! The rounding errors of strains therefore do not depend on the distance from the origin.
+//! Because of these updates, the rounding errors of strains do not depend on the distance from the origin.
 
 use pulp::Simd;
 

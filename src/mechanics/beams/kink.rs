@@ -139,7 +139,7 @@ impl SplineString {
         (*first..).zip(load).map(|(at, r)| self.inverse.get(row, at) * r).sum()
     }
 
-    /// Coefficients of `g = lᵀ M⁻¹ r` on a span. `fractions` contains the parts of the splines of the span that lie in front of the kink.
+    /// Coefficients of `g = lᵀ M⁻¹ r` on a span. The argument `fractions` contains, for each spline of the span, the part in front of the kink.
     /// The splines of earlier spans lie entirely in front of the kink, and the splines of later spans behind it.
     ///
     /// The splines before the kink, and those after the kink, contribute the response to a load that is one for all splines up to an index.

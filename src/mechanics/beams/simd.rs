@@ -1,7 +1,7 @@
 //! Vector lanes: values of consecutive quadrature points that one vector instruction processes together.
 //!
 //! Each lane performs the operations of its point in the same order and without fused multiply–add.
-//! Vectors of any width therefore give identical results.
+//! Vectors of any width give identical results.
 
 use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub};
 

@@ -62,7 +62,7 @@ fn raise<const WIDTH: usize>(
     higher
 }
 
-/// Computes the derivatives of one order of the splines of degree `q`.
+/// Computes the derivatives of one order for the splines of degree `q`.
 /// The input contains the derivatives of the next lower order of the splines of degree `q - 1`.
 #[inline(always)]
 fn differentiate<const WIDTH: usize>(

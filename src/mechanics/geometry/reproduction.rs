@@ -197,7 +197,7 @@ mod tests {
                         place.projection_error(on, at) * slope(on, at)
                     });
                     assert!(missed.abs() < 1e-10, "{missed:e}");
-                    // Since v' = ρ, v(end) - v(start) = ∫ ρ dξ = 1.
+                    // The kernel satisfies v(end) - v(start) = ∫ ρ dξ = 1, because v' = ρ.
                     let ends = [place.integral[0], place.integral[basis.functions() - 1]];
                     assert!((ends[1] - ends[0] - 1.0).abs() < 1e-10);
                 }

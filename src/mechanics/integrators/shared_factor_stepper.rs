@@ -12,7 +12,7 @@ use crate::newton::{NewtonReport, Tolerance};
 /// The balance `R(u; p + δ) = 0` of a companion is solved iteratively.
 /// The iteration starts from the solution of the leader and uses the factors of the last Newton iteration of the leader.
 /// Each correction reduces the error by a factor of the order of `δ` plus the size of this Newton iteration.
-/// A few corrections without factorisation therefore reduce the error to rounding.
+/// A few corrections without factorisation reduce the error to rounding.
 #[derive(Debug, Clone)]
 pub struct SharedFactorStepper {
     leader: StepSolver,

@@ -1,4 +1,4 @@
-//! Elimination order of the unknowns of a band and of the delayed unknowns of blocks, with the resulting profile of the matrix.
+//! Elimination order of the unknowns of a band, including the delayed unknowns of blocks, and the resulting profile of the matrix.
 
 use super::block::{Block, MOST_DELAYED, UNTOUCHED};
 use super::{BlockLayout, reverse_cuthill_mckee};

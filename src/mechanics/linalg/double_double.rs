@@ -4,7 +4,7 @@
 //! Products are split into two parts by fused multiply–add.
 //!
 //! IEEE 754 requires that a fused multiply–add operation rounds once.
-//! Results are therefore identical on every machine, both for hardware and software implementations of the operation.
+//! The results are identical on every machine, both for hardware and software implementations of the operation.
 #![allow(clippy::disallowed_methods)]
 
 use pulp::Simd;

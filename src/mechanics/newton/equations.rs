@@ -58,7 +58,7 @@ pub trait Equations {
     fn linearise(&mut self, u: &[f64], residual: &mut [f64], tangent: &mut BorderedMatrix);
 
     /// Prepares a correction with the factors of the last linearisation.
-    /// The method condenses the internal unknowns out of the residual of the last call of [`imbalance`](Equations::imbalance).
+    /// Condenses the internal unknowns out of the residual that the last call of [`imbalance`](Equations::imbalance) has computed.
     fn condense(&mut self, residual: &mut [f64]);
 
     /// Updates the internal unknowns after a correction of `u`, using the last linearisation.

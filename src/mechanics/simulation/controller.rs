@@ -15,10 +15,10 @@ const LEAST_GROWTH: f64 = 0.2;
 
 const SECOND_REJECTION_FACTOR: f64 = 0.5;
 
-/// Exponent of the error of the last step in the formula of the PI controller.
+/// Exponent for the error of the last step in the formula of the PI controller.
 const NOW: f64 = 0.7;
 
-/// Exponent of the error of the second last step in the formula of the PI controller.
+/// Exponent for the error of the second last step in the formula of the PI controller.
 const BEFORE: f64 = 0.4;
 
 /// Smallest error that the controller uses, as a fraction of the allowed error. Smaller errors are replaced by this value.

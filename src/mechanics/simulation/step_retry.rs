@@ -4,7 +4,7 @@ use crate::integrators::Interval;
 
 const MOST_HALVINGS: u32 = 12;
 
-/// Number of parts of a step that is divided into parts of the smallest size.
+/// Number of parts of a step if all parts have the smallest size.
 const PARTS: u64 = 1 << MOST_HALVINGS;
 
 /// Step that may be partially completed. Its parts are halved after a failure and doubled after a success.

@@ -2,7 +2,7 @@
 //!
 //! Let `K + σ M = L D Lᵀ` and `M = H Hᵀ`. The squared singular values of `G = D^-½ L⁻¹ H` are `μ = 1/(ω² + σ)`.
 //! The rows of `G` become smaller in the order of the pivots. Rotations of columns preserve the relative accuracy of each row.
-//! One-sided Jacobi rotations therefore compute large and small singular values to almost full accuracy (J. Demmel & K. Veselić 1992).
+//! One-sided Jacobi rotations compute large and small singular values to almost full accuracy (J. Demmel & K. Veselić 1992).
 
 use nalgebra::DMatrix;
 

@@ -14,10 +14,10 @@ const SMALL: usize = 240;
 /// Largest number of unknowns for which all modes are computed together if more than a quarter of them is requested.
 const MEDIUM: usize = 2000;
 
-/// Number of matrices of the size of the stiffness that are in memory at the same time during the computation of all modes.
+/// Peak memory for the computation of all modes, as a multiple of the memory of a dense stiffness matrix.
 const DENSE_COPIES: usize = 5;
 
-/// Largest number of increases of the shift by a factor of a hundred, for unstable configurations.
+/// Largest number of times that the shift is multiplied by a hundred, for unstable configurations.
 const MOST_SHIFTS: usize = 14;
 
 /// Residual above which a pair is rejected.

@@ -1,5 +1,5 @@
 //! Check for misleading names before a script runs.
-//! A script function with the name of a function of the language would replace the function of the language everywhere.
+//! If a script function had the name of a function of the language, every call of this name would use the script function.
 //! If a file has a variable with the name of a constant of the language, functions in the file see the constant instead of the variable.
 
 use rhai::{Engine, EvalAltResult, Position, Token};

@@ -69,7 +69,7 @@ impl SplineString {
         missed / lengths
     }
 
-    /// Motion of the control points for a kink at a position in a span, as a fraction of the motion of the end of the string.
+    /// Motion of the control points for a kink at a given position in a span, relative to the motion of the end of the string.
     /// The argument `lower` contains the values of the splines of lower degree at this position.
     /// The second value of each pair is the difference between the motion of the control point and the motion of the end.
     fn motion(&self, span: &Span, lower: &[f64]) -> Vec<[f64; 2]> {

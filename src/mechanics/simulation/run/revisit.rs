@@ -81,7 +81,7 @@ impl Simulation {
         let time = wanted.measures.time;
         if time > self.time() {
             // The original step may have been planned beyond the arrival.
-            // The copy therefore continues towards the next row and pauses at the arrival.
+            // The copy continues towards the next row and pauses at the arrival.
             let is_arrival = |at: &f64| of.arrivals().iter().any(|arrival| arrival.time == *at);
             let mut ends = rows[row..].iter().map(|row| row.measures.time);
             let goal = ends.find(|end| !is_arrival(end)).unwrap_or(time);

@@ -134,7 +134,7 @@ impl Elements {
         on_body.map(|mass| mass.momenta(bodies, rates).twice_kinetic).sum()
     }
 
-    /// Potential energy of the weight of a body and of the point masses on it [energy].
+    /// Potential energy of the weight of a body, including its point masses [energy].
     pub fn potential_of(&self, bodies: &[Body], body: usize) -> f64 {
         self.weight.as_ref().map_or(0.0, |weight| weight.energy_of(bodies, body))
     }

@@ -58,7 +58,7 @@ impl MixedForce {
         self.search = IterationState::default();
     }
 
-    /// Secant estimate of the impedance of the rest of the system, from the last two iterates; `None` during the first iterations.
+    /// Estimate of the impedance of the rest of the system by a secant through the last two iterates; `None` during the first iterations.
     pub fn impedance(&mut self, rate: f64) -> Option<f64> {
         let IterationState { linearised, at: (rate_before, force_before) } = self.search;
         self.search = IterationState { linearised: linearised + 1, at: (rate, self.force) };

@@ -6,7 +6,7 @@
 //!
 //! The rate of the length, `Δℓ/Δt`, vanishes if the connecting vector reverses through zero within a step.
 //! The ends then pass each other at full speed, although the rate of the length is zero.
-//! The rate along the mean vector `d̄` is correct for a reversal, too. Without a reversal, it agrees with `Δℓ/Δt` to second order.
+//! The rate along the mean vector `d̄` is also correct for a reversal. Without a reversal, this rate agrees with `Δℓ/Δt` to second order.
 //! The force acts along the mean line, so that angular momentum is conserved. The dissipated energy is `D`.
 
 use super::damping_law::DampingLaw;

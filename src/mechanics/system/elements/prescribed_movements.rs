@@ -364,7 +364,7 @@ impl PrescribedMovements {
         sum
     }
 
-    /// Sets the reactions to the residual of all degrees of freedom for a step of zero length [force, force·length].
+    /// Sets the reactions for a step of zero length. The reactions are the residual at the prescribed degrees of freedom [force, force·length].
     pub fn start_reactions(&mut self, residual: &[f64]) {
         for (present, reaction) in self.present.iter_mut().zip(&residual[self.first..]) {
             present.reaction = StepMean::at_start(*reaction);

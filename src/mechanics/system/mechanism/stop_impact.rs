@@ -144,7 +144,7 @@ impl System {
         self.sliders.freeze_kinks()
     }
 
-    /// Lets the kinks follow the contact forces again.
+    /// Makes the kinks variable: they follow the contact forces in the following steps.
     pub(crate) fn unfreeze_kinks(&mut self) {
         self.sliders.unfreeze_kinks();
     }

@@ -45,7 +45,7 @@ enum Executor<'w> {
     ThisThread,
 }
 
-/// Evaluator of the function of a query, by worker threads or on this thread.
+/// Evaluates the function of a query. The evaluation uses worker threads or this thread.
 pub struct Evaluator<'w> {
     call: &'w Call<'w, 'w>,
     question: &'w FunctionQuery<'w>,

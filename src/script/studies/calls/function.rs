@@ -14,7 +14,7 @@ use crate::script::messages::nouns::with_article;
 pub struct RunFunction {
     pub name: String,
     pub captured: Vec<(String, Portable)>,
-    /// Further arguments after the map of values.
+    /// Arguments that follow the map of values.
     pub besides: Vec<Portable>,
 }
 

@@ -147,7 +147,7 @@ impl Limit {
     }
 }
 
-/// Values of a map of numbers in the order of [`names`].
+/// Values of a map of numbers. Their order is that of [`names`].
 fn values(given: &Dynamic) -> FunctionResult {
     let Some(map) = given.read_lock::<Map>() else {
         return FunctionResult::Wrong(

@@ -116,7 +116,7 @@ impl SpringDamper {
         }
     }
 
-    /// Factor of the extrapolation of the rate beyond the middle of the step.
+    /// Extrapolation factor for the rate at a time after the middle of the step.
     /// The extrapolation factor multiplies the difference between the rates of this step and the previous step.
     /// Returns `None` if the force does not depend on rates.
     ///
