@@ -222,7 +222,7 @@ mod tests {
         let mut case = spinning(0.1, &[1.0]);
         let station = case.scene.station(0, 0.0).unwrap();
         // The function in this test behaves like a script function that does not return.
-        // The script engine stops a function that does not return with an error after the deadline.
+        // The script engine stops a function that does not return. The function then fails with an error after the deadline.
         let function = Rc::new(|t: f64| match t {
             0.5.. => {
                 while !is_past_deadline() {}

@@ -163,7 +163,7 @@ impl RefinementLevels<'_> {
         Some(low)
     }
 
-    /// Time until which the runs converge if they differ strongly at the end.
+    /// Time until which the runs converge, if the runs differ strongly at the end.
     /// Returns `None` if the runs never converge, or if the distances do not grow afterwards.
     fn last_convergence(&self, near: &[(f64, f64)], far: &[(f64, f64)]) -> Option<f64> {
         let end = near.last()?.0;

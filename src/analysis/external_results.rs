@@ -46,7 +46,7 @@ const SETTING: [(&str, &str); 4] =
 impl ExternalResult {
     /// Reads runs from a table.
     /// Required columns are peer, series, run_time_s, t, energy_drift and machine, and columns of station positions.
-    /// The names of position columns are those of a reference table.
+    /// The position columns have the names of columns in a reference table.
     /// Optional columns are integrator, elements, dof and dt.
     ///
     /// # Errors

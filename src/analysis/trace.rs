@@ -109,7 +109,8 @@ impl Trace {
     }
 
     /// Returns the value at a time; `None` outside the trace.
-    /// A recorded value at this time is returned directly. Otherwise a cubic polynomial through the four nearest recorded values is evaluated.
+    /// A value recorded at the requested time is returned directly.
+    /// Otherwise a cubic polynomial through the four nearest recorded values is evaluated.
     fn at(&self, time: f64) -> Option<Vec2> {
         let (first, last) = (*self.times.first()?, *self.times.last()?);
         let slack = SAME_TIME * (last - first);

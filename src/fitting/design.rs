@@ -11,7 +11,7 @@ const FIRST_STEP: f64 = 0.1;
 /// Largest violation of a satisfied constraint. Constraints are scaled to order one.
 const MET: f64 = 1e-6;
 /// Distance from zero at which the search of an unbounded parameter ends, as a multiple of the size of the parameter.
-/// A parameter that comes near this distance from zero counts as diverged.
+/// A parameter counts as diverged if its distance from zero comes near this multiple of its size.
 const FARTHEST: f64 = 1e15;
 /// Penalty for a design whose run fails: its objective is the worst objective so far plus this number.
 pub(super) const PENALTY: f64 = 10.0;

@@ -13,7 +13,7 @@ const SETTLED: f64 = 1e-7;
 /// Largest change of a parameter for which the derivatives still count as accurate, as a fraction of the size of the parameter.
 const NEAR: f64 = 0.02;
 /// Largest cosine of the angle between the residuals and a column of the Jacobian at convergence.
-/// If all these cosines are smaller than this constant, the search has converged.
+/// The search has converged if the cosines for all columns are smaller than this constant.
 const ORTHOGONAL: f64 = 1e-7;
 /// Smallest predicted relative reduction of the sum of squares for which the search continues.
 /// With a smaller reduction, parameters change by less than `1e-3 √(n - p)` of their standard errors, for `n` residuals and `p` parameters.
@@ -143,7 +143,7 @@ impl LeastSquaresState {
     }
 
     /// Updates the derivatives after a step by the rank-one correction of C. G. Broyden (1965), in scaled parameters.
-    /// The argument `change` is the change of the residuals in this step.
+    /// The argument `change` is the change of the residuals in the step.
     fn update_derivatives(&mut self, step: &DVector<f64>, change: &DVector<f64>) {
         let scaled =
             DVector::from_fn(step.len(), |at, _| step[at] * self.sizes[at] * self.sizes[at]);

@@ -124,7 +124,7 @@ impl LevelAxis {
 impl LevelMap {
     /// Creates a map over two axes. `values` are given by rows, starting with the lowest row. `label` names the quantity.
     /// Cells whose values are not finite are hatched.
-    /// On axes with more than 160 numbers, neighbouring cells are merged to one cell with their mean value. A caption states this.
+    /// On axes with more than 160 numbers, neighbouring cells are merged to one cell with their mean value. A caption states that cells are merged.
     pub fn new(
         title: impl Into<String>,
         label: impl Into<String>,

@@ -1,7 +1,7 @@
 //! Painter of PNG files with anti-aliasing. Each pixel is mixed with the colour of a shape by the fraction that the shape covers.
 //!
 //! Boxes and pixels of the library plotters are correct, but its thick lines and polygons have ragged edges.
-//! Therefore this module computes the fraction of a pixel that a line covers from distances.
+//! This module computes from distances which fraction of a pixel a line covers.
 //! A line of half width `r` covers `r + ½ − d` of a pixel at a distance `d` from its centre line.
 //! For a pixel near several segments, the nearest segment is used.
 

@@ -34,7 +34,7 @@ pub fn paint(canvas: &Canvas, width: u32, height: u32) -> Result<String, OutputE
 }
 
 /// Start of the document as written by plotters for a grid of this size. Its size is wrong, and title and description are missing.
-/// The function [`head`] replaces this start.
+/// The function [`head`] replaces the start that plotters has written.
 fn opening(grid: (u32, u32)) -> String {
     let mut empty = String::new();
     drop(SVGBackend::with_string(&mut empty, grid));

@@ -6,7 +6,7 @@ use super::sobol;
 ///
 /// The points form groups of `dimensions + 2` points, called blocks.
 /// The first two points of a block are independent of each other.
-/// These two points are the halves of one point of a Sobol' sequence with `2 · dimensions` coordinates.
+/// The first two points of a block are the halves of one point of a Sobol' sequence with `2 · dimensions` coordinates.
 /// Each further point differs from the first point in one coordinate, whose value is that of the second point.
 /// The result has one list per coordinate, with the values of all `blocks · (dimensions + 2)` points.
 pub fn saltelli(blocks: usize, dimensions: usize, seed: u64) -> Vec<Vec<f64>> {

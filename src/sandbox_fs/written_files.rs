@@ -1,5 +1,5 @@
 //! Record of the files that this program wrote to a folder.
-//! The record distinguishes these files from files of other programs, and from files edited after they were written.
+//! The record distinguishes files written by this program from files of other programs, and from files edited after they were written.
 
 use std::collections::BTreeMap;
 use std::io::{self, Read, Write};

@@ -83,8 +83,8 @@ pub trait BodyDynamics: Send + Sync {
     /// Adds `weight` times the internal forces, with the strain mismatches condensed out.
     /// Calls the sink of each part, span by span, with `weight` times the derivatives of the internal forces.
     ///
-    /// The spans across the cut between two parts are passed to the sinks of both parts.
-    /// The part after the cut receives these spans before its own spans. The part before the cut receives them after its own spans.
+    /// Spans across the cut between two parts are passed to the sinks of both parts.
+    /// The part after the cut receives the spans across the cut before its own spans. The part before the cut receives them after its own spans.
     /// Each sink must use only the rows of the control points of its part.
     fn add_linearised_forces(
         &mut self,

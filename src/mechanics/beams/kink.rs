@@ -117,7 +117,7 @@ impl SplineString {
     }
 
     /// Residual for a load on the string that is one for all splines before index `cut`, and zero for the others.
-    /// The approximate response to this load has the strains under a constant force for the splines before `cut`, and zero strains for the others.
+    /// The approximate response to the load has the strains under a constant force for the splines before `cut`, and zero strains for the others.
     /// The residual is nonzero in a few entries around `cut` only. Returns the index of the first of these entries, and the entries.
     fn load_residual(&self, cut: usize) -> (usize, Vec<f64>) {
         let (size, reach) = (self.stretched.len(), self.degree - 1);

@@ -66,7 +66,7 @@ impl Mesh {
     /// Creates a B-spline mesh with the patch rule. It has `spans` equal spans and continuity C^`continuity` at interior knots.
     ///
     /// # Errors
-    /// Fails if no knot vector exists for these numbers.
+    /// Fails if no knot vector exists for the given numbers.
     pub fn bspline(spans: usize, degree: usize, continuity: usize) -> Result<Self, GeometryError> {
         Ok(Self::new(Basis::BSpline(KnotVector::uniform(spans, degree, continuity)?)))
     }

@@ -6,7 +6,7 @@
 //!
 //! The moment is linear in the curvature, so Newton's method would converge without the moment as an unknown.
 //! A moment computed from the increments would have the rounding error of the increments, multiplied by `EI`.
-//! In a stiff beam this rounding error is larger than the forces in the balance.
+//! In a stiff beam, the rounding error of a moment computed from increments is larger than the forces in the balance.
 
 use pulp::Simd;
 

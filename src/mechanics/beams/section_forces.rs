@@ -7,8 +7,8 @@
 //! forces Σ w N_a' n = F_a      moments Σ w N_a' M - Σ w N_a (x' × n) = T_a      F_a, T_a: loads minus inertia, known exactly
 //! ```
 //!
-//! The forces `n` and moments `M` at the quadrature points satisfy these equations.
-//! At the ends of a beam, the error of these forces is of first order in the span length, because the quadrature rules have few points.
+//! The forces `n` and moments `M` at the quadrature points satisfy the two equations with quadrature sums.
+//! At the ends of a beam, the error of the forces at quadrature points is of first order in the span length, because the rules have few points.
 //! This module computes section forces that satisfy the equations with exact integrals.
 //! The computed forces are elements of the space `T` of all derivatives of the basis functions in a run (a sequence of smoothly joined spans):
 //!

@@ -11,7 +11,7 @@ use super::{Basis, GaussRule, MAX_DEGREE, PiecewisePolynomial, Span};
 /// The divided differences are also accurate across breaks of any continuity.
 ///
 /// The functions `first, first + 1, …` are all functions that are nonzero somewhere on the spans of the path.
-/// Every accessor returns one value for each of these functions. Parameters and results are dimensionless.
+/// Every accessor returns one value for each function that is nonzero somewhere on the path. Parameters and results are dimensionless.
 ///
 /// If a path starts at a break, its first span is the span in its direction. If a path ends at a break, its last span is the span before the break.
 /// A path of zero length at a break lies in the span on the right. Outside the domain, the polynomials of the end spans are extended.
@@ -154,7 +154,7 @@ impl ContactPath {
     }
 
     /// Derivatives of the divided differences with respect to the end of the path for fixed ξ₀: `∂D_i/∂ξ₁ = (B_i'(ξ₁) - D_i) / (ξ₁ - ξ₀)`.
-    /// For a path of zero length these derivatives are `½ B_i''(ξ₀)`. They sum to zero.
+    /// For a path of zero length, the derivatives `∂D_i/∂ξ₁` are `½ B_i''(ξ₀)`. They sum to zero.
     ///
     /// The derivatives are accurate to rounding unless `B_i'` jumps on the path.
     /// If `B_i'` jumps, the derivatives have the rounding error of `D_i` divided by the length of the path.

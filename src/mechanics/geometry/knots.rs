@@ -163,7 +163,7 @@ impl KnotVector {
     }
 
     /// Greville abscissae `(ξ_{i+1} + … + ξ_{i+p}) / p`, one per basis function, strictly increasing.
-    /// If the control points lie on a line at these parameters, the curve has uniform speed.
+    /// If the control points of a curve lie on a line at the Greville abscissae, the curve has uniform speed.
     pub fn greville(&self) -> Vec<f64> {
         self.knots[1..self.knots.len() - 1]
             .windows(self.degree)

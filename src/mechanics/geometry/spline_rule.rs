@@ -11,7 +11,7 @@ const EQUAL: f64 = 1e-9;
 
 /// Computes the patch rule of a run of spans.
 /// The rule has as many points as there are linearly independent derivatives of the basis functions.
-/// The weights of the rule integrate all these derivatives exactly.
+/// The weights of the rule integrate all derivatives of the basis functions exactly.
 ///
 /// The spans are consecutive and joined at least C¹.
 /// The derivatives of the `F` basis functions of degree `p` form the space of the `P = F - 1` splines `T` of degree `p - 1`.
@@ -25,7 +25,7 @@ const EQUAL: f64 = 1e-9;
 ///
 /// The orthogonal spline has `P` zeros because of total positivity (de Boor, A Practical Guide to Splines, rev. ed. 2001, chapter XI).
 /// Tests for every degree and continuity confirm that the weights are positive and that `Σ w T² ≥ 0.79 ∫ T² dξ`. There is no proof.
-/// Returns `None` if fewer zeros are found because of rounding, or if a weight is not positive. No spans with this result are known.
+/// Returns `None` if fewer zeros are found because of rounding, or if a weight is not positive. No spans are known for which this happens.
 pub fn patch_rule(basis: &Basis, run: &[Span]) -> Option<RunRule> {
     if let [span] = run {
         return gauss_points(basis.degree(), span).map(|rule| vec![rule]);
@@ -88,7 +88,7 @@ fn empty_rows(count: usize, room: usize) -> Vec<CollocationRow<f64>> {
 /// The last coefficient of the spline is normalised to one.
 ///
 /// The equations are `Σ_s q_s ∫ T_t N_s dξ = 0` for each spline `T_t` of one degree less, with the basis functions `N_s`.
-/// The matrix of these equations is totally positive and has one more column than rows.
+/// The matrix of the equations for `q_s` is totally positive and has one more column than rows.
 fn orthogonal_spline(basis: &Basis, run: &[Span]) -> Option<Vec<f64>> {
     let (degree, offset) = (basis.degree(), run.first()?.first);
     let unknowns = lower_count(basis, run)?;

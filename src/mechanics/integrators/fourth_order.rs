@@ -25,7 +25,7 @@ const ENDS: [f64; 7] = {
 /// The leading errors of the substeps cancel, because the sum of the cubes of the substep lengths is zero. Hence the method has order four.
 /// The remaining error is small because the lengths are small. The lengths are chosen such that slow loads do not excite unresolved vibrations.
 ///
-/// Methods of this type: R. I. McLachlan, SIAM J. Sci. Comput. 16 (1995) 151–168. The coefficients were computed for this program.
+/// Reference for composition methods: R. I. McLachlan, SIAM J. Sci. Comput. 16 (1995) 151–168. The coefficients were computed for this program.
 #[derive(Debug, Clone)]
 pub struct FourthOrder {
     substep: EnergyMomentum,

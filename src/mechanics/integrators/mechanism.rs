@@ -8,7 +8,7 @@ use crate::newton::ResidualPart;
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Stage {
     /// Start of the step. A load is replaced by a linear function of time with the same mean over the step and the same change in the step.
-    /// The value of the load is the value of this linear function at the start.
+    /// At this stage, the load has the value of the linear function at the start of the step.
     Start,
     /// Middle of the step: mean configuration, averaged section forces, mean loads.
     ///
@@ -19,10 +19,10 @@ pub enum Stage {
     /// The later strain is the mean strain plus `χ/2` times the change of the strain in the step.
     /// The value in the enum variant is the dissipation parameter `χ`.
     ///
-    /// With section forces of this later strain, the internal forces do additional work: `χ/2` times the integral of `ΔΓ·C ΔΓ + EI Δκ²`.
+    /// With section forces of a later strain, the internal forces do additional work: `χ/2` times the integral of `ΔΓ·C ΔΓ + EI Δκ²`.
     DampedMidpoint(f64),
     /// End of the step. A load is replaced by a linear function of time with the same mean over the step and the same change in the step.
-    /// The value of the load is the value of this linear function at the end.
+    /// At this stage, the load has the value of the linear function at the end of the step.
     End,
 }
 

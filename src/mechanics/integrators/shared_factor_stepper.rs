@@ -11,7 +11,7 @@ use crate::newton::{NewtonReport, Tolerance};
 ///
 /// The balance `R(u; p + δ) = 0` of a companion is solved iteratively.
 /// The iteration starts from the solution of the leader and uses the factors of the last Newton iteration of the leader.
-/// Each correction reduces the error by a factor of the order of `δ` plus the size of this Newton iteration.
+/// Each correction reduces the error by a factor of the order of `δ` plus the size of the last Newton iteration of the leader.
 /// A few corrections without factorisation reduce the error to rounding.
 #[derive(Debug, Clone)]
 pub struct SharedFactorStepper {

@@ -209,8 +209,8 @@ mod tests {
             }
             let singular = |unknown| LinearError::Singular { unknown, size: 12 };
             assert_eq!(column.factorise().unwrap_err(), singular(zero));
-            // Row exchanges move the zero row down until it is followed only by the last row.
-            // In this column, the last row has only a diagonal entry, so the two rows are not exchanged.
+            // Row exchanges move the zero row down until only the last row follows it.
+            // In the column of the last exchange, the last row has only a diagonal entry, so it is not exchanged with the zero row.
             assert_eq!(row.factorise().unwrap_err(), singular(zero.max(10)));
         }
     }

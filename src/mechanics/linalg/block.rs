@@ -4,7 +4,7 @@
 //! The block is a small dense matrix, like the front of a multifrontal method (Duff & Reid, ACM Trans. Math. Softw. 9 (1983) 302–325).
 //! The own unknowns of a block are eliminated with complete pivoting. The Schur complement for the touched unknowns is added to the band.
 //! Some unknowns of the block may have no pivot yet, for example the contact force of a supported slave.
-//! Only a constraint couples such an unknown to the band.
+//! An unknown without a pivot is coupled to the band only by a constraint.
 //! Unknowns without pivot are *delayed*: they are inserted into the band after the touched unknowns.
 
 use pulp::{Simd, WithSimd};

@@ -122,7 +122,7 @@ impl Border {
 
     /// Adds the couplings of an unknown of the band with consecutive unknowns of the border, starting with `first`.
     /// The couplings are entries in a row of `B` and in a column of `C`.
-    /// In a border of blocks, these border unknowns must belong to the same block.
+    /// In a border of blocks, all border unknowns of one call must belong to the same block.
     pub(crate) fn add_couplings(
         &mut self,
         at: usize,

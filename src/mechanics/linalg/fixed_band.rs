@@ -11,7 +11,7 @@ use super::elimination::{PANEL, PanelFactors, is_small, subtract};
 /// Returns false without any change if rows should be exchanged.
 ///
 /// The argument `rows` contains the panel and the `REACH` rows below it, each with `STRIDE` stored entries.
-/// The squared sizes of these rows are in `sizes`.
+/// The argument `sizes` contains the squared sizes of the rows.
 /// The constant `WIDTH` is the half-bandwidth, rounded up to whole vectors.
 #[inline(always)]
 pub(super) fn eliminate_panel<

@@ -15,7 +15,7 @@ use crate::elementary::square;
 const STRIP: usize = 5;
 
 /// Weight of length rows relative to force rows in the choice of pivots.
-/// Force rows, such as the equation of a frictionless contact, are preferred as long as this loses at most four digits.
+/// Force rows, such as the equation of a frictionless contact, are preferred as long as the preference loses at most four digits.
 /// With the preference for force rows, a zero force is exactly zero.
 const LENGTHS: f64 = 1e-4;
 

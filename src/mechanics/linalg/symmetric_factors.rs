@@ -19,7 +19,7 @@ pub struct Pivots {
     /// The number of negative pivots equals the number of negative eigenvalues (Sylvester's law of inertia; Golub & Van Loan, 4th ed., section 4.4).
     pub negative: usize,
     /// Largest reduction of a diagonal entry in the elimination, as a multiple of the entry [-].
-    /// The elimination multiplies the rounding error of the matrix by this number, which is at most 1 for a positive definite matrix.
+    /// The elimination multiplies the rounding error of the matrix by the growth factor, which is at most 1 for a positive definite matrix.
     pub growth: f64,
 }
 

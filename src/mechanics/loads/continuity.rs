@@ -3,7 +3,7 @@
 //! A script function can be evaluated only at single times. To detect a jump at the start, it is evaluated at two small times.
 //! The ratio of its changes distinguishes jumps, functions such as `√t` with an infinite rate, and smooth functions.
 //! To detect a jump within a step, the differences of consecutive values are compared.
-//! If one difference exceeds the sum of all others, the interval of this difference is bisected thirty times.
+//! If one of the differences exceeds the sum of all others, its interval is bisected thirty times.
 //! Each bisection keeps the half with the larger difference.
 //! If the function jumps, the remaining difference is constant; otherwise it tends to zero.
 

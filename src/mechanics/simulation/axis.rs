@@ -87,7 +87,7 @@ impl AxisStation {
     }
 
     /// Change of the curvature of the axis per initial length, positive counter-clockwise [1/length].
-    /// The change differs from the bending strain κ by the derivative of the shear angle. It is NaN for elements of degree one.
+    /// The change of the curvature differs from the bending strain κ by the derivative of the shear angle. It is NaN for elements of degree one.
     pub fn curvature(&self, points: &[Vec2]) -> f64 {
         match self.degree {
             ..=1 => f64::NAN,

@@ -8,7 +8,7 @@ use crate::integrators::{Integrator, Interval};
 use crate::system::{Drive, Placement, Scene, System, SystemState};
 
 /// Allowed distance between the two results of the second half step. Its unit is the length scale times a power of the tolerance.
-/// With this constant, the measured error that accumulates in the time scale of a motion is about half the tolerance (theory.md, section 13.1).
+/// With this value of the constant, the error that accumulates in the time scale of a motion is about half the tolerance (theory.md, section 13.1).
 const SHARE: f64 = 4.0;
 
 /// Error estimate for steps in which controllers are sampled at the start of each half.

@@ -17,7 +17,7 @@ pub enum StepSize {
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct StepControl {
     /// Allowed error that accumulates while the scene moves by about its own length.
-    /// The error of a position is a fraction of this length. The error of an angle is in rad [-].
+    /// The error of a position is a fraction of the length of the scene. The error of an angle is in rad [-].
     ///
     /// In one step of a method of order `p`, the allowed error is the tolerance to the power `(p + 1)/p`.
     /// Hence the step size is proportional to the tolerance to the power `1/p`, and the accumulated error is proportional to the tolerance.

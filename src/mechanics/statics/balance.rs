@@ -82,7 +82,7 @@ impl Equations for UnderLoad<'_> {
 }
 
 /// Equations `F(u) - λ P(u) = 0` and `t·u = Δs`. The load factor `λ` is the last unknown.
-/// The second equation describes a plane. It determines the load factor.
+/// The equation `t·u = Δs` describes a plane. It determines the load factor.
 pub(super) struct AlongPath<'a, 'b> {
     pub(super) balance: &'a mut Balance<'b>,
     /// Normal `t` of the plane in the metric of the path. Contact unknowns follow the degrees of freedom and have zero weight.

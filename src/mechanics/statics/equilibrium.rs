@@ -164,7 +164,7 @@ impl Equilibrium {
 
 /// Returns the scene with equal axial, shear and bending stiffnesses of the beams and similar masses.
 /// In the scene with equal stiffnesses, degrees of freedom without restraint have zero stiffness.
-/// Rounding errors of other stiffnesses are small enough to detect this.
+/// With similar stiffnesses, rounding errors are so small that zero stiffness can be recognised.
 fn of_equal_stiffness(scene: &Scene) -> Scene {
     let mut equal = scene.clone();
     for beam in &mut equal.beams {

@@ -184,7 +184,7 @@ impl Modes {
 }
 
 /// Number of degrees of freedom that are unrestrained in the present configuration without loads.
-/// For scenes without sliders that are too large for this computation, the result is 0.
+/// The result is 0 for scenes without sliders that are too large for the computation.
 pub fn loose_movements(model: &System) -> usize {
     if !is_small(model.unknowns()) && model.slider_names().next().is_none() {
         return 0;

@@ -32,7 +32,7 @@ pub(super) struct RefinedPair {
 /// A pair `(x, n)` consists of displacements and section forces. Its energies determine `ω²`.
 /// For the residual force `r = ω² M x - Bᵀ (n + k m) - K_g x` the correction is `δ = A⁻¹ r`, so that `x` becomes `(ω² + σ) A⁻¹ M x`.
 /// Components of other pairs are removed from the correction `δ` and included in the residual.
-/// If these components were not removed, the inverted stiffness would amplify small components of low pairs in high pairs.
+/// If components of other pairs were not removed, the inverted stiffness would amplify small components of low pairs in high pairs.
 ///
 /// # Errors
 /// Fails if the refinement is stopped.
@@ -202,7 +202,7 @@ impl OtherPairs<'_> {
     }
 
     /// Removes the components of all pairs from residual forces.
-    /// Returns the contribution of these components to the residuals, as a fraction of `ω² + σ`.
+    /// Returns the contribution of the removed components to the residuals, as a fraction of `ω² + σ`.
     ///
     /// Components of lower pairs contribute only by their magnitude, because the inverted stiffness would overestimate them.
     fn remove_other_pairs(

@@ -30,7 +30,7 @@ const EQUAL: f64 = 1e-6;
 const ROUNDING: f64 = 64.0;
 
 /// Magnitude of `ω²` that counts as zero, as a fraction of the shift.
-/// The computed shapes of rigid motions have values of `ω²` below this limit, because rounding adds components of other shapes.
+/// The limit is above the values of `ω²` that computed shapes of rigid motions have because of rounding.
 const HIDDEN: f64 = 1e-14;
 
 /// Largest ratio of the shift to the lowest nonzero `ω²`.

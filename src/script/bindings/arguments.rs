@@ -64,7 +64,7 @@ impl Arguments {
     /// Value of the argument as a text; `None` if the argument is omitted.
     ///
     /// # Errors
-    /// Fails if the argument is not a text. The type of the parameter should exclude this.
+    /// Fails if the argument is not a text. The type of the parameter should exclude other values.
     pub fn optional_text(&self, name: &str) -> Result<Option<String>, ScriptError> {
         self.has(name).then(|| self.text(name).map(String::from)).transpose()
     }

@@ -1,7 +1,7 @@
 //! Check of the values of `switch`. For values that Rhai cannot compare, it would silently execute the default case.
 //!
 //! A private-use character is inserted after the keyword `switch` before parsing.
-//! The parser treats this character as a keyword of a custom syntax, which checks the value of the following expression.
+//! The parser treats the inserted character as a keyword of a custom syntax, which checks the value of the following expression.
 //! The character replaces a blank, so that columns are unchanged. Without a blank, the rest of the line is shifted by one column.
 
 use rhai::{Dynamic, Engine, Position, Token};

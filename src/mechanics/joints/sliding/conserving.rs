@@ -15,7 +15,7 @@ use crate::geometry::{cross, perpendicular};
 ///
 /// The mean position of the slave, `Σ B̄_i x̄_i + Δξ d`, is not the point at which `λ` acts on the master.
 /// Hence the contact forces on slave and master, which are opposite, have a moment.
-/// The law uses the smallest couple `η` that balances this moment. The sliding equation follows from the conservation of energy.
+/// The law uses the smallest couple `η` that balances the moment of the contact forces. The sliding equation follows from the conservation of energy.
 /// Derivation: docs/theory.md, section 10.
 #[derive(Debug, Clone, Copy)]
 pub struct Conserving;

@@ -234,7 +234,7 @@ impl Contact<'_> {
 
     /// Equations of a closed gap to a kinked axis at the end of the step, `x_s1 = Σ B_i(ξ1) x_i1 + g1 p1/GA`.
     /// The argument `force` is the force of the kink `p1`, and `factor` is its derivative with respect to the contact force.
-    /// Without a kink, these equations are those of [`closed`](Self::closed).
+    /// Without a kink, the equations are those of [`closed`](Self::closed).
     pub(super) fn closed_on_kink(&self, force: Vec2, factor: f64) -> [Equation; 2] {
         let mut equations = self.closed();
         if let Some(kink) = &self.kink {

@@ -13,7 +13,7 @@ use crate::system::{LawArgument, RESOLVED_IMPACT, Resolution, SpringLaw, System,
 use crate::vibration::{Modes, VibrationError};
 
 /// Unresolved fraction of the kinetic energy, above which a warning states that the steps are too long.
-/// A single vibration with 3.5 steps per period has this unresolved fraction. Its computed period is 20 % too long.
+/// The constant is the unresolved fraction of a single vibration with 3.5 steps per period, whose computed period is 20 % too long.
 const LARGEST_SHARE: f64 = 0.2;
 
 /// Unresolved fraction of the kinetic energy, above which a warning is given if also the phase exceeds [`HIDDEN_TURN`].
@@ -160,8 +160,8 @@ impl Simulation {
         })
     }
 
-    /// Warning about alternating long and short steps in scenes with persistent velocity errors. Each step multiplies these errors by -1.
-    /// In such scenes, the position errors of a long and a short step do not cancel.
+    /// Warning about alternating long and short steps in scenes with persistent velocity errors. Each step multiplies the velocity errors by -1.
+    /// Because the steps have different lengths, the resulting position errors do not cancel.
     fn uneven_steps(&self) -> Option<Warning> {
         let keeps = self.model.has_rigid_links() || self.scene.dissipating().next().is_some();
         if !keeps || !matches!(self.settings.dt, StepSize::Fixed(_)) {

@@ -2,7 +2,7 @@
 //!
 //! The drag force is an independent unknown, in components across and along the line.
 //! If the force were computed from velocities, it would have their rounding error times the damping coefficient `c`.
-//! Under strong drag or wind, this rounding error exceeds the forces in the balance.
+//! Under strong drag or wind, the rounding error of a force computed from velocities exceeds the forces in the balance.
 
 use super::drag_law::{DragLaw, DragResponse, in_space};
 use crate::beams::{BodyPoint, RateCollocation};

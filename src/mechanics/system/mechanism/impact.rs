@@ -204,7 +204,7 @@ impl System {
 
     /// Computes the impact of rigid links and sliders due to jumps of prescribed rates at the start of a step.
     /// Without the impact, the violation of the velocity constraints would alternate in sign from step to step.
-    /// The impact reverses the violation of the constraints. It conserves energy except for the work of drives (theory.md 9.5).
+    /// The impact reverses the violation of the velocity constraints. It conserves energy except for the work of drives (theory.md 9.5).
     /// Returns true if there was a jump.
     pub(crate) fn apply_drive_jumps(&mut self, interval: Interval) -> bool {
         if self.links.count() == 0 && self.sliders.iter().next().is_none() {

@@ -32,7 +32,7 @@ pub struct Impulses {
     /// During an evaluation, the separate degrees of freedom replace the degrees of freedom of the model.
     numbers: Vec<DegreesOfFreedom>,
     /// Force unknowns of rigid links, numbered after all separate degrees of freedom.
-    /// During an evaluation, these force unknowns replace the force unknowns in the model.
+    /// During an evaluation, the separately numbered force unknowns of links replace the force unknowns in the model.
     links: Vec<[usize; 2]>,
     /// List with `None` for each inclined roller, because the forces of rollers are summed separately.
     /// During an evaluation, the list replaces the force unknowns of rollers in the model.

@@ -5,7 +5,7 @@
 //! ```
 //!
 //! If the master has a kink under a slider, the contact force `λ` follows from the kink.
-//! For every method, configuration and rates at the end of a step are accurate to second order, and so are these accelerations and forces.
+//! For every method, the computed accelerations and forces are accurate to second order, like configuration and rates at the end of a step.
 //! Accelerations and forces depend on the present state only. They are the same after a rewind, in a copy and in a simulation read from a file.
 //! Accelerations and forces contain unresolved vibrations. The mean of two consecutive steps does not contain them.
 
@@ -33,7 +33,7 @@ pub struct Instant {
 struct UnitForce {
     /// Force on the slave. Without friction, it has unit length [-].
     direction: Vec2,
-    /// Accelerations of the unknowns per force.
+    /// Accelerations of the unknowns per unit of the contact force.
     rates: Vec<f64>,
 }
 

@@ -58,7 +58,7 @@ impl System {
     }
 
     /// Adds the internal forces with strain mismatches condensed out, minus `load_factor` times the loads.
-    /// Adds also the derivatives of these forces with respect to the displacements.
+    /// Adds also the derivatives of all added forces with respect to the displacements.
     pub fn add_linearised_static_forces(
         &mut self,
         unknowns: &[f64],

@@ -12,7 +12,8 @@
 //! Here `θ` is the angle between the tangents before and after the corner in the metric `W⁻¹`. The rotation consists of two parts.
 //! The first part is the rotation from the section direction on one side to the section direction on the other side.
 //! The first part rotates the velocity `G v` that the steps resolve, in one impact with all simultaneous impacts.
-//! The second part is the difference of the shear angles on both sides. It rotates the full velocity. Derivation: docs/theory.md, section 10.3.
+//! The second part is the difference of the shear angles on both sides of the corner. It rotates the full velocity.
+//! Derivation: docs/theory.md, section 10.3.
 
 use super::System;
 use super::impact::{ImpactDirection, ImpactImpulses, ImpactLaw, ImpactProblem};

@@ -79,7 +79,7 @@ impl System {
     }
 
     /// Returns true if the velocity of a slider at an end points beyond the end.
-    /// Only deformations that an impact with steps of length `dt` includes contribute to this velocity [time].
+    /// The velocity contains only deformations that an impact with steps of length `dt` includes [time].
     ///
     /// # Errors
     /// Fails if the impulse is undetermined.
@@ -163,7 +163,8 @@ impl System {
     ///
     /// All stops have the law `0 ≤ P ⟂ w⁺ + e w⁻ ≥ 0` with the impulse `P` and the coefficient of restitution `e`.
     /// The relative velocities are `w⁻` before and `w⁺` after the impact.
-    /// Stops that hold sliders also have this law. A corner at a seam rotates the velocity of the slider. All other contacts are constraints.
+    /// Stops that hold sliders have the same law as other stops. A corner at a seam rotates the velocity of the slider.
+    /// All other contacts are constraints.
     /// After the impact, a slider that passes a seam is on the other side of the seam.
     ///
     /// # Errors
@@ -277,8 +278,8 @@ impl System {
     /// Returns the energy stored in stops to the sliders that leave them.
     /// The speeds of the sliders are proportional to the square roots of their stored energies.
     ///
-    /// While the set of active contacts does not change, the impulses are proportional to the common factor of these speeds.
-    /// The returned energy is proportional to the square of the common factor.
+    /// While the set of active contacts does not change, the impulses are proportional to a common factor of the speeds.
+    /// The returned energy is proportional to the square of the common factor of the speeds.
     fn return_stop_energy(&mut self) -> Result<(), LinearError> {
         let hits = self.impulse_directions(|model, limit| {
             let slider = &model.sliders[limit.slider];

@@ -46,7 +46,7 @@ impl System {
     /// Section forces in the present configuration. They follow from the strains by the material law: see [`SectionPlace`].
     ///
     /// In a step of the energy–momentum method, loads and inertia are balanced by the mean of the section forces at its start and end.
-    /// In a stiff beam, the section forces may oscillate from step to step, but this mean does not oscillate.
+    /// In a stiff beam, the section forces may oscillate from step to step, but the mean of the section forces at start and end does not oscillate.
     ///
     /// Forces of material damping are included. They are computed from the present rates.
     pub fn section_forces(&self, at: &CrossSection) -> SectionForces {

@@ -148,7 +148,7 @@ impl RunFunction {
     /// Rejects parameters that the function never reads, if this can be determined.
     ///
     /// # Errors
-    /// Fails if there is such a parameter.
+    /// Fails if there is a parameter that the function never reads.
     pub fn expect_read<'n>(
         call: &Call,
         (key, function): (&str, &FnPtr),
