@@ -185,7 +185,7 @@ impl Session {
     fn restore(&mut self, checkpoint: StatementCheckpoint) {
         self.scope = checkpoint.scope;
         self.global = checkpoint.global;
-        // Functions stored by scenes and simulations share these constants.
+        // Functions stored by scenes and simulations share the constants of the session.
         if let Some(constants) = &self.global.constants {
             *constants.borrow_mut() = checkpoint.constants;
         }

@@ -243,7 +243,7 @@ impl<const N: usize, S: Sections> SpanGroup<N, S> {
         points.map(|(point, section)| point.strain_energy(section)).sum::<f64>()
     }
 
-    /// Adds the axial, shear and bending strain energies of these spans to `sums` [energy].
+    /// Adds the axial, shear and bending strain energies of the spans in the group to `sums` [energy].
     pub(super) fn add_strain_energies(&self, section: &Section, sums: &mut [f64; 3]) {
         for span in &self.spans {
             for (point, section) in self.force_points_of(section, span) {

@@ -201,7 +201,7 @@ impl Polynomial {
 /// Weights for which the quadrature points integrate the derivatives of all basis functions of a run of spans exactly.
 ///
 /// The argument `points` lists the quadrature points of each span. Their total number is one less than the number of basis functions.
-/// Returns `None` if no such weights exist or a weight is not finite.
+/// Returns `None` if no weights integrate all derivatives exactly, or if a weight is not finite.
 ///
 /// The weights solve a collocation system with the splines of one degree less. Its matrix is totally positive.
 /// Reference: F. Auricchio, F. Calabrò, T. J. R. Hughes, A. Reali & G. Sangalli, Comput. Methods Appl. Mech. Eng. 249–252 (2012) 15–27.

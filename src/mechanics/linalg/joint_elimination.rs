@@ -59,7 +59,7 @@ impl JointElimination {
         }
     }
 
-    /// Factorises the matrix with these entries. Values for the same row and column are added up.
+    /// Factorises the matrix with the given entries. Values for the same row and column are added up.
     ///
     /// # Errors
     /// Fails if a column has no nonzero finite pivot.

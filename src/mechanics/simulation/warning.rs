@@ -196,7 +196,7 @@ impl Warning {
             Self::Drift { drift, .. } => *drift,
             Self::EnergyGain { returned, dissipated: taken, .. } => returned - taken,
             Self::Bend { curvature: bend, .. } => bend.size(),
-            // Warnings of these types are given only once.
+            // Warnings of the types `Schedule` and `Range` are given only once.
             Self::Schedule { .. } | Self::Range { .. } => 1.0,
             Self::Contact { bounce, .. } => bounce.force,
         }

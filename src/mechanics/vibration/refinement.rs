@@ -204,7 +204,7 @@ impl OtherPairs<'_> {
     /// Removes the components of all pairs from residual forces.
     /// Returns the contribution of the removed components to the residuals, as a fraction of `ω² + σ`.
     ///
-    /// Components of lower pairs contribute only by their magnitude, because the inverted stiffness would overestimate them.
+    /// For components of lower pairs, only their magnitude is added, because the inverted stiffness would overestimate their contribution.
     fn remove_other_pairs(
         &self,
         imbalance: &mut [FourVectors],

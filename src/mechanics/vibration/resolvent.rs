@@ -13,8 +13,7 @@
 //! The projection is `P = U s²/(1 + s²) Uᵀ`, with the singular vectors `U` and singular values `s` of `G`.
 //! One-sided rotations compute `U` and `s` accurately over all magnitudes. The eigenvalues `θ` of the matrix give `λ = σ (1 + 1/θ)`.
 //! Each reported `λ` is corrected by inverse iteration with the Rayleigh quotient of the quadratic problem.
-//! The unknowns of the inverse iteration include the forces of strong dashpots,
-//! divided by their damping (Tisseur & Meerbergen 2001, sections 2 and 3.4).
+//! The forces of strong dashpots, divided by their damping, are unknowns of the iteration (Tisseur & Meerbergen 2001, sections 2 and 3.4).
 
 use nalgebra::{DMatrix, DVector, Schur};
 

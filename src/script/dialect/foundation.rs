@@ -113,7 +113,7 @@ pub fn engine() -> Engine {
 }
 
 fn refuse(engine: &mut Engine, refused: &'static Refused, count: usize) {
-    // Rhai defines some of these functions for exact types, which would take precedence over functions for any type.
+    // Rhai defines some of the rejected functions for exact types, which would take precedence over functions for any type.
     let mut types =
         vec![TypeId::of::<Dynamic>(), TypeId::of::<f64>(), TypeId::of::<ImmutableString>()];
     if count == 0 {

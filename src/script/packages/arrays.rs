@@ -65,7 +65,7 @@ fn linspace(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let at = |i: usize| {
         let (before, after) = (last - i as f64, i as f64);
         let x = (from * before + to * after) / last;
-        // For numbers near the largest float, these products overflow. Fractions of the ends do not overflow.
+        // For numbers near the largest float, products of the ends overflow. Fractions of the ends do not overflow.
         if x.is_finite() { x } else { from * (before / last) + to * (after / last) }
     };
     Ok((0..count).map(|i| Dynamic::from(at(i))).collect::<Array>().into())

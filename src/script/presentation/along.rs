@@ -30,7 +30,7 @@ struct BeamProfile {
 }
 
 impl SectionForceProfile {
-    /// Results of a simulation at the present time, for the beams with these indices, or for all beams if `beams` is empty.
+    /// Results of a simulation at the present time, for the beams with the given indices, or for all beams if `beams` is empty.
     ///
     /// # Errors
     /// Fails if an axis has a point without a tangent.
@@ -40,7 +40,7 @@ impl SectionForceProfile {
         Self::of_model(&at, simulation.model(), beams).map(|inside| Self { when, ..inside })
     }
 
-    /// Results of an equilibrium under its full load, for the beams with these indices, or for all beams if `beams` is empty.
+    /// Results of an equilibrium under its full load, for the beams with the given indices, or for all beams if `beams` is empty.
     ///
     /// # Errors
     /// Fails if an axis has a point without a tangent.

@@ -17,7 +17,7 @@ pub struct Definition<'t> {
     pub end: usize,
 }
 
-/// All function definitions in these tokens, in their order. The text may contain errors.
+/// All function definitions in the given tokens, in their order. The text may contain errors.
 pub fn definitions(tokens: &[Lexeme]) -> impl DoubleEndedIterator<Item = Definition<'_>> {
     let starts = tokens.iter().enumerate().filter(|(_, (token, _))| matches!(token, Token::Fn));
     starts.map(|(start, _)| Definition::at(tokens, start))

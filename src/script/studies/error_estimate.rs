@@ -120,7 +120,7 @@ struct Plan {
     meshes: Option<[usize; 3]>,
     /// Mesh sizes of the runs for the estimate in space, relative to the mesh of the simulation.
     mesh_sizes: [f64; 3],
-    /// Position of the mesh of the simulation among these runs.
+    /// Index of the mesh of the simulation in `mesh_sizes`.
     level: usize,
 }
 

@@ -107,7 +107,7 @@ mod tests {
             let missed = (law.force(q) - 100.0 * q - 50.0 * q * q * q).abs();
             assert!(missed < 1.2e-5, "{q}: {missed:e}");
         }
-        // The energy is that of the polygon, which is close to the integral of the function.
+        // The stored energy is the integral of the polygon, which is close to the integral of the function.
         let (low, high) = (law.energy(-0.2), law.energy(0.7));
         let exact = |q: f64| 50.0 * q * q + 12.5 * q * q * q * q;
         assert!((high - low - exact(0.7) + exact(-0.2)).abs() < 1e-5);

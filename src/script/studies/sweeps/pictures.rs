@@ -91,7 +91,7 @@ impl Picture<'_> {
         }
     }
 
-    /// Returns true if at least one row has numbers in all of these columns.
+    /// Returns true if at least one row has numbers in all of the given columns.
     pub fn has_rows(&self, names: &[&str]) -> bool {
         let columns: Vec<_> = names.iter().filter_map(|name| self.column(name)).collect();
         self.table.rows().any(|row| columns.iter().all(|column| column.number(row).is_finite()))
