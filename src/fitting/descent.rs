@@ -96,7 +96,8 @@ impl<E> Descent<'_, '_, E> {
         }
     }
 
-    /// Returns true if the derivatives of objective and constraints agree with finite differences of values computed without derivatives.
+    /// Returns true if the derivatives of objective and constraints agree with finite differences.
+    /// The finite differences are computed from values without derivatives.
     fn are_true(&mut self, x: &[f64], found: &SlopedRating) -> Result<bool, Ended<E>> {
         let [low, high] = test_points(&self.design.ranges, x);
         self.runs += 2;

@@ -20,7 +20,7 @@ enum Stencil {
 
 impl Stencil {
     fn of(range: SearchRange, x: f64, relative: f64) -> Self {
-        // The step is limited, because a one-sided difference also uses a point at a distance of two steps, which must lie between the bounds.
+        // The step is limited. A one-sided difference also uses a point at a distance of two steps, which must lie between the bounds.
         let step = (relative * range.size(x)).min(0.25 * (range.high - range.low));
         match (x - step >= range.low, x + step <= range.high) {
             (true, true) => Self::Central(step),

@@ -16,7 +16,7 @@ const NEAR: f64 = 0.02;
 /// The search has converged if the cosines for all columns are smaller than this constant.
 const ORTHOGONAL: f64 = 1e-7;
 /// Smallest predicted relative reduction of the sum of squares for which the search continues.
-/// With a smaller reduction, parameters change by less than `1e-3 √(n - p)` of their standard errors, for `n` residuals and `p` parameters.
+/// With a smaller reduction, parameters change by less than `1e-3 √(n - p)` standard errors. There are `n` residuals and `p` parameters.
 const NOTHING: f64 = 1e-6;
 /// Sum of squares that is attributed to rounding, as a fraction of its initial value.
 const ROUNDING: f64 = 1e-26;

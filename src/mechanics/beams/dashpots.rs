@@ -62,7 +62,7 @@ pub struct RateCollocation {
     pub rotations: RotationIncrement,
 }
 
-/// Basis functions at a point of a beam: values [-] and derivatives with respect to arc length [1/length], with the quadrature weight [length].
+/// Basis functions at a point of a beam, with the quadrature weight [length]. Values [-], and derivatives with respect to arc length [1/length].
 #[derive(Debug, Clone)]
 pub(super) struct Functions {
     pub(super) shape: Vec<f64>,
@@ -280,7 +280,7 @@ impl Dashpots {
         }
     }
 
-    /// Calls `take` for each rate of strain and curvature at the start of the step, which is computed from the rates of the control points.
+    /// Calls `take` for each rate of strain and curvature at the start of the step. The rates are computed from the rates of the control points.
     /// The second argument of `take` is the damping coefficient times the quadrature weight.
     /// The sum of the damping coefficients times the squared rates is a power [energy/time].
     pub(crate) fn each_damped_rate(&self, rates: &[Movement], take: &mut dyn FnMut(f64, f64)) {

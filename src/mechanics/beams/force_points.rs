@@ -41,7 +41,7 @@ pub(super) struct ForcePoints<const N: usize> {
     /// In fast vibration, the last section force is closer to the solution than the section force for the strain at the start of the step.
     /// The section force for the strain at the start may alternate in sign from step to step.
     last_force: Pair<Lanes>,
-    /// Strain mismatch `m = Γσ - C⁻¹ N` at the last evaluation: the strain of the configuration minus the strain that belongs to the section force.
+    /// Strain mismatch `m = Γσ - C⁻¹ N` at the last evaluation: the difference between the strain of the configuration and the strain `C⁻¹ N`.
     mismatch: Pair<Lanes>,
     linearised_at: StrainKinematics<Lanes>,
     /// Fraction `σ` of the step at the last linearisation.

@@ -20,7 +20,7 @@ pub struct MissedKink {
     /// Kink length `g(ξ)` as a function of the position `ξ` of the kink [length].
     pub length: PiecewisePolynomial,
     /// Correction factor `μ` of the inertia of a moving kink [-].
-    /// The kinetic energy that the mesh misses is `½ μ ρA g |a|² v²`, with the kink `a` and its speed `v`, averaged over the positions of the kink.
+    /// The mesh misses the kinetic energy `½ μ ρA g |a|² v²` of a kink `a` with the speed `v`, averaged over the positions of the kink.
     /// For exactly integrated strains, the correction factor is `μ = 1`.
     pub inertia: f64,
 }
@@ -142,7 +142,7 @@ impl SplineString {
     /// Coefficients of `g = lᵀ M⁻¹ r` on a span. The argument `fractions` contains, for each spline of the span, the part in front of the kink.
     /// The splines of earlier spans lie entirely in front of the kink, and the splines of later spans behind it.
     ///
-    /// The splines before the kink, and those after the kink, contribute the response to a load that is one for all splines up to an index.
+    /// The splines before the kink, and those after the kink, contribute the response to a load. The load is one for all splines up to an index.
     /// The response consists of the strains under a constant force up to the index, and the response to the residual.
     fn polynomial(&self, span: &Span, fractions: &[Vec<f64>]) -> Vec<f64> {
         let own = span.first..span.first + self.degree;

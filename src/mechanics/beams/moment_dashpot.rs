@@ -69,7 +69,7 @@ impl MomentDashpot {
     }
 
     /// Curvature rate at the start of the step, extrapolated from the mean rates of the last two steps.
-    /// The argument `late` is the time since the middle of the last step, as a fraction of the time between the middles of the last two steps.
+    /// The argument `late` is the time since the middle of the last step. Its unit is the time between the middles of the last two steps.
     fn carried(&self, late: f64) -> f64 {
         self.last_rate + (self.last_rate - self.rate_before) * late
     }

@@ -1,7 +1,7 @@
 //! Strain rates at the end of a step. They are accurate even if the steps are longer than the relaxation time of the dashpots.
 //!
 //! In the energy–momentum method, a rate that decays within a step changes from `v0` to about `-v0`.
-//! If a stiff dashpot moves with a large motion, the error of the end rate, multiplied by the damping, appears in the forces at the end of a step.
+//! If a stiff dashpot takes part in a large motion, the error of the end rate, multiplied by the damping, appears in the forces at the end of a step.
 //! The mean rate over a step is accurate, but the rates at the start and the end of the step are not.
 //! The mean rates of the last two steps, extrapolated to the end, have an error of second order.
 

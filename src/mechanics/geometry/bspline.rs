@@ -6,7 +6,7 @@ use super::{KnotVector, Span};
 /// Nonzero B-splines on `span` of `knots` at `xi`, with all derivatives. Outside the span their polynomials are extended.
 ///
 /// The functions and their derivatives are computed from the splines of one degree less.
-/// The spline `N_m` of degree `q - 1` has the support `[ξ_m, ξ_{m+q}]` of length `h_m`, and contributes to two splines of degree `q`.
+/// The spline `N_m` of degree `q - 1` contributes to two splines of degree `q`. Its support is `[ξ_m, ξ_{m+q}]` and has the length `h_m`.
 /// Reference: The NURBS Book, equations 2.5 and 2.7. The results are those of algorithm A2.3.
 ///
 /// ```text

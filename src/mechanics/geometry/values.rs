@@ -10,7 +10,7 @@ pub(super) type FunctionRow = [f64; WIDTH];
 
 const ZERO: FunctionRow = [0.0; WIDTH];
 
-/// The `degree + 1` basis functions `N_first … N_{first+degree}` of one span, and all their derivatives with respect to ξ, at one parameter.
+/// The `degree + 1` nonzero basis functions of one span at one parameter, starting with `N_first`, and all their derivatives with respect to ξ.
 /// All other basis functions are zero at this parameter. Values are dimensionless and need no allocated memory.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct BasisValues {

@@ -282,7 +282,8 @@ impl StepSolver {
     }
 
     /// Ends the step with the present increments.
-    /// The callback `rate` computes the final rate of an unknown from its index, initial rate and deviation `d` from a motion with constant velocity.
+    /// The callback `rate` computes the final rate of an unknown.
+    /// The arguments of `rate` are the index, the initial rate, and the deviation `d` from a motion with constant velocity.
     pub(super) fn accept(
         &mut self,
         mechanism: &mut dyn Mechanism,

@@ -114,7 +114,7 @@ pub trait Constraints {
     /// Fails if a slider passes a limit within the step, or misses the limit at which the step has to end.
     fn check_constraints(&mut self, unknowns: &[f64]) -> Result<(), Overshoot>;
 
-    /// Shortest chord of the path of a slider in the mean configuration of the last evaluation, as a fraction of the initial length of the path [-].
+    /// Shortest chord of the path of a slider in the mean configuration of the last evaluation [-]. Its unit is the initial length of the path.
     fn shortest_chord(&self) -> f64;
 }
 

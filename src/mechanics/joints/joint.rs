@@ -90,7 +90,7 @@ pub enum JointKind {
     Rigid,
     /// Support: fixes some components of a station and leaves the other components free.
     Support(Components),
-    /// Inclined roller: the station is free along a unit vector that is not parallel to an axis, fixed across this vector, and free to rotate.
+    /// Inclined roller: the station is fixed across a unit vector that is not parallel to an axis. It is free along this vector, and free to rotate.
     InclinedRoller(Vec2),
     /// Inclined guide: an inclined roller with fixed rotation.
     InclinedGuide(Vec2),

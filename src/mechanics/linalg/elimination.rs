@@ -82,7 +82,8 @@ fn eliminate_fixed<S: Simd, const REACH: usize, const WIDTH: usize, const STRIDE
 }
 
 /// Eliminates a band matrix of half-bandwidth `reach`.
-/// Panels without additional nonzero entries from earlier row exchanges are eliminated by `eliminate_plain`, all other panels by [`eliminate_panel`].
+/// Panels that contain additional nonzero entries from earlier row exchanges are eliminated by [`eliminate_panel`].
+/// Panels without such entries are eliminated by `eliminate_plain`.
 #[inline(always)]
 fn eliminate<S: Simd>(
     simd: S,

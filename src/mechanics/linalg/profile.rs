@@ -11,7 +11,7 @@ use super::storage::{Factors, Storage};
 use super::substitution::ProfileSubstitution;
 
 /// Square matrix with a profile.
-/// For each index, the profile gives the last row with an entry in the column of this index, which is also the last column with an entry in the row.
+/// For each index, the profile gives the last row with an entry in the column of this index. The profile is symmetric.
 #[derive(Debug, Clone)]
 pub(super) struct ProfileMatrix {
     storage: Storage,

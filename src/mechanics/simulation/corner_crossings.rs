@@ -3,7 +3,7 @@
 use crate::geometry::larger;
 use crate::system::{Along, Branch, System};
 
-/// Branches of spring laws with sharp corners at the start, the middle and the end of a step, for the whole step and for its two halves.
+/// Branches of spring laws with sharp corners during a step: at its start, middle and end. They are stored for the whole step and for its two halves.
 ///
 /// Suppose that a step ends shortly after contact with a stiff bumper has begun.
 /// The whole step and its halves then give nearly equal positions, even if their impact times differ.

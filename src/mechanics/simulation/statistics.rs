@@ -60,7 +60,7 @@ impl TimeSeries {
         pairs.map(|(times, values)| (times[1] - times[0], values[0], values[1]))
     }
 
-    /// Time derivative at every row: the slope of the parabola through the row and its neighbours, which is of second order also for uneven spacing.
+    /// Time derivative at every row: the slope of the parabola through the row and its neighbours. It is of second order also for uneven spacing.
     /// At the ends of the column, the difference quotient is one-sided.
     /// A jump consists of two rows of equal time. Each of the two rows uses the difference quotient on its side of the jump.
     pub fn derivative(&self) -> Vec<f64> {

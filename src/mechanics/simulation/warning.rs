@@ -79,7 +79,7 @@ pub enum Warning {
         /// Length of the longest recent step [time].
         longest: f64,
     },
-    /// Large number of adaptive steps, which are much shorter than the motion of the whole scene requires, or belong to a method of first order.
+    /// Large number of adaptive steps. The steps are much shorter than the motion of the whole scene requires, or the method is of first order.
     ManySteps {
         /// Number of steps so far.
         steps: usize,

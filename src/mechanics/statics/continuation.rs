@@ -280,7 +280,7 @@ impl<'s> Continuation<'s> {
         Err(StepFailure::FarSolution)
     }
 
-    /// Largest acceleration of a mass due to the unbalanced forces in the last configuration, divided by the size of the scene [1/time²].
+    /// Largest acceleration of a mass due to the unbalanced forces in the last configuration [1/time²]. It is divided by the size of the scene.
     /// If no force is unbalanced, the result is 1. Dynamic relaxation may then start with any rate.
     pub(super) fn acceleration_by_size(&mut self, factor: f64) -> f64 {
         self.model.predict_unchanged(&mut self.unknowns);

@@ -81,7 +81,7 @@ pub fn arguments(parameters: &[Parameter]) -> String {
 }
 
 /// Candidates that match `typed`, sorted and without duplicates. These are the candidates that begin with `typed`.
-/// If no candidate begins with `typed`, candidates with the same beginning in a different case, or with the same letters in order, are returned.
+/// If no candidate begins with `typed`, candidates that contain the letters of `typed` in the same order, in upper or lower case, are returned.
 pub fn fitting(typed: &str, candidates: impl IntoIterator<Item = Candidate>) -> Vec<Candidate> {
     let mut all: Vec<Candidate> = candidates.into_iter().collect();
     all.sort_by_key(|candidate| (candidate.name().to_lowercase(), candidate.clone()));

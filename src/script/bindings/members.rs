@@ -40,7 +40,7 @@ impl Use {
 
 /// Registers the methods and properties of all types for values that have variants.
 pub fn install(engine: &mut Engine, catalog: &Catalog, context: &Context) {
-    // For each name and form of call, the map contains the methods of all types, and the function of this name, which accepts any type.
+    // The map contains, for each name and form of call, the methods of all types. It also contains the function of this name, which accepts any type.
     let mut members: BTreeMap<(&'static str, Use), Vec<RegisteredFunction>> = BTreeMap::new();
     for table in catalog.tables() {
         for row in table.rows {

@@ -114,7 +114,7 @@ impl SliderGuide {
         }
     }
 
-    /// Start position of a slider, given by the beam and the arc length along it: the requested position, or the position nearest to the slave.
+    /// Start position of a slider, given by a beam and an arc length along it. It is the requested position, or the position nearest to the slave.
     pub(super) fn start(
         self,
         scene: &Scene,

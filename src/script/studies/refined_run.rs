@@ -92,7 +92,8 @@ fn refinement_factor(
 }
 
 impl RefinedRun {
-    /// Runs a scene with smaller and smaller steps and finer meshes, until the largest estimated error of the positions is within the tolerance.
+    /// Runs a scene repeatedly with smaller steps and finer meshes.
+    /// The runs end when the largest estimated error of the positions is within the tolerance.
     ///
     /// # Errors
     /// Fails if no run can be completed, or the script is stopped.

@@ -19,7 +19,7 @@ impl SlidingLaw for HeldSlider {
     }
 }
 
-/// Force `p1` that would cause the kink at the end of the step statically, for a slider that does not move along its master [force].
+/// Static force `p1` of the kink at the end of the step, for a slider that does not move along its master [force].
 /// The force `p1 = 2 λ - p0` follows from the mean contact force `λ` and the force `p0` for the kink at the start.
 fn jump_at_end(contact: &Contact<'_>) -> Vec2 {
     let before = contact.kink.as_ref().map_or(Vec2::zeros(), |kink| kink.before);

@@ -1,7 +1,8 @@
 //! Means of schedules over steps.
 //!
 //! Between breaks, constants and tables are polynomials, which a three-point Gauss rule integrates exactly.
-//! Sines and smooth pulses, and their products with each other and with tables, are sums of terms `p(x) cos(κ x + φ)` with a polynomial `p`.
+//! Sines, smooth pulses, and their products with each other and with tables are sums of terms.
+//! A term has the form `p(x) cos(κ x + φ)` with a polynomial `p`.
 //! Terms `p(x) cos(κ x + φ)` are integrated in closed form. All other schedules are sampled at five points.
 //! Two quadrature rules use the five points: three Gauss points, and the middle point with two additional points.
 //! Both quadrature rules are exact for cubic polynomials. The difference of their results is an estimate of the sampling error.

@@ -147,7 +147,8 @@ impl Simulation {
             || (unresolved_fraction > HIDDEN_SHARE && turn > HIDDEN_TURN)
     }
 
-    /// Warnings about damped beams whose motion is not resolved with a step size [time], although the motion of the whole scene is resolved.
+    /// Warnings about damped beams.
+    /// A step size [time] may not resolve the motion of a damped beam, although it resolves the motion of the whole scene.
     fn unresolved_beams(&self, dt: f64) -> impl Iterator<Item = Warning> {
         let least = NOTHING * self.model.resolution().kinetic();
         let beams = self.model.resolution_by_beam();

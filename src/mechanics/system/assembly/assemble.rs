@@ -16,7 +16,7 @@ use crate::system::state::MotionState;
 use crate::system::{BeamDefinition, Scene, System, SystemError, SystemState};
 
 /// Largest rounding error of strains, as a multiple of the machine precision.
-/// The rounding error of a strain exceeds the machine precision, because strains are differences of coordinates that may be much larger than a span.
+/// The rounding error of a strain exceeds the machine precision. Strains are differences of coordinates, which may be much larger than a span.
 const STRAIN_ROUNDINGS: f64 = 100.0;
 
 /// Bodies of a scene with the meshes of the beams, from which the model is built.

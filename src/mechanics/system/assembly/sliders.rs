@@ -14,7 +14,7 @@ use crate::system::sliders::{
 };
 use crate::system::{BeamDefinition, Scene, System, SystemError};
 
-/// Largest start velocity of a slave across its master that counts as zero, as a fraction of the velocity of the fastest point of the scene.
+/// Largest start velocity of a slave across its master that counts as zero. Its unit is the velocity of the fastest point of the scene.
 /// At a dead centre of a mechanism, rounding errors of velocities have about this size.
 const SAME_VELOCITY: f64 = 1e-9;
 

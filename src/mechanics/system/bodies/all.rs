@@ -144,7 +144,7 @@ impl Bodies {
         bodies.for_each(|(body, own)| std::mem::swap(&mut body.degrees_of_freedom, own));
     }
 
-    /// Nodes that joints connect with a node, including the node, as indices of bodies and control points; `None` if the point is not a node.
+    /// Nodes that joints connect with a node, including this node. They are given by body and control point. `None` if the point is not a node.
     pub fn tied_nodes(&self, place: &BodyPoint) -> Option<Vec<(usize, usize)>> {
         let mut nodes = vec![node_of(place)?];
         let mut next = 0;

@@ -157,7 +157,7 @@ impl DampingLaw {
     }
 
     /// Force and slope for Newton's method.
-    /// If the impedance of the rest of the system is known, the linearisation uses the segment of the law that intersects the line of the impedance.
+    /// If the impedance of the rest of the system is known, the law is linearised at its intersection with the line of the impedance.
     /// The line of the impedance passes through (`rate`, `force`) with the slope `-impedance`.
     /// Without the line of the impedance, the iteration could alternate between two steep segments.
     pub(crate) fn linearised_target(

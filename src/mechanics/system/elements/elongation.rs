@@ -7,7 +7,8 @@
 //! The vectors `e` and `r` are secants. A force along a secant does exactly the work `F Δℓ` or `M Δθ`. The forces at both ends are opposite.
 //! Differences of positions are updated by increments. Their rounding error does not depend on the distance from the origin.
 //! The elongation is stored as its growth since the start.
-//! A length minus the natural length would have the rounding error of the length, which may be much larger than that of the elongation.
+//! The difference of a length and the natural length would have the rounding error of the length.
+//! The rounding error of the length may be much larger than that of the elongation.
 
 mod shares;
 mod term;
@@ -60,7 +61,7 @@ enum Measure {
 
 /// Length or angle `q` between the terminals of a spring: its value at the start of a step, and its change in the present iterate.
 ///
-/// The coordinates `u` of an elongation are the increments of its terminals in their order: x and y for a length, the rotation for an angle.
+/// The coordinates `u` of an elongation are the increments of its terminals, in their order. A length has coordinates x and y, an angle the rotation.
 #[derive(Debug, Clone)]
 pub struct Elongation {
     measure: Measure,
@@ -76,7 +77,8 @@ pub struct Elongation {
     /// Change `Δq` in the step [length, rad].
     pub change: f64,
     /// Change of the elongation in the last accepted iterate, and the further change that its force implies [length, rad].
-    /// The stored change is more accurate than a change computed from increments, whose rounding error would store energy in a stiff spring.
+    /// The stored change is more accurate than a change computed from increments.
+    /// The rounding error of increments would store energy in a stiff spring.
     settled: (f64, f64),
     /// Secant `g`, which gives the elongation change as `Δq = Σ g u` [-].
     /// For methods with forces at the end of a step, the secant is the derivative of the elongation `q` at the end.

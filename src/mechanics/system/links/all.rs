@@ -195,7 +195,7 @@ impl Links {
         self.rollers.iter_mut().for_each(|roller| roller.advance(self.force_unknowns, values));
     }
 
-    /// Calls `take` with the static stiffness of each constraint, which is replaced by a spring of the given penalty stiffness [force/length].
+    /// Calls `take` with the static stiffness of each constraint. A spring of the given penalty stiffness replaces the constraint [force/length].
     pub fn for_each_static_stiffness(
         &self,
         bodies: &Bodies,

@@ -1,6 +1,7 @@
 //! Impulses of joints and supports in the last step. They are accumulated if mean forces over a step are requested.
 //!
-//! After a step has been solved, its balance is evaluated again with separate degrees of freedom for every control point, without the ties of joints.
+//! After a step has been solved, its balance is evaluated again, without the ties of joints.
+//! In this evaluation, every control point has separate degrees of freedom.
 //! The residual at each control point is the force of joints and supports. Impulses of impacts are added.
 //!
 //! ```text

@@ -86,7 +86,8 @@ impl System {
 
     /// Moves slaves and masters apart by the offsets of their kinks.
     /// The displacement with the smallest `Δq·M Δq` is used: `Δq = M⁻¹ Gᵀ P`, `G Δq = g a`.
-    /// The position with open gaps is the mean of an oscillation from an unloaded kink, so the mean of the later motion does not change.
+    /// The position with open gaps is the mean of the oscillation that an unloaded kink would cause.
+    /// Hence the mean of the later motion does not change.
     ///
     /// Returns `None` if contacts cannot be opened independently, or if points of rigid bodies would have to follow nonlinear constraints.
     fn open_gaps(&mut self) -> Option<()> {

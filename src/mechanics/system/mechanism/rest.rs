@@ -76,7 +76,7 @@ impl System {
         sliders.add_linearised::<AtRest>(bodies, count, movements, contacts, out, border);
     }
 
-    /// Largest violation of a rigid link or contact equation in a static iterate, as a fraction of a force scale or of the lengths involved [-].
+    /// Largest violation of a rigid link or contact equation in a static iterate [-]. It is a fraction of a force scale or of the lengths involved.
     pub(crate) fn violation_at_rest(&self, residual: &[f64], force: f64) -> f64 {
         let equations = &residual[self.unknowns.count()..];
         let relative = |off: f64| if off == 0.0 { 0.0 } else { off / force };

@@ -15,7 +15,7 @@ use crate::linalg::LinearError;
 use crate::system::SystemError;
 use crate::system::sliders::{AxialImpact, MasterLimit, SliderState};
 
-/// Largest distance of two sliders from the ends of their masters that counts as simultaneous arrival, as a fraction of the parameter range.
+/// Largest distance of two sliders from the ends of their masters that counts as simultaneous arrival. Its unit is the parameter range.
 const TOGETHER: f64 = 1e-12;
 
 /// Smallest number of steps per period of a vibration that an impact includes. Faster vibrations count as rigid.
@@ -159,7 +159,7 @@ impl System {
         self.sliders[limit.slider].along_contact(&self.bodies) * -limit.end.outward()
     }
 
-    /// Computes the impact of all sliders that arrive at ends of masters and at seams at the present time, for steps of length `dt` [time].
+    /// Computes the impact of all sliders that are at ends of masters or at seams at the present time. The length of the steps is `dt` [time].
     ///
     /// All stops have the law `0 ≤ P ⟂ w⁺ + e w⁻ ≥ 0` with the impulse `P` and the coefficient of restitution `e`.
     /// The relative velocities are `w⁻` before and `w⁺` after the impact.

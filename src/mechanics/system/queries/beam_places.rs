@@ -8,7 +8,8 @@ use crate::geometry::{Vec2, corresponding};
 use crate::system::{Scene, System, SystemError};
 
 /// Positions along a beam, precomputed for repeated sampling: its knots, and equally spaced positions between consecutive knots.
-/// A joint inside the beam has two positions with the same arc length: the end of the part before the joint, and the start of the part after it.
+/// A joint inside the beam has two positions with the same arc length.
+/// The first position is the end of the part before the joint, the second the start of the part after the joint.
 #[derive(Debug, Clone, PartialEq)]
 pub struct BeamPlaces {
     beam: usize,

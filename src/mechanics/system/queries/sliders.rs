@@ -37,7 +37,7 @@ impl System {
         self.slider(slider).steps_per_impact
     }
 
-    /// Largest speed along the master for which the kink under a slider follows the contact force [length/time]; `None` for rules without a kink.
+    /// Largest speed along the master for which the kink follows the contact force [length/time]; `None` for rules without a kink.
     pub(crate) fn kink_speed_limit(&self, slider: usize) -> Option<f64> {
         self.slider(slider).kink_speed_limit()
     }
@@ -49,7 +49,8 @@ impl System {
         self.slider(slider).contact_force()
     }
 
-    /// Present force at the kink under a slider [force], if the kink follows the contact force; otherwise the [`contact_force`](Self::contact_force).
+    /// Present force of the kink under a slider, if the kink follows the contact force [force].
+    /// Otherwise, the [`contact_force`](Self::contact_force) of the slider is returned.
     pub fn kink_force(&self, slider: usize) -> Vec2 {
         self.slider(slider).force_of_state()
     }

@@ -19,7 +19,7 @@ struct Group {
 }
 
 impl Group {
-    /// Larger of two lengths [length]: twice the largest distance of a point from the mean of all points, and the longest natural length.
+    /// Larger of two lengths [length]. They are twice the largest distance of a point from the mean of all points, and the longest natural length.
     /// Distances within rounding count as zero in the extent.
     fn extent(&self) -> f64 {
         let count = self.points.len().max(1) as f64;

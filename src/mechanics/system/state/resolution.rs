@@ -27,7 +27,7 @@ const EQUALLY_LONG: f64 = 1e-3;
 
 /// Measures of the temporal resolution of the motion in the steps so far. They are part of the state, so that undone steps are not included.
 ///
-/// A vibration `v = a cos ωt` advances by a phase `φ` in each step of length `h` of the energy–momentum method, with `tan(φ/2) = ω h/2`.
+/// In each step of length `h` of the energy–momentum method, a vibration `v = a cos ωt` advances by a phase `φ` with `tan(φ/2) = ω h/2`.
 /// Averaged over the phases, `Σ m v̄² = ½ m a² cos²(φ/2)`, `S = Σ m (v̄ - v0)² = ½ m a² sin²(φ/2)` and `M = Σ m (v̄ - v̄₋)² = ½ m a² sin²φ`.
 /// Hence `S - M/4 = ½ m a² sin⁴(φ/2)` is the energy of unresolved motion. The contribution of resolved motion is negligible.
 /// For a motion with several frequencies, the energies of all frequencies are added (theory.md, section 13).

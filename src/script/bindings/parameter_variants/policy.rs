@@ -59,7 +59,7 @@ const REFUSED: &[&str] = &["equilibrium", "modes"];
 
 const WHOLE: &[&str] = &["quotient"];
 
-/// Methods that advance a simulation together with its variants, or return values that are the same in all variants, such as the time.
+/// Methods that advance a simulation together with its variants, and methods whose return value is the same in all variants, such as the time.
 const ONCE: &[&str] = &["start", "step", "run_to", "at", "t", "dt", "invariants", "parameter"];
 
 pub fn lifting_of(table: &BindingTable, row: &FunctionBinding) -> Lifting {

@@ -1,4 +1,4 @@
-//! Evaluation of a function of parameters at several points, by worker threads if there is a complete script, otherwise on this thread.
+//! Evaluation of a function of parameters at several points. Worker threads are used if there is a complete script, otherwise this thread.
 
 use std::time::Duration;
 

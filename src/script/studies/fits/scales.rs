@@ -1,4 +1,4 @@
-//! Scaling of the results of a design for the optimiser: values of order one, an objective to be minimised, and nonnegative constraints.
+//! Scaling of the results of a design for the optimiser. Scaled values are of order one, the objective is minimised, and constraints are nonnegative.
 
 use std::cell::Cell;
 

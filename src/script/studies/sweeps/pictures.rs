@@ -57,7 +57,8 @@ fn pairs(table: &SweepTable, x: SweepColumn, y: SweepColumn) -> Vec<(usize, f64,
     all.filter(|(_, x, y)| x.is_finite() && y.is_finite()).collect()
 }
 
-/// Random subset of at most `most` items, in order, with equal probability and the same in every run (C. T. Fan, M. E. Muller, I. Rezucha, 1962).
+/// Random subset of at most `most` items, in order. All items have equal probability.
+/// The subset is the same in every run (C. T. Fan, M. E. Muller, I. Rezucha, 1962).
 /// A regular subset of a grid or a Sobol' sequence could cover only a part of the range.
 fn thinned<T: Copy>(all: &[T], most: usize) -> Vec<T> {
     let mut random = Random::seeded(0);
