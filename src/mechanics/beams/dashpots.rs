@@ -332,7 +332,7 @@ impl Dashpots {
     }
 }
 
-/// Residual of the damping law divided by the derivative of the force, as a strain; zero if the derivative is zero.
+/// Residual of the damping law, converted to a strain by the derivative of the force; zero if the derivative is zero.
 pub(super) fn strain_missing(force: f64, resistance: f64) -> f64 {
     if resistance > 0.0 { (force / resistance).abs() } else { 0.0 }
 }

@@ -30,7 +30,7 @@ pub(super) const UNTOUCHED: usize = usize::MAX;
 pub(super) struct BlockElimination<'a> {
     pub(super) blocks: &'a mut [Block],
     pub(super) band: &'a BandedMatrix,
-    /// Buffer filled with `UNTOUCHED`, also after use.
+    /// Buffer whose entries are `UNTOUCHED` before and after each use.
     pub(super) places: &'a mut [usize],
 }
 

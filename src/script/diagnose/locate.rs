@@ -32,7 +32,7 @@ pub fn end_of(program: &Program, text: &str) -> Location {
     location(program, line, column, 1)
 }
 
-/// Location of the part of a call to which an error refers. If this part is not found, the location of the function name.
+/// Location of the part of a call to which an error refers. If this part is not found, the location of the function name is returned.
 pub fn part_of_call(
     program: &Program,
     catalog: &Catalog,

@@ -96,7 +96,7 @@ pub struct Meter {
     pretended: Cell<u64>,
 }
 
-/// Largest value of `pretended`. Loops that wait for a time end long before this number of calls.
+/// Number of skipped calls in a dry run above which the script counts as waiting for a result. Loops that wait for a time end earlier.
 const MOST_DRY_ADVANCES: u64 = 100_000;
 
 /// True if a run of this process has detected an interrupt. Such a run stops soon and saves its results.

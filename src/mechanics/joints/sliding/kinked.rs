@@ -18,7 +18,7 @@ use super::{CONTACT_UNKNOWNS, Conserving, Contact, Equation, Kink, KinkState, Sl
 /// The tangent of the axis jumps by `a` at the slave, and the kink moves along the master with the speed `v`.
 /// The mesh does not contain the energy `½ g |a|² (GA + ρA v²)` of the kink.
 /// In the energy of the kink, `ρA` is slightly larger than the mass per length of the beam.
-/// The jump at the end of the step follows from the component of `λ` across the master and from the second line of equations.
+/// The jump at the end of the step follows from the equation for the jump of the tangent, and from the component of `λ` across the master.
 /// The remaining equation is the balance of forces along the master. Without a [`Kink`] the law is [`Conserving`].
 /// Derivation: docs/theory.md, sections 10 and 10.1.
 #[derive(Debug, Clone, Copy)]

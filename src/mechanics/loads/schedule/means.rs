@@ -25,7 +25,8 @@ pub struct StepMean {
 /// Highest degree of a polynomial that three Gauss points integrate exactly.
 const EXACT_DEGREE: usize = 5;
 
-/// Distance of the additional points from the middle, on [-1, 1]. Points at the ends would include jumps at the ends, which do not affect the mean.
+/// Distance of the additional points from the middle, on [-1, 1].
+/// The points are inside the step, because a jump at an end of the step does not affect the mean.
 const OUTER: f64 = 0.96;
 
 /// Weight of each additional point. The rule with these points and the middle point is exact for cubic polynomials.
