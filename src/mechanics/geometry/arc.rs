@@ -8,7 +8,7 @@ use super::{GeometryError, Vec2, perpendicular, unit};
 use crate::elementary::power;
 use std::f64::consts::TAU;
 
-/// Relative rounding error by which the angle of an arc may exceed a full turn.
+/// Relative amount by which the angle of an arc may exceed a full turn because of rounding.
 const ROUNDING: f64 = 1e-12;
 
 /// Arc of a circle of radius `r` about the point `c`, `x(ξ) = c + r (cos φ, sin φ)` with `φ = (1 - ξ) φ_from + ξ φ_to` on `[0, 1]`.

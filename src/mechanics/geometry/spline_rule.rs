@@ -17,8 +17,8 @@ const EQUAL: f64 = 1e-9;
 /// The derivatives of the `F` basis functions of degree `p` form the space of the `P = F - 1` splines `T` of degree `p - 1`.
 /// The points of the rule are the zeros of the spline of degree `p` that is orthogonal to all splines `T`.
 /// For a single span, the points of the rule are the Gauss points.
-/// On equal spans of full continuity, far from the ends, the orthogonal spline alternates.
-/// The zeros of the alternating spline are the centres of spans for odd degrees, and the knots for even degrees.
+/// On equal spans of full continuity, far from the ends, the orthogonal spline oscillates with a period of two spans.
+/// The zeros of this oscillating spline are the centres of spans for odd degrees, and the knots for even degrees.
 ///
 /// For cubic functions of full continuity on three or more equal spans, another rule has half the error (docs/theory.md, section 4).
 /// The better rule uses two Gauss points in the first and the last span, and the centres of the other spans.

@@ -234,7 +234,7 @@ mod tests {
     use nalgebra::{DMatrix, DVector};
     use proptest::prelude::*;
 
-    /// Unknowns that a block touches: the first of several consecutive unknowns, their number, and optionally another unknown.
+    /// Unknowns that a block touches, given by the first of several consecutive unknowns, their number, and an optional further unknown.
     type Touch = (usize, usize, Option<usize>);
 
     const OWN: usize = 2;

@@ -32,7 +32,7 @@ pub(super) struct ActiveRows<'a> {
     /// Number of rows, without the identity rows.
     pub(super) size: usize,
     /// Number of columns to be eliminated: all columns, or a multiple of the panel width.
-    /// If only some columns are eliminated, the rows that the last eliminated column can reach are also present.
+    /// If only some columns are eliminated, the storage also contains all rows below that have entries in these columns.
     pub(super) columns: usize,
     pub(super) reach: usize,
     pub(super) rows: &'a mut [f64],

@@ -168,7 +168,7 @@ fn function_of(values: &[&mut Dynamic]) -> EngineResult<FnPtr> {
 enum CallbackArguments {
     Element,
     ElementAndIndex,
-    /// The function has no argument. Its element is `this`.
+    /// The function has no parameter. It reads the element from `this`.
     ElementAsThis,
 }
 
