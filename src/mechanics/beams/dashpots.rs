@@ -2,7 +2,10 @@
 //! Axial, shear and bending deformation have relaxation times `τ`.
 //!
 //! ```text
-//! force N = C τ ΔΓ/Δt      strain ΔΓ = Λ̄ᵀ (Δx' - Δω J x̄')      moment M = EI τ Δκ/Δt      energy D = Σ w (N·ΔΓ + M Δκ) ≥ 0
+//! force:   N = C τ ΔΓ/Δt
+//! strain:  ΔΓ = Λ̄ᵀ (Δx' - Δω J x̄')
+//! moment:  M = EI τ Δκ/Δt
+//! energy:  D = Σ w (N·ΔΓ + M Δκ) ≥ 0
 //! ```
 //!
 //! Here `C = diag(EA, GA)`, `w` are quadrature weights and `D` is the dissipated energy.

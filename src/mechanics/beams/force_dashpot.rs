@@ -1,8 +1,13 @@
 //! Dashpot for axial and shear strain at a quadrature point.
 //!
 //! ```text
-//! force N = C τ (by_change · ΔΓ - by_last · Γ̇)      in space n = Λs N      rotation Λs = (1-s) Λ0 + s Λ1      gradient gs = g0 + s Δg
-//! nodal force R_a = w N_a' n      nodal moment S_a = -w N_a gs × n      strain δΔΓ = Λ1ᵀ δg - J (Γ1 + e1) δω/q
+//! force:           N = C τ (by_change · ΔΓ - by_last · Γ̇)
+//! force in space:  n = Λs N
+//! rotation:        Λs = (1-s) Λ0 + s Λ1
+//! gradient:        gs = g0 + s Δg
+//! nodal force:     R_a = w N_a' n
+//! nodal moment:    S_a = -w N_a gs × n
+//! strain:          δΔΓ = Λ1ᵀ δg - J (Γ1 + e1) δω/q
 //! ```
 //!
 //! The vectors `R_a` and `S_a` are the force and moment on control point `a`.

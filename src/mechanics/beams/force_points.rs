@@ -3,9 +3,14 @@
 //! Definitions: `Δg = Σ N_a' Δx_a`, `Δω = Σ N_a Δω_a`, `1/q = dΔθ/dΔω` and `C = diag(EA, GA)`.
 //!
 //! ```text
-//! rotation Λ1 = Λ0 R(Δθ(Δω))      strain Γ1 = Λ1ᵀ (g0 + Δg) - e1
-//! gradient gτ = g0 + τ Δg      rotation Λτ = (1-τ) Λ0 + τ Λ1      force N = C ((1-σ) Γ0 + σ Γ1)      in space n = Λτ N
-//! nodal force R_a = w N_a' n      nodal moment S_a = -w N_a gτ × n
+//! rotation at the end:  Λ1 = Λ0 R(Δθ(Δω))
+//! strain at the end:    Γ1 = Λ1ᵀ (g0 + Δg) - e1
+//! gradient:             gτ = g0 + τ Δg
+//! rotation:             Λτ = (1-τ) Λ0 + τ Λ1
+//! force:                N = C ((1-σ) Γ0 + σ Γ1)
+//! force in space:       n = Λτ N
+//! nodal force:          R_a = w N_a' n
+//! nodal moment:         S_a = -w N_a gτ × n
 //! ```
 //!
 //! The vectors `R_a` and `S_a` are the force and moment on control point `a`. The quadrature weight is `w`.

@@ -29,7 +29,10 @@ pub struct MissedKink {
 /// A force `λ` across the beam at `ξ` displaces the axis at `ξ` by `g(ξ) λ/GA` more than the mesh represents.
 ///
 /// ```text
-/// kink length g(ξ) = l(ξ)ᵀ M⁻¹ r(ξ)      matrix M = Σ w t tᵀ/|x_ξ|      integrals l = ∫ t dξ up to ξ, r = ∫ t dξ from ξ on
+/// kink length:                g(ξ) = l(ξ)ᵀ M⁻¹ r(ξ)
+/// matrix:                     M = Σ w t tᵀ/|x_ξ|
+/// integrals before the kink:  l = ∫ t dξ from the start to ξ
+/// integrals after the kink:   r = ∫ t dξ from ξ to the end
 /// ```
 ///
 /// The matrix `M` contains products of the splines `t` of one degree less, summed over the points and weights of the shear strain.

@@ -1,7 +1,9 @@
 //! Dashpot for the curvature at a quadrature point.
 //!
 //! ```text
-//! moment M = EI τ (by_change · Δκ - by_last · κ̇)      curvature Δκ = Δω'/q      nodal moment S_a = w N_a' M/q
+//! moment:        M = EI τ (by_change · Δκ - by_last · κ̇)
+//! curvature:     Δκ = Δω'/q
+//! nodal moment:  S_a = w N_a' M/q
 //! ```
 
 use super::RotationIncrement;

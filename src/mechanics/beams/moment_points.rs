@@ -1,7 +1,10 @@
 //! Quadrature points for the curvature `κ` in vector lanes. The moment is an independent unknown.
 //!
 //! ```text
-//! curvature κ1 = κ0 + Δω'/q     1/q = dΔθ/dΔω     moment M = EI ((1-σ) κ0 + σ κ1)     nodal moment S_a = w N_a' M/q
+//! curvature at the end:              κ1 = κ0 + Δω'/q
+//! derivative of the rotation angle:  1/q = dΔθ/dΔω
+//! moment:                            M = EI ((1-σ) κ0 + σ κ1)
+//! nodal moment:                      S_a = w N_a' M/q
 //! ```
 //!
 //! The moment is linear in the curvature, so Newton's method would converge without the moment as an unknown.

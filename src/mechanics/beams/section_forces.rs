@@ -4,7 +4,9 @@
 //! The integrals are weighted with derivatives of the basis functions and evaluated by the quadrature of the beam:
 //!
 //! ```text
-//! forces Σ w N_a' n = F_a      moments Σ w N_a' M - Σ w N_a (x' × n) = T_a      F_a, T_a: loads minus inertia, known exactly
+//! forces:                              Σ w N_a' n = F_a
+//! moments:                             Σ w N_a' M - Σ w N_a (x' × n) = T_a
+//! loads minus inertia, known exactly:  F_a and T_a
 //! ```
 //!
 //! The forces `n` and moments `M` at the quadrature points satisfy the two equations with quadrature sums.
@@ -13,8 +15,9 @@
 //! The computed forces are elements of the space `T` of all derivatives of the basis functions in a run (a sequence of smoothly joined spans):
 //!
 //! ```text
-//! forces:  ∫ t n̂ dξ = Σ w t n               for all t in T
-//! moments: ∫ t M̂ dξ = Σ w t M + ∫ v (Π m) dξ - Σ w v m      for all t in T, v' = t;  m = x' × n,  ∫ t Π m dξ = Σ w t m
+//! forces:                  ∫ t n̂ dξ = Σ w t n for all t in T
+//! moments:                 ∫ t M̂ dξ = Σ w t M + ∫ v (Π m) dξ - Σ w v m for all t in T
+//! symbols in the moments:  v' = t, m = x' × n, ∫ t Π m dξ = Σ w t m
 //! ```
 //!
 //! The computed forces are projections of the exact section forces, also at the ends.

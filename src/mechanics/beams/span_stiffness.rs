@@ -1,8 +1,12 @@
 //! Static stiffness of a span in factored form: strains with their stiffnesses, and the geometric stiffness due to section forces.
 //!
 //! ```text
-//! strain δΓ = Λᵀ δg - J (Γ + e1) δω      curvature δκ = δω'      these are the rows of B, with the stiffness C: w diag(EA, GA) and w EI
-//! geometric stiffness K_g = p qᵀ + q pᵀ      p·δ = w (Λ J N·δg - ½ g·ΛN δω)      q·δ = δω
+//! strain:                           δΓ = Λᵀ δg - J (Γ + e1) δω
+//! curvature:                        δκ = δω'
+//! rows of B:                        δΓ and δκ
+//! stiffness C of the rows of B:     w diag(EA, GA) and w EI
+//! geometric stiffness:              K_g = p qᵀ + q pᵀ
+//! rows of the geometric stiffness:  p·δ = w (Λ J N·δg - ½ g·ΛN δω) and q·δ = δω
 //! ```
 //!
 //! The stiffness is `K = Bᵀ C B + K_g`. This sum is not formed, because rounding errors of the large first term would exceed its small eigenvalues.

@@ -10,8 +10,10 @@ use super::{KnotVector, Span};
 /// Reference: The NURBS Book, equations 2.5 and 2.7. The results are those of algorithm A2.3.
 ///
 /// ```text
-/// N_{m-1}   gets   (ξ_{m+q} - ξ) / h_m · N_m       its derivatives   -q / h_m · (derivatives of N_m of one order less)
-/// N_m       gets   (ξ - ξ_m)     / h_m · N_m       its derivatives    q / h_m · (derivatives of N_m of one order less)
+/// contribution to N_{m-1}:  (ξ_{m+q} - ξ)/h_m · N_m
+/// derivatives of N_{m-1}:   -q/h_m times the derivatives of N_m of one order less
+/// contribution to N_m:      (ξ - ξ_m)/h_m · N_m
+/// derivatives of N_m:       q/h_m times the derivatives of N_m of one order less
 /// ```
 pub(super) fn evaluate(knots: &KnotVector, span: &Span, xi: f64) -> BasisValues {
     let mut basis = BasisValues::zeros(span.first, knots.degree());

@@ -256,7 +256,8 @@ impl ContactPath {
     /// The integrals of [`add_quotients`](Self::add_quotients) follow from the derivatives at the end of the path, with `h = Δξ`:
     ///
     /// ```text
-    /// divided difference D = B' - h/2 B'' + h²/6 B'''        its derivative ∂D/∂ξ1 = ½ B'' - h/6 B'''
+    /// divided difference:  D = B' - h/2 B'' + h²/6 B'''
+    /// derivative of D:     ∂D/∂ξ1 = ½ B'' - h/6 B'''
     /// ```
     fn set_in_span<const WIDTH: usize>(
         &mut self,

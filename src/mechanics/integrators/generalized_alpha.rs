@@ -11,9 +11,11 @@ use crate::newton::{NewtonReport, Tolerance};
 /// The method is of second order.
 ///
 /// ```text
-/// balance: M ((1-αm) a1 + αm a0) + (1-αf) F(end) + αf F(start) = 0
-/// Newmark: Δq = Δt v0 + Δt² ((½-β) a0 + β a1)          v1 = v0 + Δt ((1-γ) a0 + γ a1)
-/// coefficients: αm = (2ρ∞ - 1)/(ρ∞ + 1)     αf = ρ∞/(ρ∞ + 1)     γ = ½ - αm + αf     β = ¼ (1 - αm + αf)²
+/// balance of forces:        M ((1-αm) a1 + αm a0) + (1-αf) F(end) + αf F(start) = 0
+/// Newmark's displacements:  Δq = Δt v0 + Δt² ((½-β) a0 + β a1)
+/// Newmark's rates:          v1 = v0 + Δt ((1-γ) a0 + γ a1)
+/// weights αm and αf:        αm = (2ρ∞ - 1)/(ρ∞ + 1) and αf = ρ∞/(ρ∞ + 1)
+/// Newmark's coefficients:   γ = ½ - αm + αf and β = ¼ (1 - αm + αf)²
 /// ```
 ///
 /// Rotation increments are increments of the angle. Accelerations `a` are part of the state.

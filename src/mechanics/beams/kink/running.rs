@@ -13,7 +13,8 @@ impl SplineString {
     /// The factor is averaged over positions `ξ` of the kink in evenly spread spans.
     ///
     /// ```text
-    /// correction factor μ = ∫ (L - s(ξ) - ∫ u² dX) ds/∫ g ds        velocity ratio u = l(X)ᵀ M⁻¹ t(ξ)/|x_ξ|
+    /// correction factor:  μ = ∫ (L - s(ξ) - ∫ u² dX) ds/∫ g ds
+    /// velocity ratio:     u = l(X)ᵀ M⁻¹ t(ξ)/|x_ξ|
     /// ```
     ///
     /// The length of the string is `L`, the arc length at the kink `s(ξ)`, and the derivative `ds/dξ` is `|x_ξ|`.

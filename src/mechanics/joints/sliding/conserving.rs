@@ -10,7 +10,9 @@ use crate::geometry::{cross, perpendicular};
 /// The mesh represents the kink of the axis under the contact force only approximately.
 ///
 /// ```text
-/// closed gap x_s1 = Σ B_i(ξ1) x_i1      moment balance |τ|² η + (d × λ) Jτ = 0      no work λ·τ + 4 η·d = 0
+/// closed gap at the end:  x_s1 = Σ B_i(ξ1) x_i1
+/// balance of moments:     |τ|² η + (d × λ) Jτ = 0
+/// no work:                λ·τ + 4 η·d = 0
 /// ```
 ///
 /// The mean position of the slave, `Σ B̄_i x̄_i + Δξ d`, is not the point at which `λ` acts on the master.

@@ -5,7 +5,9 @@ use super::{CONTACT_UNKNOWNS, Contact, Equation, SlidingLaw};
 /// Exact sliding law. The gap is closed at the end of every step. Energy and linear momentum are conserved, but not angular momentum.
 ///
 /// ```text
-/// closed gap x_s1 = Σ B_i(ξ1) x_i1      no force along the path λ·τ = 0      no couple η = 0
+/// closed gap at the end:    x_s1 = Σ B_i(ξ1) x_i1
+/// no force along the path:  λ·τ = 0
+/// no couple:                η = 0
 /// ```
 ///
 /// The law is that of Sibileau & Muñoz, equations 15 and 17, with the divided difference `D_i` instead of `B_i'(ξ1)`.

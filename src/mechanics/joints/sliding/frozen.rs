@@ -8,9 +8,13 @@ use super::{CONTACT_UNKNOWNS, Conserving, Contact, Equation, Kink, KinkState, Sl
 /// The gap to the kinked axis is closed, and energy, linear and angular momentum are conserved for any step size.
 ///
 /// ```text
-/// closed gap x_s1 = Σ B_i(ξ1) x_i1 + g1 a1      kink a1 = (1 - q J)⁻¹ (1 + q J) a0      rotation q = 2 Jτ·d/|τ|²
-/// moment balance |τ|² χ + (r × λ) Jτ = 0      arm r = Δξ d + ½ (g0 a0 + g1 a1)
-/// force balance (λ - (Δπ/Δt) e)·w = κ ½ GA |a|² Δg/Δξ      direction w = τ - 2 q J d + (Δg/Δξ) (1 + q J) a0
+/// closed gap at the end:  x_s1 = Σ B_i(ξ1) x_i1 + g1 a1
+/// rotated kink:           a1 = (1 - q J)⁻¹ (1 + q J) a0
+/// rotation in the step:   q = 2 Jτ·d/|τ|²
+/// balance of moments:     |τ|² χ + (r × λ) Jτ = 0
+/// arm of the force:       r = Δξ d + ½ (g0 a0 + g1 a1)
+/// balance of forces:      (λ - (Δπ/Δt) e)·w = κ ½ GA |a|² Δg/Δξ
+/// direction of the path:  w = τ - 2 q J d + (Δg/Δξ) (1 + q J) a0
 /// ```
 ///
 /// The quantities `π`, `e` and `v1` are those of the law [`Kinked`](super::Kinked), and `κ = 1 - ρA v0 v1/GA`.

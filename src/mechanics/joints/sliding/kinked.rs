@@ -8,10 +8,15 @@ use super::{CONTACT_UNKNOWNS, Conserving, Contact, Equation, Kink, KinkState, Sl
 /// The gap is closed at the end of every step, and energy, linear and angular momentum are conserved for any step size.
 ///
 /// ```text
-/// closed gap x_s1 = Σ B_i(ξ1) x_i1 + g1 a1      moment balance |τ|² χ + (r × λ) Jτ = 0      arm r = Δξ d + ½ (g0 a0 + g1 a1)
-/// jump of the tangent ā·w + (Δg/Δξ) (½ a0·a1 + b a0 × a1) = 0      w = τ - 4 b J d      b = Jτ·d/|τ|²
-/// contact force λ = (GA - ρA v0 v1) ā + (Δπ/Δt) (Δs/Δξ) τ/|τ|²      momentum π = ρA g |a|² v
-/// speed of the kink ½ (v0 + v1) Δt = (Δs/Δξ) τ·u/|τ|²      u = Δξ τ + Δ(g a) - 4 b J r
+/// closed gap at the end:  x_s1 = Σ B_i(ξ1) x_i1 + g1 a1
+/// balance of moments:     |τ|² χ + (r × λ) Jτ = 0
+/// arm of the force:       r = Δξ d + ½ (g0 a0 + g1 a1)
+/// jump of the tangent:    ā·w + (Δg/Δξ) (½ a0·a1 + b a0 × a1) = 0
+/// direction of the path:  w = τ - 4 b J d with b = Jτ·d/|τ|²
+/// contact force:          λ = (GA - ρA v0 v1) ā + (Δπ/Δt) (Δs/Δξ) τ/|τ|²
+/// momentum of the kink:   π = ρA g |a|² v
+/// speed of the kink:      ½ (v0 + v1) Δt = (Δs/Δξ) τ·u/|τ|²
+/// abbreviation:           u = Δξ τ + Δ(g a) - 4 b J r
 /// ```
 ///
 /// The slave is on the axis, which has a kink under the contact force.

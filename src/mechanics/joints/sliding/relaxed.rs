@@ -9,7 +9,9 @@ const ROUNDING: f64 = 1e-13;
 /// Relaxed sliding law. The gap is closed on average over each step. Energy, linear and angular momentum are conserved. A closed gap may open.
 ///
 /// ```text
-/// closed mean gap ½ (x_s0 + x_s1) = Σ B̄_i x̄_i      no force along λ·(2/Δξ) (Σ B̄_i x_i0 - x_s0) = 0      no couple η = 0
+/// closed mean gap:   ½ (x_s0 + x_s1) = Σ B̄_i x̄_i
+/// sliding equation:  λ·(2/Δξ) (Σ B̄_i x_i0 - x_s0) = 0
+/// no couple:         η = 0
 /// ```
 ///
 /// The law is that of Sibileau & Muñoz, equations 11 to 14.

@@ -8,7 +8,9 @@ use crate::geometry::Vec2;
 /// Static law of a slider without friction. The potential energy of its contact, `λ·(x_s - Σ B_i(ξ) x_i) - ½ g(ξ) |λ|²/GA`, is stationary:
 ///
 /// ```text
-/// closed gap x_s = Σ B_i(ξ) x_i + g(ξ) λ/GA      no work λ·x'(ξ) + ½ g'(ξ) |λ|²/GA = 0      no couple η = 0
+/// closed gap:  x_s = Σ B_i(ξ) x_i + g(ξ) λ/GA
+/// no work:     λ·x'(ξ) + ½ g'(ξ) |λ|²/GA = 0
+/// no couple:   η = 0
 /// ```
 ///
 /// Without a [`Kink`](super::Kink), `g = 0`. Derivation: docs/theory.md, section 14.

@@ -1,7 +1,10 @@
 //! Drag in a step.
 //!
 //! ```text
-//! velocity v = Δx/Δt - wind      nodal force f_a = -w N_a G(v, t)      D increases by Σ w G·v Δt ≥ 0, W by -Σ w G·wind Δt
+//! relative velocity:  v = Δx/Δt - wind
+//! nodal force:        f_a = -w N_a G(v, t)
+//! dissipated energy:  D increases by Σ w G·v Δt ≥ 0
+//! work of the wind:   W increases by -Σ w G·wind Δt
 //! ```
 //!
 //! Here `w` are quadrature weights, `N_a` the basis functions, `f_a` the nodal forces, `D` the dissipated energy and `W` the work of the wind.

@@ -1,7 +1,10 @@
 //! Drag laws: force as a function of the velocity relative to the medium, with derivatives.
 //!
 //! ```text
-//! point    G = (c + k |v|) v        line    G = φn(n·v) n + φt(t·v) t,  φ(s) = c s + k |s| s        G·v ≥ 0
+//! force on the medium at a point:  G = (c + k |v|) v
+//! force on the medium at a line:   G = φn(n·v) n + φt(t·v) t
+//! law of each direction:           φ(s) = c s + k |s| s
+//! dissipated power:                G·v ≥ 0
 //! ```
 
 use serde::{Deserialize, Serialize};

@@ -1,7 +1,9 @@
 //! Elongations: the length of a polygonal path over several points, or the angle between two sections.
 //!
 //! ```text
-//! length:  Δℓ = Σ e·Δd, e = (d₀ + d₁)/(ℓ₀ + ℓ₁) for each part     angle:  Δθ = r (Δω_b - Δω_a)
+//! change of a length:  Δℓ = Σ e·Δd over the parts of the path
+//! secant of a part:    e = (d₀ + d₁)/(ℓ₀ + ℓ₁)
+//! change of an angle:  Δθ = r (Δω_b - Δω_a) with the secant r
 //! ```
 //!
 //! The vectors `e` and `r` are secants. A force along a secant does exactly the work `F Δℓ` or `M Δθ`. The forces at both ends are opposite.

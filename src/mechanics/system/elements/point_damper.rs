@@ -1,7 +1,11 @@
 //! Damper along the line between two points. The distance of the points may pass through zero.
 //!
 //! ```text
-//! velocity v = Δd/Δt      mean d̄ = d₀ + ½ Δd      direction e = d̄/|d̄|      force F = φ(e·v) e, opposite at both ends      D grows by F·Δd ≥ 0
+//! relative velocity:  v = Δd/Δt
+//! mean vector:        d̄ = d₀ + ½ Δd
+//! direction:          e = d̄/|d̄|
+//! force:              F = φ(e·v) e, opposite at both ends
+//! dissipated energy:  D increases by F·Δd ≥ 0
 //! ```
 //!
 //! The rate of the length, `Δℓ/Δt`, vanishes if the connecting vector reverses through zero within a step.

@@ -6,7 +6,9 @@
 //! The proofs for the energy–momentum step give the exact changes of energy, momentum and angular momentum:
 //!
 //! ```text
-//! energy ΔE = Σ R·Δx - Σ ε·M Δv/Δt      momentum Δp = Δt Σ R      angular momentum ΔL = Δt Σ x̄ × R + Σ ε × M v̄      R: reaction
+//! energy:            ΔE = Σ R·Δx - Σ ε·M Δv/Δt with the reactions R
+//! momentum:          Δp = Δt Σ R
+//! angular momentum:  ΔL = Δt Σ x̄ × R + Σ ε × M v̄
 //! ```
 //!
 //! The sums extend over the prescribed degrees of freedom and give the work, impulse and angular impulse of the drives.

@@ -1,8 +1,10 @@
 //! Springs and dampers in a step: forces along an elongation, as independent unknowns.
 //!
 //! ```text
-//! energy–momentum      F = ΔU/Δq + d(Δq/Δt)  along the secant of the elongation: F Δq = ΔU + D, opposite at both ends
-//! forces at the ends   U'(q₀) and U'(q₁); once per step the damper force d(q̇), at the time and in the direction of the force balance
+//! energy–momentum method:       F = ΔU/Δq + d(Δq/Δt) along the secant of the elongation, opposite at both ends
+//! work of this force:           F Δq = ΔU + D
+//! springs with forces at ends:  U'(q₀) and U'(q₁)
+//! dampers with forces at ends:  d(q̇) once per step, at the time and in the direction of the force balance
 //! ```
 //!
 //! Symbols: stored energy `U`, damping law `d`, and dissipated energy `D`.

@@ -1,7 +1,8 @@
 //! Inclined roller in a step: a point on a straight line, with a constraint force across the line.
 //!
 //! ```text
-//! constraint n·Δx = 0      force on the point: -λ n      n: unit normal of the line
+//! constraint:          n·Δx = 0 with the unit normal n of the line
+//! force on the point:  -λ n
 //! ```
 //!
 //! The equation is linear in the increments. Hence the force `-λ n` does no work in any increment that satisfies the equation.

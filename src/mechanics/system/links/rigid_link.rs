@@ -1,8 +1,12 @@
 //! Rigid link in a step: a point fixed in the frame of a rigid body, and its constraint force.
 //!
 //! ```text
-//! constraint Δx_p - Δx_b - χ J ā = 0      arm a = Λ r,   mean arm ā = ½ (a0 + a1),   χ = 2 tan(Δθ/2)
-//! force on the point -λ,   on the body λ with the moment aτ × λ        aτ = (1-τ) a0 + τ a1,   τ = ½ except for generalized-α and in statics
+//! constraint:          Δx_p - Δx_b - χ J ā = 0
+//! arm and mean arm:    a = Λ r and ā = ½ (a0 + a1)
+//! rotation increment:  χ = 2 tan(Δθ/2)
+//! force on the point:  -λ
+//! force on the body:   λ with the moment aτ × λ
+//! arm of the force:    aτ = (1-τ) a0 + τ a1 with τ = ½ (other values for generalized-α and in statics)
 //! ```
 //!
 //! Here `x_p` is the position of the point, and `x_b` is the position of the body.

@@ -5,7 +5,8 @@
 //! The residual at each control point is the force of joints and supports. Impulses of impacts are added.
 //!
 //! ```text
-//! balance M (v1 - v0)/Δt + Σ share · F(stage) + G = r      impulse p1 - p0 = Δt Σ (r + loads)
+//! balance of forces:  M (v1 - v0)/Δt + Σ share · F(stage) + G = r
+//! impulse of a step:  p1 - p0 = Δt Σ (r + loads)
 //! ```
 //!
 //! Methods that balance accelerations instead of momenta do not provide mean forces.

@@ -1,7 +1,9 @@
 //! Solution of the equations of motion at the present time: accelerations, and forces of supports, joints and contacts.
 //!
 //! ```text
-//! motion M a + F(x) - f(t) - Gᵀ λ = r      contact G a = 2 ξ̇ u·Σ B_i' v_i + ξ̇² u·Σ B_i'' x_i      r = 0 except at supported degrees of freedom
+//! equation of motion:      M a + F(x) - f(t) - Gᵀ λ = r
+//! closed contact:          G a = 2 ξ̇ u·Σ B_i' v_i + ξ̇² u·Σ B_i'' x_i
+//! forces of the supports:  r, zero at unknown degrees of freedom
 //! ```
 //!
 //! If the master has a kink under a slider, the contact force `λ` follows from the kink.

@@ -3,7 +3,10 @@
 //! The equations below give the velocity response `a` to a unit impulse `Gᵀ`, and the impulses `n` of the section forces.
 //!
 //! ```text
-//! balance M a + Bᵀ n = Gᵀ      strains B a = n/(s C)      forces f = Gᵀ - Bᵀ n      velocities a = M⁻¹ f
+//! balance of impulses:  M a + Bᵀ n = Gᵀ
+//! strains:              B a = n/(s C)
+//! resulting impulses:   f = Gᵀ - Bᵀ n
+//! velocity response:    a = M⁻¹ f
 //! ```
 //!
 //! Here `B` is the strain–rate matrix and `C` the section stiffness.

@@ -6,7 +6,9 @@
 //! Hence `½ w·W⁻¹w` is constant with `W = G M⁻¹ Gᵀ`, and `w` rotates with the tangent in the metric `W⁻¹`:
 //!
 //! ```text
-//! velocity w⁺ = w⁻ + W P      impulse P = γ J ½ (w⁻ + w⁺)      factor γ = 2 tan(θ/2)/√det W
+//! velocity after the impact:  w⁺ = w⁻ + W P
+//! impulse of the corner:      P = γ J ½ (w⁻ + w⁺)
+//! factor of the impulse:      γ = 2 tan(θ/2)/√det W
 //! ```
 //!
 //! Here `θ` is the angle between the tangents before and after the corner in the metric `W⁻¹`. The rotation consists of two parts.
