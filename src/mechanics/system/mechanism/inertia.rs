@@ -33,16 +33,16 @@ impl System {
         })
     }
 
-    /// Forces at the unknowns divided by the diagonal of the inertia matrix, that is, without the coupling by inertia; zero where there is no
-    /// inertia [length/time², 1/time²].
+    /// Forces at the unknowns divided by the diagonal of the inertia matrix [length/time², 1/time²]. The coupling by inertia is ignored.
+    /// Zero for unknowns without inertia.
     pub fn uncoupled_accelerations(&self, forces: &[f64]) -> Vec<f64> {
         let inertia = self.diagonal_of_inertia();
         let of = |(force, inertia): (&f64, f64)| if inertia > 0.0 { force / inertia } else { 0.0 };
         forces.iter().zip(inertia).map(of).collect()
     }
 
-    /// Band matrix of the inertia, bordered by the constraints of rigid links [mass, mass·length, mass·length²]. Solving with it gives
-    /// accelerations and link forces.
+    /// Band matrix of the inertia, bordered by the constraints of rigid links [mass, mass·length, mass·length²].
+    /// A solution of this matrix contains accelerations and link forces.
     pub(super) fn banded_inertia(&self) -> BandedMatrix {
         let mut inertia =
             BandedMatrix::zeros(self.unknowns.count(), self.unknowns.half_bandwidth());
