@@ -28,7 +28,7 @@ pub struct ForceSummary {
     pub strain_mismatch: f64,
     /// Largest section force [force].
     pub force: f64,
-    /// Largest bending moment, or section force times a length [force·length].
+    /// Largest bending moment, or product of a section force and its quadrature weight [force·length].
     pub moment: f64,
     /// Largest rotation increment `|Δω|` of a section [rad].
     pub rotation: f64,

@@ -21,8 +21,8 @@
 //! ```
 //!
 //! The computed forces are projections of the exact section forces, also at the ends.
-//! In terms of the span length, the error of `n` is of order `p`, the degree.
-//! The error of `M` is at least of order 2. On linear elements, where `M` is constant, it is of order 1.
+//! With the span length `h` and the degree `p`, the error of `n` is of order `h^p`.
+//! The error of `M` is of order `h²` or higher. On linear elements, where `M` is constant, it is of order `h`.
 //! With the reproducing kernel of `T`, the forces are weighted sums over the quadrature points, with weights that decay within a few spans.
 //! Different runs are independent. Two runs meet at a joint or at a node of Lagrange elements, where each run has its own value.
 
@@ -44,7 +44,7 @@ pub struct SectionForces {
     pub normal: Vec2,
     /// Axial force `N`, positive in tension [force].
     pub axial: f64,
-    /// Shear force `Q`, positive to the left of the normal [force].
+    /// Shear force `Q`, positive in the direction of the normal rotated by 90° counter-clockwise [force].
     pub shear: f64,
     /// Bending moment `M`, positive counter-clockwise [force·length].
     pub moment: f64,

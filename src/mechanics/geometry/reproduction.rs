@@ -6,7 +6,7 @@ use super::{Basis, BasisValues, GaussRule, GeometryError, Span};
 /// Space `T` of the derivatives of the basis functions in a run of spans, with their scalar products.
 ///
 /// The scalar products of a function `f` with all elements of `T` determine its projection `Π f` onto `T`.
-/// For smooth functions, the error of the projection is of order `p` up to the ends of the run, where `p` is the degree of the basis.
+/// For smooth functions, the error of the projection is of order `h^p` up to the ends of the run, with the span length `h` and the degree `p`.
 #[derive(Debug, Clone)]
 pub struct LowerSplines {
     basis: Basis,

@@ -20,7 +20,7 @@ pub(super) struct BalanceCoefficients {
     /// Factor `ι` of the inertia [-]. The acceleration is `ι d/Δt²` plus a part that is known at the start of the step.
     pub(super) inertia: f64,
     pub(super) stage: Stage,
-    /// Factor of the forces that depend on the increments [-].
+    /// Factor of the forces `F(stage, u)` in the balance of the step [-].
     pub(super) weight: f64,
     pub(super) prescribed: BalancedAt,
 }

@@ -12,14 +12,14 @@ pub enum Stage {
     Start,
     /// Middle of the step: mean configuration, averaged section forces, mean loads.
     ///
-    /// In the middle of the step, the work of the internal forces is exactly the change of the strain energy.
+    /// The work of the internal forces at this stage is exactly the change of the strain energy in the step.
     /// References: Stander & Stein 1996; Simo, Tarnow & Doblaré 1995.
     Midpoint,
     /// Middle of the step as for [`Midpoint`](Self::Midpoint), but with section forces of a later strain.
     /// The later strain is the mean strain plus `χ/2` times the change of the strain in the step.
     /// The value in the enum variant is the dissipation parameter `χ`.
     ///
-    /// With section forces of a later strain, the internal forces do additional work: `χ/2` times the integral of `ΔΓ·C ΔΓ + EI Δκ²`.
+    /// The internal forces at this stage do additional work: `χ/2` times the integral of `ΔΓ·C ΔΓ + EI Δκ²`.
     DampedMidpoint(f64),
     /// End of the step. A load is replaced by a linear function of time with the same mean over the step and the same change in the step.
     /// At this stage, the load has the value of the linear function at the end of the step.
@@ -203,7 +203,7 @@ pub struct Solution<'a> {
     pub balanced: &'a [(Stage, f64)],
 }
 
-/// Event of a constraint that was passed within a step, such as a limit.
+/// Event of a constraint because of which a step is not accepted, such as a limit that was passed within the step.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Overshoot {
     /// Index of the event among the events of all constraints.

@@ -13,10 +13,10 @@ const NEAR: f64 = 1e-4;
 /// Corrections use earlier factors; an iteration with new factors squares the residual.
 const MOST_CORRECTIONS: i32 = 5;
 
-/// Largest number of corrections with the factors of similar equations. Each correction should gain several digits.
+/// Largest number of corrections that reuse the factorised tangent of similar equations. Each correction should gain several digits.
 const MOST_SHARED_CORRECTIONS: usize = 12;
 
-/// Residual norm at which a solution with the factors of similar equations is accepted [-].
+/// Residual norm at which a solution with the factorised tangent of similar equations is accepted [-].
 /// The constant is a billionth of the residual change due to a perturbation.
 const FOLLOWED: f64 = 1e-14;
 
@@ -187,7 +187,7 @@ impl Newton {
         Err(NewtonError::NotConverged { history: self.history.clone() })
     }
 
-    /// Solves the equations almost to rounding with the factors of similar equations.
+    /// Solves the equations almost to rounding error with the factorised tangent of similar equations.
     /// The iteration starts from the solution of the similar equations.
     /// If the iteration with shared factors does not converge, it is continued by [`solve`](Self::solve).
     ///

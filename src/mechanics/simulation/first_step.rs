@@ -66,7 +66,8 @@ pub(super) fn first_step(scene: &Scene, model: &mut System) -> f64 {
     PART * if pushed > 0.0 { (length / pushed).sqrt() } else { 1.0 }
 }
 
-/// Largest rate of a position, or of an angle multiplied by `length`. Prescribed degrees of freedom follow the unknowns and count as positions.
+/// Largest rate of a position, or of an angle multiplied by `length`.
+/// Prescribed degrees of freedom are stored after the unknowns and count as positions.
 fn fastest(model: &System, rates: &[f64], length: f64) -> f64 {
     let kinds = model.unknown_kinds().iter().map(Some).chain(std::iter::repeat(None));
     let rates = rates.iter().zip(kinds).map(|(rate, kind)| match kind {

@@ -110,6 +110,13 @@ pub enum Warning {
         /// Largest number of spans passed in a step [-].
         spans: f64,
     },
+    /// Slider whose friction force was kept constant in steps that have no solution with the law of friction.
+    Friction {
+        /// Name of the slider.
+        slider: String,
+        /// Number of such steps.
+        steps: usize,
+    },
     /// Slider on a master with a kink. The slider moves almost as fast as the shear waves of the master.
     WaveSpeed {
         /// Name of the slider.
@@ -191,6 +198,7 @@ impl Warning {
             Self::ManySteps { steps, .. } => *steps as f64,
             Self::Rotation { angle, .. } => *angle,
             Self::SpansPerStep { spans, .. } => *spans,
+            Self::Friction { steps, .. } => *steps as f64,
             Self::WaveSpeed { speed, .. } => *speed,
             Self::Bounce { steps_per_impact: blows, .. } => *blows,
             Self::Drift { drift, .. } => *drift,
@@ -212,6 +220,7 @@ impl Warning {
             | Self::Drift { .. }
             | Self::EnergyGain { .. } => None,
             Self::SpansPerStep { slider, .. }
+            | Self::Friction { slider, .. }
             | Self::WaveSpeed { slider, .. }
             | Self::Bounce { slider, .. } => Some(slider),
             Self::Beam { beam, .. } => Some(beam),
@@ -302,6 +311,10 @@ impl fmt::Display for Warning {
                 short(*spans),
                 short(*dt),
                 short(dt * MOST_SPANS / spans)
+            ),
+            Self::Friction { slider, steps } => write!(
+                f,
+                "the equations of {steps} steps have no solution with the friction of slider '{slider}'; there its friction force is that of the step before. The energy balance holds, but the motion is inaccurate; use a smaller dt, a finer mesh or a basis with smooth joints between spans"
             ),
             Self::Uneven { shortest, longest } => write!(
                 f,

@@ -85,7 +85,7 @@ impl Equations for UnderLoad<'_> {
 /// The equation `t·u = Δs` describes a plane. It determines the load factor.
 pub(super) struct AlongPath<'a, 'b> {
     pub(super) balance: &'a mut Balance<'b>,
-    /// Normal `t` of the plane in the metric of the path. Contact unknowns follow the degrees of freedom and have zero weight.
+    /// Normal `t` of the plane in the metric of the path. Contact unknowns are stored after the degrees of freedom and have zero weight.
     pub(super) normal: &'a [f64],
     /// Distance `Δs` of the plane from the last equilibrium, in the metric of the path.
     pub(super) distance: f64,

@@ -53,8 +53,6 @@ pub struct System {
     exchanged: ExchangeLedger,
     step: StepMeasures,
     saved_state: SystemState,
-    /// `None` until a step with friction begins.
-    inertia_solver: Option<Box<friction::InertiaSolver>>,
 }
 
 impl System {
@@ -79,7 +77,6 @@ impl System {
             exchanged: ExchangeLedger::default(),
             step: StepMeasures::new(degrees_of_freedom),
             saved_state: SystemState::default(),
-            inertia_solver: None,
         }
     }
 
@@ -148,7 +145,8 @@ impl System {
         self.motion.resolution()
     }
 
-    /// Measures of the temporal resolution of each beam with material damping, with the index of the beam. Empty if the scene has only one body.
+    /// Index and resolution measures of each beam with material damping.
+    /// Empty if the scene has only one body, because [`resolution`](Self::resolution) then contains its measures.
     pub(crate) fn resolution_by_beam(&self) -> impl Iterator<Item = (usize, &Resolution)> {
         self.motion.watched().iter().map(|one| (one.body, one.resolution()))
     }

@@ -50,9 +50,9 @@ pub(super) struct Resolvent {
     pub(super) shift: f64,
     /// Scales `w = |ω|/√(σ² + ω²)` and `t = σ/√(σ² + ω²)` of each mode, and the sign of `ω²` [-].
     scales: Vec<(f64, f64, f64)>,
-    /// Modes whose displacements are variables: all restrained modes.
-    /// The next field contains the modes whose velocities are variables: all modes that are restrained or damped.
+    /// Modes whose displacements are components of `y`: all modes with `ω² ≠ 0`.
     places: Vec<usize>,
+    /// Modes whose velocities are components of `y`: all modes with `ω² ≠ 0` or with damping.
     velocities: Vec<usize>,
     /// Singular vectors `U`, one column for each squared singular value `s²`.
     directions: DMatrix<f64>,

@@ -10,7 +10,7 @@ pub trait Reporter {
     /// Entry of the object in the report. Called when the run ends, for any reason.
     fn report(&self) -> serde_json::Value;
 
-    /// Object as a value of the language.
+    /// Script value of the object.
     fn object(&self) -> Dynamic;
 
     /// Name and content of a rescue file with about `numbers` values, for a stopped script; `None` if there is nothing to save.
@@ -25,12 +25,12 @@ const MOST_NUMBERS: usize = 1_000_000;
 /// Largest length of a number and its separator in a file [bytes].
 const LONGEST_NUMBER: u64 = 26;
 
-/// All reporters of a run.
+/// All objects that contribute to the report of a run.
 #[derive(Default)]
 pub struct Reports(RefCell<Vec<Box<dyn Reporter>>>);
 
 impl Reports {
-    /// Adds a reporter.
+    /// Adds an object that contributes to the report.
     pub fn add(&self, reporter: Box<dyn Reporter>) {
         self.0.borrow_mut().push(reporter);
     }
@@ -55,17 +55,17 @@ impl Reports {
         (files, remains.next().map(|_| note))
     }
 
-    /// Objects of all reporters as values of the language.
+    /// Script values of all objects that contribute to the report.
     pub fn objects(&self) -> Vec<Dynamic> {
         self.0.borrow().iter().map(|reporter| reporter.object()).collect()
     }
 
-    /// Drops all reporters.
+    /// Removes all objects.
     pub fn clear(&self) {
         self.0.borrow_mut().clear();
     }
 
-    /// Report entries of all reporters, which are then dropped.
+    /// Report entries of all objects. The objects are removed.
     pub fn take(&self) -> Vec<serde_json::Value> {
         self.0.take().into_iter().map(|reporter| reporter.report()).collect()
     }

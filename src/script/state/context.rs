@@ -279,7 +279,7 @@ impl Context {
         self.0.latest_simulation.borrow().clone()
     }
 
-    /// Clears the last used simulation and the reporters.
+    /// Clears the last used simulation and the objects that contribute to the report.
     pub fn clear_simulations(&self) {
         self.0.latest_simulation.take();
         self.clear_reporters();
@@ -333,7 +333,7 @@ impl Context {
         self.0.reports.add(reporter);
     }
 
-    /// Simulations of the run, as values of the language.
+    /// Simulations of the run, as script values.
     pub fn simulations(&self) -> Vec<Dynamic> {
         self.0.reports.objects()
     }
@@ -351,13 +351,14 @@ impl Context {
         note.inspect(|note| self.print_message(note));
     }
 
-    /// Drops the reporters and the reserved names of studies. A session writes no report, and its next input may repeat a study.
+    /// Removes the objects that contribute to the report, and the reserved names of studies.
+    /// A session writes no report, and its next input may repeat a study.
     pub fn clear_reporters(&self) {
         self.0.study_names.borrow_mut().clear();
         self.0.reports.clear();
     }
 
-    /// Report entries of all simulations. The reporters are dropped.
+    /// Report entries of all simulations. The simulations are removed from the report.
     pub fn report(&self) -> Vec<serde_json::Value> {
         self.0.latest_simulation.take();
         self.0.reports.take()

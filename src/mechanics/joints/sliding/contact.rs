@@ -50,7 +50,7 @@ impl ContactUnknowns {
 pub struct PathVector {
     /// Position or direction [length].
     pub value: Vec2,
-    /// Derivative with respect to the parameter `ξ1` at the end of the path [length].
+    /// Derivative of `value` with respect to the parameter `ξ1` at the end of the path [length].
     pub by_end: Vec2,
 }
 

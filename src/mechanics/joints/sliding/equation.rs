@@ -19,7 +19,7 @@ pub struct Equation {
     pub value: f64,
     /// Unit of the value.
     pub unit: Unit,
-    /// Derivative with respect to the increment of the slave.
+    /// Derivative of `value` with respect to the increment of the slave.
     pub by_slave: Vec2,
     /// Factor of `B_i(ξ1)` in the derivative with respect to the increment of control point `i` of the master.
     pub by_end: Vec2,
@@ -45,7 +45,7 @@ impl Equation {
         }
     }
 
-    /// Derivative with respect to the increment of a control point of the master.
+    /// Derivative of the value with respect to the increment of a control point of the master.
     /// The argument contains the weights `B_i(ξ1)`, `B̄_i` and `D_i` of the control point.
     pub fn by_master(&self, (end, mean, difference): (f64, f64, f64)) -> Vec2 {
         self.by_end * end + self.by_mean * mean + self.by_difference * difference

@@ -41,6 +41,8 @@ pub struct Friction<'a> {
     pub inertia_across: f64,
     /// Duration of the step [time].
     pub duration: f64,
+    /// Force along the master that replaces the law of slip [force]; `None` with the law.
+    pub fixed_force: Option<f64>,
 }
 
 /// Forces and velocities of a contact with friction in an iterate.
@@ -113,6 +115,15 @@ impl Contact<'_> {
     pub fn with_friction(&self, friction: &Friction<'_>, frictionless: Equation) -> Equation {
         let FrictionMode::Slip(sign) = friction.mode else { return self.no_increment() };
         let (tangent, force) = (self.tangent(), self.unknowns.force);
+        if let Some(fixed) = friction.fixed_force {
+            let (length, factor) = (tangent.value.norm(), -fixed / self.length);
+            let by_tangent = tangent.value * (factor / length);
+            let mut equation = frictionless;
+            equation.value += factor * length;
+            equation.by_unknowns.increment += by_tangent.dot(&tangent.by_end);
+            equation.by_difference += by_tangent * 0.5;
+            return equation;
+        }
         let EndMotion { along, change_across, .. } = self.end_motion(friction);
         let impedance = friction.impedance_across();
         let FrictionForces { across, tangent: length, .. } = self.friction_forces(friction);

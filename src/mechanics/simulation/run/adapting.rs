@@ -124,9 +124,9 @@ impl Simulation {
         adaptive: &mut Adaptive,
         plan: &StepPlan,
     ) -> Result<DoubledStep, FailedStep> {
-        self.model.unfreeze_kinks();
+        self.model.unfreeze_contacts();
         match self.try_step_as_it_is(adaptive, plan) {
-            Err(FailedStep { source, before }) if self.keeps_kinks_for(&source) => {
+            Err(FailedStep { source, before }) if self.freezes_contacts_for(&source) => {
                 self.progress.count_failure(before + source.factorisations());
                 self.try_step_as_it_is(adaptive, plan)
             }

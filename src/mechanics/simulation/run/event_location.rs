@@ -334,7 +334,7 @@ impl Simulation {
 
     /// Returns true if a stop holds a slider at a limit instead of letting it bounce.
     /// The stop holds the slider after repeated impacts within few steps, and for an elastic contact that the next steps resolve.
-    /// The stop also holds the slider if steps pass the limit although the slider does not approach the limit.
+    /// The stop also holds the slider if a step from the limit would pass it, although the velocity at the limit does not point beyond it.
     fn stays_held(
         &mut self,
         limit: MasterLimit,

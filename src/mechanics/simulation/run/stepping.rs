@@ -48,7 +48,7 @@ impl Simulation {
     ) -> Result<IntervalProgress, SimulationError> {
         while !halving.is_done() {
             let interval = halving.next();
-            let mut stepped = self.step_or_freeze_kinks(interval);
+            let mut stepped = self.step_or_freeze_contacts(interval);
             if let Err(StepError::Overshoot { overshoot, iterations, .. }) = stepped {
                 self.progress.count_try(iterations);
                 self.disable_derivatives(
@@ -56,7 +56,7 @@ impl Simulation {
                 );
                 match self.locate_arrival(interval, overshoot) {
                     Ok(landing) => {
-                        self.model.unfreeze_kinks();
+                        self.model.unfreeze_contacts();
                         self.clock.retry = None;
                         if let Some((interval, report)) = landing.step {
                             self.count_step(interval, report, halving.retries);
@@ -102,30 +102,30 @@ impl Simulation {
         Ok(IntervalProgress::All)
     }
 
-    fn step_or_freeze_kinks(&mut self, interval: Interval) -> Result<NewtonReport, StepError> {
-        // Kinks that were kept constant in the last step follow the contact forces again.
+    fn step_or_freeze_contacts(&mut self, interval: Interval) -> Result<NewtonReport, StepError> {
+        // Kinks and forces of slip that were kept constant in the last step become variable again.
         // The constant kinks were kept until now, because queries of the last step depend on them.
-        self.model.unfreeze_kinks();
+        self.model.unfreeze_contacts();
         let stepped = self.stepper.step(&mut self.model, interval);
         let stepped = match stepped {
-            Err(source) if self.keeps_kinks_for(&source) => {
+            Err(source) if self.freezes_contacts_for(&source) => {
                 self.progress.count_failure(source.factorisations());
                 self.stepper.step(&mut self.model, interval)
             }
             other => other,
         };
-        if self.stepper.sensitivities.is_some() && self.model.has_frozen_kinks() {
+        if self.stepper.sensitivities.is_some() && self.model.has_frozen_contacts() {
             // The perturbed runs may have been solved without constant kinks. Their equations would then differ from those of the main run.
             self.disable_derivatives("the kink under a slider is not adapted to the contact force");
         }
         stepped
     }
 
-    /// Keeps the kinks under contact forces constant after a failed step. Returns true if this changes the equations of the step.
-    pub(super) fn keeps_kinks_for(&mut self, source: &StepError) -> bool {
+    /// Keeps the kinks under contact forces and the forces of slip constant after a failed step. Returns true if this changes the equations of the step.
+    pub(super) fn freezes_contacts_for(&mut self, source: &StepError) -> bool {
         match source {
             StepError::Overshoot { .. } | StepError::Load { .. } => false,
-            _ => self.model.freeze_kinks(),
+            _ => self.model.freeze_contacts(),
         }
     }
 

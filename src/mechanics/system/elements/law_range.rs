@@ -19,7 +19,7 @@ pub enum LawArgument {
 pub struct OutsideLaw {
     /// Argument that left the range.
     pub argument: LawArgument,
-    /// Ends of the range [length, rad; for rates per time]. An end is infinite if the force is constant beyond it.
+    /// Ends of the range [length or rad; for rates length/time or rad/time]. An end is infinite if the force is constant beyond it.
     pub range: [f64; 2],
     /// Value farthest outside the range.
     pub reached: f64,

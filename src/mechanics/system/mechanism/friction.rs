@@ -7,19 +7,10 @@ use crate::geometry::cross;
 use crate::integrators::Mechanism;
 use crate::linalg::{BandedMatrix, LinearError};
 use crate::system::SystemError;
+use crate::system::state::InertiaSolver;
 
 /// Velocity along the master, as a fraction of the velocity of the fastest point of the model, below which a slider sticks at the start.
 const AT_REST: f64 = 1e-9;
-
-/// Factorised inertia matrix with the memory for responses to unit impulses.
-pub(super) struct InertiaSolver {
-    inertia: BandedMatrix,
-    is_factorised: bool,
-    /// Generalised forces of a unit impulse.
-    forces: Vec<f64>,
-    /// Velocities that the impulse causes.
-    rates: Vec<f64>,
-}
 
 impl InertiaSolver {
     fn new(system: &System) -> Box<Self> {
@@ -76,7 +67,8 @@ impl System {
 
     /// Computes the inertia across the master of every slider with friction. The inertia is zero if the slider does not respond to an impulse.
     pub(super) fn measure_inertia_across(&mut self) {
-        let mut solver = self.inertia_solver.take().unwrap_or_else(|| InertiaSolver::new(self));
+        let mut solver =
+            self.step.inertia_solver.take().unwrap_or_else(|| InertiaSolver::new(self));
         if solver.factorise(self).is_ok() {
             for at in 0..self.sliders.len() {
                 if self.sliders[at].active_friction().is_none() {
@@ -87,7 +79,7 @@ impl System {
                 self.sliders[at].friction.iter_mut().for_each(|of| of.inertia_across = inertia);
             }
         }
-        self.inertia_solver = Some(solver);
+        self.step.inertia_solver = Some(solver);
     }
 
     /// Starts the slip of sticking sliders whose present force along the master exceeds the friction limit. Returns true if a slider starts to slip.

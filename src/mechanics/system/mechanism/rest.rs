@@ -30,7 +30,7 @@ impl System {
         self.links.begin_movement();
     }
 
-    /// Sets the displacements to zero and the contact unknowns to their last values. The contact unknowns follow the degrees of freedom.
+    /// Sets the displacements to zero and the contact unknowns to their last values. The contact unknowns are stored after the displacements.
     pub(crate) fn predict_unchanged(&self, unknowns: &mut [f64]) {
         unknowns.fill(0.0);
         self.sliders.predict_unchanged(&mut unknowns[self.unknowns.count()..]);

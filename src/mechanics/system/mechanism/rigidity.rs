@@ -32,7 +32,7 @@ const CORRECTIONS: usize = 4;
 /// Largest number of corrections that reduce suppressed strains to zero.
 const MOST_CORRECTIONS: usize = 60;
 
-/// Energy of the suppressed strains that counts as zero, as a fraction of the energy of the impulse [-].
+/// Energy of the suppressed strains at which the corrections end, as a fraction of the energy of the impulse [-].
 const NO_STRAIN: f64 = 1e-20;
 
 /// Deformations that an impact includes.

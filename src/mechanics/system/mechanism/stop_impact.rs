@@ -139,18 +139,18 @@ impl System {
         }))
     }
 
-    /// Keeps the kinks at all contact points constant in the following steps. Returns true if this changes the equations of the next step.
-    pub(crate) fn freeze_kinks(&mut self) -> bool {
-        self.sliders.freeze_kinks()
+    /// Keeps the kinks at all contact points and the forces of slip constant in the next step. Returns true if this changes the equations of the next step.
+    pub(crate) fn freeze_contacts(&mut self) -> bool {
+        self.sliders.freeze_contacts()
     }
 
-    /// Makes the kinks variable: they follow the contact forces in the following steps.
-    pub(crate) fn unfreeze_kinks(&mut self) {
-        self.sliders.unfreeze_kinks();
+    /// Makes kinks and forces of slip variable again.
+    pub(crate) fn unfreeze_contacts(&mut self) {
+        self.sliders.unfreeze_contacts();
     }
 
-    /// Returns true if a kink under a contact force is kept constant.
-    pub(crate) fn has_frozen_kinks(&self) -> bool {
+    /// Returns true if a kink under a contact force or a force of slip is kept constant.
+    pub(crate) fn has_frozen_contacts(&self) -> bool {
         self.sliders.iter().any(|slider| slider.is_frozen())
     }
 

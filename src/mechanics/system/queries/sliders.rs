@@ -37,6 +37,11 @@ impl System {
         self.slider(slider).steps_per_impact
     }
 
+    /// Number of steps in which the friction force of the slider was kept constant, because the step has no solution with the law of friction.
+    pub fn steps_with_fixed_friction(&self, slider: usize) -> usize {
+        self.slider(slider).friction.as_ref().map_or(0, |friction| friction.fixed_steps)
+    }
+
     /// Largest speed along the master for which the kink follows the contact force [length/time]; `None` for rules without a kink.
     pub(crate) fn kink_speed_limit(&self, slider: usize) -> Option<f64> {
         self.slider(slider).kink_speed_limit()

@@ -66,13 +66,13 @@ impl Sliders {
         self.iter_mut().for_each(|slider| slider.begin_step(bodies, rates, interval));
     }
 
-    /// Keeps the kinks of all masters constant in the following steps. Returns true if this changes the equations of the next step.
-    pub fn freeze_kinks(&mut self) -> bool {
-        self.iter_mut().fold(false, |any, slider| slider.freeze_kink() | any)
+    /// Keeps the kinks of all masters and the forces of slip constant in the next step. Returns true if this changes the equations of the next step.
+    pub fn freeze_contacts(&mut self) -> bool {
+        self.iter_mut().fold(false, |any, slider| slider.freeze() | any)
     }
 
-    pub fn unfreeze_kinks(&mut self) {
-        self.iter_mut().for_each(SliderContact::unfreeze_kink);
+    pub fn unfreeze_contacts(&mut self) {
+        self.iter_mut().for_each(SliderContact::unfreeze);
     }
 
     pub fn predict(
@@ -156,7 +156,7 @@ impl Sliders {
     }
 
     /// Calls `take` with the static stiffness of all contacts. Rigid contacts have a penalty stiffness [force/length].
-    /// The position unknowns of sliders follow the degrees of freedom.
+    /// The position unknowns of sliders are stored after the degrees of freedom.
     pub fn for_each_static_stiffness(
         &self,
         bodies: &[Body],

@@ -9,18 +9,18 @@ use crate::joints::{Kink, KinkMotion, KinkState};
 /// Kink length below which the axis counts as rigid at the slider, as a fraction of the length of the master.
 const RIGID: f64 = 1e-14;
 
-/// Largest speed at which a kink follows its force, as a fraction of the speed of shear waves.
-/// At larger speeds the stiffness `GA - ρA v²` is nearly zero.
+/// Largest speed of a variable kink, as a fraction of the speed of shear waves. At larger speeds the kink is kept constant.
+/// Near the speed of shear waves the stiffness `GA - ρA v²` is nearly zero.
 const FASTEST: f64 = 0.8;
 
-/// Largest speed at which a kink follows its force, as a fraction of `√(GA/μρA)`. At the speed `√(GA/μρA)` the stiffness on the mesh vanishes.
+/// Largest speed of a variable kink, as a fraction of `√(GA/μρA)`. At the speed `√(GA/μρA)` the stiffness on the mesh vanishes.
 const FASTEST_ON_MESH: f64 = 0.9;
 
 /// Kink length below which the kink is kept constant, as a fraction of the largest kink length in the middle of the master.
 /// Kink lengths near the ends are below this limit.
 const BESIDE_END: f64 = 0.1;
 
-/// Largest speed at which a kink begins with a load at an end, as a fraction of the largest speed at which a kink follows its force.
+/// Largest speed at which a kink begins with a load at an end, as a fraction of the largest speed of a variable kink.
 const SLOW: f64 = 0.25;
 
 /// Fraction of the limit [`BESIDE_END`], below which even a loaded kink that moves away from an end is kept constant.
@@ -52,11 +52,11 @@ pub struct KinkedAxis {
     compliance: f64,
     /// Factor `μ ρA/GA` of the master [time²/length²].
     inverse_square_speed: f64,
-    /// Speed up to which the kink follows its force [length/time].
+    /// Speed above which the kink is kept constant [length/time].
     fastest: f64,
     /// Kink length below which the axis counts as rigid [length].
     none: f64,
-    /// Smallest kink length at which the kink follows its force [length].
+    /// Kink length below which the kink is kept constant [length].
     least: f64,
     /// True if the kink is kept constant in the present step, because the step has no solution with a variable kink.
     is_frozen: bool,
@@ -101,7 +101,7 @@ impl KinkedAxis {
         }
     }
 
-    /// Speed along the master up to which the kink follows its force [length/time].
+    /// Speed along the master above which the kink is kept constant [length/time].
     pub fn fastest(&self) -> f64 {
         self.fastest
     }

@@ -238,14 +238,17 @@ impl SliderContact {
         self.kinked_axis.as_ref().map(KinkedAxis::fastest)
     }
 
-    /// Keeps the kink of the master constant in the following steps. Returns true if this changes the equations of the next step.
-    pub fn freeze_kink(&mut self) -> bool {
+    /// Keeps the kink of the master and the force of slip constant in the next step. Returns true if this changes the equations of the step.
+    pub fn freeze(&mut self) -> bool {
         let sliding = self.is_sliding();
-        self.kinked_axis.as_mut().is_some_and(|axis| axis.freeze() && sliding)
+        let kink = self.kinked_axis.as_mut().is_some_and(|axis| axis.freeze() && sliding);
+        let friction = self.friction.as_mut().is_some_and(|friction| friction.freeze() && sliding);
+        kink | friction
     }
 
-    pub fn unfreeze_kink(&mut self) {
+    pub fn unfreeze(&mut self) {
         self.kinked_axis.iter_mut().for_each(KinkedAxis::unfreeze);
+        self.friction.iter_mut().for_each(|friction| friction.unfreeze());
     }
 
     /// Returns true if the contact force follows from the kink of the master, so that the contact transmits no impulse.

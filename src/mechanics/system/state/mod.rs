@@ -11,6 +11,6 @@ mod watched;
 pub use forecast::Prediction;
 pub use present::MotionState;
 pub use resolution::Resolution;
-pub use step::StepMeasures;
+pub use step::{InertiaSolver, StepMeasures};
 pub use unknowns::{UnknownKind, Unknowns};
 pub use watched::MonitoredBody;

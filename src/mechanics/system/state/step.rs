@@ -2,6 +2,7 @@
 
 use crate::beams::{ForceSummary, RotationIncrement};
 use crate::integrators::Interval;
+use crate::linalg::BandedMatrix;
 
 /// Interval of the present step, and the largest forces and moments of sections, inertia, loads and contacts.
 pub struct StepMeasures {
@@ -19,6 +20,18 @@ pub struct StepMeasures {
     pub returned: f64,
     /// Buffer for forces on all degrees of freedom.
     scratch: Vec<f64>,
+    /// `None` until a step with friction begins.
+    pub inertia_solver: Option<Box<InertiaSolver>>,
+}
+
+/// Factorised inertia matrix with the memory for responses to unit impulses.
+pub struct InertiaSolver {
+    pub inertia: BandedMatrix,
+    pub is_factorised: bool,
+    /// Generalised forces of a unit impulse.
+    pub forces: Vec<f64>,
+    /// Velocities that the impulse causes.
+    pub rates: Vec<f64>,
 }
 
 impl StepMeasures {
@@ -33,12 +46,14 @@ impl StepMeasures {
             jumps: false,
             returned: 0.0,
             scratch: vec![0.0; degrees_of_freedom],
+            inertia_solver: None,
         }
     }
 
     pub fn begin(&mut self, interval: Interval, jumps: bool) {
         let (returned, scratch) = (self.returned, std::mem::take(&mut self.scratch));
-        *self = Self { interval, jumps, returned, scratch, ..Self::new(0) };
+        let inertia_solver = self.inertia_solver.take();
+        *self = Self { interval, jumps, returned, scratch, inertia_solver, ..Self::new(0) };
     }
 
     pub fn no_forces(&mut self) -> &mut [f64] {

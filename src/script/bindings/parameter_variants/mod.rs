@@ -1,7 +1,8 @@
 //! Evaluation of calls for variants of the parameters of a scene.
 //! If an argument of a call depends on a parameter, the call is evaluated at the parameter values, and again for every perturbed variant.
 //!
-//! Evaluation in variants passes derivatives through sections, loads, simulations, and functions of their results.
+//! Derivatives are computed from the differences between the variants.
+//! They are available for sections, loads, simulations, and functions of their results.
 
 mod gather;
 mod lift;

@@ -52,7 +52,7 @@ impl VariantValue {
         self.values.get(variant).unwrap_or(&self.values[0]).clone()
     }
 
-    /// Derivative with respect to the parameter with this index.
+    /// Derivative of the value with respect to the parameter with this index.
     ///
     /// # Errors
     /// Fails if the parameter does not exist, or if the value is not differentiable.

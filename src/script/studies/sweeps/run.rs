@@ -153,7 +153,7 @@ impl SweepRequest<'_> {
         RunFunction::read(call, "run", self.function)?.call_here(call, "run", values)
     }
 
-    /// Error of a row that indicates a wrong function.
+    /// Error for a row in which the function failed or returned an invalid result.
     /// The function is called again in the engine of the script to find the position of the error.
     fn located_error(
         &self,

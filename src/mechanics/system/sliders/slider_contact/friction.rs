@@ -58,6 +58,10 @@ pub struct SliderFriction {
     force: f64,
     /// Number of transitions minus the number of steps, but at least zero. The value grows if transitions occur without steps between them.
     transitions: usize,
+    /// Force along the master that replaces the law of slip in the present step [force].
+    fixed_force: Option<f64>,
+    /// Number of accepted steps with a constant force along the master.
+    pub fixed_steps: usize,
 }
 
 impl SliderFriction {
@@ -75,7 +79,23 @@ impl SliderFriction {
             forces: FrictionForces::default(),
             force: 0.0,
             transitions: 0,
+            fixed_force: None,
+            fixed_steps: 0,
         }
+    }
+
+    /// Keeps the force of slip at that of the last step, because the step has no solution with the law. Returns true if it was not kept before.
+    pub(super) fn freeze(&mut self) -> bool {
+        let FrictionMode::Slip(sign) = self.mode else { return false };
+        if !self.acts() || self.fixed_force.is_some() {
+            return false;
+        }
+        self.fixed_force = Some(sign * self.force.abs());
+        true
+    }
+
+    pub(super) fn unfreeze(&mut self) {
+        self.fixed_force = None;
     }
 
     /// Friction of the contact in a step; `None` before the first step, and in steps that are too short for friction.
@@ -89,6 +109,7 @@ impl SliderFriction {
             start_velocity_across: self.start_velocity_across,
             inertia_across: self.inertia_across,
             duration: self.duration,
+            fixed_force: self.fixed_force,
         })
     }
 
@@ -178,6 +199,7 @@ impl SliderContact {
         if let Some(friction) = &mut self.friction {
             self.lost_energy += increment * friction.forces.along;
             friction.force = friction.forces.along / friction.forces.tangent;
+            friction.fixed_steps += usize::from(friction.fixed_force.is_some());
         }
     }
 

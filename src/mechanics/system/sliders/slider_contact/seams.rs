@@ -80,8 +80,8 @@ impl SliderContact {
         (self.path, self.start_path) = (leg.path.clone(), leg.path.clone());
     }
 
-    /// Force by which a seam prevents the slider from moving to the other side, after given increments [force·length].
-    /// The force is multiplied by the length of the tangent on the other side. It is zero unless the slider is held at a seam.
+    /// Seam force on the other side of a seam after given increments, positive in compression [force·length].
+    /// The force is multiplied by the length of the tangent on the other side. The result is zero unless the slider is held at a seam.
     pub(super) fn seam_push(&self, bodies: &[Body], increments: &[f64], force: Vec2) -> f64 {
         let SliderState::Held(end) = self.state else { return 0.0 };
         let Some(route) = &self.track else { return 0.0 };
