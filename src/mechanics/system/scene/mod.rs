@@ -9,7 +9,6 @@ mod loads;
 mod releases;
 mod resisting;
 mod rigid_bodies;
-mod sensors;
 mod sliders;
 mod stored;
 mod ties;
@@ -19,5 +18,4 @@ pub use definitions::{
     BeamDefinition, ParticleDefinition, RigidBodyDefinition, StartMotion, StationVelocity,
 };
 pub use description::Scene;
-pub use sensors::{Quantity, Sensor, SensorSource, Value};
 pub use ties::{Ties, same_place};

@@ -1,0 +1,217 @@
+//! Names of the sensors that a scene records on request.
+
+use std::borrow::Cow;
+
+use super::quantities::{
+    OF_BODIES, OF_CALLER, OF_JOINTS, OF_PARTICLES, OF_POINTS, OF_SLIDERS, OF_STATIONS, POWER, Read,
+};
+use super::{Sensor, SensorSource};
+use crate::beams::{BodyIndex, Station};
+use crate::joints::{Joint, JointKind, Partner};
+use crate::system::errors::check_name;
+use crate::system::{Quantity, Scene, SystemError};
+
+/// Word for a sensor in messages about its name.
+const COLUMN: &str = "column";
+
+/// Place of an object with its quantities. Names of sensors consist of the name of the object, the suffix of the place, a dot and the quantity.
+struct Place<'s> {
+    object: Cow<'s, str>,
+    suffix: Cow<'s, str>,
+    source: SensorSource,
+    quantities: &'static [Quantity],
+}
+
+impl Scene {
+    /// Records a built-in quantity, given by its name.
+    ///
+    /// # Errors
+    /// Fails if the object, place or quantity does not exist, or if the quantity is recorded already.
+    pub fn record(&mut self, name: &str) -> Result<(), SystemError> {
+        self.check_column(name)?;
+        let (source, quantity) = self.find_sensor(name)?;
+        if let (SensorSource::Station(station), Read::Angle) = (source, quantity.read)
+            && let Some(beam) = station.beam()
+        {
+            self.station(beam, station.arc_length)?;
+        }
+        self.sensors.push(Sensor { name: name.to_owned(), source, quantity });
+        Ok(())
+    }
+
+    /// Adds a column that the caller fills after every row.
+    ///
+    /// # Errors
+    /// Fails if the column exists, or the name has invisible characters or characters that cannot be typed.
+    pub fn record_outside(&mut self, name: &str) -> Result<(), SystemError> {
+        check_name(COLUMN, name)?;
+        self.check_column(name)?;
+        let (source, quantity) = (SensorSource::External, &OF_CALLER);
+        self.sensors.push(Sensor { name: name.to_owned(), source, quantity });
+        Ok(())
+    }
+
+    fn check_column(&self, name: &str) -> Result<(), SystemError> {
+        if name.contains([',', '"']) {
+            let why = "it has a comma or a quotation mark";
+            return Err(SystemError::Unnamed { kind: COLUMN, name: name.to_owned(), reason: why });
+        }
+        match self.sensors.iter().any(|sensor| sensor.name == name) {
+            true => Err(SystemError::DuplicateSensor { name: name.to_owned() }),
+            false => Ok(()),
+        }
+    }
+
+    /// Names of all sensors that can be recorded, except those at other places of beams than start, middle and end.
+    pub fn sensor_names(&self) -> Vec<String> {
+        let places = self.places().into_iter();
+        let names = places.flat_map(|Place { object, suffix, quantities, .. }| {
+            quantities.iter().map(move |quantity| format!("{object}{suffix}.{}", quantity.name))
+        });
+        names.collect()
+    }
+
+    /// Names of the joints for sensors, in the order of the joints: `hinge1`, `clamp1`, `hinge2`, `rigid1`, `support1`.
+    pub fn joint_names(&self) -> Vec<String> {
+        let mut counts = [0; 4];
+        let name = |joint: &Joint| {
+            let (kind, at) = match (joint.kind, &joint.partner) {
+                (JointKind::Hinge, _) => ("hinge", 0),
+                (JointKind::Rigid, Partner::Ground) => ("clamp", 1),
+                (JointKind::Rigid, Partner::Station(_)) => ("rigid", 2),
+                (
+                    JointKind::Support(_)
+                    | JointKind::InclinedRoller(_)
+                    | JointKind::InclinedGuide(_),
+                    _,
+                ) => ("support", 3),
+            };
+            counts[at] += 1;
+            format!("{kind}{}", counts[at])
+        };
+        self.joints.iter().map(name).collect()
+    }
+
+    /// Places of all objects, except those inside beams.
+    fn places(&self) -> Vec<Place<'_>> {
+        let mut all = Vec::new();
+        let mut add = |object, suffix, source, quantities| {
+            all.push(Place { object, suffix, source, quantities });
+        };
+        for (at, beam) in self.beams.iter().enumerate() {
+            let (name, length) = (&*beam.name, beam.axis.length());
+            for (suffix, s) in [(".start", 0.0), (".middle", 0.5 * length), (".end", length)] {
+                let station = SensorSource::Station(Station::on_beam(at, s));
+                add(name.into(), suffix.into(), station, &OF_STATIONS[..]);
+            }
+            let body = SensorSource::Body(BodyIndex::Beam(at));
+            add(name.into(), "".into(), body, &OF_BODIES);
+        }
+        for (at, particle) in self.particles.iter().enumerate() {
+            let (name, station) = (&*particle.name, Station::on_particle(at));
+            let quantities = &OF_STATIONS[..OF_PARTICLES];
+            add(name.into(), "".into(), SensorSource::Station(station), quantities);
+            let body = SensorSource::Body(BodyIndex::Particle(at));
+            add(name.into(), "".into(), body, &OF_BODIES);
+        }
+        for (at, body) in self.rigid_bodies.iter().enumerate() {
+            let name = &*body.name;
+            let own =
+                |(point, _): &(String, _)| Some((format!(".{point}"), body.control_point(point)?));
+            let points = body.points.iter().filter_map(own);
+            for (suffix, point) in std::iter::once((String::new(), 0)).chain(points) {
+                let station = SensorSource::Station(Station::on_rigid_body(at, point));
+                add(name.into(), suffix.into(), station, &OF_STATIONS[..OF_POINTS]);
+            }
+            let body = SensorSource::Body(BodyIndex::Rigid(at, 0));
+            add(name.into(), "".into(), body, &OF_BODIES);
+        }
+        for (at, joint) in self.joint_names().into_iter().enumerate() {
+            add(joint.into(), "".into(), SensorSource::Joint(at), &OF_JOINTS);
+        }
+        for (at, slider) in self.sliders.iter().enumerate() {
+            add((&*slider.name).into(), "".into(), SensorSource::Slider(at), &OF_SLIDERS);
+        }
+        for (at, drive) in self.drives.iter().enumerate() {
+            add((&*drive.name).into(), "".into(), SensorSource::Drive(at), &POWER);
+        }
+        for (at, load) in self.loads().enumerate() {
+            if let Some(name) = load.title.as_deref() {
+                add(name.into(), "".into(), SensorSource::Load(at), &POWER);
+            }
+        }
+        all
+    }
+
+    fn find_sensor(&self, name: &str) -> Result<(SensorSource, &'static Quantity), SystemError> {
+        let refused = |why: String| SystemError::NoSensor { name: name.to_owned(), reason: why };
+        let of = |known: &str| {
+            let rest = name.strip_prefix(known)?;
+            rest.starts_with(['.', '[']).then_some(rest)
+        };
+        // A name may be the beginning of another name.
+        let mut places = self.places();
+        let named =
+            places.iter().filter_map(|place| Some((place.object.clone(), of(&place.object)?)));
+        let longest = named.min_by_key(|(_, rest)| rest.len());
+        let Some((object, rest)) = longest else {
+            let spring = self.springs().find(|spring| of(&spring.name).is_some());
+            return Err(refused(match spring {
+                Some(spring) => format!(
+                    "springs such as '{}' have columns in every history and need no recording",
+                    spring.name
+                ),
+                None => "it must begin with the name of a beam, particle, body, slider, drive, named load or joint (hinge1, clamp1, rigid1) of the scene".to_owned(),
+            }));
+        };
+        places.retain(|place| place.object == object);
+        if let (Some(beam), Some(inside)) = (beam_of(&places[0]), rest.strip_prefix('[')) {
+            let length = self.beams[beam].axis.length();
+            let place = inside.split_once("].").and_then(|(number, _)| {
+                let s: f64 = number.trim_matches(' ').parse().ok()?;
+                let source = SensorSource::Station(Station::on_beam(beam, s));
+                let (object, suffix) = (object.clone(), format!("[{number}]").into());
+                let place = Place { object, suffix, source, quantities: &OF_STATIONS };
+                (0.0..=length).contains(&s).then_some(place)
+            });
+            let place = place
+                .ok_or_else(|| refused(format!("write {object}[s].x with s from 0 to {length}")))?;
+            places.push(place);
+        }
+        let wanted = |place: &Place| rest.strip_prefix(&*place.suffix)?.strip_prefix('.');
+        let matching = places.iter().filter(|place| wanted(place).is_some());
+        let suffix = matching.map(|place| place.suffix.len()).max().unwrap_or(0);
+        places.retain(|place| place.suffix.len() == suffix && rest.starts_with(&*place.suffix));
+        let of_place = |place: &Place| {
+            let wanted = wanted(place)?;
+            let quantity = place.quantities.iter().find(|quantity| quantity.name == wanted)?;
+            Some((place.source, quantity))
+        };
+        places.iter().find_map(of_place).ok_or_else(|| {
+            let Place { source, quantities, .. } = places[0];
+            let names: Vec<&str> = quantities.iter().map(|quantity| quantity.name).collect();
+            let names = names.join(", ");
+            let in_every_history = |columns: &str| {
+                format!(
+                    "{columns} '{object}' have columns in every history and need no recording; its other quantities are {names}"
+                )
+            };
+            refused(match source {
+                SensorSource::Body(_) => format!(
+                    "a whole beam has {names}; its places have {object}.start.x, {object}.end.x, {object}[s].x and so on"
+                ),
+                SensorSource::Slider(_) => in_every_history("position, speed and force of slider"),
+                SensorSource::Drive(_) => in_every_history("work and forces of drive"),
+                SensorSource::Load(_) => in_every_history("work and value of load"),
+                _ => format!("its last part must be one of {names}"),
+            })
+        })
+    }
+}
+
+fn beam_of(place: &Place) -> Option<usize> {
+    match place.source {
+        SensorSource::Station(station) => station.beam(),
+        _ => None,
+    }
+}
