@@ -28,14 +28,14 @@ pub use mechanism::{
     StaticOrder, System, SystemState, add_resistance,
 };
 pub use queries::{
-    BeamPlaces, BeamSample, CrossSection, Distance, Placement, SectionSample, SpringState,
-    SystemFeature, Transmission, Usage,
+    BeamPlaces, BeamSample, CrossSection, Distance, Placement, SectionSample, SensorReader,
+    SpringState, SystemFeature, Transmission, Usage,
 };
 pub use scene::{
     BeamDefinition, ParticleDefinition, RigidBodyDefinition, Scene, StartMotion, StationVelocity,
 };
 pub use sensors::{
-    Quantity, RECORDABLE, Sensor, SensorReader, SensorSource, Timing, body_energies, section_values,
+    Quantity, RECORDABLE, Sensor, SensorSource, Timing, body_energies, section_values,
 };
 pub use sliders::{AxialImpact, MasterEnd, MasterLimit, SliderEvent, SliderState};
 pub use state::{Resolution, UnknownKind};

@@ -1,7 +1,6 @@
 //! Powers of drives and loads over a step. They are accumulated if a sensor requests them.
 
 use super::System;
-use crate::system::SensorSource;
 use crate::system::elements::ExternalForce;
 
 impl System {
@@ -10,16 +9,15 @@ impl System {
         self.exchanged.powers = Some(self.works().map(|work| [0.0, work]).collect());
     }
 
-    /// Power of a drive or load over the last step: the mean of force times velocity and of moment times spin [energy/time]. `None` if not
+    /// Power of a drive over the last step: the mean of force times velocity and of moment times spin [energy/time]. `None` if not
     /// [enabled](Self::sum_up_powers).
-    pub(in crate::system) fn power(&self, source: SensorSource) -> Option<f64> {
-        let powers = self.exchanged.powers.as_ref()?;
-        let at = match source {
-            SensorSource::Drive(at) => at,
-            SensorSource::Load(at) => self.supports.prescribed().works().len() + at,
-            _ => return None,
-        };
-        Some(powers[at][0])
+    pub(in crate::system) fn power_of_drive(&self, drive: usize) -> Option<f64> {
+        Some(self.exchanged.powers.as_ref()?[drive][0])
+    }
+
+    /// Power of a load over the last step [energy/time].
+    pub(in crate::system) fn power_of_load(&self, load: usize) -> Option<f64> {
+        self.power_of_drive(self.supports.prescribed().works().len() + load)
     }
 
     /// Sets the powers of drives to those of a step of zero length.

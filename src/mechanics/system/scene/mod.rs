@@ -1,5 +1,6 @@
 //! Description of the system that is simulated, and checks of this description.
 
+mod columns;
 mod definitions;
 mod description;
 mod drives;
@@ -9,6 +10,7 @@ mod loads;
 mod releases;
 mod resisting;
 mod rigid_bodies;
+mod sensors;
 mod sliders;
 mod stored;
 mod ties;

@@ -19,7 +19,7 @@ pub struct Quantity {
     pub dimension: &'static str,
     /// Time to which a value belongs.
     pub timing: Timing,
-    pub(super) read: Read,
+    pub(in crate::system) read: Read,
 }
 
 /// Time to which a value belongs.
@@ -39,7 +39,7 @@ pub enum Timing {
 
 /// Function that reads a value, by the type of its argument.
 #[derive(Debug, Clone, Copy)]
-pub(super) enum Read {
+pub(in crate::system) enum Read {
     Motion(fn(&System, &BodyPoint) -> f64),
     Acceleration(fn(Vec2) -> f64),
     /// Angle of a tracked section.
@@ -65,8 +65,7 @@ const fn quantity(
     Quantity { name, dimension, timing, read }
 }
 
-/// Quantities of stations.
-pub(super) static OF_STATIONS: [Quantity; 15] = [
+pub(in crate::system) static OF_STATIONS: [Quantity; 15] = [
     quantity("x", "length", Present, Motion(|model, at| model.position(at).x)),
     quantity("y", "length", Present, Motion(|model, at| model.position(at).y)),
     quantity("vx", "length/time", Present, Motion(|model, at| model.velocity(at).x)),
@@ -85,13 +84,12 @@ pub(super) static OF_STATIONS: [Quantity; 15] = [
 ];
 
 /// Number of the first quantities of stations that particles have.
-pub(super) const OF_PARTICLES: usize = 7;
+pub(in crate::system) const OF_PARTICLES: usize = 7;
 
 /// Number of the first quantities of stations that points of rigid bodies have.
-pub(super) const OF_POINTS: usize = 9;
+pub(in crate::system) const OF_POINTS: usize = 9;
 
-/// Quantities of whole bodies.
-pub(super) static OF_BODIES: [Quantity; 7] = [
+pub(in crate::system) static OF_BODIES: [Quantity; 7] = [
     quantity("energy", "energy", Present, Energy(BodyEnergy::total)),
     quantity("kinetic", "energy", Present, Energy(|energy| energy.kinetic)),
     quantity("strain", "energy", Present, Energy(BodyEnergy::strain)),
@@ -102,7 +100,7 @@ pub(super) static OF_BODIES: [Quantity; 7] = [
 ];
 
 /// Quantities of joints: the force on the first station.
-pub(super) static OF_JOINTS: [Quantity; 9] = [
+pub(in crate::system) static OF_JOINTS: [Quantity; 9] = [
     quantity("force", "force", SummedMean, Force(|force, _| force.norm())),
     quantity("fx", "force", SummedMean, Force(|force, _| force.x)),
     quantity("fy", "force", SummedMean, Force(|force, _| force.y)),
@@ -115,7 +113,7 @@ pub(super) static OF_JOINTS: [Quantity; 9] = [
 ];
 
 /// Columns of each slider: its motion, and the force on its master. The last one is that of sliders with friction.
-pub(super) static COLUMNS_OF_SLIDERS: [Quantity; 6] = [
+pub(in crate::system) static COLUMNS_OF_SLIDERS: [Quantity; 6] = [
     quantity("position", "-", Present, Index(System::slider_position)),
     quantity("speed", "length/time", Present, Index(System::slider_speed)),
     quantity("force", "force", StepMean, Index(|model, at| model.contact_force(at).norm())),
@@ -126,7 +124,7 @@ pub(super) static COLUMNS_OF_SLIDERS: [Quantity; 6] = [
 
 /// Quantities of sliders that are recorded on request: the instantaneous force on the master, and the arc length from the start of the master or
 /// track.
-pub(super) static OF_SLIDERS: [Quantity; 4] = [
+pub(in crate::system) static OF_SLIDERS: [Quantity; 4] = [
     quantity("present_force", "force", Instant, Force(|force, _| force.norm())),
     quantity("present_force_x", "force", Instant, Force(|force, _| force.x)),
     quantity("present_force_y", "force", Instant, Force(|force, _| force.y)),
@@ -134,46 +132,43 @@ pub(super) static OF_SLIDERS: [Quantity; 4] = [
 ];
 
 /// Columns of drives, by prescribed component: force or moment.
-pub(super) static COLUMNS_OF_MOVES: [Quantity; 3] = [
+pub(in crate::system) static COLUMNS_OF_MOVES: [Quantity; 3] = [
     quantity("x", "force", StepMean, Index(|model, at| model.drive(at).force.x)),
     quantity("y", "force", StepMean, Index(|model, at| model.drive(at).force.y)),
     quantity("angle", "force·length", StepMean, Index(|model, at| model.drive(at).moment)),
 ];
 
-/// Column of motors.
-pub(super) static TORQUE: Quantity = Quantity { name: "torque", ..COLUMNS_OF_MOVES[2] };
+pub(in crate::system) static TORQUE: Quantity = Quantity { name: "torque", ..COLUMNS_OF_MOVES[2] };
 
-/// Columns of springs, dampers and tendons.
-pub(super) static COLUMNS_OF_SPRINGS: [Quantity; 2] = [
+pub(in crate::system) static COLUMNS_OF_SPRINGS: [Quantity; 2] = [
     quantity("length", "length", Present, Index(|model, at| spring(model, at)[0])),
     quantity("force", "force", MeanOfMethod, Index(|model, at| spring(model, at)[1])),
 ];
 
-/// Columns of torsion springs.
-pub(super) static COLUMNS_OF_TORSION_SPRINGS: [Quantity; 2] = [
+pub(in crate::system) static COLUMNS_OF_TORSION_SPRINGS: [Quantity; 2] = [
     Quantity { name: "angle", dimension: "rad", ..COLUMNS_OF_SPRINGS[0] },
     Quantity { dimension: "force·length", ..COLUMNS_OF_SPRINGS[1] },
 ];
 
 /// Columns of named loads: a force, a force per length, or a moment.
-pub(super) static COLUMNS_OF_LOADS: [Quantity; 3] = [
+pub(in crate::system) static COLUMNS_OF_LOADS: [Quantity; 3] = [
     quantity("force", "force", Present, Index(|model, at| load(model, at).value)),
     quantity("force", "force/length", Present, Index(|model, at| load(model, at).value)),
     quantity("torque", "force·length", Present, Index(|model, at| load(model, at).value)),
 ];
 
-/// Energy stored in springs.
-pub(super) static STORED: Quantity = quantity("stored", "energy", Present, Sum(stored));
+pub(in crate::system) static STORED: Quantity = quantity("stored", "energy", Present, Sum(stored));
 
 /// Energy dissipated by dampers, damped materials, drag and sliders since the start.
-pub(super) static DISSIPATED: Quantity = quantity("dissipated", "energy", Present, Sum(dissipated));
+pub(in crate::system) static DISSIPATED: Quantity =
+    quantity("dissipated", "energy", Present, Sum(dissipated));
 
 /// Work of drives, named loads and winds since the start.
-pub(super) static WORK: Quantity = quantity("work", "energy", Present, Sum(work));
+pub(in crate::system) static WORK: Quantity = quantity("work", "energy", Present, Sum(work));
 
 /// Work of drives and named loads in the last step, divided by its duration.
-pub(super) static POWER: [Quantity; 1] =
-    [quantity("power", "energy/time", SummedMean, Sum(System::power))];
+pub(in crate::system) static POWER: [Quantity; 1] =
+    [quantity("power", "energy/time", SummedMean, Sum(power))];
 
 /// Quantities that are recorded on request, with their objects.
 pub static RECORDABLE: [(&str, &[Quantity]); 5] = [
@@ -184,8 +179,7 @@ pub static RECORDABLE: [(&str, &[Quantity]); 5] = [
     ("drives and named loads", &POWER),
 ];
 
-/// Quantity that the caller provides.
-pub(super) static OF_CALLER: Quantity = quantity("", "-", Present, External);
+pub(in crate::system) static OF_CALLER: Quantity = quantity("", "-", Present, External);
 
 fn friction(model: &System, slider: usize) -> f64 {
     model.friction_force(slider).unwrap_or(f64::NAN)
@@ -230,6 +224,14 @@ fn work(model: &System, source: SensorSource) -> Option<f64> {
         SensorSource::Drive(at) => Some(model.drive(at).work),
         SensorSource::Load(at) => Some(load(model, at).work),
         SensorSource::InternalForce(at) => internal_force(model, at).wind_work(),
+        _ => None,
+    }
+}
+
+fn power(model: &System, source: SensorSource) -> Option<f64> {
+    match source {
+        SensorSource::Drive(at) => model.power_of_drive(at),
+        SensorSource::Load(at) => model.power_of_load(at),
         _ => None,
     }
 }

@@ -2,14 +2,14 @@
 
 use std::borrow::Cow;
 
-use super::quantities::{
-    OF_BODIES, OF_CALLER, OF_JOINTS, OF_PARTICLES, OF_POINTS, OF_SLIDERS, OF_STATIONS, POWER, Read,
-};
-use super::{Sensor, SensorSource};
+use super::Scene;
 use crate::beams::{BodyIndex, Station};
 use crate::joints::{Joint, JointKind, Partner};
 use crate::system::errors::check_name;
-use crate::system::{Quantity, Scene, SystemError};
+use crate::system::sensors::quantities::{
+    OF_BODIES, OF_CALLER, OF_JOINTS, OF_PARTICLES, OF_POINTS, OF_SLIDERS, OF_STATIONS, POWER, Read,
+};
+use crate::system::{Quantity, Sensor, SensorSource, SystemError};
 
 /// Word for a sensor in messages about its name.
 const COLUMN: &str = "column";
@@ -165,7 +165,9 @@ impl Scene {
             }));
         };
         places.retain(|place| place.object == object);
-        if let (Some(beam), Some(inside)) = (beam_of(&places[0]), rest.strip_prefix('[')) {
+        if let SensorSource::Station(Station { body: BodyIndex::Beam(beam), .. }) = places[0].source
+            && let Some(inside) = rest.strip_prefix('[')
+        {
             let length = self.beams[beam].axis.length();
             let place = inside.split_once("].").and_then(|(number, _)| {
                 let s: f64 = number.trim_matches(' ').parse().ok()?;
@@ -206,12 +208,5 @@ impl Scene {
                 _ => format!("its last part must be one of {names}"),
             })
         })
-    }
-}
-
-fn beam_of(place: &Place) -> Option<usize> {
-    match place.source {
-        SensorSource::Station(station) => station.beam(),
-        _ => None,
     }
 }

@@ -1,10 +1,12 @@
 //! Evaluation of sensors.
 
-use super::quantities::Read;
-use super::{Quantity, Sensor, SensorSource, Timing};
+use super::{CrossSection, Transmission};
 use crate::beams::{BodyIndex, BodyPoint};
 use crate::integrators::Mechanism;
-use crate::system::{CrossSection, Instant, Reactions, Scene, System, SystemError, Transmission};
+use crate::system::sensors::quantities::Read;
+use crate::system::{
+    Instant, Quantity, Reactions, Scene, Sensor, SensorSource, System, SystemError, Timing,
+};
 
 /// Sensors of a scene, located in its model.
 #[derive(Debug, Clone, Default)]

@@ -1,14 +1,14 @@
 //! Sensors in the columns of every history of a scene.
 
-use super::quantities::{
+use super::Scene;
+use crate::geometry::Vec2;
+use crate::loads::LoadKind;
+use crate::system::elements::{DriveKind, Element, SpringKind};
+use crate::system::sensors::quantities::{
     COLUMNS_OF_LOADS, COLUMNS_OF_MOVES, COLUMNS_OF_SLIDERS, COLUMNS_OF_SPRINGS,
     COLUMNS_OF_TORSION_SPRINGS, DISSIPATED, STORED, TORQUE, WORK,
 };
-use super::{Sensor, SensorSource};
-use crate::geometry::Vec2;
-use crate::loads::LoadKind;
-use crate::system::Scene;
-use crate::system::elements::{DriveKind, Element, SpringKind};
+use crate::system::{Sensor, SensorSource};
 
 impl Scene {
     /// Sensors of all columns of a history after the standard ones, in their order. The recorded sensors are the last.
