@@ -6,8 +6,8 @@
 //! main → cli → repl, exercises → script → output, analysis → sampling, fitting, mechanics: simulation → … → system → …
 //! ```
 //!
-//! The mechanics is a separate crate, so that changes of the language do not require compiling it again; its main layers are listed here too. The
-//! lowest layers are `sandbox_fs`, which opens all files, and `panics`, which catches and reports internal errors.
+//! The mechanics is a separate crate, so that changes of the language do not require compiling it again. The layers above include its main layers.
+//! The lowest layers are `sandbox_fs`, which opens all files, and `panics`, which catches and reports internal errors.
 
 #![forbid(unsafe_code)]
 #![cfg_attr(not(test), warn(clippy::disallowed_methods))]

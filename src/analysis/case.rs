@@ -1,4 +1,4 @@
-//! Case of a study: scene, settings, and times of observation.
+//! Case of a study: scene, settings, and observation times.
 
 use std::borrow::Cow;
 use std::num::NonZeroUsize;
@@ -13,20 +13,20 @@ use crate::simulation::{
 };
 use crate::system::{Scene, Sensor};
 
-/// Run of a study, as data that can be serialised.
+/// Run of a study in a form that can be serialised.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub struct Case {
     pub scene: Scene,
     /// Integrator, step size and tolerance.
     pub settings: SimulationSettings,
-    /// Times of observation in increasing order [time]. The run ends at the last one.
+    /// Observation times in increasing order [time]. The run ends at the last observation time.
     pub stops: Vec<f64>,
 }
 
-/// Largest number of recorded states (approximate). It limits the memory of parallel runs.
+/// Approximate largest number of recorded states. It limits the memory of parallel runs.
 const MOST_ROWS: f64 = 1e5;
 
-/// Difference of two step sizes that count as equal, as a fraction of the step size.
+/// Largest relative difference of two step sizes that count as equal.
 const SAME_STEP: f64 = 1e-9;
 
 struct CaseMonitor<'a> {
@@ -45,7 +45,7 @@ impl Monitor for CaseMonitor<'_> {
 }
 
 impl Case {
-    /// Serialised case. User-defined columns are omitted. `None` if a load depends on a script function.
+    /// Serialised case, without user-defined columns. `None` if a load depends on a script function.
     pub fn to_bytes(&self) -> Option<Vec<u8>> {
         let is_data = self.scene.schedules().all(|(_, schedule)| schedule.can_be_stored())
             && self.scene.release_times().count() == self.scene.releases.len();
@@ -61,8 +61,9 @@ impl Case {
         postcard::from_bytes(bytes).ok()
     }
 
-    /// Runs the case and calls `look` at every stop. Returns the outcome and the simulation in its final state, which is `None` if it could not
-    /// start. If the study is stopped during the run, the outcome must be ignored.
+    /// Runs the case and calls `look` at every observation time.
+    /// Returns the outcome and the simulation in its final state. The simulation is `None` if it could not start.
+    /// If the study is stopped during the run, the outcome is not valid.
     pub fn run(
         &self,
         patience: RunLimits,
@@ -79,7 +80,7 @@ impl Case {
         (outcome, Some(simulation))
     }
 
-    /// Returns true if steps of this size end only at stops, schedule breaks and releases. Larger step sizes then give the same run.
+    /// Returns true if steps of this size end only at observation times, schedule breaks and releases. Larger step sizes then give the same run.
     pub fn is_one_step_from_stop_to_stop(&self, dt: f64) -> bool {
         let end = self.stops.last().copied().unwrap_or(0.0);
         let breaks = self.scene.schedules().flat_map(|(_, schedule)| schedule.breaks());
@@ -100,8 +101,8 @@ impl Case {
         every.map_or_else(Recording::default, Recording::Every)
     }
 
-    /// Simulation of the case in its initial state, or the reason for failure. It uses one thread, because other cases run at the same time or the
-    /// run is timed.
+    /// Simulation of the case in its initial state, or the reason for failure.
+    /// The simulation uses one thread, because other cases run at the same time or the run is timed.
     pub fn start(&self, patience: RunLimits) -> Result<Simulation, CaseOutcome> {
         let wait = patience.begin();
         let started = Simulation::start(self.scene.clone(), self.settings);
@@ -113,8 +114,8 @@ impl Case {
         Ok(simulation)
     }
 
-    /// Runs a simulation from its start to the last stop, and calls `look` at every stop. `is_wanted` is called after every step. If it returns
-    /// false, the run stops, and its outcome must be ignored.
+    /// Runs a simulation from its start to the last observation time, and calls `look` at every observation time.
+    /// The callback `is_wanted` is called after every step. If it returns false, the run stops and its outcome is not valid.
     pub fn run_to_stops(
         &self,
         simulation: &mut Simulation,
@@ -131,7 +132,7 @@ impl Case {
         for stop in &self.stops {
             let run = simulation.run_to(*stop, &mut watch);
             let time = simulation.time();
-            // If the time limit was exceeded within a step, the limit is the reason for the end of the run and not the error of the step.
+            // If the time limit was exceeded within a step, the reported reason is the limit and not the error of the step.
             let exceeded = match run {
                 Ok(()) => watch.exceeded.take(),
                 Err(_) => watch.exceeded.take().or_else(|| watch.timer.exceeded(watch.steps)),
@@ -220,8 +221,8 @@ mod tests {
     fn a_load_that_does_not_come_back_is_given_up() {
         let mut case = spinning(0.1, &[1.0]);
         let station = case.scene.station(0, 0.0).unwrap();
-        // The function behaves like a script function that does not return. The script engine stops such a function with an error after the
-        // deadline.
+        // The function in this test behaves like a script function that does not return.
+        // The script engine stops a function that does not return. The function then fails with an error after the deadline.
         let function = Rc::new(|t: f64| match t {
             0.5.. => {
                 while !is_past_deadline() {}

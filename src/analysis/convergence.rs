@@ -1,4 +1,4 @@
-//! Convergence: decrease of errors as the step size or mesh size decreases, and the observed order.
+//! Convergence study: decrease of errors with the step size or mesh size, and the observed order.
 
 use super::observable::Observable;
 use super::reference::{Deviation, ReferenceSolution};
@@ -13,10 +13,10 @@ pub enum RefinedParameter {
     Mesh,
 }
 
-/// Ratio of an error to the uncertainty of the reference for which the error is significant.
+/// Smallest ratio of an error to the uncertainty of the reference for which the error is significant.
 const SIGNIFICANCE: f64 = 2.0;
 
-/// Errors of one quantity with one integrator for several sizes, from coarse to fine.
+/// Errors of a quantity for one integrator and several sizes, from coarse to fine.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Refinement {
     pub method: Method,
@@ -28,12 +28,12 @@ pub struct Refinement {
 }
 
 impl Refinement {
-    /// Error at the size with this index; `None` if the run failed.
+    /// Error at the size with the given index; `None` if the run failed.
     pub fn error(&self, rung: usize) -> Option<f64> {
         self.deviations.get(rung).copied().flatten().map(|of| of.error())
     }
 
-    /// Returns true if the error at a size can be used to compute an order: it must be nonzero and significant.
+    /// Returns true if the error at a size can be used to compute an order, that is, if it is nonzero and significant.
     pub fn tells_an_order(&self, rung: usize) -> bool {
         let deviation = self.deviations.get(rung).copied().flatten();
         deviation.is_some_and(|of| {
@@ -46,7 +46,7 @@ impl Refinement {
         self.tells_an_order(rung).then(|| (self.sizes[rung], deviation.distance))
     }
 
-    /// Order observed between a size and the previous one, `ln(e₁/e₂) / ln(h₁/h₂)`.
+    /// Order observed between a size and the previous size, `ln(e₁/e₂) / ln(h₁/h₂)`.
     pub fn order(&self, rung: usize) -> Option<f64> {
         let ((coarse, large), (fine, small)) =
             (self.point(rung.checked_sub(1)?)?, self.point(rung)?);
@@ -88,8 +88,9 @@ pub struct Convergence {
 pub const ALL_POSITIONS: &str = "positions";
 
 impl Convergence {
-    /// Returns the errors of one integrator for several sizes. The first element contains the error of all positions together, as a fraction of the
-    /// length; the other elements contain the errors of single observables.
+    /// Returns the errors of one integrator for several sizes.
+    /// The first element of the result contains the error of all positions together, as a fraction of the length.
+    /// Each other element contains the error of a single observable.
     pub fn ladders_of(
         method: Method,
         rungs: &[(f64, RunResult)],
@@ -126,12 +127,12 @@ impl Convergence {
         names
     }
 
-    /// Errors of a quantity, with one refinement per integrator.
+    /// Errors of a quantity. There is one refinement per integrator.
     pub fn ladders_with<'s>(&'s self, quantity: &'s str) -> impl Iterator<Item = &'s Refinement> {
         self.ladders.iter().filter(move |ladder| ladder.quantity == quantity)
     }
 
-    /// Order that an integrator claims; `None` if the study does not refine steps.
+    /// Theoretical order of an integrator; `None` if the study does not refine steps.
     pub fn claimed_order(&self, method: &Method) -> Option<u32> {
         (self.refined == RefinedParameter::Step).then(|| method.entry().claims.order)
     }

@@ -1,4 +1,4 @@
-//! Cost of a step: its time, and the sizes that determine the time.
+//! Cost of a time step: its run time, and the sizes that determine the run time.
 
 use std::time::{Duration, Instant};
 
@@ -7,7 +7,7 @@ use super::{Case, CaseOutcome, RunLimits};
 use crate::integrators::Constraints;
 use crate::simulation::{Recording, Simulation};
 
-/// Case whose steps are timed, with settings that affect the time.
+/// Case whose steps are timed, with the settings that affect the run time.
 #[derive(Debug, Clone)]
 pub struct CostCase {
     pub name: String,
@@ -62,8 +62,9 @@ impl StepCost {
     }
 }
 
-/// Measures the time per step of several cases on this thread. Steps of all cases are measured alternately, so that disturbances of the machine
-/// affect all of them. The time to build the scene is not included. Returns `None` if `is_wanted` returns false.
+/// Measures the time per step of several cases on this thread.
+/// Steps of all cases are measured alternately, so that disturbances of the machine affect all cases. The time to build the scene is not included.
+/// Returns `None` if `is_wanted` returns false.
 pub fn step_costs(
     cases: &[CostCase],
     patience: RunLimits,

@@ -1,10 +1,10 @@
-//! CSV tables of other programs. They may have comment lines that start with `#`, one of three separators, and a line of units.
+//! CSV tables of other programs. Comment lines start with `#`. There are three possible separators, and an optional line of units.
 
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum ParsedCsvError {
     #[error("line {line} is not a row of the table: {reason}")]
     Row {
-        /// Number of the line, from 1.
+        /// Line number, counted from 1.
         line: u64,
         reason: String,
     },
@@ -17,37 +17,37 @@ pub enum ParsedCsvError {
     )]
     Number {
         column: String,
-        /// Number of the line, from 1.
+        /// Line number, counted from 1.
         line: u64,
         text: String,
     },
-    /// Negative number in a column of sizes.
+    /// A column of sizes contains a negative number.
     #[error("line {line}, column '{column}', holds '{text}', but an error must not be negative")]
     Negative {
         column: String,
-        /// Number of the line, from 1.
+        /// Line number, counted from 1.
         line: u64,
         text: String,
     },
 }
 
-/// Largest allowed magnitude of a number. Its square is still finite.
+/// Largest allowed magnitude of a number. The square of this number is finite.
 const LARGEST: f64 = 1e150;
 
-/// Largest number of characters of a cell that a message shows.
+/// Largest number of characters of a cell in a message.
 const LONGEST_SHOWN: usize = 60;
 
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct ParsedCsv {
     columns: Vec<String>,
     separator: u8,
-    /// Cells of each row, with the line number of the row, from 1.
+    /// Cells of each row, with the line number of the row, counted from 1.
     rows: Vec<(u64, Vec<String>)>,
 }
 
 impl ParsedCsv {
-    /// Parses a table. Values are separated by commas, or, if the line of names contains no comma, by semicolons or tabs. A line of dimensions
-    /// after the names, as in files of withy, is skipped.
+    /// Parses a table. Values are separated by commas. If the line of names contains no comma, they are separated by semicolons or tabs.
+    /// A line of dimensions after the names, as in files written by withy, is skipped.
     ///
     /// # Errors
     /// Fails if two columns have the same name, or if the number of cells in a row differs from the number of columns.
@@ -103,15 +103,15 @@ impl ParsedCsv {
     /// Texts of the cells in a row, in the order of the columns.
     ///
     /// # Panics
-    /// Panics if there is no such row.
+    /// Panics if the row does not exist.
     pub fn texts(&self, row: usize) -> &[String] {
         &self.rows[row].1
     }
 
-    /// Line number of a row in the file, from 1.
+    /// Line number of a row in the file, counted from 1.
     ///
     /// # Panics
-    /// Panics if there is no such row.
+    /// Panics if the row does not exist.
     pub fn line(&self, row: usize) -> u64 {
         self.rows[row].0
     }
@@ -119,10 +119,10 @@ impl ParsedCsv {
     /// Text of a cell.
     ///
     /// # Errors
-    /// Fails if there is no such column.
+    /// Fails if the column does not exist.
     ///
     /// # Panics
-    /// Panics if there is no such row.
+    /// Panics if the row does not exist.
     pub fn text(&self, row: usize, column: &str) -> Result<&str, ParsedCsvError> {
         let found = self.columns.iter().position(|name| name == column);
         let missing =
@@ -133,10 +133,10 @@ impl ParsedCsv {
     /// Number in a cell.
     ///
     /// # Errors
-    /// Fails if there is no such column, or the cell is not a finite number with a finite square.
+    /// Fails if the column does not exist, or if the cell is not a finite number with a finite square.
     pub fn number(&self, row: usize, column: &str) -> Result<f64, ParsedCsvError> {
         let text = self.text(row, column)?;
-        // If the separator is not a comma, a comma is the decimal separator.
+        // Unless the separator is a comma, a comma is the decimal separator.
         let has_decimal_comma = self.separator != b',' && !text.contains('.');
         let parsed = match has_decimal_comma {
             true => text.replace(',', ".").parse(),
@@ -150,10 +150,10 @@ impl ParsedCsv {
         })
     }
 
-    /// Size of an error in a cell, which must not be negative.
+    /// Magnitude of an error in a cell, which must not be negative.
     ///
     /// # Errors
-    /// Fails if there is no such column, or if the cell is not a finite number or negative.
+    /// Fails if the column does not exist, or if the cell is not a finite number or is negative.
     pub fn size(&self, row: usize, column: &str) -> Result<f64, ParsedCsvError> {
         let number = self.number(row, column)?;
         let (column, line) = (column.to_owned(), self.rows[row].0);
@@ -185,7 +185,7 @@ fn separator_of(text: &str) -> u8 {
     }
 }
 
-/// Returns true if every cell is empty or a dimension such as `mass·length/time`, and at least one is not empty.
+/// Returns true if every cell is empty or a dimension such as `mass·length/time`, and at least one cell is a dimension.
 fn is_line_of_units(cells: &[String]) -> bool {
     let is_factor = |factor: &str| {
         let name = factor.trim_end_matches(['²', '³']);

@@ -1,42 +1,42 @@
 //! Estimate of the discretisation error of a run from coarser runs of the same scene (Richardson 1911; order from three levels, Roache 1998).
 //!
-//! With the sizes `h₁ < h₂ < h₃` and the error `C h^p`, the distances `d₁₂` and `d₂₃` of neighbouring levels give the observed order `p` from
-//! `d₂₃/d₁₂ = (h₃^p - h₂^p)/(h₂^p - h₁^p)` and the error `C h_k^p = d₁₂ h_k^p/(h₂^p - h₁^p)` of level `k`.
+//! Let `h₁ < h₂ < h₃` be the sizes of three levels with the error `C h^p`, and `d₁₂` and `d₂₃` the distances of neighbouring levels.
+//! The observed order `p` is the solution of `d₂₃/d₁₂ = (h₃^p - h₂^p)/(h₂^p - h₁^p)`. The error of level `k` is `C h_k^p = d₁₂ h_k^p/(h₂^p - h₁^p)`.
 
 use super::trace::Trace;
 use crate::elementary::power;
 
-/// Distance of two runs, relative to the scale of a quantity, below which it is rounding.
+/// Distance of two runs that is attributed to rounding, relative to the scale of a quantity.
 const ROUNDING: f64 = 1e-10;
 
-/// Bounds of the orders that are searched.
+/// Smallest and largest order in the search for the observed order.
 const ORDERS: (f64, f64) = (0.05, 12.0);
 
 /// Smallest observed order of a converging run, relative to the order of the method.
 const SHARE_OF_ORDER: f64 = 0.7;
 
-/// Smallest observed order of a converging run whose method has no known order, as for meshes.
+/// Smallest observed order of a converging run if the order of the method is unknown, as for meshes.
 const LEAST_ORDER: f64 = 0.7;
 
-/// Error, relative to the scale of a quantity, above which an observed order proves nothing.
+/// Error above which an observed order has no significance, relative to the scale of a quantity.
 const TOO_LARGE: f64 = 0.3;
 
-/// Smallest part of a run that converges before chaotic motion. Less is a coarse run that soon fails.
+/// Smallest converged part of a run with chaotic motion. A run with a shorter converged part is too coarse.
 const LEAST_CONVERGED_PART: f64 = 1.0 / 3.0;
 
-/// Growth of the distance of two runs after the time of the last convergence that indicates chaotic motion.
+/// Growth of the distance of two runs after their last convergence, above which the motion counts as chaotic.
 const GROWTH_OF_CHAOS: f64 = 10.0;
 
-/// Reliability of an estimate.
+/// Reliability of an error estimate.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum ErrorVerdict {
     /// The runs agree to rounding.
     Exact,
-    /// The observed order is that of the method, or the runs converge at least with first order.
+    /// The observed order is that of the method. If this order is unknown, the runs converge at least with first order.
     Converged,
     /// The runs do not converge yet. The estimate is a lower bound.
     PreAsymptotic,
-    /// Nearby runs separate. The result has a meaning until a time.
+    /// The motion is chaotic: nearby runs separate. The result is meaningful only up to a certain time.
     Chaotic {
         /// Time until which the runs converge [time].
         until: f64,
@@ -55,14 +55,14 @@ impl ErrorVerdict {
     }
 }
 
-/// Estimated error of a quantity by one of the discretisations, time or space.
+/// Estimated error of a quantity due to the discretisation in time or in space.
 #[derive(Debug, Clone, PartialEq)]
 pub struct DiscretisationError {
     /// Errors at times of the run [time, dimension of the quantity].
     pub over_time: Vec<(f64, f64)>,
     /// Observed order; `None` if the runs agree to rounding or do not converge.
     pub order: Option<f64>,
-    /// Reliability.
+    /// Reliability of the estimate.
     pub verdict: ErrorVerdict,
 }
 
@@ -77,7 +77,7 @@ impl DiscretisationError {
         largest(&self.over_time)
     }
 
-    /// Error at a time, interpolated linearly. Before the first and after the last known time it is the nearest known error.
+    /// Error at a time, interpolated linearly. Before the first and after the last known time, the nearest known error is returned.
     pub fn at(&self, time: f64) -> f64 {
         let after = self.over_time.partition_point(|(other, _)| *other < time);
         match (after.checked_sub(1).map(|before| self.over_time[before]), self.over_time.get(after))
@@ -91,7 +91,7 @@ impl DiscretisationError {
     }
 }
 
-/// A quantity on three levels of refinement, from fine to coarse. The third level may be missing.
+/// A quantity on three levels of refinement, from fine to coarse. The third level is optional.
 #[derive(Debug, Clone, Copy)]
 pub struct RefinementLevels<'a> {
     /// Step or mesh sizes, from fine to coarse.
@@ -100,7 +100,7 @@ pub struct RefinementLevels<'a> {
     pub traces: [Option<&'a Trace>; 3],
     /// Index of the level whose error is estimated.
     pub level: usize,
-    /// Order of the method, if it is known.
+    /// Order of the method; `None` if unknown.
     pub order: Option<f64>,
     /// Scale of the quantity.
     pub scale: f64,
@@ -132,11 +132,11 @@ impl RefinementLevels<'_> {
             Some(until) => ErrorVerdict::Chaotic { until },
             None => ErrorVerdict::PreAsymptotic,
         };
-        // Where the order means nothing, the distance itself is the lower bound.
+        // If the order has no significance, the distance is the lower bound of the error.
         scaled(factor.max(1.0), order, verdict)
     }
 
-    /// Error of the level in units of the distance of the two finest levels.
+    /// Error of the level, divided by the distance of the two finest levels.
     fn factor(&self, order: f64) -> f64 {
         let order = self.order.map_or(order, |claimed| order.min(claimed));
         let [h1, h2, _] = self.sizes.map(|size| power(size / self.sizes[0], order));
@@ -147,7 +147,7 @@ impl RefinementLevels<'_> {
         order >= self.order.map_or(LEAST_ORDER, |claimed| SHARE_OF_ORDER * claimed)
     }
 
-    /// Order that explains the distances of both pairs of levels; `None` if they do not decrease.
+    /// Order that agrees with the distances of both pairs of levels; `None` if the distances do not decrease.
     fn observed_order(&self, near: f64, far: f64) -> Option<f64> {
         let [_, h2, h3] = self.sizes.map(|size| size / self.sizes[0]);
         let ratio = |order: f64| (power(h3, order) - power(h2, order)) / (power(h2, order) - 1.0);
@@ -163,11 +163,12 @@ impl RefinementLevels<'_> {
         Some(low)
     }
 
-    /// Time until which a run converges that ends far from its neighbours; `None` if it never converges, or the distances do not grow afterwards.
+    /// Time until which the runs converge, if the runs differ strongly at the end.
+    /// Returns `None` if the runs never converge, or if the distances do not grow afterwards.
     fn last_convergence(&self, near: &[(f64, f64)], far: &[(f64, f64)]) -> Option<f64> {
         let end = near.last()?.0;
         let start = near.first()?.0;
-        // Windows of a twentieth of the run smooth zero crossings of the distances.
+        // The zero crossings of the distances are smoothed by windows whose length is a twentieth of the run.
         let window = (end - start) / 20.0;
         let within = |distances: &[(f64, f64)], to: f64| {
             let inside =

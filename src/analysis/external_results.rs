@@ -16,7 +16,7 @@ pub struct ExternalResult {
     pub run_time: f64,
     /// Largest distance of a station from the reference, as a fraction of the length scale of the study [-].
     pub error: f64,
-    /// Energy drift [-]; NaN if not measured.
+    /// Energy drift [-]; NaN if it was not measured.
     pub energy_drift: f64,
     pub machine: String,
 }
@@ -27,25 +27,27 @@ pub enum ExternalResultError {
     Sheet(#[from] ParsedCsvError),
     #[error(transparent)]
     ReferenceMismatch(#[from] ReferenceError),
-    /// Run whose positions were measured at a time that the study does not use.
+    /// The positions of a run were measured at a time that the study does not use.
     #[error("its row {row} has positions at t = {measured}, but the study needs t = {}", requested.join(", "))]
     Times {
-        /// Number of the row, from 1 for the first row below the header.
+        /// Row number. The first row below the header has the number 1.
         row: usize,
-        /// Time of the measured positions [time].
+        /// Time of the measurement [time].
         measured: f64,
         /// Times of the study.
         requested: Vec<String>,
     },
 }
 
-/// Columns that describe the settings of a run, each with the prefix of its value.
+/// Columns that describe the settings of a run, with the prefix of their values.
 const SETTING: [(&str, &str); 4] =
     [("integrator", ""), ("elements", "elements "), ("dof", "unknowns "), ("dt", "dt = ")];
 
 impl ExternalResult {
-    /// Reads runs from a table. Required columns are peer, series, run_time_s, t, energy_drift and machine, and columns of station positions with
-    /// the names of a reference table. Optional columns are integrator, elements, dof and dt.
+    /// Reads runs from a table.
+    /// Required columns are peer, series, run_time_s, t, energy_drift and machine, and columns of station positions.
+    /// The position columns have the names of columns in a reference table.
+    /// Optional columns are integrator, elements, dof and dt.
     ///
     /// # Errors
     /// Fails if a column is missing, a number is invalid, or the positions belong to a time that the study does not use.
@@ -94,7 +96,7 @@ fn position(sheet: &ParsedCsv, row: usize, of: &Observable) -> Result<Vec2, Pars
     Ok(Vec2::new(x?, y?))
 }
 
-/// Machines on which the measurements were made, without duplicates.
+/// Machines on which the runs were measured, without duplicates.
 pub fn machines(rivals: &[ExternalResult]) -> Vec<&str> {
     let mut machines = Vec::new();
     for rival in rivals.iter().map(|rival| rival.machine.as_str()) {
@@ -122,7 +124,7 @@ mod tests {
         let rivals =
             ExternalResult::of_sheet(&sheet, &observables, &truth, (&[1.0], 10.0)).unwrap();
         assert_eq!(rivals[0].error, 0.05);
-        // The run equals the reference, so it has only rounding errors.
+        // The second run equals the reference, so it has only rounding errors.
         assert!(rivals[1].error < 1e-13, "{}", rivals[1].error);
         assert_eq!(rivals[0].setting, "euler, dt = 0.1");
         assert!(rivals[1].energy_drift.is_nan());

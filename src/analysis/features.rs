@@ -1,4 +1,4 @@
-//! Features that can be added to any scene with a beam and affect its motion only a little.
+//! Optional features for cost measurements. They can be added to any scene with a beam, and have little effect on its motion.
 
 use crate::beams::Station;
 use crate::elementary::square;
@@ -19,7 +19,7 @@ pub struct Feature {
     pub add: fn(&mut Scene) -> Result<(), SystemError>,
 }
 
-/// Features that can be added independently of each other.
+/// All features. They can be added independently of each other.
 pub const FEATURES: &[Feature] = &[
     Feature {
         name: "gravity",
@@ -81,7 +81,7 @@ fn line_load(scene: &mut Scene, frame: LoadFrame) -> Result<(), SystemError> {
     Ok(())
 }
 
-/// Adds a small point mass that slides along the beam. It does not start in the middle, because there it would not move if the beam spins.
+/// Adds a small point mass that slides along the beam. It starts off the middle, because in the middle of a spinning beam it would not move.
 fn bead(scene: &mut Scene) -> Result<(), SystemError> {
     let arc_length = 0.4 * length(scene);
     let place = scene.station(0, arc_length)?;

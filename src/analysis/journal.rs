@@ -1,7 +1,8 @@
 //! Results of completed cases in a file, so that an interrupted study can be resumed.
 //!
-//! A journal is a file of records, each with its length and a checksum. If the program crashes, the last record may be incomplete; reading ends
-//! there. The journal is removed when the script of the study has ended successfully.
+//! A journal is a file of records, each with its length and a checksum.
+//! If the program crashes, the last record may be incomplete. Reading ends at an incomplete record.
+//! The journal is removed when the script of the study has ended successfully.
 
 use std::collections::BTreeMap;
 use std::fs::File;
@@ -23,10 +24,10 @@ const LARGEST: u64 = 1 << 32;
 
 const FORMAT: u32 = 1;
 
-/// Identification of the program build, which does not depend on the machine.
+/// Identification of the program build, independent of the machine.
 type Build = (&'static str, Option<(u64, u32)>);
 
-/// Version of the program, and length and checksum of the executable if it can be read.
+/// Version of the program, with the length and checksum of the executable if it can be read.
 fn build() -> Build {
     static BUILD: OnceLock<Build> = OnceLock::new();
     *BUILD.get_or_init(|| {
@@ -48,17 +49,17 @@ pub struct JournalError {
     source: io::Error,
 }
 
-/// Results of the cases of a study, from this run and from earlier, interrupted runs.
+/// Results of the cases of a study, both from this run and from earlier, interrupted runs.
 #[derive(Debug)]
 pub struct Journal {
     path: PathBuf,
-    /// Serialised results. The keys are the fingerprints of the cases.
+    /// Serialised results, by the fingerprints of the cases.
     known: BTreeMap<u64, Vec<u8>>,
     file: Option<File>,
 }
 
 impl Journal {
-    /// Opens a journal. If the file does not exist, it is created with the first record.
+    /// Opens a journal. A missing file is created when the first record is written.
     ///
     /// # Errors
     /// Fails if an existing file cannot be read.
@@ -82,7 +83,7 @@ impl Journal {
     /// Combines several journals. The result is only read, not written.
     ///
     /// # Errors
-    /// Fails if one of them cannot be read.
+    /// Fails if one of the files cannot be read.
     pub fn of_files(paths: impl IntoIterator<Item = PathBuf>) -> Result<Self, JournalError> {
         let mut known = BTreeMap::new();
         for path in paths {
@@ -106,12 +107,12 @@ impl Journal {
         self.known.len()
     }
 
-    /// Returns true if there is no case.
+    /// Returns true if there are no cases.
     pub fn is_empty(&self) -> bool {
         self.known.is_empty()
     }
 
-    /// Result of the case with a fingerprint; `None` if there is no result of the type `T`.
+    /// Result of the case with the given fingerprint; `None` if there is no result of type `T`.
     pub fn find<T: DeserializeOwned>(&self, fingerprint: u64) -> Option<T> {
         postcard::from_bytes(self.known.get(&fingerprint)?).ok()
     }
@@ -135,7 +136,7 @@ impl Journal {
         Ok(bytes)
     }
 
-    /// Creates the file of the journal, even without records. It shows that the study has been started.
+    /// Creates the file of the journal, even without records. The file shows that the study has been started.
     ///
     /// # Errors
     /// Fails if writing fails.
@@ -148,7 +149,7 @@ impl Journal {
     fn begin_file(&mut self) -> io::Result<u64> {
         let mut bytes = 0;
         if self.file.is_none() {
-            // The file is rewritten, because an incomplete record would make the records after it unreadable.
+            // The file is rewritten, because records after an incomplete record would be unreadable.
             let known = self.known.iter().map(|(other, result)| record(*other, result));
             let known = known.collect::<io::Result<Vec<_>>>()?.concat();
             let (folder, name) = self.place()?;
@@ -194,8 +195,8 @@ impl Journal {
 
     /// Fingerprint of a case: a hash of all data on which its result depends.
     ///
-    /// The hash includes the program, because another build may give different results. If another compiler changes the hash, the cases are run
-    /// again.
+    /// The hash includes the program, because another build may give different results.
+    /// If another compiler changes the hash, the study runs all cases again.
     pub fn fingerprint(parts: &[&[u8]]) -> u64 {
         let mut hasher = DefaultHasher::new();
         (FORMAT, build()).hash(&mut hasher);

@@ -1,4 +1,4 @@
-//! Quantities of a run that are compared with a reference.
+//! Quantities of a run that are compared with reference values.
 
 use serde::{Deserialize, Serialize};
 
@@ -9,7 +9,7 @@ use crate::simulation::{History, Simulation};
 /// Named quantity of a simulation at one time.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Observable {
-    /// Name of the station or column. It is unique among observables of the same type.
+    /// Name of the station or column, unique among observables of the same type.
     pub name: String,
     pub kind: ObservableKind,
 }
@@ -21,7 +21,7 @@ pub enum ObservableKind {
     Position(Station),
     /// Angle of the section at a station [rad].
     Angle(Station),
-    /// Column of the history, multiplied by a factor, in the present row.
+    /// Present value of a history column, multiplied by a factor.
     Column { column: String, factor: f64 },
 }
 
@@ -35,7 +35,7 @@ pub const SYMBOLS: [(&str, &str); 6] = [
     ("Lz", "angular_momentum"),
 ];
 
-/// Returns true if a column of the history describes the motion and not the computation.
+/// Returns true if a column of the history describes the motion.
 pub fn is_of_the_motion(column: &str) -> bool {
     History::COLUMNS.iter().all(|own| own.name != column || own.is_of_motion)
 }
@@ -73,7 +73,7 @@ impl Observable {
         }
     }
 
-    /// Present value. A scalar is in the first component. An undefined value is NaN.
+    /// Present value. The value of a scalar is the first component. An undefined value is NaN.
     pub fn read(&self, simulation: &Simulation) -> Vec2 {
         let scalar = |value: Option<f64>| Vec2::new(value.unwrap_or(f64::NAN), 0.0);
         match &self.kind {

@@ -1,7 +1,8 @@
 //! Pareto fronts of cost and error.
 
-/// For each pair of cost and error, true if it is on the Pareto front: no other pair is smaller in one value and not larger in the other. If
-/// several pairs are equal, only the first can be on the front. Pairs with a value that is not finite are not on it.
+/// For each pair of cost and error, true if the pair is on the Pareto front.
+/// A pair is on the front if no other pair is smaller in one value and not larger in the other value.
+/// If several pairs are equal, only the first can be on the front. Pairs with an infinite or NaN value are not on the front.
 pub fn pareto_front(points: &[(f64, f64)]) -> Vec<bool> {
     let mut order: Vec<usize> = (0..points.len())
         .filter(|index| points[*index].0.is_finite() && points[*index].1.is_finite())

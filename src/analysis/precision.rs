@@ -58,7 +58,7 @@ impl PrecisionRow {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Precision {
     pub name: String,
-    /// Times at which results are compared [time]. Runs end at the last one.
+    /// Times at which results are compared [time]. Runs end at the last of these times.
     pub times: Vec<f64>,
     /// Length scale of position errors [length].
     pub length: f64,
@@ -90,8 +90,9 @@ impl Precision {
         self.front().into_iter().find(|row| row.cost_and_error().1 <= error)
     }
 
-    /// Fastest combination with an error of at most `error` [-] that is confirmed by smaller steps. This means that there are runs with smaller
-    /// steps on the same mesh, and that their errors are at most `error` too. Otherwise the errors of mesh and steps might cancel by chance.
+    /// Fastest combination with an error of at most `error` [-], confirmed by smaller steps.
+    /// A combination is confirmed if there are runs with smaller steps on the same mesh, and their errors are also at most `error`.
+    /// Without confirmation by smaller steps, the errors of mesh and steps might cancel by chance.
     pub fn cheapest_confirmed(&self, error: f64) -> Option<&PrecisionRow> {
         let is_right = |row: &&PrecisionRow| row.cost_and_error().1 <= error;
         let is_confirmed = |row: &&PrecisionRow| {

@@ -1,11 +1,11 @@
-//! Reference values of the observables of a study, and the deviations of results from them.
+//! Reference values of the observables of a study, and deviations of results from the reference values.
 
 use super::csv_table::{ParsedCsv, ParsedCsvError};
 use super::observable::{Observable, ObservableKind};
 use crate::elementary::hypot;
 use crate::geometry::{Vec2, larger};
 
-/// Values of observables at the times of a study. The first index is the time, the second the observable.
+/// Values of observables at the times of a study. The first index is the time, the second index the observable.
 pub type Readings = Vec<Vec<Vec2>>;
 
 /// Deviation of a result from the reference, and the uncertainty of the reference.
@@ -15,8 +15,8 @@ pub struct Deviation {
     pub distance: f64,
     /// Estimated error of the reference, in the unit of the observable; zero if unknown.
     pub estimated_error: f64,
-    /// True if the reference is a run of this program. All errors are then reported as upper bounds. Otherwise a result with the same error as the
-    /// reference would appear to be exact.
+    /// True if the reference is a run of this program. All errors are then reported as upper bounds.
+    /// Without this rule, a result with the same error as the reference would appear to be exact.
     pub is_of_own_run: bool,
 }
 
@@ -26,8 +26,8 @@ impl Deviation {
         self.distance > self.estimated_error
     }
 
-    /// Error of the result. It is an upper bound if the reference is a run of this program, or if the distance is below the estimated error of the
-    /// reference.
+    /// Error of the result.
+    /// The error is an upper bound if the reference is a run of this program, or if the distance is below the estimated error of the reference.
     pub fn error(&self) -> f64 {
         match self.is_of_own_run || !self.is_resolved() {
             true => self.distance + self.estimated_error,
@@ -35,7 +35,7 @@ impl Deviation {
         }
     }
 
-    /// The larger of two deviations. NaN is larger than any number.
+    /// Larger of two deviations. NaN counts as larger than any number.
     pub fn larger_deviation(self, other: Self) -> Self {
         if larger(self.distance, other.distance) == self.distance || self.distance.is_nan() {
             Self { estimated_error: self.estimated_error.max(other.estimated_error), ..self }
@@ -59,14 +59,14 @@ pub enum ReferenceError {
     Sheet(#[from] ParsedCsvError),
     #[error("it has no rows")]
     Empty,
-    /// Time of the study for which the reference has no row.
+    /// The reference has no row for a time of the study.
     #[error("it has no row at t = {time}; the nearest rows are at t = {}", nearest.join(" and "))]
     Time {
         /// Missing time [time].
         time: f64,
         nearest: Vec<String>,
     },
-    /// Time of the study for which the reference has two different rows.
+    /// The reference has two different rows for a time of the study.
     #[error("lines {first} and {second} are both for t = {time}, but have different values")]
     DuplicateTime {
         /// Duplicate time [time].
@@ -74,14 +74,14 @@ pub enum ReferenceError {
         first: u64,
         second: u64,
     },
-    /// Reference that contains no station of the study.
+    /// The reference contains no station of the study.
     #[error(
         "it has no station of the study: the station '{station}' needs the columns x{station} and y{station}, but its columns are {known}"
     )]
     Stations { station: String, known: String },
 }
 
-/// Relative rounding error of a reference, whose numbers are rounded. Smaller errors cannot be determined.
+/// Relative rounding error of the numbers in a reference. Smaller errors cannot be determined.
 const ROUNDING: f64 = 1e-13;
 
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -95,11 +95,11 @@ struct KnownValue {
 pub struct ReferenceSolution {
     pub source: String,
     pub is_own: bool,
-    /// Values: the first index is the time, the second the observable. `None` if a value is unknown.
+    /// Values: the first index is the time, the second index the observable. `None` if a value is unknown.
     known: Vec<Vec<Option<KnownValue>>>,
 }
 
-/// Difference of two times that count as equal, as a fraction of the time or of one.
+/// Largest difference of two times that count as equal. For times above 1 the difference is relative, otherwise absolute.
 const SAME_TIME: f64 = 1e-9;
 
 fn row_at(sheet: &ParsedCsv, time: f64) -> Result<usize, ReferenceError> {
@@ -127,7 +127,7 @@ fn row_at(sheet: &ParsedCsv, time: f64) -> Result<usize, ReferenceError> {
     }
 }
 
-/// Number in the first existing column among `columns`; zero if none exists.
+/// Number in the first existing column among `columns`; zero if no column exists.
 fn estimate(sheet: &ParsedCsv, row: usize, columns: &[String]) -> Result<f64, ParsedCsvError> {
     let found = columns.iter().find(|column| sheet.has(column));
     found.map_or(Ok(0.0), |column| sheet.size(row, column))
@@ -185,8 +185,8 @@ fn known_of(
 }
 
 impl ReferenceSolution {
-    /// Reads a reference from a table of an independent solution. It has a column t and, for a station A, the columns xA, yA and thA. Other columns
-    /// have the names of observables. Estimated errors are in the columns d_xA, d_A or d_pos, d_thA or d_th, d_E, and so on.
+    /// Reads a reference from a table of an independent solution. It has a column t and, for a station A, the columns xA, yA and thA.
+    /// Other columns have the names of observables. Estimated errors are in the columns d_xA, d_A or d_pos, d_thA or d_th, d_E, and so on.
     ///
     /// # Errors
     /// Fails if a time is missing, all stations are missing, or a cell is not a number.
@@ -241,7 +241,7 @@ impl ReferenceSolution {
         self.known.iter().any(|at| at.get(observable).is_some_and(Option::is_some))
     }
 
-    /// Largest deviation of an observable at the times of the study; `None` if the reference does not contain it.
+    /// Largest deviation of an observable at the times of the study; `None` if the reference does not contain the observable.
     pub fn deviation(&self, observable: usize, readings: &Readings) -> Option<Deviation> {
         let values = self.known.iter().filter_map(|at| (*at.get(observable)?)?.value.norm().into());
         let rounding = ROUNDING * values.fold(0.0, f64::max);

@@ -1,4 +1,4 @@
-//! Completed rows of a sweep in a file. Rows are appended and read one after the other, so that many rows need little memory.
+//! Completed rows of a sweep in a file. Rows are appended and read one by one, so that many rows need little memory.
 
 use std::fs::File;
 use std::io::{self, BufReader, BufWriter, Read, Write};
@@ -11,8 +11,8 @@ use crate::sandbox_fs::Folder;
 
 /// Maximum length of an entry [bytes]. A longer entry is treated as damaged.
 const LONGEST: u32 = 1 << 20;
-/// Interval between writes to the file. If the program is killed, at most the rows of this interval are lost. A power failure also loses the rows
-/// that the system has not yet written to the disk.
+/// Interval between writes to the file. If the program is killed, the rows of this interval are lost.
+/// A power failure also loses the rows that the system has not yet written to the disk.
 const DELAY: Duration = Duration::from_millis(100);
 
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -22,7 +22,7 @@ pub enum RowEntry {
         /// Hash of all data that affect the rows.
         fingerprint: u64,
         rows: u64,
-        /// Part of the sweep, from 1, and number of parts. The whole sweep is (1, 1).
+        /// Part number of the sweep, counted from 1, and number of parts. The whole sweep is (1, 1).
         part: (u32, u32),
     },
     /// Names of the results. This entry precedes the entry of the first completed row.
@@ -38,8 +38,8 @@ pub struct RowJournal {
     flushed: Instant,
 }
 
-/// Reads the entries of a journal up to the first damaged or incomplete entry, and passes them to `heed`. Returns the length of the valid part
-/// [bytes], which is zero if there is no file.
+/// Reads the entries of a journal up to the first damaged or incomplete entry, and passes them to `heed`.
+/// Returns the length of the valid part [bytes], which is zero if there is no file.
 ///
 /// # Errors
 /// Fails if an existing file cannot be read, or `heed` returns an error.
@@ -87,7 +87,7 @@ impl RowJournal {
         Ok(8 + u64::from(length))
     }
 
-    /// Writes the buffer to the file, if the last write was long enough ago.
+    /// Writes the buffer to the file, unless the last write was very recent.
     ///
     /// # Errors
     /// Fails if writing fails.
@@ -108,7 +108,7 @@ impl RowJournal {
     }
 }
 
-/// Removes a journal, if it exists.
+/// Removes a journal if it exists.
 ///
 /// # Errors
 /// Fails if the file cannot be removed.

@@ -5,7 +5,7 @@ use std::time::{Duration, Instant};
 
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RunLimits {
-    /// Maximum number of steps, including failed ones.
+    /// Maximum number of steps, including failed steps.
     pub steps: usize,
     /// Maximum wall-clock time.
     pub wall: Duration,
@@ -21,8 +21,8 @@ thread_local! {
     static DEADLINE: Cell<Option<Instant>> = const { Cell::new(None) };
 }
 
-/// Returns true if the deadline of the case that runs on this thread has passed. The case checks the deadline after every step. Code that is called
-/// within a step and may not return, such as a script function of a load, must call this function.
+/// Returns true if the deadline of the case that runs on this thread has passed. The case checks the deadline after every step.
+/// Code that is called within a step and may run very long, such as a script function of a load, must call this function.
 pub fn is_past_deadline() -> bool {
     DEADLINE.get().is_some_and(|deadline| Instant::now() > deadline)
 }

@@ -12,7 +12,7 @@ use crate::simulation::{History, Invariant, Simulation};
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct RunResult {
     pub outcome: CaseOutcome,
-    /// Observables at the stops that the run reached.
+    /// Observables at the observation times that the run reached.
     pub readings: Readings,
     pub unknowns: usize,
     pub steps: usize,
@@ -21,14 +21,15 @@ pub struct RunResult {
     /// Number of factorisations, including those of failed attempts.
     pub factorisations: usize,
     pub retries: usize,
-    /// Drifts of the invariants over the whole run, in the order of [`Invariant::ALL`]. The work and impulses of loads are subtracted.
+    /// Drifts of the invariants over the whole run, in the order of [`Invariant::ALL`].
+    /// Work and impulses of loads are subtracted from the invariants.
     pub drifts: [f64; 4],
-    /// Energy drift from the time after which loads do no work; NaN if loads do work until the end.
+    /// Energy drift after the last time at which loads do work; NaN if loads do work until the end.
     pub free_energy_drift: f64,
 }
 
 impl RunResult {
-    /// Runs a case and evaluates its observables at every stop.
+    /// Runs a case and evaluates its observables at every observation time.
     pub fn of(
         case: &Case,
         observables: &[Observable],

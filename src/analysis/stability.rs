@@ -1,4 +1,4 @@
-//! Assessment of runs near the stability limit: whether they end, energy growth, and iterations.
+//! Assessment of runs near the stability limit: outcome, energy growth, and iterations.
 
 use std::sync::atomic::AtomicBool;
 
@@ -11,8 +11,8 @@ use crate::system::Scene;
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct StabilityVerdict {
     pub outcome: CaseOutcome,
-    /// Largest increase of the energy minus the work of loads above one of its earlier values, as a fraction of the largest energy. Only the time
-    /// after the last break of a schedule counts. NaN if the run did not start or an energy is NaN.
+    /// Largest increase of the energy (minus the work of loads) over any earlier value, as a fraction of the largest energy.
+    /// The time before the last break of a schedule is ignored. The increase is NaN if the run did not start or an energy is NaN.
     pub energy_growth: f64,
     pub steps: usize,
     /// Average number of Newton iterations per step.

@@ -12,7 +12,7 @@ pub struct SweptParameter {
 
 #[derive(Clone, Debug, PartialEq)]
 pub enum SweptValues {
-    /// List of levels, which need not be numbers.
+    /// List of levels. A level may be a number or a label.
     Levels {
         labels: Vec<String>,
         numbers: Option<Vec<f64>>,
@@ -21,13 +21,13 @@ pub enum SweptValues {
     Numbers(Vec<f64>),
 }
 
-/// Rule that assigns levels to rows.
+/// Rule that assigns the levels of a parameter to rows.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Choice {
-    /// Full grid. Each level applies to this number of consecutive rows, then the next level follows. The sequence of levels is repeated until the
-    /// last row.
+    /// Full grid. Each level applies to the given number of consecutive rows, followed by the next level.
+    /// In a full grid, the sequence of levels is repeated until the last row.
     Grid(usize),
-    /// Level index of each row.
+    /// Level index for each row.
     Drawn(Vec<u32>),
 }
 
@@ -43,7 +43,7 @@ impl SweptValues {
         }
     }
 
-    /// Numeric value of the parameter in a row; `None` if it is not a number.
+    /// Numeric value of the parameter in a row; `None` if the value is not a number.
     pub fn number(&self, row: usize) -> Option<f64> {
         match self {
             Self::Levels { numbers, .. } => numbers.as_ref()?.get(self.level(row)?).copied(),
@@ -124,7 +124,7 @@ impl SweepColumn<'_> {
 }
 
 impl SweepResults {
-    /// Allocates the columns. It is called when the first run has returned the names of the results.
+    /// Allocates the columns. Called when the first run has returned the names of the results.
     pub fn begin(&mut self, names: Vec<String>, rows: usize) {
         self.columns = vec![vec![f64::NAN; rows]; names.len()];
         self.names = names;
@@ -151,7 +151,7 @@ impl SweepResults {
         Some(&self.reasons.texts[*number as usize])
     }
 
-    /// Failed rows with their reasons.
+    /// Indices of the failed rows, with the reasons.
     pub fn failures(&self) -> impl ExactSizeIterator<Item = (usize, &str)> {
         let FailureReasons { texts, of_rows, .. } = &self.reasons;
         of_rows.iter().map(|(row, number)| (*row as usize, texts[*number as usize].as_str()))
@@ -162,7 +162,7 @@ impl SweepResults {
         self.columns.get(at).map(Vec::as_slice)
     }
 
-    /// Results of a row, in the order of the names; NaN if it failed.
+    /// Results of a row, in the order of the names; NaN if the row failed.
     pub fn row(&self, row: usize) -> impl Iterator<Item = f64> {
         self.columns.iter().map(move |column| column[row])
     }
@@ -181,7 +181,7 @@ impl Sweep {
         parameters.chain(self.results.names.iter().map(String::as_str))
     }
 
-    /// Number of rows that contribute to sensitivities. These are the completed rows. In a Saltelli design they are the rows of complete blocks.
+    /// Number of rows that contribute to sensitivities: the completed rows, or in a Saltelli design the rows of complete blocks.
     pub fn telling_rows(&self, result: &str) -> usize {
         let results = self.results.column(result).unwrap_or_default();
         let is_whole = |rows: &&[f64]| rows.iter().all(|x| x.is_finite());
@@ -192,8 +192,8 @@ impl Sweep {
         results.chunks_exact(block).filter(is_whole).count() * block
     }
 
-    /// Fraction of the variance of a result that each parameter explains, in the order of the parameters. `None` if the result is constant, some
-    /// rows of a grid failed, or there are too few points.
+    /// For each parameter in order, the fraction of the variance of a result that the parameter explains.
+    /// Returns `None` if the result is constant, some rows of a grid failed, or there are too few points.
     pub fn variance_fractions(&self, result: &str) -> Option<Vec<VarianceShare>> {
         let results = self.results.column(result)?;
         let parameters = &self.design.parameters;
@@ -253,7 +253,7 @@ mod tests {
         assert_eq!(sweep.design.parameters[0].values.label(4), Some("2"));
         assert!(sweep.names().eq(["a", "b", "sum"]));
         let shares = sweep.variance_fractions("sum").unwrap();
-        // The function is additive, with the variances 1/4 and 2/3.
+        // The function is additive. The variances of its terms are 1/4 and 2/3.
         assert!((shares[0].first - 3.0 / 11.0).abs() < 1e-15, "{shares:?}");
         assert_eq!(shares[1].total.map(|x| (x - 8.0 / 11.0).abs() < 1e-15), Some(true));
     }
@@ -270,7 +270,7 @@ mod tests {
         assert!(sweep.variance_fractions("sum").is_none());
         assert_eq!(sweep.telling_rows("sum"), 5);
         sweep.design.arrangement = RowLayout::Saltelli;
-        // With two parameters a block has four rows. The first block has a failed row, and the second is incomplete.
+        // With two parameters a block has four rows. The first block has a failed row, and the second block is incomplete.
         assert_eq!(sweep.telling_rows("sum"), 0);
     }
 }

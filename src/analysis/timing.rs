@@ -14,16 +14,16 @@ pub struct Timing {
     pub run: Duration,
     /// Shortest wall-clock time of the run.
     pub shortest: Duration,
-    /// Median processor time of the run; `None` if not available. It does not contain the time of other processes on a busy machine.
+    /// Median processor time of the run; `None` if not available. The time of other processes on a busy machine is not included.
     pub processor: Option<Duration>,
     pub repeats: usize,
 }
 
-/// Total time of a case after which it is not repeated.
+/// Total run time of a case above which the run is not repeated.
 pub const LONGEST_REPETITION: Duration = Duration::from_secs(10);
 
-/// Processor time of this thread on Linux. The system updates the time when the thread pauses, and otherwise only at ticks of the scheduler. The
-/// function therefore pauses the thread before it reads the time.
+/// Processor time of this thread on Linux. The system updates this time when the thread pauses, and otherwise only at ticks of the scheduler.
+/// The thread is paused before the time is read, so that the time is up to date.
 fn processor_time() -> Option<Duration> {
     std::thread::sleep(Duration::from_nanos(1));
     let statistics = std::fs::read_to_string("/proc/thread-self/schedstat").ok()?;
@@ -31,13 +31,13 @@ fn processor_time() -> Option<Duration> {
 }
 
 impl Timing {
-    /// Cost of the case: processor time, or if this is not available wall-clock time [s].
+    /// Cost of the case: the processor time or, if it is not available, the wall-clock time [s].
     pub fn cost(&self) -> f64 {
         self.processor.unwrap_or(self.run).as_secs_f64()
     }
 
-    /// Runs a case several times on this thread, and computes medians of the times. If [`LONGEST_REPETITION`] is exceeded, it is not repeated.
-    /// `None` if `is_wanted` returns false or a run fails.
+    /// Runs a case several times on this thread, and computes medians of the times. Runs longer than [`LONGEST_REPETITION`] are not repeated.
+    /// Returns `None` if `is_wanted` returns false or a run fails.
     pub fn of(
         case: &Case,
         patience: RunLimits,
@@ -62,7 +62,7 @@ impl Timing {
         }
         let shortest = runs.iter().copied().min()?;
         let repeats = runs.len();
-        // A processor time of zero is ignored, because it means that the clock has not advanced.
+        // A processor time of zero is ignored, because the clock has not advanced.
         let processor = median(works).filter(|time| !time.is_zero());
         Some(Self { setup: median(setups)?, run: median(runs)?, shortest, processor, repeats })
     }

@@ -1,13 +1,13 @@
-//! Values of a quantity during a run, and their distance from the values in another run of the same scene.
+//! Values of a quantity during a run, and their differences from the values in another run of the same scene.
 
 use crate::beams::Station;
 use crate::geometry::Vec2;
 use crate::simulation::Simulation;
 
-/// Difference of two times that count as equal, as a fraction of the length of a run.
+/// Largest difference of two times that count as equal, as a fraction of the length of a run.
 const SAME_TIME: f64 = 1e-9;
 
-/// Quantity whose values are followed during a run.
+/// Quantity whose values are recorded during a run.
 #[derive(Debug, Clone, PartialEq)]
 pub struct TracedQuantity {
     /// Name of the station or column.
@@ -29,7 +29,7 @@ pub enum TraceSource {
     StepMean,
 }
 
-/// Values of a quantity over time. A scalar is in the first component.
+/// Values of a quantity over time. The value of a scalar is the first component.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Trace {
     times: Vec<f64>,
@@ -39,7 +39,7 @@ pub struct Trace {
 }
 
 impl Trace {
-    /// Reads the values of a quantity from the history and trajectory of a simulation. The trace is empty if there are none.
+    /// Reads the values of a quantity from the history and trajectory of a simulation. The trace is empty if there are no values.
     pub fn of(simulation: &Simulation, quantity: &TracedQuantity) -> Self {
         let history = simulation.history();
         let column = |name: &str| history.column(name).unwrap_or_default();
@@ -57,7 +57,7 @@ impl Trace {
                 let means = column(&quantity.name);
                 let mut sum = 0.0;
                 let add = |(mean, dt): (&f64, f64)| {
-                    // The first row has no step before it, so its mean may be undefined.
+                    // The first row has no previous step, so its mean may be undefined.
                     sum += if dt > 0.0 { mean * dt } else { 0.0 };
                     scalar(sum)
                 };
@@ -74,7 +74,7 @@ impl Trace {
         Self { times, values, is_integral: false }
     }
 
-    /// Largest magnitude of the values. For means over steps it is the largest magnitude of the means.
+    /// Largest magnitude of the values. For means over steps, it is the largest magnitude of the means.
     pub fn largest(&self) -> f64 {
         let steps = self.times.windows(2).zip(self.values.windows(2));
         match self.is_integral {
@@ -92,8 +92,8 @@ impl Trace {
         self.values.iter().map(|value| (value - first).norm()).fold(0.0, f64::max)
     }
 
-    /// Distances of a coarser trace from this one at the times of the coarser trace [time, dimension of the values]. Means over steps are compared
-    /// over the steps of the coarser trace.
+    /// Distances of a coarser trace from this trace at the times of the coarser trace [time, dimension of the values].
+    /// Means over steps are compared over the steps of the coarser trace.
     pub fn distances(&self, coarser: &Self) -> Vec<(f64, f64)> {
         let pairs = coarser.times.iter().zip(&coarser.values);
         let both = pairs.filter_map(|(time, value)| Some((*time, value - self.at(*time)?)));
@@ -108,15 +108,16 @@ impl Trace {
         both.windows(2).filter_map(over_step).collect()
     }
 
-    /// Returns the value at a time; `None` outside the trace. It is the recorded value, if there is one at this time, otherwise the value of a
-    /// cubic polynomial through the four nearest recorded values.
+    /// Returns the value at a time; `None` outside the trace.
+    /// A value recorded at the requested time is returned directly.
+    /// Otherwise a cubic polynomial through the four nearest recorded values is evaluated.
     fn at(&self, time: f64) -> Option<Vec2> {
         let (first, last) = (*self.times.first()?, *self.times.last()?);
         let slack = SAME_TIME * (last - first);
         let after = self.times.partition_point(|other| *other < time - slack);
         let nearest = self.times.get(after)?;
         if (nearest - time).abs() <= slack {
-            // If several times are equal, the last value is used, which is the value after an event.
+            // If several times are equal, the last value is used: the value after an event.
             let equal = self.times[after..].iter().take_while(|other| **other <= time + slack);
             return Some(self.values[after + equal.count() - 1]);
         }

@@ -1,4 +1,4 @@
-//! Execution of cases on several cores.
+//! Execution of cases on several processor cores.
 
 use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
@@ -10,14 +10,14 @@ use super::Case;
 use crate::panics::caught;
 use crate::simulation::cores;
 
-/// Interval at which `heed` is called while no case ends.
+/// Interval of the periodic calls of `heed`.
 const PULSE: Duration = Duration::from_millis(50);
 
-/// Runs cases on all cores. Cases whose loads call script functions run last, on the calling thread.
+/// Runs cases on all processor cores. Cases whose loads call script functions run last, on the calling thread.
 ///
-/// On the calling thread, `heed` is called with the index and the result of each completed case, and periodically with `None`. If it returns
-/// `Break`, `stop` is set, and cases that have not ended get no result. Results are in the order of the cases. If a case panics, its result is the
-/// message.
+/// On the calling thread, the callback `heed` receives the index and the result of each completed case, and periodically `None`.
+/// If `heed` returns `Break`, `stop` is set, and cases that have not ended get no result. Results are in the order of the cases.
+/// If a case panics, its result is the panic message.
 pub fn on_all_cores<R: Send>(
     cases: &[Case],
     stop: &AtomicBool,
@@ -75,7 +75,7 @@ pub fn on_all_cores<R: Send>(
     for (number, _) in waiting {
         pulse(None);
         let result = caught(|| work(&cases[number]));
-        // An interrupt may have stopped the case. `heed` is called to recognise it.
+        // An interrupt may have stopped the case. `heed` is called to detect the interrupt.
         pulse(None);
         if is_stopped() {
             break;

@@ -114,8 +114,8 @@ pub struct RunOptions {
     /// Writes the reports of all simulations to this JSON file, also after a failure.
     #[arg(long, value_name = "FILE.json")]
     pub report: Option<PathBuf>,
-    /// Estimates the discretisation errors of all simulations from runs with larger steps and on other meshes. auto estimates on a terminal, after
-    /// runs of less than a second.
+    /// Estimates the discretisation errors of all simulations from runs with larger steps and on other meshes.
+    /// auto estimates on a terminal, after runs of less than a second.
     #[arg(long, value_enum, value_name = "WHEN", default_value_t = ErrorChoice::Auto, num_args = 0..=1, require_equals = true, default_missing_value = "always")]
     pub error: ErrorChoice,
     /// Hides the progress bar and the closing lines; printed text and errors are still shown.

@@ -1,6 +1,7 @@
 //! Grades each attempt in a separate process, so that an attempt cannot affect the next attempt or the marks.
 //!
-//! The program starts itself again as this process, in a new folder with an unpredictable name and with system limits on time, memory and output.
+//! The program starts itself again as a separate process, with limits on time, memory and output.
+//! The process runs in a new folder with an unpredictable name.
 //! The process prints its verdict as one line of JSON. If the process dies, the attempt still receives a mark.
 
 use std::io::Read;
@@ -28,7 +29,7 @@ use crate::script::state::settings::{RunMode, RunSettings};
 
 const INTERVAL: Duration = Duration::from_millis(5);
 const START: Duration = Duration::from_secs(2);
-/// Maximum length of the message in a verdict [characters]. It ensures that the line of the verdict fits into the buffer of the pipe.
+/// Maximum length of the message in a verdict [characters], for which the line of the verdict fits into the buffer of the pipe.
 const LONGEST_MESSAGE: usize = 4000;
 /// Maximum size of a verdict [bytes].
 const LONGEST_VERDICT: u64 = 1 << 20;
@@ -42,7 +43,7 @@ pub(super) struct JudgeLimits<'a> {
 /// Runs an attempt in a separate process and returns its mark and message; `None` if grading was stopped before the mark was known.
 ///
 /// # Errors
-/// Fails if the process cannot be started. This is not the fault of the student.
+/// Fails if the process cannot be started. Such a failure is not the fault of the student.
 pub(super) fn mark_in_process(
     submission: &Submission,
     file: &Path,
@@ -183,7 +184,7 @@ fn shield_from_interrupt(command: &mut Command) -> &mut Command {
     command
 }
 
-/// Prints the mark for an exceeded limit, and exits. It is called when code does not check for limits and therefore does not stop by itself.
+/// Prints the mark for an exceeded limit, and exits. Called if running code does not check for limits and therefore does not stop.
 fn stopped_hard(stop: Stop) {
     print_line(&write(&(Mark::Stopped, stop.message_and_hint().0)));
     process::exit(0)

@@ -5,7 +5,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 use crate::output::{printable, printable_in_colours};
 
-/// True if some output could not be written; a closed pipe does not count.
+/// True if some output could not be written. A closed pipe does not count as lost output.
 static LOST: AtomicBool = AtomicBool::new(false);
 
 /// Prints a line to stdout and flushes stdout. A closed pipe is not an error.
@@ -30,7 +30,7 @@ fn record_write_error(written: io::Result<()>) {
     }
 }
 
-/// Returns true if some output could not be written for another reason than a closed pipe.
+/// Returns true if some output could not be written for a reason other than a closed pipe.
 pub(super) fn is_output_lost() -> bool {
     LOST.load(Ordering::Relaxed)
 }

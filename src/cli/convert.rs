@@ -1,6 +1,6 @@
 //! `withy convert`: exports a saved simulation without its script.
 //!
-//! It generates and runs a short script that loads the file and writes the output.
+//! The command generates and runs a short script that loads the file and writes the output.
 
 use std::io::{stderr, stdout};
 

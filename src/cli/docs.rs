@@ -16,7 +16,7 @@ use crate::script::help::lookup::{self, WIDTH};
 use crate::script::help::reference::reference;
 use crate::script::packages::language;
 
-/// Maximum size of an existing file that may be recognised as a definition file and replaced [bytes].
+/// Maximum size of a definition file [bytes]. Larger existing files are not replaced.
 const LARGEST_DEFINITION: u64 = 1 << 24;
 
 pub fn docs(options: &DocsOptions) -> Exit {
@@ -68,7 +68,7 @@ fn write_definitions(catalog: &Catalog, folder: &Path) -> Result<String, Diagnos
     Ok(listing)
 }
 
-/// Returns true if the file is a definition file, which may be replaced. Such a file contains the line `module static;`.
+/// Returns true if the file is a definition file, which may be replaced. A definition file contains the line `module static;`.
 fn is_definition(path: &Path) -> bool {
     read_text(path, LARGEST_DEFINITION)
         .is_ok_and(|text| text.lines().any(|line| line == "module static;"))

@@ -130,7 +130,7 @@ impl GradedMark {
             Ok(marked) => (false, marked?),
             Err(error) => (true, (Mark::Error, format!("cannot start a process for it: {error}"))),
         };
-        // The attempt may have changed while it was judged. Its fingerprint is then no longer equal to `before`.
+        // The attempt may have changed while it was judged. Its fingerprint then differs from `before`.
         let fingerprint = (!is_ours && of_attempt() == before).then_some(before);
         Some(Self { mark, message, fingerprint, origin: MarkOrigin::ThisRun })
     }

@@ -1,4 +1,4 @@
-//! Handles Ctrl-C and termination signals. After Ctrl-C the run stops at the end of its current step. If the run does not react, the program ends.
+//! Handles Ctrl-C and termination signals. After Ctrl-C, the run stops at the end of its current step. If the run does not react, the program ends.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -14,16 +14,16 @@ use crate::script::state::limits::INTERRUPT_HEARD;
 /// Time in which a run must react to Ctrl-C.
 const REACTION_TIME: Duration = Duration::from_millis(900);
 
-/// Time for a run that has reacted to Ctrl-C to save its results.
+/// Time for saving the results of a run that has reacted to Ctrl-C.
 const TO_WRITE: Duration = Duration::from_secs(20);
 
 /// Results that are lost if Ctrl-C ends the program.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum InterruptLoss {
-    /// A run. The program ends after a grace period, or at the second Ctrl-C.
+    /// The results of a run. The program ends after a grace period, or at the second Ctrl-C.
     Run,
-    /// A session with all its data. The program ends only at another Ctrl-C that follows at least a second after the first one, if the session has
-    /// not reacted to the first one.
+    /// A session with all its data.
+    /// If the session has not reacted to the first Ctrl-C, a second Ctrl-C at least a second later ends the program.
     Session,
 }
 
@@ -39,7 +39,7 @@ pub fn flag(at_stake: InterruptLoss) -> Arc<AtomicBool> {
         if !set.swap(true, Ordering::Relaxed) {
             asked = Instant::now();
             if at_stake == InterruptLoss::Run {
-                // The waiting is done in a separate thread, because the thread of the handler must receive the second Ctrl-C.
+                // A separate thread waits, because the thread of the handler must receive the second Ctrl-C.
                 thread::spawn(|| {
                     thread::sleep(REACTION_TIME);
                     if INTERRUPT_HEARD.load(Ordering::Relaxed) {
@@ -59,8 +59,8 @@ pub fn flag(at_stake: InterruptLoss) -> Arc<AtomicBool> {
     flag
 }
 
-/// Ends a session on SIGTERM and SIGHUP, for example when its terminal window is closed. Ctrl-C does not end a session; it stops only the
-/// evaluation of the current input. This function must be called before other threads start.
+/// Ends a session on SIGTERM and SIGHUP, for example when its terminal window is closed.
+/// Ctrl-C stops only the evaluation of the current input, not the session. This function must be called before other threads start.
 #[cfg(unix)]
 pub fn end_on_signal() {
     use nix::sys::signal::{SigSet, Signal};

@@ -51,8 +51,8 @@ impl LimitOptions {
         }
     }
 
-    /// Returns the limits of an attempt that is graded. By default they allow less output than [`limits`](Self::limits), and the run time is always
-    /// limited.
+    /// Returns the limits of an attempt that is graded.
+    /// The default limits allow less output than [`limits`](Self::limits), and the run time is always limited.
     pub fn for_an_attempt(&self) -> Limits {
         Limits {
             time: self.max_time.or(Some(DEFAULT_TIME_LIMIT)),

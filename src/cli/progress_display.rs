@@ -23,7 +23,7 @@ pub fn progress(wish: ProgressPreference) -> Box<dyn Progress + Send> {
     }
 }
 
-/// A progress bar for the simulated time of a run or for the cases of a study. A short run shows no bar.
+/// Progress bar for the simulated time of a run or for the cases of a study. A short run shows no bar.
 #[derive(Default)]
 struct ProgressDisplay {
     start: Cell<Option<Instant>>,

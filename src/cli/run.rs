@@ -24,7 +24,7 @@ use crate::script::state::settings::{
     ErrorEstimation, JournalPreference, RunMode, RunSettings, StudyPreferences,
 };
 
-/// Maximum size of an existing file that may be recognised as a report and replaced [bytes].
+/// Maximum size of a report [bytes]. Larger existing files are not replaced.
 const LARGEST_REPORT: u64 = 1 << 28;
 
 pub fn run(options: &RunOptions) -> Exit {
@@ -58,8 +58,9 @@ pub fn run(options: &RunOptions) -> Exit {
     exit_for(&outcome)
 }
 
-/// Returns whether the errors of a run are estimated. With `auto` this depends on the run time, so it is done only if the output goes to a terminal:
-/// output that a program reads must not depend on the run time.
+/// Estimation of the errors of a run, as selected by the options.
+/// With `auto`, the estimation depends on the run time.
+/// The estimation is done only on a terminal, because output that a program reads must not depend on the run time.
 fn error_estimation(options: &RunOptions) -> ErrorEstimation {
     match options.error {
         ErrorChoice::Always => ErrorEstimation::Always,
@@ -156,7 +157,7 @@ fn exit_for_study(outcome: &RunOutcome, out: &Path) -> Exit {
             Exit::Interrupted
         }
         Ending::Failed(diagnostic) => {
-            // In a long study, an exceeded time limit does not indicate an endless loop. The usual hint would therefore mislead.
+            // In a long study, an exceeded time limit does not indicate an endless loop, so the usual hint would be misleading.
             let hint = match outcome.stopped_by {
                 Some(Stop::Time(_)) => Some("--max-time SECONDS allows more".to_owned()),
                 _ => diagnostic.hint.clone(),
@@ -169,8 +170,8 @@ fn exit_for_study(outcome: &RunOutcome, out: &Path) -> Exit {
     }
 }
 
-/// Returns the exit code of a run that computes only a part of the studies. If the script fails after the studies, the run still counts as
-/// successful, because the statements after the studies lack the results of the other parts.
+/// Returns the exit code of a run that computes only a part of the studies.
+/// If the script fails after the studies, the run still counts as successful. Statements after the studies lack the results of the other parts.
 fn exit_for_part(outcome: &RunOutcome, options: &StudyOptions) -> Exit {
     let cases = match outcome.kept_cases {
         1 => "1 finished case is".to_owned(),

@@ -1,6 +1,6 @@
 //! `withy view`: writes a viewer page of a saved simulation, or of the simulations in the variables of a script.
 //!
-//! It runs a script to whose end a line is added that writes the page.
+//! The command appends a line to a script and runs the script. The line writes the page.
 
 use std::fs;
 use std::io::stdout;
@@ -29,7 +29,7 @@ struct ViewRun {
     program: Program,
     out: PathBuf,
     page: String,
-    /// Temporary folder into which the script writes the page of a saved simulation; `None` unless the user chose a file for this page.
+    /// Temporary folder for the page of a saved simulation; `None` if the user chose a file for the page.
     _scratch: Option<Scratch>,
 }
 
@@ -60,8 +60,8 @@ fn prepare(options: &ViewOptions) -> Result<ViewRun, Diagnostic> {
     Ok(ViewRun { program, out, page, _scratch: scratch })
 }
 
-/// Returns script lines that write a page of all different simulations in the top-level variables, including simulations in arrays. If no variable
-/// contains a simulation, the page shows the latest simulation of the script.
+/// Script lines that write a page of all different simulations in the top-level variables, including simulations in arrays.
+/// If no variable contains a simulation, the page shows the latest simulation of the script.
 fn showing_all(program: &Program, page: &str) -> String {
     let mut names: Vec<String> = Vec::new();
     for (name, _) in ScriptOutline::of(&Source::from(&*program.text)).top_level {

@@ -1,4 +1,4 @@
-//! Reads attempts. Their files may have any content.
+//! Reads the files of attempts, which may have any content.
 
 use std::io::ErrorKind;
 use std::path::Path;

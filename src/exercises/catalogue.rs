@@ -4,7 +4,7 @@ use super::error::ExerciseError;
 use super::exercise::Exercise;
 use crate::script::messages::suggest::nearest;
 
-/// A series of exercises on one subject.
+/// Series of exercises on one subject.
 #[derive(Debug, PartialEq, Eq)]
 pub struct ExerciseTrack {
     /// Name of the track, which is also the name of its folder.
@@ -76,7 +76,7 @@ pub const EXERCISES: &[Exercise] = &[
 /// Returns the exercise with this name. `name` may be `name`, `track/name` or the path of the exercise file.
 ///
 /// # Errors
-/// Fails if there is no such exercise. The error suggests a similar name.
+/// Fails if the exercise does not exist. The error suggests a similar name.
 pub fn find(name: &str) -> Result<&'static Exercise, ExerciseError> {
     let wanted = name.strip_suffix(".rhai").unwrap_or(name);
     let is_meant = |exercise: &&Exercise| {

@@ -1,8 +1,8 @@
-//! An exercise: its texts, which are embedded in the program, and its metadata.
+//! Exercise with its texts, which are embedded in the program, and its metadata.
 
 use super::judge::Judge;
 
-/// An exercise with its task, solution and judge. Its texts are files in `scripts/exercises`, which [`catalogue`](super::catalogue) embeds.
+/// Exercise with its task, solution and judge. Its texts are files in `scripts/exercises`, which [`catalogue`](super::catalogue) embeds.
 #[derive(Debug, PartialEq, Eq)]
 pub struct Exercise {
     /// Name of the track, which is also the name of its folder.

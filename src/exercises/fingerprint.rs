@@ -7,8 +7,8 @@ use crate::analysis::Journal;
 use crate::sandbox_fs::Folder;
 use crate::script::source::text::Source;
 
-/// Returns the fingerprint of a student's attempt. It covers the text of the attempt, the files that the attempt may read, the exercise, the
-/// limits, and this program.
+/// Returns the fingerprint of a student's attempt.
+/// The fingerprint covers the text of the attempt, the files that the attempt may read, the exercise, the limits, and this program.
 pub fn fingerprint(submission: &Submission, exercise: &Exercise, limits: &[String]) -> String {
     let file = submission.attempt(exercise);
     let attempt = match file.as_deref().map(|path| attempt::load(path, &submission.folder)) {
@@ -32,13 +32,13 @@ fn reads_files(attempt: &Source) -> bool {
     attempt.imports().next().is_some() || attempt.names().any(reads)
 }
 
-/// Maximum number of files that a fingerprint covers, and maximum size of a file whose content is covered [bytes]. For a larger file, the
-/// fingerprint covers its length and the time of its last change.
+/// Maximum number of files that a fingerprint covers, and maximum size of a file whose content is covered [bytes].
+/// The fingerprint of a larger file covers its length and the time of its last change.
 const MOST_FILES: usize = 1000;
 const MOST_READ: u64 = 1 << 20;
 
-/// Appends the names and contents of all files in a folder and its subfolders to `noted`. Links are not followed, because scripts cannot follow
-/// them either.
+/// Appends the names and contents of all files in a folder and its subfolders to `noted`.
+/// Links are not followed, because scripts cannot follow them either.
 fn note_files(folder: &Folder, noted: &mut Vec<u8>, count: &mut usize) {
     for entry in folder.entries().unwrap_or_default() {
         *count += 1;

@@ -1,4 +1,4 @@
-//! Grades submissions. A student gets a mark for every exercise, whatever the files contain.
+//! Grades submissions. A student receives a mark for every exercise, for any content of the files.
 
 use std::path::PathBuf;
 
@@ -78,11 +78,11 @@ impl StudentReport {
     }
 }
 
-/// Work that is needed to find the mark of an attempt.
+/// Work needed to determine the mark of an attempt.
 pub enum GradingTask {
-    /// Nothing: the mark and its message are known without judging.
+    /// No work: the mark and its message are known without judging.
     Known(Mark, String),
-    /// The attempt in this file must be judged.
+    /// The attempt in the given file must be judged.
     Judge(PathBuf),
 }
 

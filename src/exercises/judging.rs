@@ -1,5 +1,5 @@
-//! Runs an attempt and then the script of its judge. The judge sees only those variables of the attempt that its header names. Thus functions,
-//! constants and other names of the attempt cannot replace those of the judge. Only the calls of `check` in the judge's script count.
+//! Runs an attempt and then the script of its judge. The judge can access only the variables of the attempt that its header names.
+//! Other names in the attempt cannot replace names in the judge. Only the calls of `check` in the script of the judge count.
 
 use std::any::TypeId;
 use std::time::Duration;
@@ -27,7 +27,7 @@ pub const DEFAULT_TIME_LIMIT: Duration = Duration::from_secs(20);
 pub enum AttemptVerdict {
     /// All checks of the judge passed.
     Passed,
-    /// The attempt runs, but some checks of the judge failed. The judge gives these messages.
+    /// The attempt runs, but some checks of the judge failed. The variant contains the messages of the failed checks.
     WrongResult(Vec<String>),
     /// The attempt fails with an error.
     Error(Diagnostic),
@@ -128,7 +128,7 @@ impl JudgingContext {
                 continue;
             };
             let value = value.flatten_clone();
-            // For texts and functions, the type names of the script engine differ from those in the headers.
+            // The type names of the script engine for texts and functions differ from the type names in the headers.
             let found = match value.type_id() {
                 _ if value.is_string() => "text",
                 function if function == TypeId::of::<FnPtr>() => "function",

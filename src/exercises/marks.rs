@@ -1,5 +1,5 @@
-//! File with the marks of a class, one mark per line in JSON. Each run appends its marks. The mark of an attempt that has not changed since is
-//! reused.
+//! File with the marks of a class, one mark per line in JSON. Each run appends its marks.
+//! The mark of an unchanged attempt is reused.
 
 use std::collections::BTreeMap;
 use std::fs::{File, TryLockError};
@@ -50,12 +50,12 @@ pub fn open(path: &Path) -> io::Result<(KnownMarks, MarksFile)> {
     let bytes = folder.read(name, LARGEST)?;
     let text = String::from_utf8_lossy(&bytes);
     let known: Vec<_> = text.lines().filter_map(read_line).collect();
-    // The file may consist of one incomplete line, if a run was killed while it wrote the first mark.
+    // The file may consist of one incomplete line if a run was killed while it wrote the first mark.
     let begun = text.trim();
     if known.is_empty() && !begun.starts_with(HEAD) && !HEAD.starts_with(begun) {
         return Err(io::Error::other("the file exists and is not a file of marks"));
     }
-    // The last line may be incomplete, if a run was killed. It is then removed; if only its line break is missing, the line break is added.
+    // The last line may be incomplete if a run was killed. An incomplete line is removed; a missing line break is added.
     let whole = bytes.iter().rposition(|byte| *byte == b'\n').map_or(0, |end| end + 1);
     match &bytes[whole..] {
         [] => (),
@@ -69,7 +69,7 @@ fn read_line(line: &str) -> Option<(StudentExercise, KnownMark)> {
     let line: Value = serde_json::from_str(line).ok()?;
     let text = |key: &str| Some(line.get(key)?.as_str()?.to_owned());
     let mark = Mark::of(&text("result")?)?;
-    // A mark without a fingerprint is not reused, so its attempt is judged again.
+    // A mark without a fingerprint is not reused: its attempt is judged again.
     let fingerprint = text("fingerprint").unwrap_or_default();
     let known = KnownMark { fingerprint, mark, message: text("message")? };
     Some(((text("student")?, text("exercise")?), known))

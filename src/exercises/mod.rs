@@ -1,7 +1,7 @@
-//! Exercises. Each one consists of a start file with a gap, a judge that checks the physics of the attempt, hints, and a solution.
+//! Exercises. An exercise consists of a start file with a gap, a judge that checks the physics of the attempt, hints, and a solution.
 //!
-//! [`catalogue`] lists all exercises, and [`judging`] runs an attempt and its judge. [`workbook`] is the folder of a student. [`submissions`] are
-//! the folders of a class, and [`marks`] is the file of their marks. The module `cli` displays the results.
+//! [`catalogue`] lists all exercises, and [`judging`] runs an attempt and its judge. [`workbook`] is the folder of a student.
+//! [`submissions`] are the folders of a class, and [`marks`] is the file of marks. The module `cli` displays the results.
 
 pub(crate) mod attempt;
 pub(crate) mod captured_output;

@@ -1,4 +1,4 @@
-//! Progress of a student: the passed exercises and the hints given so far. It is stored in a small file.
+//! Progress of a student: the passed exercises and the number of given hints, stored in a small file.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::io::ErrorKind;

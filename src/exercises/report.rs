@@ -1,4 +1,4 @@
-//! Verdicts that can be serialised. The process that runs an attempt sends its verdict to the process that displays it.
+//! Serialisable verdicts. The process that runs an attempt sends its verdict to the process that displays it.
 
 use serde::{Deserialize, Serialize};
 
@@ -8,7 +8,7 @@ use crate::script::diagnose::{Diagnostic, Location};
 
 /// Maximum length of a message [characters].
 const LONGEST: usize = 4000;
-/// Maximum length of an excerpt of a source line, and maximum length of the part of the excerpt before the error [characters].
+/// Maximum length of the excerpt of a source line, and maximum length of the excerpt before the error [characters].
 const EXCERPT: (usize, usize) = (400, 150);
 
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -20,7 +20,7 @@ pub struct AttemptReport {
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum AttemptOutcome {
     Passed,
-    /// The attempt runs, but some checks of the judge failed. The judge gives these messages.
+    /// The attempt runs, but some checks of the judge failed. The variant contains the messages of the failed checks.
     WrongResult(Vec<String>),
     Error(AttemptError),
     Stopped(AttemptError),
@@ -39,9 +39,9 @@ pub struct AttemptError {
 pub struct ScriptPosition {
     pub file: String,
     pub line: usize,
-    /// Text of the source line, or an excerpt of it around the location.
+    /// Text of the source line, or an excerpt around the error.
     pub text: String,
-    /// Index of the first character of the location in `text`, counted from 0.
+    /// Index of the first character of the error in `text`, counted from 0.
     pub at: usize,
     pub length: usize,
 }

@@ -1,4 +1,4 @@
-//! A writer that can be silenced, so that the attempt cannot print while its judge runs.
+//! Writer that can be silenced, so that the attempt cannot print while its judge runs.
 
 use std::io::{self, Write};
 use std::sync::Arc;

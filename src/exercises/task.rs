@@ -2,7 +2,7 @@
 
 use super::exercise::Exercise;
 
-/// First words of the paragraph that tells the student what to do.
+/// First words of the paragraph with the instructions for the student.
 pub const TO_DO: &str = "To do:";
 
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -14,7 +14,7 @@ pub enum Paragraph {
 }
 
 impl Exercise {
-    /// Returns the paragraphs below the title. The last paragraph tells the student what to do.
+    /// Returns the paragraphs below the title. The last paragraph contains the instructions for the student.
     pub fn task(&self) -> Vec<Paragraph> {
         let below_title = self.start.lines().skip(1);
         let mut paragraphs = Vec::new();

@@ -1,7 +1,7 @@
 //! Detects that the file of an attempt was saved.
 //!
-//! All files are read a few times per second and compared with their previous contents. This works with all file systems, and with all editors,
-//! including editors that replace the file. A file that was saved without changes is ignored.
+//! All files are read a few times per second and compared with their previous contents.
+//! Polling works with all file systems and all editors, including editors that replace the file. A file that was saved without changes is ignored.
 
 use std::time::Duration;
 
@@ -26,14 +26,14 @@ struct Seen {
 }
 
 impl<'a> Watcher<'a> {
-    /// Reads all attempts of a workbook. Later changes are detected relative to these contents.
+    /// Reads all attempts of a workbook. Later changes are relative to the content at this time.
     pub fn new(workbook: &'a Workbook) -> Self {
         let look = |exercise| Seen { content: content(workbook, exercise), was_missing: false };
         Self { workbook, files: EXERCISES.iter().map(look).collect() }
     }
 
-    /// Returns the first exercise, in the order of the catalogue, whose file has changed. A file that is empty or missing at only one check counts
-    /// as unchanged, because an editor is probably saving it.
+    /// Returns the first exercise, in the order of the catalogue, whose file has changed.
+    /// A file that is empty or missing at only one check counts as unchanged, because an editor is probably saving it.
     pub fn changed(&mut self) -> Option<&'static Exercise> {
         EXERCISES.iter().zip(&mut self.files).find_map(|(exercise, seen)| {
             let now = content(self.workbook, exercise);
@@ -49,7 +49,7 @@ impl<'a> Watcher<'a> {
     }
 }
 
-/// Returns the content of an exercise file; `None` if it is unreadable. The next run of the attempt then reports the error.
+/// Content of an exercise file; `None` if it is unreadable. The next run of the attempt then reports the error.
 fn content(workbook: &Workbook, exercise: &Exercise) -> Option<Vec<u8>> {
     read_file(&workbook.file(exercise), LARGEST).ok()
 }

@@ -13,7 +13,7 @@ use crate::sandbox_fs::read_file;
 
 pub const FOLDER: &str = "withy-exercises";
 
-/// A folder with one file per exercise. The student's work is never overwritten.
+/// Folder with one file per exercise. The student's work is never overwritten.
 #[derive(Debug)]
 pub struct Workbook {
     folder: PathBuf,
@@ -32,10 +32,10 @@ pub enum Advice {
 }
 
 impl Workbook {
-    /// Returns the workbook of the folder `here`: the nearest workbook among `here` and its parent folders, otherwise a new subfolder of `here`.
-    /// Nothing is written.
+    /// Workbook of the folder `here`: the nearest workbook among `here` and its parent folders, otherwise a new subfolder of `here`.
+    /// Finding the workbook does not write any files.
     pub fn near(here: &Path) -> Self {
-        // A path that cannot be resolved is used as given. An error is then reported when the folder is read.
+        // If the path cannot be resolved, it is used as given. An error is then reported when the folder is read.
         let real = here.canonicalize().unwrap_or_else(|_| here.into());
         let is_workbook = |folder: &&Path| folder.join(progress::FILE).exists();
         match real.ancestors().find(is_workbook) {
@@ -91,7 +91,7 @@ impl Workbook {
         Ok(EXERCISES.iter().find(|exercise| !progress.has_passed(exercise)))
     }
 
-    /// Records whether the attempt at an exercise passed.
+    /// Records the result of an attempt at an exercise.
     ///
     /// # Errors
     /// Fails if the progress file cannot be read or written.

@@ -8,7 +8,7 @@ use super::design::{PENALTY, Scaled};
 use super::gradient_check::{REJECTED_DERIVATIVES, matches_derivatives, test_points};
 use super::{Design, Designed, Rating};
 
-/// Maximum number of runs of SLSQP. If a solution slightly violates a constraint, the next run starts there with tightened constraints.
+/// Maximum number of runs of SLSQP. If a solution slightly violates a constraint, the next run starts from it with tightened constraints.
 const RESTARTS: usize = 4;
 /// Step size at which SLSQP stops, as a fraction of the tolerance. It can be small, because convergence is fast near the solution.
 const SHORTER: f64 = 0.1;
@@ -24,7 +24,7 @@ pub struct SlopedRating {
 /// Objective and constraints with derivatives, or the reason why derivatives are missing.
 pub type SlopesOfRating = Result<SlopedRating, String>;
 
-/// Evaluates a design; `None` if the run fails.
+/// Function that evaluates a design. It returns `None` if the run fails.
 pub type Rate<'r, E> = dyn FnMut(&[f64]) -> Result<Option<Rating>, E> + 'r;
 
 pub type RateWithSlopes<'r, E> = dyn FnMut(&[f64]) -> Result<SlopesOfRating, E> + 'r;
@@ -34,7 +34,7 @@ struct Descent<'d, 'f, E> {
     rate_with_slopes: &'d mut RateWithSlopes<'f, E>,
     rate: &'d mut Rate<'f, E>,
     best: Option<(Vec<f64>, Rating)>,
-    /// Design that was evaluated last, in scaled parameters.
+    /// Last evaluated design, in scaled parameters.
     last: Option<(Vec<f64>, SlopedRating)>,
     worst: f64,
     runs: usize,
@@ -96,7 +96,8 @@ impl<E> Descent<'_, '_, E> {
         }
     }
 
-    /// Returns true if the derivatives of objective and constraints agree with finite differences of values that are computed without derivatives.
+    /// Returns true if the derivatives of objective and constraints agree with finite differences.
+    /// The finite differences are computed from values without derivatives.
     fn are_true(&mut self, x: &[f64], found: &SlopedRating) -> Result<bool, Ended<E>> {
         let [low, high] = test_points(&self.design.ranges, x);
         self.runs += 2;
@@ -139,12 +140,12 @@ impl<E> Descent<'_, '_, E> {
 impl Design {
     /// Minimises like [`solve`](Self::solve), but with derivatives, by SLSQP (D. Kraft, 1988).
     ///
-    /// Each step of SLSQP minimises a quadratic model of the objective under linearised constraints. The second derivatives of the model come from
-    /// BFGS updates. If derivatives are missing or SLSQP fails, `solve` continues from the best design found so far.
+    /// Each step of SLSQP minimises a quadratic model of the objective under linearised constraints.
+    /// The second derivatives of the model come from BFGS updates.
+    /// If derivatives are missing or SLSQP fails, `solve` continues from the best design found so far.
     ///
     /// # Errors
-    /// Returns the first error of `sloped` or `rate`.
-    /// First error of `rate_with_slopes` and `rate`.
+    /// Returns the first error of `rate_with_slopes` or `rate`.
     pub fn solve_with<'f, E>(
         &self,
         sloped: &mut RateWithSlopes<'f, E>,
@@ -184,7 +185,7 @@ impl Design {
         if without.is_none() || runs >= self.most_runs {
             return Ok(found);
         }
-        // `solve` starts at the best design of SLSQP. The values of this design are known and are not computed again.
+        // `solve` starts from the best design of SLSQP. The values of this design are known and are not computed again.
         let mut known = found.as_ref().map(|found| found.rating.clone());
         let asked_again = usize::from(known.is_some());
         let mut rest = Self { most_runs: self.most_runs - runs + asked_again, ..self.clone() };
@@ -196,7 +197,7 @@ impl Design {
             Some(rating) => Ok(Some(rating)),
             None => rate(x),
         })?;
-        // `solve` starts at the best design of SLSQP. Therefore its result is never worse.
+        // `solve` starts from the best design of SLSQP, so its result is never worse.
         Ok(more.map(|more| Designed {
             runs: runs + more.runs - asked_again,
             gradient_runs,
@@ -267,7 +268,7 @@ mod tests {
         Design { ranges: ranges.collect(), constraints, tolerance: 1e-4, most_runs: 500 }
     }
 
-    /// Test problem 2 of M. J. D. Powell (1994): on the unit disc the product x y has the minimum -1/2.
+    /// Test problem 2 of M. J. D. Powell (1994): on the unit disc, the product x y has the minimum -1/2.
     fn product(x: &[f64]) -> SlopedRating {
         SlopedRating {
             rating: Rating {
@@ -295,7 +296,8 @@ mod tests {
         assert!(2 * found.runs < without.unwrap().runs, "{found:?}");
     }
 
-    /// Valley of H. H. Rosenbrock (1960), also with a bound that excludes its minimum. The solution with this bound is (0.5, 0.25).
+    /// Test with the valley function of H. H. Rosenbrock (1960), also with a bound that excludes its minimum.
+    /// With the bound, the solution is (0.5, 0.25).
     #[test]
     fn a_valley_is_followed_to_its_end_or_to_a_bound() {
         let rosenbrock = |x: &[f64]| {

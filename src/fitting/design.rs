@@ -8,12 +8,12 @@ use super::SearchRange;
 
 /// First step, as a fraction of the size of the parameters.
 const FIRST_STEP: f64 = 0.1;
-/// Largest violation for which a constraint counts as met. Constraints are scaled to order one.
+/// Largest violation of a satisfied constraint. Constraints are scaled to order one.
 const MET: f64 = 1e-6;
-/// Distance from zero, as a multiple of the size of a parameter, at which the search of an unbounded parameter ends. A parameter that comes near
-/// this distance counts as diverged.
+/// Distance from zero at which the search of an unbounded parameter ends, as a multiple of the size of the parameter.
+/// A parameter counts as diverged if its distance from zero comes near this multiple of its size.
 const FARTHEST: f64 = 1e15;
-/// Added to the worst objective so far to obtain the objective of a design whose run fails.
+/// Penalty for a design whose run fails: its objective is the worst objective so far plus this number.
 pub(super) const PENALTY: f64 = 10.0;
 
 #[derive(Clone, Debug, PartialEq)]
@@ -28,7 +28,7 @@ pub struct Design {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Rating {
     pub objective: f64,
-    /// Values of the constraints, scaled to order one. A constraint is met if its value is not negative.
+    /// Values of the constraints, scaled to order one. A constraint is satisfied if its value is not negative.
     pub constraints: Vec<f64>,
 }
 
@@ -39,10 +39,10 @@ pub struct Designed {
     pub is_feasible: bool,
     /// True if the search converged within the allowed number of runs and no parameter diverged.
     pub is_settled: bool,
-    /// Index of the unbounded parameter that diverged, because the objective decreases without limit along it; `None` if no parameter diverged.
+    /// Index of the unbounded parameter that diverged because the objective decreases without limit; `None` if no parameter diverged.
     pub runaway: Option<usize>,
     pub runs: usize,
-    /// Number of calls with derivatives. They are included in `runs`.
+    /// Number of calls with derivatives, which are included in `runs`.
     pub gradient_runs: usize,
     pub derivative_free_reason: Option<String>,
 }
@@ -61,7 +61,7 @@ struct DesignSearch<E> {
 }
 
 impl Rating {
-    /// Returns the largest violation of a constraint; zero if all constraints are met.
+    /// Largest violation of a constraint; zero if all constraints are satisfied.
     pub fn largest_violation(&self) -> f64 {
         let missed = self.constraints.iter().map(|value| (-value).max(0.0));
         missed.fold(0.0, f64::max)
@@ -71,8 +71,9 @@ impl Rating {
         self.largest_violation() <= MET
     }
 
-    /// Returns true if this design is better than `other`. A feasible design is better than an infeasible one. Of two feasible designs, the one
-    /// with the lower objective is better; of two infeasible designs, the one with the smaller violation.
+    /// Returns true if this design is better than `other`. A feasible design is better than an infeasible one.
+    /// Of two feasible designs, the design with the lower objective is better.
+    /// Of two infeasible designs, the design with the smaller violation is better.
     pub(super) fn is_better_than(&self, other: &Self) -> bool {
         match (self.is_feasible(), other.is_feasible()) {
             (true, true) => self.objective < other.objective,
@@ -85,8 +86,8 @@ impl Rating {
 impl Design {
     /// Finds the feasible design with the lowest objective by COBYLA (M. J. D. Powell, 1994).
     ///
-    /// COBYLA uses linear models of objective and constraints on a simplex. The best of all evaluated designs is returned. If a run fails, `rate`
-    /// must return `None`, and the search avoids this design. Returns `None` if all runs fail.
+    /// COBYLA uses linear models of objective and constraints on a simplex. The best of all evaluated designs is returned.
+    /// If a run fails, `rate` must return `None`, and the search avoids this design. If all runs fail, the result is `None`.
     ///
     /// # Errors
     /// Returns the first error of `rate`.
@@ -99,7 +100,7 @@ impl Design {
         let rate = RefCell::new(rate);
         let search =
             RefCell::new(DesignSearch { best: None, last: None, worst: 0.0, runs: 0, error: None });
-        // COBYLA requests the objective and each constraint of the same design in separate calls. Therefore the last result is stored.
+        // COBYLA requests the objective and each constraint of a design in separate calls. Therefore the last result is stored.
         let rated = |u: &[f64]| -> Rating {
             let mut search = search.borrow_mut();
             if let Some((at, rating)) = &search.last
@@ -177,7 +178,7 @@ impl Design {
         Scaled { start, bounds }
     }
 
-    /// Returns the index of the first parameter that diverged in a direction without bound.
+    /// Index of the first parameter that diverged in an unbounded direction.
     pub(super) fn runaway(&self, parameters: &[f64]) -> Option<usize> {
         self.ranges.iter().zip(parameters).position(|(range, x)| {
             let bound = if *x < 0.0 { range.low } else { range.high };

@@ -6,21 +6,21 @@ use super::{Evaluate, Evaluation, SearchRange};
 
 /// Default perturbation, as a fraction of the size of a parameter.
 ///
-/// For a perturbation `h`, central differences have a truncation error of `h² f‴/6` and an error of the noise of the results divided by `h`. Runs
-/// are reproducible to about 1e-12 of their results, which is the tolerance of Newton's method. With a perturbation of 1e-4, each of these errors
-/// is about 1e-8.
-/// Runs are reproducible to about 1e-12 of their results (the tolerance of Newton's method). With 1e-4, both errors are about 1e-8.
+/// For a perturbation `h`, central differences have a truncation error of `h² f‴/6`.
+/// If the results have noise, central differences have an error of the noise divided by `h`.
+/// The noise of a run is about 1e-12 of its results, which is the tolerance of Newton's method.
+/// With a perturbation of 1e-4, the truncation error and the error due to noise are both about 1e-8.
 pub const RELATIVE_STEP: f64 = 1e-4;
 
 enum Stencil {
     Central(f64),
-    /// One-sided difference of second order, for a parameter at a bound. It uses two more points, both on the same side.
+    /// One-sided difference of second order, for a parameter at a bound. It uses two points on the same side.
     OneSided(f64),
 }
 
 impl Stencil {
     fn of(range: SearchRange, x: f64, relative: f64) -> Self {
-        // The step is limited, because a one-sided difference uses a point at a distance of two steps, which must lie between the bounds.
+        // The step is limited. A one-sided difference also uses a point at a distance of two steps, which must lie between the bounds.
         let step = (relative * range.size(x)).min(0.25 * (range.high - range.low));
         match (x - step >= range.low, x + step <= range.high) {
             (true, true) => Self::Central(step),
@@ -46,12 +46,11 @@ impl Stencil {
 
 /// Computes the derivatives of all values with respect to all parameters. The result has one column per parameter.
 ///
-/// The differences are of second order. They need two evaluations per parameter, which are all requested in one call of `evaluate`. `here` contains
-/// the values at the point `x`.
+/// The differences are of second order. They need two evaluations per parameter, which are all requested in one call of `evaluate`.
+/// The argument `here` contains the values at the point `x`.
 ///
 /// # Errors
-/// Returns an error of `evaluate`. The inner error is the reason why an evaluation failed.
-/// The inner error contains the reason of the failed run.
+/// Returns an error of `evaluate`. The inner error contains the reason why a run failed.
 pub fn derivatives<E>(
     ranges: &[SearchRange],
     (x, here): (&[f64], &DVector<f64>),

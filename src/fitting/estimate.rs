@@ -7,7 +7,7 @@ use super::student_quantile;
 /// Uncertainty of the parameters of a fit, computed from the scatter of the residuals.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Estimate {
-    /// Standard deviation of a weighted residual: the square root of the ratio of the sum of squares to the degrees of freedom.
+    /// Standard deviation of a weighted residual: `√(S/f)` with the sum of squares `S` and the degrees of freedom `f`.
     pub deviation: f64,
     /// Degrees of freedom: number of residuals minus number of free parameters.
     pub freedom: usize,
@@ -16,11 +16,13 @@ pub struct Estimate {
 }
 
 impl Estimate {
-    /// Computes the estimate from the derivatives `J` of the weighted residuals at the minimum: `C = s² (JᵀJ)⁻¹` with the covariance matrix `C` and
-    /// the variance `s²` of a residual. `squares` is the sum of the squared residuals.
+    /// Computes the estimate from the derivatives `J` of the weighted residuals at the minimum.
+    /// With the variance `s²` of a residual, the covariance matrix is `C = s² (JᵀJ)⁻¹`.
+    /// The argument `squares` is the sum of the squared residuals.
     ///
-    /// Returns `None` if there are no degrees of freedom or the derivatives are linearly dependent. A parameter that is not `free`, because it is
-    /// at a bound, counts as known. The covariances of a parameter on which no residual depends are NaN.
+    /// Returns `None` if there are no degrees of freedom or the derivatives are linearly dependent.
+    /// A parameter at a bound is not `free` and counts as known.
+    /// The covariances of a parameter on which no residual depends are NaN.
     pub fn of(derivatives: &DMatrix<f64>, squares: f64, free: &[bool]) -> Option<Self> {
         let columns: Vec<usize> = (0..free.len()).filter(|at| free[*at]).collect();
         let freedom = derivatives.nrows().checked_sub(columns.len()).filter(|left| *left > 0)?;
@@ -53,8 +55,8 @@ impl Estimate {
         Some(self.covariance[parameter][parameter].sqrt()).filter(|error| !error.is_nan())
     }
 
-    /// Returns half the width of the confidence interval of a parameter, by Student's distribution. `probability` is the confidence level, for
-    /// example 0.95. Returns `None` if no residual depends on the parameter.
+    /// Returns half the width of the confidence interval of a parameter, by Student's distribution.
+    /// The argument `probability` is the confidence level, for example 0.95. Returns `None` if no residual depends on the parameter.
     pub fn half_width(&self, parameter: usize, probability: f64) -> Option<f64> {
         let quantile = student_quantile(0.5 + probability / 2.0, self.freedom as f64);
         Some(self.error(parameter)? * quantile)
@@ -65,7 +67,7 @@ impl Estimate {
 mod tests {
     use super::*;
 
-    /// The errors of slope and intercept of a fitted straight line must agree with the formulas of textbooks.
+    /// The standard errors of slope and intercept of a fitted straight line must agree with the formulas of textbooks.
     #[test]
     fn errors_of_a_straight_line_are_those_of_textbooks() {
         let x = [0.0, 1.0, 2.0, 3.0, 4.0];

@@ -13,7 +13,7 @@ pub struct CountedEvaluator<'a, 'e, E> {
     pub runs: usize,
     /// Number of calls that returned derivatives.
     pub gradient_runs: usize,
-    /// Reason why derivatives are computed by finite differences and no longer requested from the function; `None` while they are requested.
+    /// Reason why derivatives are computed by finite differences; `None` while they are requested from the function.
     pub differences: Option<String>,
 }
 
@@ -31,7 +31,8 @@ impl<'a, 'e, E> CountedEvaluator<'a, 'e, E> {
         Self { evaluate, slopes, ranges, runs: 0, gradient_runs: 0, differences: None }
     }
 
-    /// Returns the values at a point, with derivatives if the function provides them. The first derivatives are checked against finite differences.
+    /// Returns the values at a point, with derivatives if the function provides them.
+    /// The derivatives of the first call are checked against finite differences.
     ///
     /// # Errors
     /// Returns an error of the function.
@@ -55,7 +56,7 @@ impl<'a, 'e, E> CountedEvaluator<'a, 'e, E> {
         }
         self.runs += 1;
         let values = only((self.evaluate)(&[x.to_vec()])?);
-        // If the values without derivatives cannot be computed either, the failure does not mean that derivatives are missing or wrong.
+        // If the values without derivatives cannot be computed, the failure does not show that the derivatives are missing or wrong.
         if values.is_ok() && self.differences.is_none() {
             self.differences = unknown;
         }

@@ -1,27 +1,27 @@
-//! Checks derivatives that a function returns against finite differences. The derivatives are wrong if the function depends on its argument in a
-//! way that they do not contain, for example by rounding it or by a branch.
+//! Checks derivatives that a function returns against finite differences.
+//! Derivatives are wrong if they miss a dependence of the function on its argument, for example by rounding or by a branch.
 
 use super::SearchRange;
 
 /// Largest perturbation of a parameter in the check, as a fraction of the size of the parameter.
 const DISTANCE: f64 = 1e-4;
 
-/// Relative tolerance of the check. It is far above the error of the finite differences and far below the error of wrong derivatives.
+/// Relative tolerance of the check. It is far above the error of finite differences, and far below the error of wrong derivatives.
 const OFF: f64 = 0.02;
 
-/// Deviation that is ignored because of rounding, as a fraction of the values.
+/// Deviation that is attributed to rounding, as a fraction of the values.
 const ROUNDING: f64 = 1e-7;
 
 pub const REJECTED_DERIVATIVES: &str =
     "the derivatives of the runs differ from finite differences of their results";
 
-/// Returns two points, one on each side of `x`. At a bound, one of them is cut off at the bound. Each parameter is changed by a different fraction
-/// of its size.
+/// Two points, one on each side of `x`. A point beyond a bound is moved to the bound.
+/// Each parameter is changed by a different fraction of its size.
 pub fn test_points(ranges: &[SearchRange], x: &[f64]) -> [Vec<f64>; 2] {
     let moved = |sign: f64| {
         let parameters = x.iter().zip(ranges).enumerate();
         let moved = parameters.map(|(at, (x, range))| {
-            // The fractions are different, so that errors of the derivatives cannot cancel.
+            // The fractions differ, so that errors of the derivatives cannot cancel.
             let part = 0.5 + 0.5 * (1.0 + at as f64).recip();
             range.clip(x + sign * part * DISTANCE * range.size(*x))
         });
@@ -32,8 +32,8 @@ pub fn test_points(ranges: &[SearchRange], x: &[f64]) -> [Vec<f64>; 2] {
 
 /// Returns true if derivatives agree with the values at two points and at the point `here` between them.
 ///
-/// `change` returns the difference of a value between the two points as predicted by the derivatives. The actual differences must agree with it,
-/// and the mean of the values at the two points must be close to the values at `here`.
+/// The callback `change` returns the difference between the values at the two points, as predicted by the derivatives.
+/// The actual difference must agree with the predicted one. The mean of the values at the two points must be close to the value at `here`.
 pub fn matches_derivatives(
     values: [&[f64]; 2],
     here: &[f64],
@@ -50,7 +50,7 @@ pub fn matches_derivatives(
     let off = norm(&|at| high[at] - low[at] - change(at));
     let aside = norm(&|at| 0.5 * (low[at] + high[at]) - here[at]);
     let floor = ROUNDING * norm(&|at| here[at]);
-    // Values that are not finite do not show that the derivatives are wrong. Therefore the negated comparison is used, which is true for NaN.
+    // Values that are not finite do not prove that the derivatives are wrong. Therefore the negated comparison is used, which is true for NaN.
     !(off > OFF * difference.max(promised) + floor || aside > difference.max(promised) + floor)
 }
 

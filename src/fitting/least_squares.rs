@@ -6,19 +6,19 @@ use super::evaluator::{CountedEvaluator, EvaluatedPoint};
 use super::{Estimate, Evaluate, RELATIVE_STEP, SearchRange, Slopes};
 
 const MOST_ITERATIONS: usize = 30;
-/// Maximum number of steps with updated derivatives, before the derivatives are computed again. The number of parameters is added to it.
+/// Maximum number of steps with updated derivatives before the derivatives are computed again. The number of parameters is added to this constant.
 const MORE_STEPS: usize = 6;
-/// Change of a parameter, as a fraction of its size, below which the search has converged.
+/// Change of a parameter below which the search has converged, as a fraction of the size of the parameter.
 const SETTLED: f64 = 1e-7;
-/// Largest change of a parameter, as a fraction of its size, for which the derivatives still count as accurate.
+/// Largest change of a parameter for which the derivatives still count as accurate, as a fraction of the size of the parameter.
 const NEAR: f64 = 0.02;
-/// Cosine of the angle between the residuals and a column of the Jacobian. If all these cosines are smaller than this value, the search has
-/// converged.
+/// Largest cosine of the angle between the residuals and a column of the Jacobian at convergence.
+/// The search has converged if the cosines for all columns are smaller than this constant.
 const ORTHOGONAL: f64 = 1e-7;
-/// Smallest predicted reduction of the sum of squares, as a fraction of the sum, for which the search continues. With a smaller reduction,
-/// parameters change by less than `1e-3 √(n - p)` of their standard errors, for `n` residuals and `p` parameters.
+/// Smallest predicted relative reduction of the sum of squares for which the search continues.
+/// With a smaller reduction, parameters change by less than `1e-3 √(n - p)` standard errors. There are `n` residuals and `p` parameters.
 const NOTHING: f64 = 1e-6;
-/// Sum of squares, as a fraction of its initial value, below which it is due to rounding.
+/// Sum of squares that is attributed to rounding, as a fraction of its initial value.
 const ROUNDING: f64 = 1e-26;
 /// Initial, smallest and largest damping.
 const DAMPING: (f64, f64, f64) = (1e-3, 1e-14, 1e12);
@@ -47,7 +47,7 @@ pub struct Fitted {
     pub estimate: Option<Estimate>,
     pub settling: TerminationReason,
     pub runs: usize,
-    /// Number of calls with derivatives. They are included in `runs`.
+    /// Number of calls with derivatives, which are included in `runs`.
     pub gradient_runs: usize,
     /// Reason why finite differences were used; `None` if the function provided all derivatives.
     pub differences: Option<String>,
@@ -58,7 +58,7 @@ struct LeastSquaresState {
     x: Vec<f64>,
     residuals: DVector<f64>,
     derivatives: DMatrix<f64>,
-    /// Largest norm of each column of the derivatives so far. The parameters are scaled by these norms.
+    /// Largest norm of each column of the Jacobian so far. The parameters are scaled by these norms.
     sizes: Vec<f64>,
     damping: f64,
 }
@@ -68,7 +68,7 @@ impl LeastSquaresState {
         self.residuals.norm_squared()
     }
 
-    /// Marks the free parameters: no bound prevents their change, and some residual depends on them.
+    /// Marks the free parameters. No bound prevents the change of a free parameter, and at least one residual depends on it.
     fn free(&self, ranges: &[SearchRange]) -> Vec<bool> {
         let gradient = self.derivatives.tr_mul(&self.residuals);
         let is_free = |at: usize| {
@@ -90,9 +90,9 @@ impl LeastSquaresState {
         cosines.fold(0.0, f64::max)
     }
 
-    /// Returns the step `δ` of the free parameters that minimises `|r + J δ|² + λ |D δ|²`, with the residuals `r`, their derivatives `J`, the
-    /// damping `λ` and the diagonal scaling `D`. A parameter that would exceed a bound is fixed at the bound, and the step of the other parameters
-    /// is computed again.
+    /// Step `δ` of the free parameters that minimises `|r + J δ|² + λ |D δ|²`.
+    /// Here `r` are the residuals, `J` the Jacobian, `λ` the damping and `D` the diagonal scaling.
+    /// A parameter that would exceed a bound is fixed at the bound, and the step of the other parameters is computed again.
     fn step(&self, ranges: &[SearchRange]) -> DVector<f64> {
         let mut free = self.free(ranges);
         let mut step = DVector::zeros(self.x.len());
@@ -142,8 +142,8 @@ impl LeastSquaresState {
         DVector::from_fn(count, |at, _| solution[at] / self.sizes[columns[at]])
     }
 
-    /// Updates the derivatives after a step by the rank-one correction of C. G. Broyden (1965), in scaled parameters. `change` is the change of the
-    /// residuals in this step.
+    /// Updates the derivatives after a step by the rank-one correction of C. G. Broyden (1965), in scaled parameters.
+    /// The argument `change` is the change of the residuals in the step.
     fn update_derivatives(&mut self, step: &DVector<f64>, change: &DVector<f64>) {
         let scaled =
             DVector::from_fn(step.len(), |at, _| step[at] * self.sizes[at] * self.sizes[at]);
@@ -177,21 +177,23 @@ impl LeastSquares {
 
     /// Minimises the sum of squares of the residuals.
     ///
-    /// The derivatives are computed by central differences at the start and are updated after each step. They are computed again when the updated
-    /// derivatives no longer reduce the sum of squares, or when the search seems to have converged far from the point where they were computed. A
-    /// step that fails is shortened.
+    /// The derivatives are computed by central differences at the start and are updated after each step.
+    /// The derivatives are computed again when updated derivatives no longer reduce the sum of squares.
+    /// The derivatives are also computed again when the search seems to have converged far from the point at which they were computed.
+    /// A failed step is repeated with a smaller length.
     ///
     /// # Errors
-    /// Returns an error of `evaluate`. The inner error is the reason why the search cannot start or continue: an evaluation that it needs has
-    /// failed, or has given values that are not finite.
+    /// Returns an error of `evaluate`.
+    /// The inner error is the reason why the search cannot start or continue.
+    /// The reason is a required evaluation that has failed or has returned values that are not finite.
     pub fn solve<E>(&self, evaluate: &mut Evaluate<'_, E>) -> Result<Result<Fitted, String>, E> {
         self.solve_with(evaluate, &mut |_| Ok(Err("differences are wanted".into())))
     }
 
-    /// Minimises like [`solve`](Self::solve), but with derivatives from `slopes`. If they are missing, finite differences are used.
+    /// Minimises like [`solve`](Self::solve), but with derivatives from `slopes`. If derivatives are missing, finite differences are used.
     ///
     /// # Errors
-    /// See [`solve`](Self::solve). An error of `slopes` is returned too.
+    /// Fails in the same cases as [`solve`](Self::solve), or if `slopes` fails.
     pub fn solve_with<E>(
         &self,
         evaluate: &mut Evaluate<'_, E>,
@@ -321,7 +323,7 @@ impl LeastSquares {
             *steps += 1;
             taken += 1;
             is_fresh = false;
-            // The function may have returned exact derivatives, which replace the updated ones.
+            // If the function has returned exact derivatives, they replace the updated derivatives.
             if state.squares() <= least || derivatives.is_some() {
                 return Ok(Round::NeedsDerivatives(derivatives));
             }

@@ -1,5 +1,5 @@
-//! Parameter estimation from runs by least squares, constrained minimisation and root finding. The methods only evaluate functions that return
-//! numbers, and do not know how these numbers are computed.
+//! Parameter estimation from runs by least squares, constrained minimisation and root finding.
+//! The methods evaluate functions that return numbers. They do not depend on how the functions compute these numbers.
 //!
 //! ```text
 //! least_squares → evaluator → differences
@@ -33,11 +33,11 @@ pub use student::student_quantile;
 /// Values of a function at a point, or the reason why they could not be computed.
 pub type Evaluation = Result<Vec<f64>, String>;
 
-/// Each value with its derivatives with respect to all parameters, or the reason why derivatives are missing.
+/// Values with their derivatives with respect to all parameters, or the reason why derivatives are missing.
 pub type Sloped = Result<Vec<(f64, Vec<f64>)>, String>;
 
-/// A function that may return derivatives. An error ends the whole search.
+/// Function that may return derivatives. An error ends the whole search.
 pub type Slopes<'s, E> = dyn FnMut(&[f64]) -> Result<Sloped, E> + 's;
 
-/// A function that is evaluated at several points in one call, so that it can evaluate them in parallel. An error ends the whole search.
+/// Function that is evaluated at several points in one call, so that it can evaluate them in parallel. An error ends the whole search.
 pub type Evaluate<'e, E> = dyn FnMut(&[Vec<f64>]) -> Result<Vec<Evaluation>, E> + 'e;

@@ -9,24 +9,24 @@ pub struct SearchRange {
 }
 
 impl SearchRange {
-    /// Returns the start value. If it lies outside the bounds, the nearest bound is returned.
+    /// Start value. If it lies outside the bounds, the nearest bound is returned.
     pub fn first(self) -> f64 {
         self.clip(self.start)
     }
 
-    /// Returns the value within the bounds that is nearest to `x`.
+    /// Value within the bounds that is nearest to `x`.
     pub fn clip(self, x: f64) -> f64 {
         x.max(self.low).min(self.high)
     }
 
-    /// Returns the scale of the parameter: the width of the range between its bounds, or the size of the start value if the range is unbounded.
+    /// Scale of the parameter: the distance between its bounds, or the size of the start value if a bound is infinite.
     pub fn width(self) -> f64 {
         let range = self.high - self.low;
         if range.is_finite() && range > 0.0 { range } else { self.size(self.start) }
     }
 
-    /// Returns the size of the parameter at the value `x`: the magnitude of `x`, but at least a hundredth of the width of the range. Changes of the
-    /// parameter are compared with this size.
+    /// Size of the parameter at the value `x`: the magnitude of `x`, but at least a hundredth of the scale of the parameter.
+    /// Changes of a parameter are compared with the size of the parameter.
     pub fn size(self, x: f64) -> f64 {
         let range = self.high - self.low;
         let least = if range.is_finite() { 0.01 * range } else { 1e-3 * self.start.abs() };

@@ -12,27 +12,25 @@ pub struct Root {
 
 #[derive(Clone, Debug, PartialEq)]
 pub enum RootError<E> {
-    /// The function has the same sign at both ends of the interval. Contains the values at the ends.
+    /// The function has the same sign at both ends of the interval. The fields are the values at the ends.
     SameSign(f64, f64),
-    /// The function value is not finite. Contains the argument and the value.
+    /// The function value is not finite. The fields are the argument and the value.
     NotFinite(f64, f64),
-    /// The sign changes at a pole: the values near it are larger in magnitude than at both ends of the interval. Contains an argument near the pole
-    /// and the value there.
+    /// The sign changes at a pole: the values near the pole are larger in magnitude than at both ends of the interval.
+    /// The fields are an argument near the pole and the function value at this argument.
     Pole(f64, f64),
-    /// The search did not converge within the maximum number of calls. Contains the best argument and its value.
+    /// The search did not converge within the maximum number of calls. The fields are the best argument and its value.
     Unfinished(f64, f64),
     Function(E),
 }
 
-/// Returns a root of `function` between `from` and `to`, where the function must have different signs. `tolerance` is the tolerance of the
-/// argument.
+/// Root of `function` between `from` and `to`, where the function must have different signs. `tolerance` is the tolerance of the argument.
 ///
-/// It uses the method of R. P. Brent (Algorithms for Minimization without Derivatives, 1973, chapter 4), which keeps the root in an interval and
-/// approaches it by secants and inverse quadratic interpolation.
+/// Brent's method (Algorithms for Minimization without Derivatives, 1973, chapter 4) is used.
+/// Brent's method keeps the root in an interval and approaches it by secants and inverse quadratic interpolation.
 ///
 /// # Errors
-/// Fails if the signs are equal, if a value is not finite, if the sign changes at a pole, if the search does not converge, or if the function
-/// fails.
+/// Fails if the signs are equal, if a value is not finite, if the sign changes at a pole, if the search does not converge, or if the function fails.
 pub fn root<E>(
     (from, to): (f64, f64),
     tolerance: f64,
@@ -56,7 +54,7 @@ pub fn root<E>(
     let (mut c, mut fc) = (a, fa);
     let (mut last, mut step) = (b - a, b - a);
     for _ in 0..MOST_CALLS {
-        // `b` is the best estimate of the root. The function has opposite signs at `b` and `c`.
+        // The variable `b` is the best estimate of the root. The function has opposite signs at `b` and `c`.
         if fb.signum() == fc.signum() {
             (c, fc) = (a, fa);
             step = b - a;
@@ -111,7 +109,7 @@ mod tests {
 
     #[test]
     fn roots_are_found_to_the_tolerance_in_few_calls() {
-        // First natural frequency of a cantilever, for which cos x cosh x = -1.
+        // First natural frequency of a cantilever: the solution of cos x cosh x = -1.
         let found = root((1.0, 3.0), 1e-12, |x| good(cos(x) * cosh(x) + 1.0)).unwrap();
         assert!((found.at - 1.875_104_068_711_961).abs() < 1e-12 && found.calls < 12, "{found:?}");
         let found = root((3.0, 1.0), 1e-10, |x| good(x * x * x - 8.0)).unwrap();

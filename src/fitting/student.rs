@@ -5,8 +5,8 @@ use crate::elementary::{exp, ln, power};
 const TERMS: usize = 500;
 const HALVINGS: usize = 200;
 
-/// Logarithm of the gamma function of a positive number, by the approximation of C. Lanczos (1964) with nine terms and g = 7. Its relative error is
-/// about 1e-15.
+/// Logarithm of the gamma function of a positive number, by the approximation of C. Lanczos (1964) with nine terms and g = 7.
+/// The relative error of the approximation is about 1e-15.
 fn ln_gamma(x: f64) -> f64 {
     const TERMS: [f64; 9] = [
         0.999_999_999_999_809_9,
@@ -26,8 +26,8 @@ fn ln_gamma(x: f64) -> f64 {
     0.5 * ln(2.0 * std::f64::consts::PI) + (x + 0.5) * ln(base) - base + ln(sum)
 }
 
-/// Regularised incomplete beta function `I_x(a, b)`. Its continued fraction is evaluated by Lentz's method (W. H. Press et al., Numerical Recipes,
-/// section 6.4).
+/// Regularised incomplete beta function `I_x(a, b)`.
+/// Lentz's method evaluates the continued fraction of the function (W. H. Press et al., Numerical Recipes, section 6.4).
 fn incomplete_beta(x: f64, a: f64, b: f64) -> f64 {
     if x <= 0.0 || x >= 1.0 {
         return x.clamp(0.0, 1.0);

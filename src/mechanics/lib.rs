@@ -1,14 +1,14 @@
 //! Planar dynamics of flexible beams with sliding joints: the solver below the scripting language of withy.
 //!
-//! Layers; each layer uses only those to its right:
+//! Layers; each layer uses only the layers to its right:
 //!
 //! ```text
 //! simulation → statics → vibration → system ┬→ joints, loads → beams → geometry
 //!                                           └→ integrators → newton → linalg
 //! ```
 //!
-//! The lowest level consists of [`elementary`], functions with identical results on every machine, and `threads`, which processes beams, bands and
-//! bodies concurrently.
+//! The lowest level consists of [`elementary`] and `threads`. [`elementary`] contains functions with identical results on every machine.
+//! The module `threads` processes beams, bands and bodies concurrently.
 
 #![forbid(unsafe_code)]
 #![cfg_attr(not(test), warn(clippy::disallowed_methods))]

@@ -1,7 +1,7 @@
 //! Animated PNG files. Browsers and Markdown viewers can play them.
 //!
-//! All frames share a palette of the 256 most frequent colours. Every other colour is replaced by the nearest colour of the palette. Of each frame
-//! only the bounding box of its changes is stored.
+//! All frames share a palette of the 256 most frequent colours. Each other colour is replaced by the nearest palette colour.
+//! For each frame, only the bounding box of its changes is stored.
 
 use std::collections::BTreeMap;
 
@@ -15,11 +15,11 @@ const MOST_PIXELS: f64 = 2e9;
 type Rgb = [u8; 3];
 type Pixels = Vec<u8>;
 
-/// Sequence of pictures of equal size. Frames are drawn when they are needed.
+/// Sequence of pictures of equal size. Each frame is drawn when it is needed.
 pub struct Animation<'a> {
     pub frames: usize,
     pub frames_per_second: u16,
-    /// Draws the frame with an index. It is called twice for each frame: first to collect colours, then to write the frame.
+    /// Draws the frame with an index. Called twice for each frame: first to collect colours, then to write the frame.
     pub draw: &'a dyn Fn(usize) -> Result<Figure, OutputError>,
 }
 
@@ -32,7 +32,7 @@ struct Region {
 }
 
 impl Animation<'_> {
-    /// Returns the bytes of the file. The animation is repeated without end. Programs that do not support animations show the first frame.
+    /// Bytes of the file. The animation is repeated endlessly. Programs that do not support animations show the first frame.
     ///
     /// # Errors
     /// Fails if a frame cannot be painted, there are too many pixels, or there is no frame at all.
@@ -48,7 +48,7 @@ impl Animation<'_> {
         encoder.set_color(ColorType::Indexed);
         encoder.set_depth(BitDepth::Eight);
         encoder.set_compression(Compression::Best);
-        // Filters store differences. They do not help here, because palette indices have no order.
+        // PNG filters store differences, which are useless here, because palette indices have no order.
         encoder.set_filter(FilterType::NoFilter);
         encoder.set_palette(palette.colours.concat());
         encoder.set_animated(self.frames as u32, 0).map_err(refused)?;
@@ -64,7 +64,7 @@ impl Animation<'_> {
                 Some(before) => changed(before, &now, width),
             };
             if before.is_some() {
-                // The size of the next frame must fit at the offset of the previous one. In the corner any size fits.
+                // The size of the next frame must fit at the offset of the previous frame. At the corner, any size fits.
                 writer.set_frame_position(0, 0).map_err(refused)?;
                 writer.set_frame_dimension(region.width, region.height).map_err(refused)?;
                 writer.set_frame_position(region.left, region.top).map_err(refused)?;
@@ -80,7 +80,7 @@ impl Animation<'_> {
         let mut counts: BTreeMap<Rgb, u64> = BTreeMap::new();
         for frame in 0..self.frames {
             let pixels = (self.draw)(frame)?.to_pixels()?;
-            // Most neighbouring pixels have the same colour, so runs of pixels are counted together.
+            // Most neighbouring pixels have the same colour, so equal pixels are counted in runs.
             for run in pixels.as_chunks().0.chunk_by(|a: &Rgb, b| a == b) {
                 *counts.entry(run[0]).or_default() += run.len() as u64;
             }
@@ -115,7 +115,7 @@ impl Palette {
     }
 }
 
-/// Box in which two frames differ. It cannot be empty, so it is one pixel for equal frames.
+/// Bounding box of the difference between two frames. The box cannot be empty, so equal frames give one pixel.
 fn changed(before: &[u8], now: &[u8], width: u32) -> Region {
     let columns = width as usize;
     let (mut left, mut right) = (columns, 0);

@@ -3,23 +3,23 @@
 use super::number::{format_number, significant};
 use crate::elementary::{log10, power, whole_power};
 
-/// Rule for the positions of numbers along an axis.
+/// Rule that converts numbers to positions along an axis.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum AxisScale {
-    /// Equal differences of numbers are equally long on the axis.
+    /// Linear: equal differences of numbers have equal lengths on the axis.
     #[default]
     Linear,
-    /// Equal ratios of numbers are equally long on the axis. Numbers that do not exceed a floor, including zero, are shown at the bottom.
+    /// Logarithmic: equal ratios of numbers have equal lengths on the axis. Numbers up to a floor, including zero, are shown at the bottom.
     Logarithmic,
 }
 
-/// Floor of a logarithmic axis if a chart does not set one. It is well below the rounding error of a number near one.
+/// Default floor of a logarithmic axis. It is well below the rounding error of a number near one.
 pub const DEFAULT_FLOOR: f64 = 1e-18;
 
-/// Magnitude to which numbers are limited. It ensures that the length of any range is finite.
+/// Magnitude to which numbers are limited, so that the length of any range is finite.
 const LARGEST: f64 = 1e300;
 
-/// Width of a range that is due to rounding, as a fraction of its numbers. Such a range is shown as a constant.
+/// Width of a range that is attributed to rounding, as a fraction of its numbers. Such a range is shown as a constant.
 const ROUNDING: f64 = 1e-10;
 
 #[derive(Clone, Debug, PartialEq)]
@@ -32,7 +32,7 @@ pub struct Tick {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Axis {
     scale: AxisScale,
-    /// Low end of the axis. On a logarithmic axis it is the exponent of the end.
+    /// Low end of the axis. For a logarithmic axis, it is the exponent of the low end.
     low: f64,
     high: f64,
     cut: AxisCut,
@@ -51,7 +51,7 @@ impl Default for Axis {
 }
 
 impl Axis {
-    /// Creates a linear axis from the smallest to the largest finite value. At each end it is extended by `margin` times its length.
+    /// Creates a linear axis from the smallest to the largest finite value. Each end is extended by `margin` times the length.
     pub fn linear(values: impl IntoIterator<Item = f64>, margin: f64) -> Self {
         let (low, high) = extent(values).unwrap_or((0.0, 1.0));
         let size = low.abs().max(high.abs());
@@ -74,8 +74,8 @@ impl Axis {
         Self::linear([low, high], 0.0)
     }
 
-    /// Creates a logarithmic axis between integer powers of ten. Values that do not exceed `floor` are shown at the bottom, one power of ten below
-    /// the smallest value above `floor`.
+    /// Creates a logarithmic axis between integer powers of ten.
+    /// Values up to `floor` are shown at the bottom, one power of ten below the smallest value above `floor`.
     pub fn logarithmic(values: impl IntoIterator<Item = f64>, floor: f64) -> Self {
         let floor = if floor > 0.0 && floor.is_finite() { floor } else { DEFAULT_FLOOR };
         let mut cut = AxisCut::Nothing;
@@ -99,7 +99,7 @@ impl Axis {
         Self { scale: AxisScale::Logarithmic, low, high, cut: AxisCut::Nothing }
     }
 
-    /// Position of `x` on the axis: 0 at the low end, 1 at the high end, and below 0 or above 1 outside the range. For NaN it is NaN.
+    /// Position of `x` on the axis: 0 at the low end, 1 at the high end, below 0 or above 1 outside the range, and NaN for NaN.
     pub fn place(&self, x: f64) -> f64 {
         match self.scale {
             AxisScale::Linear => (x.clamp(-LARGEST, LARGEST) - self.low) / (self.high - self.low),
@@ -109,7 +109,7 @@ impl Axis {
         }
     }
 
-    /// About `count` labelled ticks of the axis, and the power of ten by which their labels are divided.
+    /// About `count` labelled ticks of the axis, with the common power of ten by which their labels are divided.
     pub fn ticks(&self, count: usize) -> (Vec<Tick>, Factor) {
         let count = count.max(2) as f64;
         match self.scale {
@@ -130,7 +130,7 @@ impl Axis {
             other => other,
         };
         let decimals = (factor - power).max(0) as usize;
-        // Rounding may have moved the ends of the range. The tolerance ensures that ticks at the ends are not lost.
+        // Rounding may have moved the ends of the range. With this tolerance, ticks at the ends are not lost.
         let (first, last) = ((self.low / step - 1e-6).ceil(), (self.high / step + 1e-6).floor());
         let ticks = (0..=(last - first).clamp(0.0, 100.0) as usize).map(|index| {
             let multiple = first + index as f64;
@@ -178,7 +178,7 @@ impl Axis {
 pub struct Factor(i32);
 
 impl Factor {
-    /// Label of an axis, followed by the power of ten if there is one, as in `energy [J] (×10⁻⁷)`.
+    /// Label of an axis, followed by the common power of ten, if any, as in `energy [J] (×10⁻⁷)`.
     pub fn after(&self, label: &str) -> String {
         match self.0 {
             0 => label.into(),
@@ -187,7 +187,7 @@ impl Factor {
     }
 }
 
-/// Smallest and largest finite number of some values; `None` if there is no finite number.
+/// Smallest and largest finite number; `None` if there is no finite number.
 pub fn extent(values: impl IntoIterator<Item = f64>) -> Option<(f64, f64)> {
     values.into_iter().filter(|x| x.is_finite()).map(|x| x.clamp(-LARGEST, LARGEST)).fold(
         None,
@@ -198,7 +198,7 @@ pub fn extent(values: impl IntoIterator<Item = f64>) -> Option<(f64, f64)> {
     )
 }
 
-/// Smallest number that is at least `step` and is 1, 2 or 5 times a power of ten.
+/// Smallest number of at least `step` that is 1, 2 or 5 times a power of ten.
 fn round_step(step: f64) -> (u8, i32) {
     let power = log10(step).floor() as i32;
     match step / ten_to(power) {

@@ -1,4 +1,4 @@
-//! Bar charts. Horizontal bars start at zero, with a name before each bar and a number after it.
+//! Bar charts. Horizontal bars start at zero. A name is written before each bar, and a number after it.
 
 use super::{
     canvas::{Align, Area, Canvas},
@@ -21,7 +21,7 @@ struct Bar {
     text: String,
 }
 
-/// Chart of horizontal bars below each other.
+/// Chart of horizontal bars, one below the other.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct BarChart {
     title: String,
@@ -36,7 +36,7 @@ impl BarChart {
         Self { title: title.into(), label: label.into(), ..Self::default() }
     }
 
-    /// Adds a bar of length `value` below the others. `text` is written after it.
+    /// Adds a bar of length `value` at the bottom. `text` is written after the bar.
     pub fn bar(mut self, name: impl Into<String>, value: f64, text: impl Into<String>) -> Self {
         self.bars.push(Bar { name: name.into(), value, text: text.into() });
         self
@@ -92,7 +92,7 @@ impl Panel for BarChart {
             canvas.line([(x, plot.top), (x, plot.bottom)], 1.0, GREY);
         }
         for (text, (left, baseline)) in texts {
-            // White boxes are drawn so that the reference line does not cross the texts of shorter bars.
+            // White boxes behind the texts prevent the reference line from crossing the texts of shorter bars.
             let (top, bottom) = (baseline - TEXT, baseline + 0.3 * TEXT);
             let right = left + fonts::width(&text, TEXT);
             canvas.fill(Area { left: left - 2.0, top, right: right + 2.0, bottom }, WHITE);

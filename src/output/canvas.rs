@@ -1,10 +1,10 @@
-//! Shapes of which a picture consists: lines, discs, filled boxes and texts. Coordinates are in pixels from the top left corner.
+//! Shapes of a picture: lines, discs, filled boxes and texts. Coordinates are in pixels from the top left corner.
 //!
-//! Charts draw on a canvas, and painters write the canvas to a file. Charts do not depend on painters, so that the drawing library can be replaced.
+//! Charts draw on a canvas, and painters write the canvas to a file. Charts do not depend on painters, so the drawing library can be replaced.
 
 use super::{colour::Colour, fonts};
 
-/// Point: in pixels on a canvas, in data units in a chart.
+/// Point in pixels on a canvas, or in data units in a chart.
 pub type Point = (f64, f64);
 
 /// Magnitude to which coordinates are limited [pixels]. It is far outside every picture and prevents overflow.
@@ -14,15 +14,15 @@ const FAR: f64 = 20_000.0;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Area {
     pub left: f64,
-    /// Smallest y of the box, at its upper side.
+    /// Upper side of the box, where y is smallest.
     pub top: f64,
     pub right: f64,
-    /// Largest y of the box, at its lower side.
+    /// Lower side of the box, where y is largest.
     pub bottom: f64,
 }
 
 impl Area {
-    /// Intersection with another area.
+    /// Intersection of two areas.
     pub fn within(&self, other: &Self) -> Self {
         Self {
             left: self.left.clamp(other.left, other.right),
@@ -32,7 +32,7 @@ impl Area {
         }
     }
 
-    /// Square centred on a point, whose sides have the length `2 · reach`.
+    /// Square centred on a point. Its sides have the length `2 · reach`.
     pub fn around((x, y): Point, reach: f64) -> Self {
         Self { left: x - reach, top: y - reach, right: x + reach, bottom: y + reach }
     }
@@ -71,7 +71,7 @@ pub struct Text {
     pub text: String,
     /// Left end of the baseline after alignment [pixels].
     pub start: Point,
-    /// The size of the text [pixels per em].
+    /// Size of the text [pixels per em].
     pub size: f64,
     pub colour: Colour,
     pub direction: TextDirection,
@@ -79,20 +79,20 @@ pub struct Text {
 
 #[derive(Clone, Debug, PartialEq)]
 pub enum Shape {
-    /// A polyline with round ends and corners.
+    /// Polyline with round ends and corners.
     Line {
         points: Vec<Point>,
-        /// The width of the line [pixels].
+        /// Width of the line [pixels].
         width: f64,
         colour: Colour,
     },
     Disc {
         centre: Point,
-        /// The radius of the circle [pixels].
+        /// Radius of the circle [pixels].
         radius: f64,
         colour: Colour,
     },
-    /// A filled box, with sides along the axes.
+    /// Filled box with sides along the axes.
     Fill {
         area: Area,
         colour: Colour,
@@ -100,7 +100,7 @@ pub enum Shape {
     Text(Text),
 }
 
-/// Picture that is being drawn: its shapes, from back to front.
+/// Picture under construction: its shapes, from back to front.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Canvas {
     shapes: Vec<Shape>,
@@ -132,12 +132,12 @@ impl Canvas {
         }
     }
 
-    /// Writes a text. `anchor` is a point on its baseline.
+    /// Writes a text. `anchor` is a point on the baseline of the text.
     pub fn text(&mut self, text: &str, anchor: Point, size: f64, align: Align, colour: Colour) {
         self.write(text, anchor, size, align, TextDirection::Level, colour);
     }
 
-    /// Writes a text that runs from bottom to top. `anchor` is a point on its baseline.
+    /// Writes a text that runs from bottom to top. `anchor` is a point on the baseline of the text.
     pub fn text_upwards(
         &mut self,
         text: &str,

@@ -14,42 +14,42 @@ use super::{
 
 const LINE: f64 = 2.0;
 const MARK: f64 = 3.5;
-/// Line width and marker radius of faint series, and the fraction of their colour that is kept.
+/// Line width and marker radius of faint series, and the remaining fraction of their colour.
 const FAINT: (f64, f64, f64) = (0.9, 2.4, 0.15);
 const THIN: f64 = 1.3;
 const NOTE: f64 = 12.0;
 
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum SeriesColour {
-    /// The next colour of the palette.
+    /// Next colour of the palette.
     #[default]
     Next,
-    /// The colour of the series with this index. Related series can share it.
+    /// Colour of the series with this index. Related series can share a colour.
     OfSeries(usize),
-    /// The colour of titles, for series that summarise all others.
+    /// Colour of titles, for series that summarise all others.
     Black,
 }
 
 /// Visual weight of a series.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum SeriesEmphasis {
-    /// A line of normal width.
+    /// Line of normal width.
     #[default]
     Full,
     Thin,
-    /// A thin and pale line, drawn in the background.
+    /// Thin and pale line in the background.
     Pale,
 }
 
-/// A series of a chart: a named curve. Points that are not finite leave a gap.
+/// Series of a chart: a named curve. Points that are not finite leave a gap.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Series {
     pub name: String,
-    /// The points of the series, in the order in which they are joined.
+    /// Points of the series, in the order in which they are connected.
     pub points: Vec<Point>,
-    /// Line style of the series. If `None`, the chart draws unbroken lines until all colours are used.
+    /// Line style of the series. If `None`, the chart draws continuous lines until all colours are used.
     pub stroke: Option<Stroke>,
-    /// Shape of the markers, if the stroke has any.
+    /// Shape of the markers, if the line style has markers.
     pub marker: Marker,
     pub ink: SeriesColour,
     /// Line width and paleness of the series.
@@ -57,7 +57,7 @@ pub struct Series {
 }
 
 impl Series {
-    /// A series through `points`. A series with an empty name is not in the legend.
+    /// Series through `points`. A series with an empty name is not listed in the legend.
     pub fn new(name: impl Into<String>, points: Vec<Point>) -> Self {
         Self { name: name.into(), points, ..Self::default() }
     }
@@ -88,7 +88,7 @@ impl Series {
     }
 }
 
-/// A line chart: series over common axes, with a title, labels and a legend.
+/// Line chart: series over common axes, with a title, labels and a legend.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LineChart {
     title: String,
@@ -104,7 +104,7 @@ pub struct LineChart {
 }
 
 impl LineChart {
-    /// An empty line chart of 900 by 560 pixels.
+    /// Empty line chart of 900 by 560 pixels.
     pub fn new(title: impl Into<String>) -> Self {
         Self {
             title: title.into(),
@@ -162,8 +162,9 @@ impl LineChart {
         self
     }
 
-    /// Combines the series of several charts in the axes of the first chart. Each series gets the name of its chart, followed by its own name if the
-    /// chart has several series. Lines of the second chart are dashed, lines of the third chart dotted.
+    /// Combines the series of several charts in the axes of the first chart.
+    /// Each series gets the name of its chart. If the chart has several series, the name of the series is appended.
+    /// Lines of the second chart are dashed, lines of the third chart dotted.
     pub fn shared(
         title: impl Into<String>,
         charts: impl IntoIterator<Item = (String, Self)>,
@@ -176,7 +177,7 @@ impl LineChart {
             chart.series.into_iter().fold(shared, |shared, series| {
                 let name =
                     if is_alone { whose.clone() } else { format!("{whose}: {}", series.name) };
-                // Dashes leave gaps through which an equal curve below is visible.
+                // The gaps of a dashed line show an equal curve below it.
                 let stroke = series.stroke.or((which > 0).then(|| Stroke::of_palette_pass(which)));
                 shared.series(Series { name, stroke, ..series })
             })

@@ -10,7 +10,7 @@ pub const GREY: Colour = Colour(110, 116, 124);
 pub const AXIS: Colour = Colour(150, 156, 163);
 pub const GRID: Colour = Colour(229, 232, 236);
 
-/// Palette of Okabe and Ito (2008). Its yellow is left out, because it is not visible on white paper.
+/// Palette of Okabe and Ito (2008) without yellow, which is not visible on white paper.
 const HUES: [Colour; 7] = [
     Colour(0, 114, 178),
     Colour(213, 94, 0),
@@ -21,8 +21,8 @@ const HUES: [Colour; 7] = [
     Colour(60, 60, 60),
 ];
 
-/// Nine equally spaced samples of the viridis colour map (Smith and van der Walt, matplotlib), from pale to dark. The palest tenth of the map is
-/// left out, because it is not visible on white paper.
+/// Nine equally spaced samples of the viridis colour map (Smith and van der Walt, matplotlib), from pale to dark.
+/// The palest tenth of the map is omitted, because it is not visible on white paper.
 const RAMP: [Colour; 9] = [
     Colour(189, 223, 38),
     Colour(128, 211, 75),
@@ -35,7 +35,7 @@ const RAMP: [Colour; 9] = [
     Colour(68, 1, 84),
 ];
 
-/// Number of hues for series. More series repeat them.
+/// Number of different hues for series. Additional series repeat the hues.
 pub const HUE_COUNT: usize = HUES.len();
 
 /// Hue of the series or beam with an index. The hues repeat after [`HUE_COUNT`].
@@ -43,7 +43,7 @@ pub fn hue(index: usize) -> Colour {
     HUES[index % HUES.len()]
 }
 
-/// Colour of a ramp from pale (`part` 0) to dark (`part` 1). Equal differences of `part` look equally large.
+/// Colour of a ramp from pale (`part` 0) to dark (`part` 1). Equal differences of `part` are perceived as equal.
 pub fn ramp(part: f64) -> Colour {
     let place = clamp_part(part) * (RAMP.len() - 1) as f64;
     let below = (place as usize).min(RAMP.len() - 2);

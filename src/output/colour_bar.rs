@@ -9,7 +9,7 @@ use super::{
 
 const TEXT: f64 = 12.0;
 const LABEL: f64 = 13.0;
-/// Distance of the bar from the plot. The width of the bar and the distance of the numbers from it follow [pixels].
+/// Distance of the bar from the plot [pixels]. The next constants are the width of the bar and the distance of the numbers from the bar.
 const GAP: f64 = 22.0;
 const BREADTH: f64 = 12.0;
 const NUMBERS: f64 = 8.0;
@@ -22,7 +22,7 @@ enum BarWidth {
     Wedge(f64, f64),
 }
 
-/// Colour scale and its bar. The bar is drawn only if there are at least two different numbers.
+/// Colour scale with its bar. The bar is drawn only if there are at least two different numbers.
 pub struct ColourBar {
     label: String,
     axis: Option<Axis>,
@@ -49,7 +49,7 @@ impl ColourBar {
         self
     }
 
-    /// Position of a number in the scale: 0 for the smallest, 1 for the largest number. If all numbers are equal it is 1.
+    /// Position of a number in the scale: 0 for the smallest number, 1 for the largest number. If all numbers are equal, it is 1.
     pub fn part(&self, number: f64) -> f64 {
         self.axis.map_or(1.0, |axis| axis.place(number))
     }
@@ -69,7 +69,7 @@ impl ColourBar {
         let height = plot.bottom - top;
         for piece in 0..PIECES {
             let (low, high) = (piece as f64 / PIECES as f64, (piece + 1) as f64 / PIECES as f64);
-            // Each piece overlaps the piece below it, so that no seams are visible.
+            // Each piece of the bar overlaps the piece below it, so that no seams are visible.
             let (piece_top, bottom) = (plot.bottom - height * high, plot.bottom - height * low);
             let under = if piece == 0 { 0.0 } else { 0.5 };
             let right = left

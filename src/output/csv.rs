@@ -30,7 +30,7 @@ impl CsvTable {
         self
     }
 
-    /// Keeps every n-th row and the last row, such that about `numbers` values remain. A comment line contains n.
+    /// Keeps every n-th row and the last row, so that about `numbers` values remain. A comment line contains n.
     #[must_use]
     pub fn thinned(mut self, numbers: usize) -> Self {
         let rows = self.columns.iter().map(|(_, values)| values.len()).max().unwrap_or(0);
@@ -47,7 +47,7 @@ impl CsvTable {
         self
     }
 
-    /// Text of the CSV file. Fails if columns have different lengths.
+    /// Text of the CSV file. Fails if the columns have different lengths.
     pub fn to_text(&self) -> Result<String, OutputError> {
         self.common_length()?;
         let mut bytes = Vec::new();
@@ -55,10 +55,10 @@ impl CsvTable {
         Ok(String::from_utf8_lossy(&bytes).into_owned())
     }
 
-    /// Writes the CSV file piece by piece. An error of `file` ends the writing. By this, writing a long table can be interrupted.
+    /// Writes the CSV file in pieces. An error of `file` ends the writing, so that the output of a long table can be interrupted.
     ///
     /// # Errors
-    /// Errors of `file`, or an error if columns have different lengths.
+    /// Fails if writing to `file` fails, or if the columns have different lengths.
     pub fn write(&self, mut file: &mut dyn Write) -> io::Result<()> {
         let rows = self.common_length().map_err(io::Error::other)?;
         for line in self.comments.iter().flat_map(|comment| comment.lines()) {
@@ -91,7 +91,7 @@ impl CsvTable {
     }
 }
 
-/// Text of a cell. Texts that spreadsheets would evaluate as formulas get an apostrophe before them. Numbers are not changed.
+/// Text of a cell. Texts that spreadsheets would evaluate as formulas get a leading apostrophe. Numbers are not changed.
 pub fn csv_cell(text: &str) -> Cow<'_, str> {
     let is_formula = text.starts_with(['=', '+', '-', '@', '\t', '\r']);
     if is_formula && text.parse::<f64>().is_err() {
@@ -101,7 +101,7 @@ pub fn csv_cell(text: &str) -> Cow<'_, str> {
     }
 }
 
-/// Comment line above a table. Spreadsheets split it into cells like a row, so every cell is made safe as by [`csv_cell`].
+/// Comment line above a table. Spreadsheets split it into cells, so every cell is protected by [`csv_cell`].
 pub(super) fn comment_line(text: &str) -> String {
     const CUTS: [char; 3] = [',', ';', '\t'];
     let mut line = "#".to_owned();

@@ -1,4 +1,4 @@
-//! Preparation of curves for drawing. They are split at gaps, clipped to the plot, and thinned to the resolution.
+//! Preparation of curves for drawing. Curves are split at gaps, clipped to the plot, and thinned to the resolution.
 
 use super::canvas::{Area, Point};
 use crate::elementary::hypot;
@@ -31,7 +31,7 @@ fn runs(points: impl IntoIterator<Item = Point>) -> Vec<Vec<Point>> {
     runs
 }
 
-/// Keeps the first, lowest, highest and last point in each vertical strip. They cover the same pixels as all points in the strip.
+/// Keeps the first, lowest, highest and last point in each vertical strip. These points cover the same pixels as all points in the strip.
 fn thinned(run: &[Point]) -> Vec<Point> {
     let strip = |point: &Point| (point.0 / STRIP).floor();
     let mut kept = Vec::new();

@@ -56,11 +56,11 @@ impl DataValues {
 }
 
 impl DataTable {
-    /// Writes the CSV file piece by piece. Numbers have 17 digits, from which a float can be restored exactly. An error of `file` ends the writing.
-    /// By this, writing a long table can be interrupted.
+    /// Writes the CSV file in pieces. Numbers have 17 digits, from which a float can be restored exactly.
+    /// An error of the argument `file` ends the writing, so that the output of a long table can be interrupted.
     ///
     /// # Errors
-    /// Errors of `file`, or an error if columns have different lengths.
+    /// Fails if writing to `file` fails, or if the columns have different lengths.
     pub fn write_csv(&self, heading: TableHeading, file: &mut dyn Write) -> io::Result<()> {
         let rows = self.rows().map_err(io::Error::other)?;
         let mut writer = ::csv::Writer::from_writer(file);

@@ -1,4 +1,4 @@
-//! Pictures of beams that are coloured by a magnitude along them. Larger values are drawn darker and wider.
+//! Pictures of beams that are coloured by a quantity along them. Larger values are drawn darker and wider.
 
 use super::{
     axis::typeset_number,
@@ -15,13 +15,13 @@ use super::{
 use crate::elementary::hypot;
 
 const WIDTHS: (f64, f64) = (2.0, 10.0);
-/// Length of a piece in a single colour [pixels]. It is larger if there would be too many pieces.
+/// Length of a piece in a single colour [pixels]. It is larger if there would otherwise be too many pieces.
 const PIECE: f64 = 3.0;
 const MOST_PIECES: f64 = 4000.0;
 const NUMBER: f64 = 12.0;
 const DIGITS: usize = 4;
 
-/// Beams, and values along them that are not negative.
+/// Picture of beams, with nonnegative values along them.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct FieldPicture {
     title: String,
@@ -137,7 +137,7 @@ impl FieldPicture {
     }
 }
 
-/// Directions from a mark to its number, with the preferred one first.
+/// Directions from a mark to its number, starting with the preferred direction.
 const AROUND: [(f64, f64); 8] = [
     (1.0, -1.0),
     (-1.0, -1.0),
@@ -201,7 +201,7 @@ impl Panel for FieldPicture {
             (plot.left..=plot.right).contains(&at.0) && (plot.top..=plot.bottom).contains(&at.1)
         };
         for beam in &beams {
-            // If limits clip a beam, parts between two samples that are partly visible are drawn completely.
+            // If limits clip a beam, partly visible pieces between two samples are drawn completely.
             for seen in beam.chunk_by(|(a, _), (b, _)| is_inside(*a) && is_inside(*b)) {
                 Self::draw_beam(canvas, piece, seen);
             }

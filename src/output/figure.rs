@@ -6,7 +6,7 @@ use super::{OutputError, canvas::Canvas, png, svg};
 
 const SIDES: std::ops::RangeInclusive<f64> = 100.0..=8000.0;
 
-/// File format of a picture, which the file extension selects.
+/// File format of a picture, selected by the file extension.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum PictureKind {
     /// Vector graphics, `.svg`.
@@ -30,7 +30,7 @@ impl PictureKind {
     }
 }
 
-/// Picture of fixed size. Equal drawings give equal bytes on every machine, whatever fonts are installed.
+/// Picture of fixed size. Equal drawings give equal bytes on every machine, independent of the installed fonts.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Figure {
     canvas: Canvas,

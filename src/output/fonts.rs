@@ -1,7 +1,7 @@
-//! Text in the font DejaVu Sans, which is part of the program, so that pictures do not depend on installed fonts.
+//! Text in the font DejaVu Sans, which is embedded in the program, so that pictures do not depend on installed fonts.
 //!
-//! Sizes are in pixels per em, and lengths in pixels. Coordinates start at the left end of the baseline; `x` increases to the right and `y`
-//! downwards.
+//! Sizes are in pixels per em, and lengths in pixels.
+//! Coordinates start at the left end of the baseline; `x` increases to the right and `y` downwards.
 
 use std::sync::LazyLock;
 
@@ -16,7 +16,7 @@ const LONGEST: usize = 400;
 /// Largest distance between a curve and the polyline that replaces it [pixels].
 const FLATNESS: f64 = 0.03;
 
-/// The font. Loading it cannot fail. If it failed, pictures would have no text.
+/// Embedded font. Loading it cannot fail. If it failed, pictures would have no text.
 static FACE: LazyLock<Option<FontRef<'static>>> =
     LazyLock::new(|| FontRef::try_from_slice(dejavu::sans::regular()).ok());
 
@@ -25,7 +25,7 @@ pub fn width(text: &str, size: f64) -> f64 {
     set(text, size).1
 }
 
-/// Size at which `text` fits into the width `room` [pixels]. It is at most `size` and at least 60 % of it.
+/// Size at which `text` fits into the width `room` [pixels]. The size is at most `size` and at least 60 % of it.
 pub fn shrunk(text: &str, size: f64, room: f64) -> f64 {
     const SMALLEST: f64 = 0.6;
     // Because of rounding, a text that fits exactly could become slightly too long.
@@ -34,7 +34,7 @@ pub fn shrunk(text: &str, size: f64, room: f64) -> f64 {
     if wanted <= room { size } else { size * (ROUNDING * room / wanted).max(SMALLEST) }
 }
 
-/// Returns the text. If it is longer than `room` pixels, it is shortened and ends with an ellipsis.
+/// Text with a width of at most `room` pixels. A longer text is shortened and ends with an ellipsis.
 pub fn fit(text: &str, size: f64, room: f64) -> String {
     if text.chars().count() <= LONGEST && width(text, size) <= room {
         return text.into();
@@ -80,7 +80,7 @@ pub fn glyphs(text: &str, size: f64) -> Vec<OutlinedGlyph> {
     set(text, size).0.into_iter().filter_map(|glyph| face.outline_glyph(place(glyph))).collect()
 }
 
-/// Outlines of `text` at `size` pixels per em. Each glyph consists of closed contours, and holes have the opposite direction.
+/// Outlines of `text` at `size` pixels per em. Each glyph consists of closed contours. Holes have the opposite orientation.
 pub fn outlines(text: &str, size: f64) -> Vec<Vec<Vec<Point>>> {
     let Some(face) = FACE.as_ref() else { return Vec::new() };
     let per_unit = per_unit(face, size);

@@ -16,7 +16,7 @@ const EDGE: f64 = 14.0;
 /// Smallest size of a text, as a fraction of its normal size. A text that would be smaller is broken into lines.
 const SMALLEST: f64 = 0.8;
 const MOST_LINES: usize = 4;
-/// Largest number of points that are all marked. Of longer curves, only the points that remain after thinning are marked.
+/// Largest number of points for which every point has a marker. On longer curves, only the points that remain after thinning have markers.
 const MOST_MARKS: usize = 2000;
 /// Distance between ticks on the horizontal and on the vertical axis [pixels].
 const TICK_EVERY: (f64, f64) = (85.0, 50.0);
@@ -35,7 +35,7 @@ pub struct Margins {
 }
 
 impl Margins {
-    /// For each side, the larger margin of two panels that are side by side.
+    /// On each side, the larger of the margins of two panels.
     pub fn widest(self, other: Self) -> Self {
         Self {
             left: self.left.max(other.left),
@@ -45,7 +45,7 @@ impl Margins {
         }
     }
 
-    /// Box inside the margins of `area`. It is never empty.
+    /// Box inside the margins of `area`. The box is never empty.
     pub fn inside(&self, area: &Area) -> Area {
         let (left, top) = (area.left + self.left, area.top + self.top);
         let (right, bottom) = (area.right - self.right, area.bottom - self.bottom);
@@ -53,7 +53,7 @@ impl Margins {
     }
 }
 
-/// Frame of a panel, which is everything around the data.
+/// Frame of a panel: everything around the data.
 #[derive(Clone, Debug, Default)]
 pub struct Frame {
     pub title: String,
@@ -62,7 +62,7 @@ pub struct Frame {
     pub y_label: String,
     pub x: Axis,
     pub y: Axis,
-    /// Entries of the legend. It is empty if no legend is needed.
+    /// Entries of the legend; empty if no legend is needed.
     pub legend: Vec<LegendEntry>,
 }
 
@@ -89,7 +89,7 @@ impl Frame {
         }
     }
 
-    /// Margins if a colour bar of width `bar` is on the right. The bar reduces the width of the plot and of the legend.
+    /// Margins for a panel with a colour bar of width `bar` on the right. The bar reduces the width of the plot and of the legend.
     pub fn margins_beside(&self, bar: f64, width: f64, height: f64) -> Margins {
         let alone = self.margins(width, height).right;
         let right = alone.max(bar);
@@ -129,14 +129,14 @@ impl Frame {
 
     /// Visible pieces of a data curve, as points on the canvas [pixels].
     pub fn curve(&self, plot: &Area, points: &[Point]) -> Vec<Vec<Point>> {
-        // The window is slightly larger than the plot. Otherwise rounding could clip a line along its side.
+        // The window is slightly larger than the plot. Otherwise, rounding could clip a line along the side of the plot.
         let window = Area {
             left: plot.left - 0.01,
             top: plot.top - 0.01,
             right: plot.right + 0.01,
             bottom: plot.bottom + 0.01,
         };
-        // Axes move infinite values to their ends, but a curve must have a gap there.
+        // Axes move infinite values to their ends. A curve must have a gap at such values.
         let place = |&(x, y): &Point| {
             let is_somewhere = x.is_finite() && y.is_finite();
             if is_somewhere { self.place(plot, (x, y)) } else { (f64::NAN, f64::NAN) }
@@ -144,7 +144,7 @@ impl Frame {
         curve::pieces(points.iter().map(place), &window)
     }
 
-    /// Positions of the markers of a curve. They are at its data points, but not at the points where the curve is clipped.
+    /// Positions of the markers of a curve: its data points, without the points where the curve is clipped.
     pub fn marks(&self, plot: &Area, points: &[Point]) -> Vec<Point> {
         if points.len() > MOST_MARKS {
             return self.curve(plot, points).concat();
@@ -203,7 +203,7 @@ impl Frame {
     }
 }
 
-/// Title or label. If it is too long for a line, it is first reduced in size and then broken into several lines.
+/// Title or label. A text that is too long for a line is first reduced in size and then broken into several lines.
 struct FittedText {
     lines: Vec<String>,
     /// Size of the letters. The next field is the size before the reduction.
@@ -232,7 +232,7 @@ impl FittedText {
         1.25 * self.size
     }
 
-    /// Height of the text, including some white space below it. It is zero if there is no text.
+    /// Height of the text, including some white space below it; zero without text.
     fn height(&self, paper: f64) -> f64 {
         match self.lines.len() {
             0 => 0.0,

@@ -35,7 +35,7 @@ pub struct HeatCell {
     pub text: String,
 }
 
-/// Heat map: cells in named rows and columns, with a key of the colours.
+/// Heat map: cells in named rows and columns, with a legend of the colours.
 #[derive(Clone, Debug, PartialEq)]
 pub struct HeatMap {
     title: String,
@@ -47,7 +47,7 @@ pub struct HeatMap {
 }
 
 impl HeatMap {
-    /// Creates a heat map without cells. Numbers up to the first power of ten have the palest colour, numbers from the second one on the darkest.
+    /// Creates a heat map without cells. The two `powers` of ten are the ends of the colour scale, from the palest to the darkest colour.
     pub fn new(title: impl Into<String>, shows: impl Into<String>, powers: (i32, i32)) -> Self {
         Self {
             title: title.into(),
@@ -75,7 +75,7 @@ impl HeatMap {
         self
     }
 
-    /// Adds a row below the others. Missing cells are white, and cells in excess of the columns are not shown.
+    /// Adds a row at the bottom. Missing cells are white. Cells in excess of the columns are not shown.
     pub fn row(mut self, name: impl Into<String>, cells: Vec<HeatCell>) -> Self {
         self.rows.1.push(name.into());
         self.cells.push(cells);
@@ -136,7 +136,7 @@ impl HeatMap {
             *x += fonts::width(&text, TEXT) + GAP.0;
         };
         let shows = fonts::width(&self.scale.0, TEXT);
-        // One pixel is added, so that rounding does not cut off a letter.
+        // One pixel is added to the width, so that rounding does not cut off a letter.
         write(canvas, &self.scale.0, &mut x, room - (self.key_width() - shows) + 1.0);
         write(canvas, &low, &mut x, f64::INFINITY);
         let steps = 22;

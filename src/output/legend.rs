@@ -16,7 +16,7 @@ const BETWEEN: f64 = 20.0;
 const LINE: f64 = 16.0;
 const REST: f64 = 110.0;
 
-/// Largest number of rows, so that there is enough space for the plot. If there are more entries, the last row shows how many are missing.
+/// Largest number of rows. If there are more entries, the last row shows the number of missing entries.
 const MOST_ROWS: usize = 4;
 const MOST_LINES: usize = 3;
 

@@ -11,7 +11,7 @@ use super::{
 };
 use crate::elementary::ln;
 
-/// Difference of two ratios of neighbouring numbers that count as equal, as a fraction of the ratio.
+/// Largest relative difference of two ratios of neighbouring numbers that count as equal.
 const EQUAL_RATIOS: f64 = 1e-6;
 /// Largest number of cells along an axis. Smaller cells would not be visible, and a picture of millions of cells would have many megabytes.
 const MOST_CELLS: usize = 160;
@@ -34,7 +34,7 @@ pub struct LevelMap {
     values: Vec<Vec<f64>>,
 }
 
-/// Means of the finite values in blocks of `across` by `up` cells. NaN for a block without finite values.
+/// Means of the finite values in blocks of `across` by `up` cells. The mean of a block without finite values is NaN.
 fn means(values: &[Vec<f64>], (across, up): (usize, usize)) -> Vec<Vec<f64>> {
     let row = |rows: &[Vec<f64>]| {
         let columns = rows.iter().map(Vec::len).max().unwrap_or(0);
@@ -63,12 +63,12 @@ impl LevelAxis {
         }
     }
 
-    /// Boundaries of the cells. They are arithmetic means of neighbouring centres, on a logarithmic axis geometric means.
+    /// Boundaries of the cells: arithmetic means of neighbouring centres, or geometric means on a logarithmic axis.
     fn ends(&self) -> Vec<f64> {
         self.ends_by(self.scale())
     }
 
-    /// Arithmetic means of neighbouring centres. At both ends they are extrapolated.
+    /// Arithmetic means of neighbouring centres, extrapolated at both ends.
     pub fn ends_halfway(&self) -> Vec<f64> {
         self.ends_by(AxisScale::Linear)
     }
@@ -122,9 +122,9 @@ impl LevelAxis {
 }
 
 impl LevelMap {
-    /// Creates a map over two axes. `values` are given by rows of the vertical axis, from the bottom. `label` names their quantity. Cells whose
-    /// values are not finite are hatched. On axes with more than 160 numbers, neighbouring cells are merged to one cell with their mean value, and
-    /// a caption states this.
+    /// Creates a map over two axes. `values` are given by rows, starting with the lowest row. `label` names the quantity.
+    /// Cells whose values are not finite are hatched.
+    /// On axes with more than 160 numbers, neighbouring cells are merged to one cell with their mean value. A caption states that cells are merged.
     pub fn new(
         title: impl Into<String>,
         label: impl Into<String>,
@@ -199,7 +199,7 @@ impl Panel for LevelMap {
                         };
                         canvas.fill(cell, ramp(bar.part(*value)));
                     }
-                    // At the largest numbers, cells extend far beyond the plot.
+                    // For very large numbers, cells extend far beyond the plot.
                     false => hatch(canvas, &cell.within(plot)),
                 }
             }

@@ -4,17 +4,17 @@ use super::canvas::Point;
 use crate::elementary::hypot;
 
 pub const LINK: f64 = 1.2;
-/// Length of the straight pieces at the ends of a spring: largest value [pixels], and fraction of the length of the spring.
+/// Length of the straight pieces at the ends of a spring: largest length [pixels], and fraction of the length of the spring.
 const LEAD: (f64, f64) = (8.0, 0.15);
-/// Length of a coil of a spring. The smallest and largest number of coils follow.
+/// Length of a coil of a spring. The next constant gives the smallest and largest number of coils.
 const TURN: f64 = 12.0;
 const TURNS: (f64, f64) = (3.0, 12.0);
 /// Half width of a spring and of the cylinder of a damper.
 const BREADTH: f64 = 5.0;
-/// Half length of a cylinder: largest value [pixels], and fraction of the length of the damper.
+/// Half length of a cylinder: largest half length [pixels], and fraction of the length of the damper.
 const CYLINDER: (f64, f64) = (9.0, 0.2);
 
-/// Line from one point to another.
+/// Line from one point to another, for a spring or damper.
 pub struct Link {
     from: Point,
     along: Point,

@@ -1,4 +1,4 @@
-//! Shapes of markers. Series can be distinguished by them without colours.
+//! Shapes of markers, which distinguish series without colours.
 
 use super::{
     canvas::{Area, Canvas, Point},
@@ -10,7 +10,7 @@ pub enum Marker {
     #[default]
     Disc,
     Square,
-    /// Outline of a square that stands on its corner.
+    /// Outline of a square that stands on a corner.
     Diamond,
     /// Outline of a triangle.
     Triangle,
@@ -24,12 +24,12 @@ impl Marker {
     const ALL: [Self; 6] =
         [Self::Disc, Self::Square, Self::Diamond, Self::Triangle, Self::Ring, Self::Cross];
 
-    /// Marker of the series with the given index. Further series repeat the shapes.
+    /// Marker of the series with the given index. After the last shape, the shapes are repeated.
     pub fn of_index(index: usize) -> Self {
         Self::ALL[index % Self::ALL.len()]
     }
 
-    /// Draws a marker centred on a point. It is about as large as a disc of the given radius [pixels].
+    /// Draws a marker centred on a point, about as large as a disc of the given radius [pixels].
     pub fn draw(self, canvas: &mut Canvas, (x, y): Point, radius: f64, colour: Colour) {
         let width = 0.5 * radius;
         let half = 0.9 * radius;

@@ -1,4 +1,4 @@
-//! Parts of a mechanism other than beams in pictures of section results: outlines of rigid bodies, and symbols.
+//! Drawing of a mechanism without its beams, for pictures of section results: outlines of rigid bodies, and symbols.
 
 use super::{
     canvas::{Area, Canvas, Point},

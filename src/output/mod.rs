@@ -8,7 +8,7 @@
 //! viewer (a page for browsers) → canvas, colour
 //! ```
 //!
-//! Pictures look the same on every machine: the font of their texts is part of the program, and equal data give equal bytes.
+//! Pictures look the same on every machine, because the font of their texts is embedded in the program. Equal data give equal bytes.
 
 #![cfg_attr(test, allow(clippy::unwrap_used))]
 

@@ -1,4 +1,4 @@
-//! Pictures of motion. Snapshots at several times are in one plot, the early ones pale and the late ones dark.
+//! Pictures of motion. Snapshots at several times are drawn in one plot. Early snapshots are pale and late ones dark.
 
 use super::{
     canvas::{Area, Canvas, Point},
@@ -66,7 +66,7 @@ impl MotionPicture {
         self
     }
 
-    /// Adds a snapshot. Later snapshots are drawn over earlier ones, whatever the order of the calls.
+    /// Adds a snapshot. Later snapshots are drawn over earlier ones, independent of the order of the calls.
     pub fn snapshot(mut self, snapshot: MotionFrame) -> Self {
         self.snapshots.push(snapshot);
         self
@@ -103,7 +103,7 @@ impl MotionPicture {
         framed.fold(Page::row(), Page::panel)
     }
 
-    /// Limits of the axes that contain everything in all pictures. Limits of the first picture have precedence.
+    /// Limits of the axes that contain all data of all pictures. Limits set in the first picture have precedence.
     pub fn shared_limits(pictures: &[Self]) -> AxisLimits {
         let given = pictures.first().map_or_else(AxisLimits::default, |first| first.limits);
         let points = pictures.iter().flat_map(Self::points);
@@ -158,8 +158,8 @@ impl MotionPicture {
         self.snapshots.iter().map(|snapshot| snapshot.lines.len()).max().unwrap_or(0)
     }
 
-    /// Paths are dashed and have colours that no beam has. If there is a single beam, they are vermilion, which differs from the colours of the
-    /// snapshots.
+    /// Paths are dashed and have colours that no beam has.
+    /// In a picture with a single beam, paths are vermilion, which differs from the colours of the snapshots.
     fn trace_style(&self, index: usize) -> (Colour, Stroke) {
         let first = if self.beam_count() > 1 { self.beam_count() } else { 1 };
         (hue(first + index), if index < HUE_COUNT { Stroke::Dashed } else { Stroke::Dotted })

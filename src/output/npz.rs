@@ -1,4 +1,4 @@
-//! Archives of arrays for NumPy. They are uncompressed ZIP files with one `.npy` file for each array (NEP 1, format 1.0).
+//! Archives of arrays for NumPy: uncompressed ZIP files with one `.npy` file for each array (NEP 1, format 1.0).
 
 use std::io::{Cursor, Write};
 
@@ -32,7 +32,7 @@ impl NpzArchive {
     /// Bytes of the `.npz` file. Equal arrays give equal bytes.
     ///
     /// # Errors
-    /// Fails if the number of values is wrong for the shape, or if two arrays have the same name.
+    /// Fails if the number of values does not match the shape, or if two arrays have the same name.
     pub fn to_bytes(&self) -> Result<Vec<u8>, OutputError> {
         let mut archive = ZipWriter::new(Cursor::new(Vec::new()));
         let options = SimpleFileOptions::default()
@@ -87,7 +87,7 @@ mod tests {
         let array = NpzArray { name: "a".into(), shape: vec![2, 3], values: vec![0.5; 6] };
         let bytes = array.to_npy();
         assert_eq!(bytes.len(), 128 + 48);
-        // This is the header that numpy.save writes for np.full((2, 3), 0.5), except for the trailing comma of the tuple.
+        // Header that numpy.save writes for np.full((2, 3), 0.5), without the trailing comma of the tuple.
         let header = "\u{93}NUMPY\u{1}\u{0}v\u{0}{'descr': '<f8', 'fortran_order': False, 'shape': (2, 3,), }";
         let header: Vec<u8> = header.chars().map(|letter| letter as u8).collect();
         assert!(bytes.starts_with(&header), "{:?}", String::from_utf8_lossy(&bytes[..80]));

@@ -1,7 +1,7 @@
-//! Formats of numbers for readers. The texts are short and show no errors of binary arithmetic.
+//! Number formats for human readers. The texts are short and show no errors of binary arithmetic.
 //!
-//! Numbers with `1e-4 ≤ |x| < 1e7` are written in decimal notation, others with a power of ten. They have the smallest number of digits from which
-//! the number can be read back exactly.
+//! Numbers with `1e-4 ≤ |x| < 1e7` are written in decimal notation, other numbers with a power of ten.
+//! The text has the smallest number of digits from which the number can be read back exactly.
 
 /// Shortest text from which `x` can be read back exactly, such as `0.05`, `374.28285`, `3`, `1e-12`, `1.5e10`, `inf`, `nan`.
 pub fn format_number(x: f64) -> String {
@@ -16,8 +16,8 @@ pub fn format_number(x: f64) -> String {
     }
 }
 
-/// Text of `x`, rounded to `digits` significant digits (at least one), in the notation of [`format_number`]. For example, `significant(1/3, 3)` is
-/// `0.333`, and `significant(2.0, 3)` is `2`.
+/// Text of `x`, rounded to `digits` significant digits (at least one), in the notation of [`format_number`].
+/// For example, `significant(1/3, 3)` is `0.333`, and `significant(2.0, 3)` is `2`.
 pub fn significant(x: f64, digits: usize) -> String {
     let rounded = format!("{:.*e}", decimals(digits), x).parse();
     format_number(rounded.unwrap_or(x))
@@ -33,7 +33,7 @@ pub fn scientific(x: f64, digits: usize) -> String {
     }
 }
 
-/// Number of digits after the decimal point for `digits` significant digits. It is limited, because a float has at most 17 digits.
+/// Number of digits after the decimal point for `digits` significant digits. The number is limited, because a float has at most 17 digits.
 fn decimals(digits: usize) -> usize {
     digits.clamp(1, 17) - 1
 }

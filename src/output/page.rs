@@ -9,12 +9,12 @@ use super::{
     frame::Margins,
 };
 
-/// Picture, or a part of a picture, which adapts itself to a given area.
+/// Picture, or a part of a picture, that adapts to a given area.
 pub trait Panel {
-    /// Preferred size as a picture of its own [pixels].
+    /// Preferred size as a separate picture [pixels].
     fn size(&self) -> (f64, f64);
 
-    /// Preferred size on a page with this number of rows and columns [pixels]. It is smaller than the size of a single picture.
+    /// Preferred size on a page with the given number of rows and columns [pixels]. It is smaller than the size of a separate picture.
     fn size_among(&self, rows: usize, columns: usize) -> (f64, f64) {
         let (width, height) = self.size();
         let width = if columns > 1 { width * SIZE_IN_COLUMNS.0 } else { width };
@@ -29,15 +29,15 @@ pub trait Panel {
     /// Space around the plot, for a panel of the given size [pixels].
     fn margins(&self, width: f64, height: f64) -> Margins;
 
-    /// Draws the panel in `area`. Its plot is in `plot`.
+    /// Draws the panel in `area`. The argument `plot` is the area of its plot.
     fn draw(&self, canvas: &mut Canvas, area: &Area, plot: &Area);
 
-    /// The panel as a picture of its own.
+    /// Panel as a separate picture.
     fn figure(&self) -> Result<Figure, OutputError> {
         self.figure_of(self.size())
     }
 
-    /// The panel as a picture of its own with the given size [pixels].
+    /// Panel as a separate picture with the given size [pixels].
     fn figure_of(&self, (width, height): (f64, f64)) -> Result<Figure, OutputError> {
         let area = Area { left: 0.0, top: 0.0, right: width.ceil(), bottom: height.ceil() };
         let mut canvas = Canvas::default();
@@ -45,7 +45,7 @@ pub trait Panel {
         Figure::new(canvas, (width, height))
     }
 
-    /// Writes the panel as a picture of its own to a `.svg` or `.png` file.
+    /// Writes the panel as a separate picture to a `.svg` or `.png` file.
     #[cfg(test)]
     fn save(&self, path: impl AsRef<std::path::Path>) -> Result<(), OutputError>
     where
@@ -61,7 +61,7 @@ const HEIGHT_IN_ROWS: f64 = 0.6;
 const SIZE_IN_COLUMNS: (f64, f64) = (0.72, 0.85);
 const TITLE: f64 = 18.0;
 
-/// Panels in a grid. The plots of a column have the same width, the plots of a row the same height.
+/// Panels in a grid. The plots of a column have the same width, and the plots of a row have the same height.
 #[derive(Default)]
 pub struct Page {
     title: String,

@@ -13,7 +13,7 @@ use parquet::schema::types::{Type, TypePtr};
 use super::{DataColumn, DataTable, DataValues, OutputError};
 
 impl DataTable {
-    /// Bytes of an uncompressed `.parquet` file. Its metadata `dimension.NAME` contains the dimension of the column NAME.
+    /// Bytes of an uncompressed `.parquet` file. The metadata `dimension.NAME` contains the dimension of the column NAME.
     ///
     /// # Errors
     /// Fails if columns have different lengths, or if two columns have the same name.

@@ -1,11 +1,11 @@
-//! Visible part of the plane, if both axes have the same scale.
+//! Visible part of the plane for plots in which both axes have the same scale.
 
 use super::{
     axis::{Axis, extent},
     canvas::Point,
 };
 
-/// Preferred width of a single plot. The range of its height and its smallest width follow [pixels].
+/// Preferred width of a separate plot [pixels]. The next constants are the range of its height and its smallest width.
 const WIDTH: f64 = 740.0;
 const HEIGHTS: (f64, f64) = (220.0, 700.0);
 const LEAST_WIDTH: f64 = 300.0;
@@ -19,7 +19,7 @@ pub struct AxisLimits {
     pub y: Option<(f64, f64)>,
 }
 
-/// Box in the plane, given by centre, width and height. Width and height are not zero.
+/// Box in the plane, given by centre, width and height, both nonzero.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct View {
     centre: Point,
@@ -27,7 +27,7 @@ pub struct View {
 }
 
 impl View {
-    /// Box of the limits. If an axis has no limits, it is fitted to the points that are inside the limits of the other axis, with some margin.
+    /// Box of the limits. An axis without limits is fitted, with some margin, to the points inside the limits of the other axis.
     pub fn of(points: impl Iterator<Item = Point> + Clone, limits: &AxisLimits) -> Self {
         let within = |value: f64, ends: Option<(f64, f64)>| {
             ends.is_none_or(|(low, high)| (low..=high).contains(&value))
@@ -46,13 +46,13 @@ impl View {
         };
         let (x, width) = side(|point| point.0, limits.x);
         let (y, height) = side(|point| point.1, limits.y);
-        // A straight line may have no height, and a point has no size. The box is enlarged, so that the axes are readable.
+        // A horizontal line has no height, and a point has no size. The box is enlarged so that the axes are readable.
         let size = width.max(height).max(1e-6 * x.abs().max(y.abs()));
         let size = if size > 1e-280 { size } else { 1.0 };
         Self { centre: (x, y), needs: (width.max(0.05 * size), height.max(0.05 * size)) }
     }
 
-    /// Enlarges the box so that symbols around the points `about`, whose size is in pixels, are not cut off. Limits have precedence.
+    /// Enlarges the box so that symbols around the points `about` are not cut off. Symbol sizes are in pixels. Limits have precedence.
     pub fn with_room(
         self,
         about: impl Iterator<Item = Point> + Clone,
@@ -100,7 +100,7 @@ impl View {
         (axis(self.centre.0, width), axis(self.centre.1, height))
     }
 
-    /// Size of a single plot [pixels].
+    /// Size of a separate plot [pixels].
     pub fn size(&self) -> (f64, f64) {
         let aspect = self.needs.1 / self.needs.0;
         let tall = (WIDTH * aspect).clamp(HEIGHTS.0, HEIGHTS.1);

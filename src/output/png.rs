@@ -1,8 +1,9 @@
 //! Painter of PNG files with anti-aliasing. Each pixel is mixed with the colour of a shape by the fraction that the shape covers.
 //!
-//! Boxes and pixels of the library plotters are correct, but its thick lines and polygons have ragged edges. Therefore this module computes from
-//! distances how much of a pixel a line covers. A pixel at a distance `d` from the centre line of half width `r` is covered by `r + ½ − d`. For a
-//! pixel near several segments, the nearest segment is used.
+//! Boxes and pixels of the library plotters are correct, but its thick lines and polygons have ragged edges.
+//! This module computes from distances which fraction of a pixel a line covers.
+//! A line of half width `r` covers `r + ½ − d` of a pixel at a distance `d` from its centre line.
+//! For a pixel near several segments, the nearest segment is used.
 
 use plotters::prelude::{BitMapBackend, DrawingBackend, RGBColor};
 use plotters::style::Color;
@@ -97,7 +98,7 @@ impl PngPage<'_> {
                 covered.push((corner.x as i32 + x as i32, corner.y as i32 + y as i32, amount))
             });
             for (x, y, amount) in covered {
-                // Each pixel is a square. If the text is rotated by 90°, the pixel to the right of the start point becomes the pixel above it.
+                // Each pixel is a square. In a text rotated by 90°, the pixel to the right of the start point becomes the pixel above it.
                 let (x, y) = match text.direction {
                     TextDirection::Level => (start.0 + x, start.1 + y),
                     TextDirection::Upwards => (start.0 + y, start.1 - x - 1),
@@ -151,7 +152,7 @@ impl PixelCoverage {
         let rows = clip(a.1.min(b.1) - reach, a.1.max(b.1) + reach, self.top, self.rows);
         for row in rows {
             let y = (self.top + row) as f64 + 0.5;
-            // Pixels of this row that are near the segment: those around the intersection with the centre line, and between its ends.
+            // Range of pixels of this row that are near the segment: around the intersection with the centre line, and between its ends.
             let (mut low, mut high) = (a.0.min(b.0), a.0.max(b.0));
             if dy != 0.0 {
                 let crossing = a.0 + (y - a.1) * dx / dy;

@@ -9,12 +9,12 @@ pub struct CsvRecords {
     /// Comment lines above the table, each written after a `#`.
     pub comments: Vec<String>,
     pub names: Vec<String>,
-    /// Rows, each with one text for every column.
+    /// Rows with one text for every column.
     pub rows: Vec<Vec<String>>,
 }
 
 impl CsvRecords {
-    /// Text of the CSV file. Fails if a row is shorter or longer than the header.
+    /// Text of the CSV file. Fails if the length of a row differs from that of the header.
     pub fn to_text(&self) -> Result<String, OutputError> {
         let comments = self.comments.iter().flat_map(|comment| comment.lines());
         let mut bytes: Vec<u8> =

@@ -2,8 +2,8 @@
 
 use super::*;
 
-/// Writes the picture in both formats and checks that the labels are in the SVG description, and that the PNG has the stated size, white
-/// paper and some ink.
+/// Writes the picture in both formats.
+/// Checks that the SVG description contains the labels, and that the PNG has the stated size, white paper and some ink.
 fn show(name: &str, panel: &impl Panel, labels: &[&str]) {
     let vanishing = tempfile::tempdir().unwrap();
     let folder =

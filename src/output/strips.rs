@@ -20,7 +20,7 @@ const APART: f64 = 7.0;
 const NUMBER: f64 = 12.0;
 /// Largest ordinate, as a fraction of the total size of the beams.
 const LARGEST: f64 = 0.2;
-/// Smallest extreme value that is labelled, as a fraction of the largest value.
+/// Smallest extreme value with a label, as a fraction of the largest value.
 const SMALLEST_LABELLED: f64 = 0.03;
 const DIGITS: usize = 4;
 
@@ -35,7 +35,7 @@ pub enum BeamSide {
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct BeamStrip {
     pub line: Vec<Point>,
-    /// Points along the beam with their values. Where the value jumps, the point occurs twice.
+    /// Points along the beam with their values. At a jump of the value, the point occurs twice.
     pub values: Vec<(Point, f64)>,
 }
 
@@ -110,8 +110,8 @@ impl StripPicture {
         runs.map(run).collect()
     }
 
-    /// Size of all beams together. If there are many small beams, it is the size of the longest one, so that diagrams of neighbouring beams do not
-    /// overlap.
+    /// Size of all beams together.
+    /// If there are many small beams, the size is that of the longest beam, so that diagrams of neighbouring beams do not overlap.
     fn beam_size(&self) -> f64 {
         let points = || self.strips.iter().flat_map(|strip| strip.line.iter().copied());
         let side = |pick: fn(Point) -> f64| {
@@ -170,7 +170,7 @@ impl StripPicture {
         line(canvas, &edge, EDGE, colour);
     }
 
-    /// Points along the drawn beams. They are so dense that no label fits between them.
+    /// Points along the drawn beams, so dense that no label fits between them.
     fn on_beams(&self, frame: &Frame, plot: &Area) -> Vec<Point> {
         let lines = self.strips.iter().flat_map(|strip| frame.curve(plot, &strip.line));
         let dense = |run: Vec<Point>| {

@@ -6,7 +6,7 @@ use super::{
     curve,
 };
 
-/// Line style. Series with the same colour can be distinguished by it.
+/// Line style, which distinguishes series of the same colour.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum Stroke {
     #[default]
@@ -20,7 +20,7 @@ pub enum Stroke {
 }
 
 impl Stroke {
-    /// Line style of a series. `round` is the number of times that the palette has been used completely before.
+    /// Line style of a series. `round` is the number of times that the palette has already been used completely.
     pub fn of_palette_pass(round: usize) -> Self {
         [Stroke::Solid, Stroke::Dashed, Stroke::Dotted][round % 3]
     }

@@ -1,7 +1,7 @@
-//! Painter of SVG files, based on the library plotters. Text is converted to outlines, so that no fonts are needed. The description of the picture
-//! contains the texts.
+//! Painter of SVG files, based on the library plotters. Text is converted to outlines, so that no fonts are needed.
+//! The SVG description of the picture contains its texts.
 //!
-//! Coordinates of plotters are integers. Therefore the picture is drawn on a grid of [`GRID`] steps per pixel.
+//! The coordinates of plotters are integers. Therefore the picture is drawn on a grid of [`GRID`] steps per pixel.
 
 use plotters::prelude::{DrawingBackend, RGBColor, SVGBackend, ShapeStyle};
 
@@ -33,8 +33,8 @@ pub fn paint(canvas: &Canvas, width: u32, height: u32) -> Result<String, OutputE
     Ok(head(canvas, width, height, size) + drawn.replace(" opacity=\"1\"", "").as_str())
 }
 
-/// Start of the document as plotters writes it for a grid of this size. Its size is wrong, and title and description are missing. [`head`] replaces
-/// it.
+/// Start of the document as written by plotters for a grid of this size. The stated picture size is wrong, and title and description are missing.
+/// The function [`head`] replaces the start that plotters has written.
 fn opening(grid: (u32, u32)) -> String {
     let mut empty = String::new();
     drop(SVGBackend::with_string(&mut empty, grid));
@@ -71,7 +71,7 @@ fn refused(error: impl std::fmt::Display) -> OutputError {
 fn paint_shape(backend: &mut SVGBackend<'_>, shape: &Shape) -> Result<(), OutputError> {
     match shape {
         Shape::Line { points, width, colour } => {
-            // A dot is drawn as a line whose second point equals the first.
+            // A dot is drawn as a line whose second point equals the first point.
             let end = points.last().filter(|_| points.len() == 1);
             backend.draw_path(
                 points.iter().chain(end).copied().map(on_grid),
@@ -92,7 +92,7 @@ fn paint_shape(backend: &mut SVGBackend<'_>, shape: &Shape) -> Result<(), Output
     .map_err(refused)
 }
 
-/// Combines the contours of a glyph to one polygon. Bridges of zero width connect the first contour to the others.
+/// Combines the contours of a glyph to one polygon. Bridges of zero width connect the first contour to the other contours.
 fn one_polygon(contours: &[Vec<Point>], text: &Text) -> Vec<(i32, i32)> {
     let home = contours.first().and_then(|contour| contour.first());
     let walk = contours

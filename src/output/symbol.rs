@@ -15,44 +15,44 @@ use super::{
 
 use crate::elementary::hypot;
 
-/// White space that prevents a symbol from being cut off.
+/// White space around a symbol, so that the symbol is not cut off.
 const ROOM: f64 = 20.0;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Symbol {
-    /// A support that fixes the position.
+    /// Support that fixes the position.
     Hinge,
-    /// A support that fixes position and angle. Its direction is the direction of the beam, pointing away from the support.
+    /// Support that fixes position and angle. Its direction is the direction of the beam, pointing away from the support.
     Clamp,
-    /// A support that fixes the component of the position along its direction. The direction points away from the ground.
+    /// Support that fixes the component of the position along its direction. The direction points away from the ground.
     Roller,
-    /// A support that fixes one component of the position and the angle.
+    /// Support that fixes one component of the position and the angle.
     Guided,
-    /// A support that fixes only the angle.
+    /// Support that fixes only the angle.
     HeldAngle,
-    /// A prescribed rotation of a section as a function of time.
+    /// Prescribed rotation of a section as a function of time.
     Motor,
-    /// A prescribed displacement along a direction as a function of time.
+    /// Prescribed displacement along a direction as a function of time.
     Carriage,
-    /// A revolute joint between beams.
+    /// Revolute joint between beams.
     Joint,
-    /// A rigid joint between beams.
+    /// Rigid joint between beams.
     RigidJoint,
-    /// A point that slides along a beam.
+    /// Point that slides along a beam.
     Slider,
-    /// A force in its direction.
+    /// Force along its direction.
     Force,
     /// Part of a force that is distributed along a beam.
     LineForce,
-    /// A moment. It is counter-clockwise if its direction points to the right, and clockwise if it points to the left.
+    /// Moment. It is counter-clockwise if its direction points to the right, and clockwise if its direction points to the left.
     Moment,
-    /// A spring from its point to the end of its direction vector.
+    /// Spring from its point to the end of its direction vector.
     Spring,
-    /// A damper, between the same points as a spring.
+    /// Damper from its point to the end of its direction vector.
     Damper,
-    /// A segment of a tendon, between the same points as a spring.
+    /// Segment of a tendon from its point to the end of its direction vector.
     Tendon,
-    /// A rotational spring at a section.
+    /// Rotational spring at a section.
     TorsionSpring,
 }
 
@@ -92,8 +92,8 @@ impl Symbol {
 pub struct PlacedSymbol {
     pub symbol: Symbol,
     pub at: Point,
-    /// Direction of the symbol. Its length has no meaning, and it is zero if the symbol has no direction. Springs, dampers and tendons end at `at +
-    /// direction`.
+    /// Direction of the symbol; zero if the symbol has no direction. The length of the vector has no meaning.
+    /// Springs, dampers and tendons end at `at + direction`.
     pub direction: Point,
 }
 

@@ -8,9 +8,9 @@ use super::width::{columns, padded};
 
 #[derive(Clone, Debug, PartialEq)]
 pub enum Cell {
-    /// A text, aligned to the left.
+    /// Text, aligned to the left.
     Text(String),
-    /// A number as text, aligned to the right.
+    /// Number as text, aligned to the right.
     Number(String),
 }
 
@@ -70,7 +70,7 @@ impl TextTable {
         self
     }
 
-    /// Adds a row. If it is shorter than the header, blanks are added to it. If it is longer, the table becomes wider.
+    /// Adds a row. Blanks are added to a row that is shorter than the header. A longer row makes the table wider.
     pub fn row<C: Into<Cell>>(&mut self, cells: impl IntoIterator<Item = C>) -> &mut Self {
         self.rows.push(cells.into_iter().map(Into::into).collect());
         self

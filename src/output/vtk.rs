@@ -1,21 +1,22 @@
 //! VTK files for ParaView and other programs. There is one grid for each frame, and a collection with the times of the frames.
 //!
-//! The files are XML with base64 data that follow a byte count. This format keeps every bit. It can contain denormal numbers and NaN, which
-//! programs reject in the text format. (VTK User's Guide, "VTK File Formats": XML file formats; uncompressed, `header_type="UInt64"`.)
+//! The files are XML. A byte count precedes the base64 data. The base64 format keeps every bit.
+//! The base64 format can contain denormal numbers and NaN, which programs reject in the text format.
+//! Reference: VTK User's Guide, "VTK File Formats": XML file formats; uncompressed, `header_type="UInt64"`.
 
 use std::fmt::Write;
 
 use super::base64::base64;
 use super::{OutputError, Point};
 
-/// VTK cell types of a point and of a line segment. A body consists of several such cells, because not all programs can read polylines.
+/// VTK cell types of a point and of a line segment. A body consists of several cells, because some programs cannot read polylines.
 const VERTEX: u8 = 1;
 const LINE: u8 = 3;
 
 /// Bodies in a frame, and fields of values at their points.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct VtkGrid {
-    /// Bodies. In the file, the cell field `body` contains for each cell the index of its body.
+    /// Bodies. In the file, the cell field `body` contains the index of the body of each cell.
     pub cells: Vec<VtkCell>,
     /// Fields with values at the points of all cells, in the order of the points.
     pub fields: Vec<VtkField>,

@@ -4,7 +4,7 @@
 
 use unicode_width::UnicodeWidthChar;
 
-/// Number of columns of a character. Control characters, for example a tab, have none.
+/// Number of columns of a character. Control characters, for example tabs, have no columns.
 pub fn columns_of(letter: char) -> usize {
     letter.width().unwrap_or(0)
 }
@@ -14,7 +14,7 @@ pub fn columns(text: &str) -> usize {
     text.chars().map(columns_of).sum()
 }
 
-/// Longest beginning of a text that has at most `most` columns.
+/// Longest beginning of a text with at most `most` columns.
 pub fn beginning(text: &str, most: usize) -> &str {
     let mut taken = 0;
     let beyond = text.char_indices().find(|(_, letter)| {
@@ -35,7 +35,7 @@ pub fn cut(text: &str, most: usize, mark: char) -> String {
 
 /// Text with blanks added at the end, so that it has `width` columns.
 pub fn padded(text: &str, width: usize) -> String {
-    // Formatting in Rust would count characters and not columns, and is limited to a width of 65 535.
+    // Formatting in Rust would count characters instead of columns, and is limited to a width of 65 535.
     format!("{text}{}", " ".repeat(width.saturating_sub(columns(text))))
 }
 

@@ -16,12 +16,12 @@ pub fn silence() {
     }));
 }
 
-/// Calls `work`, and catches a panic of it.
+/// Calls `work` and catches its panics.
 ///
-/// After a panic, data that `work` modifies may be inconsistent. The caller must discard such data, or must know that they are still valid.
+/// After a panic, data that `work` modifies may be inconsistent. The caller must discard such data unless they are known to be valid.
 ///
 /// # Errors
-/// Returns the message of the panic. It contains the location if panics are [silenced](silence).
+/// Returns the message of the panic. The message contains the location if panics are [silenced](silence).
 pub fn caught<T>(work: impl FnOnce() -> T) -> Result<T, String> {
     panic::catch_unwind(AssertUnwindSafe(work)).map_err(|panic| message(&*panic))
 }

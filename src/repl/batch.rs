@@ -7,7 +7,7 @@ use super::shell::{CommandOutcome, Shell};
 use crate::script::diagnose::Diagnostic;
 use crate::script::source::program::LARGEST_SCRIPT;
 
-/// Returns true if a line continues the previous input even though that input is complete.
+/// Returns true if a line continues the previous input, even if this input is complete.
 fn continues(line: &str) -> bool {
     let line = line.trim_start();
     let is_word = |word: &str| {
@@ -37,7 +37,7 @@ fn lines_of(mut reader: impl BufRead) -> impl Iterator<Item = io::Result<String>
     })
 }
 
-/// Evaluates inputs from `lines`. Ends when there are no more lines, an input fails, or the user quits.
+/// Evaluates inputs from `lines`, until there are no more lines, an input fails, or the user quits.
 pub fn run(shell: &mut Shell, lines: impl BufRead) -> CommandOutcome {
     let mut input = String::new();
     let mut lines = lines_of(lines).peekable();
@@ -58,8 +58,8 @@ pub fn run(shell: &mut Shell, lines: impl BufRead) -> CommandOutcome {
                 &message.with_hint("is a bracket or a quotation mark never closed?"),
             );
         }
-        // To decide whether an input is complete, the next line is read. A program that uses the pipe interactively must therefore end an input
-        // with a semicolon or an empty line.
+        // The next line is read to decide whether an input is complete.
+        // A program that uses the pipe interactively must end an input with a semicolon or an empty line.
         let is_complete = is_command(&input)
             || completeness_of_script(&input) == Completeness::Complete
                 && (input.trim_end().ends_with(';')
@@ -73,7 +73,7 @@ pub fn run(shell: &mut Shell, lines: impl BufRead) -> CommandOutcome {
     }
     match input.trim() {
         "" => CommandOutcome::Success,
-        // An incomplete input is evaluated too, so that the session reports its error.
+        // An incomplete input is also evaluated, so that the session reports its error.
         _ => shell.submit(&input),
     }
 }

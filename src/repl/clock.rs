@@ -8,7 +8,7 @@ pub trait Clock {
     fn now(&self) -> Duration;
 }
 
-/// The monotonic clock of the machine.
+/// Monotonic clock of the machine.
 pub struct Stopwatch(Instant);
 
 impl Default for Stopwatch {

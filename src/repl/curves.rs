@@ -54,7 +54,7 @@ pub enum PlotShape {
     /// All points of a curve, and the type of its horizontal axis.
     Whole(CurveAbscissa, Vec<Point>),
     Number(f64),
-    /// Vector, which is one point of each of two curves.
+    /// Plane vector: its components are points of two separate curves.
     Vector(Vec2),
     /// Value that cannot be drawn. The text contains the reason.
     None(String),
@@ -112,7 +112,7 @@ fn shape_of_array(array: &Array) -> PlotShape {
 }
 
 fn number(value: &Dynamic) -> Option<f64> {
-    // Variables that closures capture are shared values, which must be locked for reading.
+    // Variables captured by closures are shared values, which must be locked for reading.
     let value = value.flatten_clone();
     value.as_float().ok().or_else(|| value.as_int().ok().map(|whole| whole as f64))
 }
@@ -121,7 +121,7 @@ fn numbers(array: &Array) -> Option<Vec<f64>> {
     array.iter().map(|value| if value.is_array() { None } else { number(value) }).collect()
 }
 
-/// Splits the operand of a command at the commas that are outside brackets and string literals.
+/// Splits the operand of a command at the commas outside brackets and string literals.
 pub fn parts(operand: &str) -> Vec<&str> {
     let mut parts = Vec::new();
     let (mut depth, mut begin, mut is_between_bars, mut before) =
@@ -130,7 +130,7 @@ pub fn parts(operand: &str) -> Vec<&str> {
         match (token.kind, token.of(operand)) {
             (TokenKind::Open(_), _) => depth += 1,
             (TokenKind::Close(_), _) => depth = depth.saturating_sub(1),
-            // Bars enclose the parameters of a closure. After a value, however, a bar is an operator.
+            // Bars enclose the parameters of a closure. A bar after a value is an operator.
             (TokenKind::Symbol, "|") => {
                 let is_operator =
                     matches!(before, TokenKind::Word | TokenKind::Number | TokenKind::Close(_));

@@ -13,7 +13,7 @@ const DEEPEST: usize = 8;
 pub struct SideEffects {
     simulations: Vec<(SimulationHandle, SimulationPosition)>,
     scenes: Vec<(SceneHandle, String)>,
-    /// Variables that closures share, with their values as text.
+    /// Variables shared by closures, with their values as text.
     shared: Vec<(Dynamic, String)>,
     files: usize,
 }
@@ -56,7 +56,7 @@ impl SideEffects {
         }
     }
 
-    /// Description of what has changed since this state was recorded. It follows the word "it" in messages.
+    /// Description of the changes since this state was recorded. In messages, the word "it" precedes the description.
     pub fn change(&self, session: &Session) -> Option<String> {
         let moved = self.simulations.iter().find(|(handle, was)| place(handle) != *was);
         if let Some((handle, _)) = moved {

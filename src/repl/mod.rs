@@ -1,5 +1,5 @@
-//! Interactive sessions. Inputs are evaluated and recorded, and the effects of failed inputs are undone. [`session`] and [`shell`] do not depend on
-//! a terminal. [`editor`] provides line editing.
+//! Interactive sessions. Inputs are evaluated and recorded, and the effects of failed inputs are undone.
+//! [`session`] and [`shell`] do not depend on a terminal. [`editor`] provides line editing.
 
 pub(crate) mod batch;
 pub mod clock;

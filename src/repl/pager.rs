@@ -1,4 +1,4 @@
-//! Display of long replies in pages, by an external program or by built-in keys.
+//! Display of long replies in pages, by an external program or by the built-in pager.
 
 mod keyboard;
 mod pages;
@@ -25,7 +25,7 @@ pub trait Pager {
     /// Sets the size of the terminal.
     fn resize(&mut self, columns: usize, lines: usize);
 
-    /// Shows a text in pages if it is long. `was_interrupted` returns true once after each Ctrl-C.
+    /// Shows a long text in pages. `was_interrupted` returns true once after each Ctrl-C.
     fn show(&mut self, text: &str, was_interrupted: &dyn Fn() -> bool) -> PagerOutcome;
 }
 
@@ -36,8 +36,8 @@ pub struct TerminalPager {
 }
 
 impl TerminalPager {
-    /// Creates a pager with the program in the variable `PAGER`. If the variable is not set, the built-in pager is used. `None` if its value is
-    /// `cat` or empty, or if the terminal cannot move its cursor.
+    /// Creates a pager with the program in the variable `PAGER`. Without this variable, the built-in pager is used.
+    /// Returns `None` if the variable is `cat` or empty, or if the terminal cannot move its cursor.
     pub fn of_environment(variable: impl Fn(&str) -> Option<String>) -> Option<Self> {
         let program = variable("PAGER");
         let is_unwanted = program.as_deref().is_some_and(|name| matches!(name.trim(), "" | "cat"));
@@ -45,7 +45,7 @@ impl TerminalPager {
         (!is_unwanted && !is_dumb).then_some(Self { program, size: (0, 0) })
     }
 
-    /// Returns true if the text and the next prompt do not fit on the terminal together.
+    /// Returns true if the text and the next prompt together do not fit on the terminal.
     fn is_long(&self, text: &str) -> bool {
         let (columns, lines) = self.size;
         columns > 0 && lines > 1 && pages::rows(text, columns) >= lines
@@ -58,7 +58,7 @@ impl Pager for TerminalPager {
     }
 
     fn show(&mut self, text: &str, was_interrupted: &dyn Fn() -> bool) -> PagerOutcome {
-        // Keys that were typed during the evaluation belong to the prompt and not to the pager.
+        // Keys typed during the evaluation belong to the prompt, not to the pager.
         if !self.is_long(text) || keyboard::has_pending_keys() {
             return PagerOutcome::NotPaged;
         }

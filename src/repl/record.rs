@@ -18,7 +18,7 @@ const HEADER: &str = "//! A session of withy: its successful inputs.";
 enum RecordedInput {
     Statements(Source),
     Expression(Source),
-    /// Statements that return early. In a script they would end the script.
+    /// Statements that return early. In a script, they would end the script.
     EarlyReturn(Source),
     Moved(Source),
 }
@@ -38,7 +38,7 @@ pub struct SessionRecord {
 }
 
 impl SessionRecord {
-    /// Records statements that have no value.
+    /// Records statements without a value.
     pub fn worked(&mut self, text: &str) {
         self.entries.push(RecordedInput::Statements(text.trim().into()));
     }
@@ -52,15 +52,16 @@ impl SessionRecord {
         self.entries.push(RecordedInput::EarlyReturn(text.trim().into()));
     }
 
-    /// Records how a failed statement advanced or rewound simulations, by comparison with their positions `before`. Returns true if it did so.
+    /// Records the advances and rewinds of simulations by a failed statement, by comparison with their positions `before`.
+    /// Returns true if a simulation was advanced or rewound.
     pub fn record_movement(&mut self, before: &[SimulationPositions]) -> bool {
         let known = self.entries.len();
         for was in before {
             let (time, steps) = (was.handle.time(), was.handle.simulation().counts().steps);
             if steps != was.steps {
                 let method = if time > was.time { "run_to" } else { "rewind" };
-                // When the saved script repeats the movement, it may call the script function that has failed here, and this call may fail again.
-                // Hence the error is caught.
+                // When the saved script repeats the movement, it may call the failed script function again, and this call may also fail.
+                // The generated script catches the error of the repeated call.
                 let call = format!("{}.{method}({});", was.name, format_number(time));
                 self.entries
                     .push(RecordedInput::Moved(format!("try {{ {call} }} catch {{ }}").into()));
@@ -135,7 +136,7 @@ impl SessionRecord {
         self.entries.iter().map(RecordedInput::source)
     }
 
-    /// Returns true if an input returned early. Such an input is not repeated.
+    /// Returns true if an input returned early. The script does not repeat such inputs.
     pub fn has_returned(&self) -> bool {
         self.entries.iter().any(|entry| matches!(entry, RecordedInput::EarlyReturn(_)))
     }
@@ -152,7 +153,7 @@ impl RecordedInput {
     }
 }
 
-/// Simulations in variables and the simulation used last, without duplicates.
+/// Simulations in variables and the last used simulation, without duplicates.
 pub fn simulation_positions(
     scope: &Scope,
     latest: Option<SimulationHandle>,
@@ -199,7 +200,7 @@ pub fn functions_of(source: &Source) -> impl Iterator<Item = &str> {
 }
 
 struct FunctionText {
-    /// Name and number of parameters. The name of a method includes its type.
+    /// Name and number of parameters. For a method, the name includes the type.
     name: (String, usize),
     /// Byte range of the definition, from its doc comments or `private` to the closing brace.
     bytes: Range<usize>,

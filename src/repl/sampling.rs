@@ -8,7 +8,7 @@ use rhai::Dynamic;
 use super::clock::Clock;
 use super::session::Rounds;
 
-/// Largest duration of an input that is evaluated repeatedly.
+/// Largest duration of an input for which the evaluation is repeated.
 pub const LONGEST: Duration = Duration::from_secs(1);
 /// Largest total time of all repetitions.
 const TOTAL_TIME_LIMIT: Duration = Duration::from_secs(2);
@@ -16,7 +16,7 @@ const TOTAL_TIME_LIMIT: Duration = Duration::from_secs(2);
 const LEAST_TIME: Duration = Duration::from_millis(200);
 const LEAST_RUNS: usize = 7;
 const MOST_RUNS: usize = 10_000;
-/// Relative error of the median that is accurate enough.
+/// Sufficient accuracy: relative error of the median.
 const KNOWN: f64 = 0.01;
 
 pub struct Sampling {
@@ -24,14 +24,14 @@ pub struct Sampling {
     start: Option<Duration>,
     round_start: Duration,
     durations: Vec<Duration>,
-    /// Number of runs after which the error is computed next.
+    /// Number of runs after which the error is computed again.
     next_evaluation: usize,
 }
 
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Figures {
     pub runs: usize,
-    /// Duration of the shortest run. It is the run that other processes have disturbed least.
+    /// Duration of the shortest run, which was least disturbed by other processes.
     pub least: Duration,
     pub median: Duration,
     pub quartiles: (Duration, Duration),
@@ -75,7 +75,7 @@ impl Sampling {
 }
 
 impl Figures {
-    /// Relative standard error of the median. It is the error for a normal distribution that has the same quartiles as the measured durations.
+    /// Relative standard error of the median, computed for a normal distribution with the quartiles of the measured durations.
     fn error(&self) -> f64 {
         let (low, high) = self.quartiles;
         let deviation = (high - low).as_secs_f64() / 1.349;

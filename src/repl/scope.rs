@@ -4,10 +4,10 @@ use std::collections::HashSet;
 
 use rhai::{Dynamic, ImmutableString, Scope};
 
-/// Variables of a scope that are not shadowed. `None` if no variable of the scope is shadowed.
+/// Variables of a scope that are not shadowed; `None` if the scope has no shadowed variables.
 pub fn visible(scope: &Scope<'static>) -> Option<Scope<'static>> {
     let mut names = HashSet::new();
-    // The newest variables come first. They shadow older ones.
+    // The newest variables come first. They shadow older variables.
     let seen: Vec<_> = scope.iter_raw().filter(|(name, ..)| names.insert(*name)).collect();
     if seen.len() == scope.len() {
         return None;

@@ -1,4 +1,4 @@
-//! Sessions, which do not depend on a terminal. Inputs are evaluated one after the other and share their state.
+//! Sessions without a terminal. Inputs are evaluated one after the other and share their state.
 
 mod preview;
 
@@ -34,10 +34,10 @@ pub enum Reply {
     Done,
     /// Success with the value of an expression.
     Value(Dynamic),
-    /// A statement failed. The effects of earlier statements in the same input remain. Of the failed statement, only changes of scenes, of
-    /// simulations and of variables that closures share remain.
+    /// A statement failed. The effects of earlier statements in the same input remain.
+    /// Of the failed statement, only changes of scenes, of simulations and of variables shared by closures remain.
     Failed(Diagnostic),
-    /// Ctrl-C interrupted a statement. Its effects are the same as for a failed statement.
+    /// Ctrl-C interrupted a statement, with the same effects as a failed statement.
     Interrupted,
     /// The reader of the output has closed the pipe.
     PipeClosed,
@@ -51,7 +51,7 @@ struct StatementCheckpoint {
     positions: Vec<SimulationPositions>,
 }
 
-/// Session: variables, functions, constants and imports, and the script engine.
+/// Session: variables, functions, constants and imports, with the script engine.
 pub struct Session {
     engine: ScriptEngine,
     folder: PathBuf,
@@ -91,8 +91,8 @@ impl Session {
         self.context().clear_simulations();
     }
 
-    /// Forgets a Ctrl-C that was pressed between evaluations. A Ctrl-C that is pressed later stops every evaluation until this function is called
-    /// again.
+    /// Discards a Ctrl-C that was pressed between evaluations.
+    /// After a later Ctrl-C, every evaluation stops until this function is called again.
     pub fn clear_interrupt(&mut self) {
         self.context().interrupt_flag().store(false, Ordering::Relaxed);
     }
@@ -103,7 +103,7 @@ impl Session {
         self.eval_program(program)
     }
 
-    /// Evaluates a program, for example a file, as if it had been typed.
+    /// Evaluates a program, for example a file, like typed input.
     pub fn eval_program(&mut self, program: Program) -> Reply {
         let text = program.text.clone();
         let before = self.transcript.add(program);
@@ -116,8 +116,8 @@ impl Session {
             }
         };
         let returns = statements::returns(&ast);
-        // An input that may return early is evaluated as a whole. Other inputs are evaluated in pieces, so that statements before an error keep
-        // their effect.
+        // An input that may return early is evaluated as a whole.
+        // Other inputs are evaluated in pieces, so that statements before an error keep their effect.
         let pieces = if returns { ast.statements().len().max(1) } else { 1 };
         let mut value = Dynamic::UNIT;
         for (number, piece) in ast.statements().chunks(pieces).enumerate() {
@@ -155,17 +155,18 @@ impl Session {
         self.record.worked(&format!("{before}{functions}"));
     }
 
-    /// Records an input that other code has evaluated.
+    /// Records an input that was evaluated by other code.
     pub fn record_success(&mut self, text: &str) {
         self.record.worked(text);
     }
 
-    /// Records how simulations were advanced or rewound by actions that are not recorded themselves. Returns true if there were any.
+    /// Records the advances and rewinds of simulations by actions that are not recorded themselves.
+    /// Returns true if a simulation was advanced or rewound.
     pub fn record_movement(&mut self, before: &[SimulationPositions]) -> bool {
         self.record.record_movement(before)
     }
 
-    /// Simulations with a name, and their positions.
+    /// Named simulations with their positions.
     pub fn simulation_positions(&self) -> Vec<SimulationPositions> {
         let latest = self.context().latest_simulation();
         simulation_positions(&self.scope, latest.and_then(|latest| latest.try_cast()))
@@ -184,7 +185,7 @@ impl Session {
     fn restore(&mut self, checkpoint: StatementCheckpoint) {
         self.scope = checkpoint.scope;
         self.global = checkpoint.global;
-        // Functions that scenes and simulations have stored share these constants.
+        // Functions stored by scenes and simulations share the constants of the session.
         if let Some(constants) = &self.global.constants {
             *constants.borrow_mut() = checkpoint.constants;
         }
@@ -198,7 +199,7 @@ impl Session {
         let parse = |engine: &Engine| parse_piece(engine, &piece, || transcript.variables());
         let ast = host.run(&guard, || transcript.to_program(), parse).map_err(reply)?;
         self.library = self.library.merge(&ast.clone_functions_only());
-        // By this name, errors in functions of the session are distinguished from errors in functions of imported files.
+        // The source name distinguishes errors in functions of the session from errors in functions of imported files.
         self.library.set_source(PROMPT);
         self.global.source = Some(PROMPT.into());
         self.global.lib.clear();
@@ -210,7 +211,7 @@ impl Session {
         let Self { engine: host, transcript, scope, global, .. } = self;
         let whole = || transcript.to_program();
         let outcome = host.run(guard, whole, |engine| {
-            // Only this deprecated function keeps imports and constants between inputs. There is no other function for it.
+            // This deprecated function is the only function that keeps imports and constants between inputs.
             #[allow(deprecated)]
             engine.eval_statements_raw(global, &mut Caches::new(), scope, statements)
         });
@@ -222,7 +223,7 @@ impl Session {
         if value.is_unit() || text.ends_in_semicolon() {
             return Reply::Done;
         }
-        // If the user has defined a constant with this name, it is not changed.
+        // A constant with this name, defined by the user, is not changed.
         match (self.scope.is_constant(ANSWER), self.scope.get_mut(ANSWER)) {
             (Some(false), Some(answer)) => *answer = value.clone(),
             (None, _) => _ = self.scope.push_dynamic(ANSWER, value.clone()),
@@ -231,13 +232,13 @@ impl Session {
         Reply::Value(value)
     }
 
-    /// Makes the constants after the first `known` variables visible to functions as `global::NAME`, whatever the order of definitions.
+    /// Makes the constants after the first `known` variables visible to functions as `global::NAME`, independent of the order of definitions.
     fn publish_constants(&mut self, known: usize) {
         let shared = self.global.constants.get_or_insert_with(Default::default);
         shared.borrow_mut().extend(scope::constants_after(&self.scope, known));
     }
 
-    /// Drops shadowed variables to save memory in long sessions. They cannot be accessed any more.
+    /// Drops shadowed variables, which can no longer be accessed, to save memory in long sessions.
     fn drop_shadowed(&mut self) {
         if let Some(visible) = scope::visible(&self.scope) {
             self.scope = visible;
@@ -251,7 +252,7 @@ impl Session {
         self.engine.catalog()
     }
 
-    /// State that all calls of the session share.
+    /// State shared by all calls of the session.
     pub fn context(&self) -> &Context {
         self.engine.context()
     }
@@ -271,12 +272,12 @@ impl Session {
         self.library.iter_functions().filter(|function| !function.name.starts_with("anon$"))
     }
 
-    /// Imported modules with their names. The module that was imported last comes first.
+    /// Imported modules with their names. The module imported last comes first.
     pub fn modules(&self) -> impl Iterator<Item = (&str, &rhai::Module)> {
         self.global.iter_imports()
     }
 
-    /// Number of the next input line, from 1.
+    /// Number of the next input line, counted from 1.
     pub fn next_line(&self) -> usize {
         self.transcript.next_line()
     }
@@ -299,7 +300,7 @@ impl Session {
         }
     }
 
-    /// Folder for imports and input files.
+    /// Base folder for imports and input files.
     pub fn folder(&self) -> &Path {
         &self.folder
     }

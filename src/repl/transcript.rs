@@ -1,5 +1,5 @@
-//! Transcript of all inputs of a session. By means of it, positions of errors are related to inputs. For example, an error in a function that was
-//! typed at line 3 and called at line 20 is shown at line 3.
+//! Transcript of all inputs of a session. It relates the positions of errors to inputs.
+//! For example, an error in a function that was typed at line 3 and called at line 20 is shown at line 3.
 
 use std::sync::Arc;
 
@@ -19,7 +19,7 @@ struct TranscriptInput {
     is_valid: bool,
 }
 
-/// All inputs of a session. For the engine they are one long text, in which each input has its own lines.
+/// All inputs of a session. The engine sees them as one long text with separate lines for each input.
 pub struct Transcript {
     pieces: Vec<TranscriptInput>,
     lines: usize,
@@ -53,7 +53,7 @@ impl Transcript {
         Program { folder: self.folder.clone(), ..Program::named(PROMPT, text) }
     }
 
-    /// Marks the last input as failed. Its declarations then do not exist.
+    /// Marks the last input as failed. The declarations of a failed input do not exist.
     pub fn mark_last_failed(&mut self) {
         if let Some(last) = self.pieces.last_mut() {
             last.is_valid = false;
@@ -66,7 +66,7 @@ impl Transcript {
         }
     }
 
-    /// All inputs as one program in which they have their line numbers. The lines of failed inputs are blank, except for the last one.
+    /// All inputs as one program, at their line numbers. The lines of failed inputs are blank, except those of the last input.
     pub fn to_program(&self) -> Program {
         let mut text = String::new();
         for (index, piece) in self.pieces.iter().enumerate() {
@@ -103,7 +103,7 @@ impl Transcript {
             .map(|(_, piece)| piece)
     }
 
-    /// Changes the positions of an error so that they refer to the original inputs. Loaded files have their own line numbers.
+    /// Changes the positions of an error so that they refer to the original inputs. Loaded files have separate line numbers.
     pub fn relocate(&self, mut diagnostic: Diagnostic) -> Diagnostic {
         for step in &mut diagnostic.trace {
             if step.file.is_none()

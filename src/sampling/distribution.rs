@@ -10,7 +10,7 @@ pub enum Distribution {
         from: f64,
         to: f64,
     },
-    /// Distribution whose logarithm is uniform between the positive numbers `from` and `to`.
+    /// Distribution whose logarithm is uniform between the logarithms of the positive numbers `from` and `to`.
     LogUniform {
         from: f64,
         to: f64,
@@ -36,7 +36,7 @@ impl Distribution {
         matches!(self, Self::LogUniform { .. } | Self::LogNormal { .. })
     }
 
-    /// Returns the quantile of a probability, which must lie strictly between 0 and 1.
+    /// Quantile of a probability, which must lie strictly between 0 and 1.
     pub fn quantile(&self, probability: f64) -> f64 {
         let between = |from: f64, to: f64| from * (1.0 - probability) + to * probability;
         match *self {
@@ -56,7 +56,7 @@ impl Distribution {
         }
     }
 
-    /// Returns the distribution as it is written in a script.
+    /// Distribution in the syntax of scripts.
     pub fn describe(&self) -> String {
         match self {
             Self::Uniform { from, to } => format!("uniform({from}, {to})"),

@@ -6,11 +6,11 @@ const FEWEST: usize = 30;
 /// Sobol' indices of one parameter.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct VarianceShare {
-    /// First-order index (main effect). If the result is averaged over all other parameters, it still varies with this parameter. The index is the
-    /// variance of this average, as a fraction of the variance of the result.
+    /// First-order index (main effect). The average of the result over all other parameters still varies with this parameter.
+    /// The index is the variance of the averaged result, as a fraction of the variance of the result.
     pub first: f64,
-    /// Total index: the mean variance that remains if all other parameters are known, as a fraction of the variance of the result; `None` if it
-    /// cannot be estimated.
+    /// Total index: the mean variance that remains if all other parameters are known, as a fraction of the variance of the result.
+    /// The total index is `None` if it cannot be estimated.
     pub total: Option<f64>,
 }
 
@@ -24,9 +24,9 @@ fn variance(values: &[f64]) -> f64 {
     mean(values.iter().map(|x| (x - middle) * (x - middle)))
 }
 
-/// Returns the indices of all parameters from results on a full grid. The last parameter varies fastest, and `lengths` contains the number of
-/// values of each parameter. All values of a parameter have the same probability, so the indices are exact. Returns `None` if the result is
-/// constant.
+/// Returns the indices of all parameters from results on a full grid.
+/// The last parameter varies fastest, and `lengths` contains the number of values of each parameter.
+/// All values of a parameter have the same probability, so the indices are exact. Returns `None` if the result is constant.
 pub fn grid_indices(lengths: &[usize], results: &[f64]) -> Option<Vec<VarianceShare>> {
     let whole = variance(results);
     (whole > 0.0).then(|| {
@@ -47,8 +47,8 @@ pub fn grid_indices(lengths: &[usize], results: &[f64]) -> Option<Vec<VarianceSh
     })
 }
 
-/// Returns the indices of all parameters from results at the points of [`saltelli`](super::saltelli), by the estimators of M. J. W. Jansen,
-/// Computer Physics Communications 117 (1999) 35-43.
+/// Indices of all parameters from results at the points of [`saltelli`](super::saltelli).
+/// Estimators: M. J. W. Jansen, Computer Physics Communications 117 (1999) 35-43.
 ///
 /// Blocks with a result that is not finite are omitted. Returns `None` if fewer than 30 blocks remain or the result is constant.
 pub fn saltelli_indices(parameters: usize, results: &[f64]) -> Option<Vec<VarianceShare>> {
@@ -67,9 +67,10 @@ pub fn saltelli_indices(parameters: usize, results: &[f64]) -> Option<Vec<Varian
 
 /// Returns the first-order index of one parameter from results at arbitrary independent points. `values` contains the parameter at these points.
 ///
-/// The points are sorted by the parameter and divided into groups. The index follows from the variance of the means of the groups, minus the
-/// contribution of the scatter within the groups. The number of groups is the cube root of the number of points, but at least three. Results that
-/// are not finite are omitted. Returns `None` if fewer than 30 points remain or the result is constant.
+/// The points are sorted by the parameter and divided into groups.
+/// The index is the variance of the means of the groups, minus the contribution of the scatter within the groups.
+/// The number of groups is the cube root of the number of points, but at least three. Results that are not finite are omitted.
+/// Returns `None` if fewer than 30 points remain or the result is constant.
 pub fn rank_indices(values: &[f64], results: &[f64]) -> Option<VarianceShare> {
     let pairs = values.iter().copied().zip(results.iter().copied());
     let mut pairs: Vec<(f64, f64)> = pairs.filter(|(_, result)| result.is_finite()).collect();
@@ -109,8 +110,9 @@ mod tests {
         sin(a) + 7.0 * sin(b) * sin(b) + 0.1 * power(c, 4.0) * sin(a)
     }
 
-    /// Indices in closed form. The contributions to the variance are 1/2 (1 + b π⁴/5)², a²/8 and 0 for the three parameters, and 8 π⁸ b²/225 for
-    /// the interaction of the first and the third.
+    /// Indices of the Ishigami function in closed form.
+    /// The contributions of the three parameters to the variance are 1/2 (1 + b π⁴/5)², a²/8 and 0.
+    /// The interaction of the first and the third parameter contributes 8 π⁸ b²/225.
     fn known() -> ([f64; 3], [f64; 3]) {
         let fourth = power(PI, 4.0);
         let first = 0.5 * power(1.0 + 0.1 * fourth / 5.0, 2.0);

@@ -4,8 +4,9 @@ use super::Random;
 
 const BITS: usize = 32;
 
-/// Primitive polynomial and initial direction numbers of each coordinate, beginning with the second one. The number contains the inner coefficients
-/// of the polynomial as bits. The values are those of the file new-joe-kuo-6.21201 of S. Joe, F. Y. Kuo, SIAM J. Sci. Comput. 30 (2008) 2635-2654.
+/// Primitive polynomial and initial direction numbers of each coordinate, beginning with the second coordinate.
+/// The first number of an entry contains the inner coefficients of the polynomial as bits.
+/// The values are those of the file new-joe-kuo-6.21201 of S. Joe, F. Y. Kuo, SIAM J. Sci. Comput. 30 (2008) 2635-2654.
 const DIRECTIONS: [(u32, &[u32]); 39] = [
     (0, &[1]),
     (1, &[1, 3]),
@@ -71,11 +72,11 @@ fn directions(dimension: usize) -> [u32; BITS] {
     numbers
 }
 
-/// Returns the first `count` points of a Sobol' sequence, in Gray code order (I. A. Antonov and V. M. Saleev, 1979). At most [`MOST_DIMENSIONS`]
-/// dimensions are possible.
+/// Returns the first `count` points of a Sobol' sequence, in Gray code order (I. A. Antonov and V. M. Saleev, 1979).
+/// The number of dimensions is at most [`MOST_DIMENSIONS`].
 ///
-/// The bits of each coordinate are combined with random bits by exclusive or. This digital shift preserves the uniformity. The coordinates lie
-/// strictly between 0 and 1. The result has one list per coordinate, with the values of all points.
+/// The bits of each coordinate are combined with random bits by exclusive or. This digital shift preserves the uniformity.
+/// The coordinates lie strictly between 0 and 1. The result has one list per coordinate, with the values of all points.
 pub fn sobol(count: usize, dimensions: usize, seed: u64) -> Vec<Vec<f64>> {
     let mut random = Random::seeded(seed);
     (0..dimensions)
@@ -109,7 +110,7 @@ mod tests {
             .collect()
     }
 
-    /// Points that the program of Joe and Kuo gives in three dimensions.
+    /// Points computed by the program of Joe and Kuo in three dimensions.
     #[test]
     fn points_are_those_of_joe_and_kuo() {
         assert_eq!(plain(6, 0), [0.0, 0.5, 0.75, 0.25, 0.375, 0.875]);
@@ -132,7 +133,7 @@ mod tests {
         let columns = sobol(4096, 4, 1);
         let product = |at: usize| columns.iter().map(|values| 2.0 * values[at]).product::<f64>();
         let mean = (0..4096).map(product).sum::<f64>() / 4096.0;
-        // With random points, the error would be about 0.023.
+        // With random points, the error of the mean would be about 0.023.
         assert!((mean - 1.0).abs() < 2e-3, "{mean}");
     }
 }

@@ -18,8 +18,8 @@ pub struct FolderEntry {
 }
 
 impl Folder {
-    /// Returns the files and subfolders of this folder, sorted by name. A link is listed as a link, not as its target. An entry that cannot be
-    /// inspected is omitted.
+    /// Returns the files and subfolders of this folder, sorted by name. A link is listed as a link, not as its target.
+    /// An entry that cannot be inspected is omitted.
     ///
     /// # Errors
     /// Fails if the folder cannot be read.
@@ -38,7 +38,7 @@ impl Folder {
     /// Opens a subfolder by its name. A link is not followed.
     ///
     /// # Errors
-    /// Fails if there is no folder of this name, or if it is a link.
+    /// Fails if no folder has this name, or if it is a link.
     pub fn below(&self, name: &OsStr) -> io::Result<Self> {
         match is_plain(Path::new(name)) {
             true => self.enter(name),

@@ -1,4 +1,4 @@
-//! An open folder. Its files are accessed through the file descriptor of the folder, not through its path.
+//! Open folder. Its files are accessed through the file descriptor of the folder, not through its path.
 
 use std::ffi::OsStr;
 use std::fs;
@@ -11,7 +11,7 @@ use cap_std::fs::{Dir, OpenOptions};
 
 use super::reading;
 
-/// An open folder. If the folder is renamed, or a link takes its place, this value still refers to the original folder.
+/// Open folder. If the folder is renamed or replaced by a link, this value still refers to the original folder.
 #[derive(Debug)]
 pub struct Folder(pub(super) Dir);
 
@@ -22,17 +22,17 @@ pub fn is_plain(name: &Path) -> bool {
 }
 
 impl Folder {
-    /// Opens a folder whose path the user has given. Links are followed.
+    /// Opens a folder at a path given by the user. Links are followed.
     ///
     /// # Errors
-    /// Fails if there is no folder at `path`.
+    /// Fails if `path` is not the path of a folder.
     pub fn open(path: &Path) -> io::Result<Self> {
         let path = if path.as_os_str().is_empty() { Path::new(".") } else { path };
         Dir::open_ambient_dir(path, ambient_authority()).map(Self)
     }
 
-    /// Opens a folder for writing. The folder and its parents are created if necessary. The folder itself must not be a link, because a link could
-    /// lead to another place.
+    /// Opens a folder for writing. The folder and its parents are created if necessary.
+    /// The folder itself must not be a link, because a link could lead to another location.
     ///
     /// # Errors
     /// Fails if the folder cannot be created, or if it is a link.
@@ -48,10 +48,10 @@ impl Folder {
         }
     }
 
-    /// Opens an existing folder under the same conditions as [`open_or_create`](Self::open_or_create), but never creates it.
+    /// Opens an existing folder under the same conditions as [`open_or_create`](Self::open_or_create), but never creates a folder.
     ///
     /// # Errors
-    /// Fails if there is no folder at `path`, or if it is a link.
+    /// Fails if `path` is not the path of a folder, or if it is a link.
     pub fn find(path: &Path) -> io::Result<Self> {
         match path.components().next_back() {
             Some(Component::Normal(name)) => {
@@ -127,7 +127,7 @@ impl Folder {
         Ok(file.into_std())
     }
 
-    /// Returns true if a file, a folder or a link of this name exists below this folder. The target of the link need not exist.
+    /// Returns true if a file, a folder or a link of this name exists below this folder. The target of a link need not exist.
     pub fn has(&self, name: &Path) -> bool {
         let found = self.parent_of(name, Self::enter);
         found.is_ok_and(|(folder, name)| folder.0.symlink_metadata(name).is_ok())
@@ -141,7 +141,7 @@ impl Folder {
         Ok(self.open_file(name)?.try_lock().is_ok())
     }
 
-    /// Creates a new file for writing. Missing parent folders are created too.
+    /// Creates a new file for writing. Missing parent folders are also created.
     ///
     /// # Errors
     /// Fails if a file of this name exists or the file cannot be created.
@@ -186,8 +186,8 @@ impl Folder {
         self.0.remove_file_or_symlink(name)
     }
 
-    /// Writes the folder to disk, so that renamed files keep their new names after a power failure. On systems that cannot write folders to disk,
-    /// nothing happens.
+    /// Writes the folder to disk, so that renamed files keep their new names after a power failure.
+    /// This function has no effect on systems that cannot write folders to disk.
     pub(super) fn sync(&self) -> io::Result<()> {
         #[cfg(unix)]
         {
@@ -279,7 +279,7 @@ mod tests {
         assert_eq!(fs::read(own.join("a.2")).unwrap(), b"old");
     }
 
-    /// While files are read and written, another thread repeatedly replaces their folders and files by links.
+    /// Test in which another thread repeatedly replaces folders and files by links while they are read and written.
     #[test]
     fn races_do_not_lead_out() {
         let (home, own, other) = home();

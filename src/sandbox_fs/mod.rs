@@ -1,5 +1,6 @@
-//! Accesses files below an open folder through the file descriptor of the folder. The folder cannot be exchanged meanwhile, and links are not
-//! followed. Only regular files are opened, so that a pipe or a device cannot block the program.
+//! Access to files below an open folder through the file descriptor of the folder.
+//! The folder cannot be exchanged during the access, and links are not followed.
+//! Only regular files are opened, so that a pipe or a device cannot block the program.
 //!
 //! Paths on the command line are trusted and may lead anywhere. Paths in scripts are not trusted, and must be accessed through this module.
 

@@ -13,19 +13,19 @@ pub(super) fn options(follow: FollowSymlinks) -> OpenOptions {
     options
 }
 
-/// Reads a file whose path the user has given. `most` is the maximum length [bytes]. Links are followed.
+/// Reads a file at a path given by the user. `most` is the maximum length [bytes]. Links are followed.
 ///
 /// # Errors
 /// Fails if `path` does not lead to a regular file, or if the file is too long or unreadable.
 pub fn read_file(path: &Path, most: u64) -> io::Result<Vec<u8>> {
-    // The type of the file is checked before the file is opened, because opening a device may have side effects.
+    // The type of the file is checked before it is opened, because opening a device may have side effects.
     expect_ordinary(std::fs::metadata(path)?.is_file())?;
     let options = options(FollowSymlinks::Yes);
     let file = File::open_ambient_with(path, &options, ambient_authority())?;
     read(file.into_std(), most)
 }
 
-/// Reads a UTF-8 text file whose path the user has given. `most` is the maximum length [bytes]. Links are followed.
+/// Reads a UTF-8 text file at a path given by the user. `most` is the maximum length [bytes]. Links are followed.
 ///
 /// # Errors
 /// Fails if `path` does not lead to a regular file, or if the file is too long, unreadable or not UTF-8.
@@ -39,7 +39,7 @@ pub(super) fn read(file: std::fs::File, most: u64) -> io::Result<Vec<u8>> {
     expect_ordinary(about.is_file())?;
     expect_length(about.len(), most)?;
     let mut bytes = Vec::new();
-    // The length that the system reports may be wrong, for example for files in /proc. Therefore the number of bytes is limited while reading.
+    // The system may report a wrong length, for example for files in /proc. Therefore the number of bytes is limited while reading.
     file.take(most.saturating_add(1)).read_to_end(&mut bytes)?;
     expect_length(bytes.len() as u64, most)?;
     Ok(bytes)

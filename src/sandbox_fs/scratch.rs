@@ -1,4 +1,4 @@
-//! Temporary folders with unpredictable names. The folder of a process that was killed is removed by a later process.
+//! Temporary folders with unpredictable names. If a process is killed, a later process removes its folder.
 
 use std::fs::{self, File};
 use std::io;
@@ -10,16 +10,16 @@ use tempfile::TempDir;
 use super::Folder;
 
 const PREFIX: &str = "withy-scratch-";
-/// Name of a file in each temporary folder. The file is locked until the process ends, so that other processes see that the folder is in use.
+/// Name of a file in each temporary folder. The file is locked until the process ends, which shows other processes that the folder is in use.
 const HELD: &str = ".held";
-/// Age after which a folder without this file counts as abandoned. A younger folder may belong to a process that is starting.
+/// Age above which a folder without this file counts as abandoned. A younger folder may belong to a process that is starting.
 const BEGINNING: Duration = Duration::from_secs(3600);
 
-/// A new folder in the temporary folder of the system. It is removed when this value is dropped.
+/// New folder in the temporary folder of the system. It is removed when this value is dropped.
 #[derive(Debug)]
 pub struct Scratch {
     folder: TempDir,
-    /// The locked file. The lock ends when the process ends, even if it is killed.
+    /// Locked file in the folder. The lock ends when the process ends, even if the process is killed.
     _held: File,
 }
 
@@ -112,7 +112,7 @@ mod tests {
         let home = tempfile::tempdir().unwrap();
         let living = Scratch::within(home.path()).unwrap();
         fs::create_dir(living.path().join("deep")).unwrap();
-        // Simulates that the process was killed: the folder stays, but the lock is released.
+        // Simulates a killed process: the folder stays, but the lock is released.
         let Scratch { folder, _held } = Scratch::within(home.path()).unwrap();
         fs::write(folder.path().join("big"), "left behind").unwrap();
         let left = folder.keep();

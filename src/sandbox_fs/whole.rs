@@ -1,4 +1,4 @@
-//! Writes files atomically and durably, and renames files of others that would otherwise be replaced.
+//! Writes files atomically and durably, and renames files of other programs that would otherwise be replaced.
 
 use std::ffi::{OsStr, OsString};
 use std::fs;
@@ -10,14 +10,13 @@ use std::time::Duration;
 use super::folder::Folder;
 use super::reading;
 
-/// Maximum number of names that are tried for a temporary file.
+/// Maximum number of names tried for a temporary file.
 pub(super) const TRIES: usize = 100;
 
-/// Age after which an unlocked temporary file counts as abandoned. A younger file may belong to a process that has created it but not yet locked
-/// it.
+/// Age above which an unlocked temporary file counts as abandoned. The process of a younger file may have created it but not yet locked it.
 const ABANDONED: Duration = Duration::from_secs(60);
 
-/// A complete file under a temporary name. It is removed when this value is dropped, unless it was [renamed](Self::rename_to_final).
+/// Complete file under a temporary name. It is removed when this value is dropped, unless it was [renamed](Self::rename_to_final).
 #[derive(Debug)]
 pub struct Prepared {
     folder: Folder,
@@ -26,10 +25,10 @@ pub struct Prepared {
 }
 
 impl Prepared {
-    /// Gives the file its final name, and writes the folder to disk. An existing file of that name is replaced.
+    /// Gives the file its final name, and writes the folder to disk. An existing file with this name is replaced.
     ///
     /// # Errors
-    /// Fails if the file cannot be renamed. Nothing is then changed.
+    /// Fails if the file cannot be renamed. After a failure, nothing is changed.
     pub fn rename_to_final(self) -> io::Result<()> {
         self.folder.0.rename(&self.partial, &self.folder.0, &self.name)?;
         self.folder.sync()
@@ -38,14 +37,14 @@ impl Prepared {
 
 impl Drop for Prepared {
     fn drop(&mut self) {
-        // If `rename_to_final` succeeded, no file has the temporary name, and this error is ignored.
+        // If `rename_to_final` succeeded, no file has the temporary name, so this error is ignored.
         let _ = self.folder.0.remove_file(&self.partial);
     }
 }
 
 impl Folder {
-    /// Writes a file below this folder atomically and durably. An existing file of this name is replaced. An existing link is replaced too and is
-    /// not followed. Missing parent folders are created.
+    /// Writes a file below this folder atomically and durably. An existing file with this name is replaced.
+    /// An existing link is also replaced and not followed. Missing parent folders are created.
     ///
     /// # Errors
     /// Fails if writing fails, or if `name` is the name of a folder, a pipe or a device. Existing files are then unchanged.
@@ -56,7 +55,7 @@ impl Folder {
     /// Calls `write` to write the content of a file under a temporary name. [`Prepared::rename_to_final`] then gives the file the name `name`.
     ///
     /// # Errors
-    /// Fails for the same reasons as [`write_atomic`](Self::write_atomic), or with an error of `write`.
+    /// Fails in the same cases as [`write_atomic`](Self::write_atomic), or if `write` fails.
     pub fn prepare(
         &self,
         name: &Path,
@@ -88,7 +87,7 @@ impl Folder {
             partial.push(format!(".{}-{count}.part", std::process::id()));
             match self.create_here(&partial) {
                 Ok(file) => {
-                    // A failure is ignored: on a file system without locks, no temporary file ever counts as abandoned.
+                    // A failure is ignored. On a file system without locks, no temporary file counts as abandoned.
                     let _ = file.try_lock();
                     return Ok((file, partial));
                 }
@@ -98,7 +97,7 @@ impl Folder {
         }
     }
 
-    /// Removes temporary files beside `name` that remain from programs that were killed.
+    /// Removes temporary files beside `name` that were left by killed programs.
     pub fn remove_abandoned(&self, name: &Path) {
         let Ok((folder, _)) = self.parent_of(name, Self::enter) else { return };
         for entry in folder.entries().unwrap_or_default() {
@@ -114,7 +113,7 @@ impl Folder {
         }
     }
 
-    /// Renames a file below this folder. `free` returns the possible new names in turn, and the first unused one is taken. Returns the new name.
+    /// Renames a file below this folder to the first unused name. `free` returns the possible new names in turn. Returns the new name.
     ///
     /// # Errors
     /// Fails if the file cannot be renamed.
@@ -137,7 +136,7 @@ impl Folder {
         Err(io::Error::new(ErrorKind::AlreadyExists, "no unused file name was found for the copy"))
     }
 
-    /// Gives a file that was kept under the name `kept` its original name `name` again, unless that name is in use.
+    /// Renames a file that was kept under the name `kept` back to its original name `name`, unless this name is in use.
     ///
     /// # Errors
     /// Fails if the file cannot be renamed.

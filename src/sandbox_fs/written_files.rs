@@ -1,5 +1,5 @@
-//! Record of the files that this program wrote into a folder. The record distinguishes these files from files of others, and from files that were
-//! edited after they were written.
+//! Record of the files that this program wrote to a folder.
+//! The record distinguishes files written by this program from files of other programs, and from files edited after they were written.
 
 use std::collections::BTreeMap;
 use std::io::{self, Read, Write};
@@ -7,11 +7,11 @@ use std::path::Path;
 
 use super::Folder;
 
-/// Name of the file that contains the record. It is hidden, because users do not need it.
+/// Name of the file with the record. The file is hidden, because users do not need it.
 const FILE: &str = ".withy-written";
-/// Maximum size of the record [bytes]. If the record is larger, it is not read; all files then count as files of others and are not replaced.
+/// Maximum size of the record [bytes]. A larger record is not read: all files then count as files of other programs and are not replaced.
 const LARGEST: u64 = 16 << 20;
-/// Number of bytes that are read at a time to compute a checksum.
+/// Number of bytes read at a time for the computation of a checksum.
 const PIECE: usize = 1 << 16;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -69,8 +69,9 @@ impl<W: Write> Write for ChecksumWriter<W> {
     }
 }
 
-/// Checksums and lengths of the files that this program has written into a folder, by name. For each file, the last two contents are known: a new
-/// content is recorded before it replaces the old content, so that the file may still have the old one.
+/// Checksums and lengths of the files that this program has written to a folder, by name.
+/// For each file, the last two contents are stored.
+/// A new content is recorded before it replaces the old content, so the file may still have the old content.
 #[derive(Debug, Default)]
 pub struct WrittenFiles {
     files: BTreeMap<String, [Option<FileChecksum>; 2]>,
@@ -81,7 +82,7 @@ pub struct WrittenFiles {
 impl WrittenFiles {
     /// Reads the record of a folder. Damaged lines are ignored.
     pub fn of(folder: &Folder) -> Self {
-        // If the record cannot be read, all files count as files of others and are not replaced.
+        // If the record cannot be read, all files count as files of other programs and are not replaced.
         let text = folder.read(Path::new(FILE), LARGEST).unwrap_or_default();
         let text = String::from_utf8_lossy(&text);
         let is_torn = !text.is_empty() && !text.ends_with('\n');
@@ -92,8 +93,8 @@ impl WrittenFiles {
         record
     }
 
-    /// Returns true if no file has this name, or if the file is unchanged since this program wrote it. Another run may have added a line to the
-    /// record; therefore the record is read again before the answer is false.
+    /// Returns true if no file has this name, or if the file is unchanged since this program wrote it.
+    /// Another run may have added a line to the record. Therefore the record is read again before false is returned.
     pub fn may_replace(&mut self, folder: &Folder, name: &str) -> bool {
         let path = Path::new(name);
         if !folder.has(path) {
@@ -117,7 +118,7 @@ impl WrittenFiles {
         }
     }
 
-    /// Records the content of a file. This must be done before the file gets its final name. The record is written to its file at once.
+    /// Records the content of a file. The caller must do this before the file gets its final name. The record is written to disk immediately.
     ///
     /// # Errors
     /// Fails if the record cannot be written.
@@ -135,7 +136,7 @@ impl WrittenFiles {
     }
 }
 
-/// Parses a line `checksum length name` of the record. If several lines have the same name, the last two are valid.
+/// Parses a line `checksum length name` of the record. If several lines have the same name, the last two lines are valid.
 fn entry(line: &str) -> Option<(String, FileChecksum)> {
     let (checksum, rest) = line.split_once(' ')?;
     let (length, name) = rest.split_once(' ')?;
@@ -181,7 +182,7 @@ mod tests {
                 assert!(WrittenFiles::of(&folder).may_replace(&folder, "a"));
             }
         }
-        // The next line that is added must first complete the incomplete line.
+        // The next added line must first complete the incomplete line.
         folder.append(Path::new(FILE)).unwrap().write_all(b"0123").unwrap();
         let mut record = WrittenFiles::of(&folder);
         record.record(&folder, "a", checksum(b"three")).unwrap();

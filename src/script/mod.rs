@@ -1,12 +1,12 @@
-//! The scripting language: Rhai with numbers as in scientific languages and with helpful errors. The functions that scripts can call are listed in
-//! tables.
+//! The scripting language: Rhai with numbers as in scientific languages and with helpful errors.
+//! Tables list the functions that scripts can call.
 //!
 //! A domain is a [`BindingTable`](bindings::table::BindingTable) of bindings. [`engine`] registers the tables and runs a script on a large stack.
-//! [`diagnose`] converts every error to a message with line and column of the script. There is no mechanics in these modules: bindings are short
-//! and call the solver library.
+//! [`diagnose`] converts every error to a message with line and column of the script.
+//! These modules contain no mechanics: bindings are short and call the solver library.
 //!
-//! Modules may use only modules that precede them in this list: [`messages`], [`source`], [`state`], [`bindings`], `dialect`, [`library`],
-//! [`diagnose`], [`engine`], [`help`], [`presentation`], `handles`, `studies`, [`packages`].
+//! A module may use only modules that precede it in this order:
+//! Order: `messages, source, state, bindings, dialect, library, diagnose, engine, help, presentation, handles, studies, packages`.
 
 pub mod bindings;
 pub mod diagnose;

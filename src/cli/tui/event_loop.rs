@@ -33,7 +33,7 @@ pub(in crate::cli) fn watch(
     stop: &AtomicBool,
 ) -> Result<(), ExerciseError> {
     let mut desk = EventLoop::open(workbook, limits)?;
-    // A panic is caught here, so that the terminal can be restored before the panic is reported.
+    // A panic is caught, so that the terminal can be restored before the panic is reported.
     let done = caught(|| {
         let mut terminal = RawTerminal::enter()?;
         desk.work(&mut terminal, stop)
@@ -132,7 +132,7 @@ impl<'a> EventLoop<'a> {
                 }
             }
             self.state.set_report(report);
-            // The same program in another window may have changed the progress file.
+            // The program in another window may have changed the progress file.
             if let Ok(progress) = self.workbook.progress() {
                 self.state.progress = progress;
             }
@@ -140,7 +140,7 @@ impl<'a> EventLoop<'a> {
     }
 
     fn select_exercise(&mut self, exercise: &'static Exercise) {
-        // An unreadable progress file is not reported here, because the next attempt to write it reports the error.
+        // An unreadable progress file is not reported, because the next attempt to write it reports the error.
         let progress = self.workbook.progress().unwrap_or_else(|_| self.state.progress.clone());
         self.state = TuiState::open(exercise, shown(&self.workbook.file(exercise)), progress);
         self.solution = self.painter.solution(exercise);

@@ -1,4 +1,4 @@
-//! Judges an attempt in a separate process, so that keys are handled in the meantime and the attempt can be killed.
+//! Judges an attempt in a separate process. Keys are handled in the meantime, and the attempt can be killed.
 
 use std::io::{self, Read};
 use std::process::{self, Child, Command, ExitStatus, Stdio};
@@ -20,12 +20,12 @@ use crate::script::messages::stop::Stop;
 use crate::script::state::limits::Limits;
 use crate::script::state::settings::{RunMode, RunSettings};
 
-/// Time that the process may take beyond its time limits before it is killed.
+/// Time by which the process may exceed its time limits before it is killed.
 const SLACK: Duration = Duration::from_secs(12);
 /// Maximum size of the report [bytes].
 const LONGEST: u64 = 1 << 20;
 
-/// A process that judges one attempt. It is killed when this value is dropped.
+/// Process that judges one attempt. It is killed when this value is dropped.
 pub struct JudgeProcess {
     process: Child,
     messages: Receiver<String>,
@@ -95,7 +95,7 @@ impl Drop for JudgeProcess {
     }
 }
 
-/// Returns the report on an attempt whose process could not be started because of `error`.
+/// Returns the report for an attempt whose process could not be started because of `error`.
 pub fn cannot(error: &io::Error) -> AttemptReport {
     let message = format!("cannot start a process for it: {error}");
     let why = AttemptError { message, ..AttemptError::default() };
@@ -116,8 +116,8 @@ fn killed_report(status: ExitStatus, limits: &Limits) -> AttemptReport {
     }
 }
 
-/// Returns true if the process was probably ended because of its memory use: it aborts when an allocation fails, and the system kills a process
-/// that uses too much memory.
+/// Returns true if the process probably ended because of its memory use.
+/// A process aborts when an allocation fails. The system kills a process that uses too much memory.
 #[cfg(unix)]
 fn is_out_of_memory(status: ExitStatus) -> bool {
     use nix::libc::{SIGABRT, SIGKILL};
@@ -136,12 +136,12 @@ fn stopped(stop: Stop, printed: CapturedOutput) -> AttemptReport {
     AttemptReport { outcome: AttemptOutcome::Stopped(why), printed }
 }
 
-/// Judges an attempt in this process, which was started for this purpose only, and prints the report.
+/// Judges an attempt in this process and prints the report. The process was started for this purpose only.
 pub fn try_here(workbook: &Workbook, exercise: &Exercise, options: &LimitOptions) -> Exit {
     exit_with_parent();
     let output = CaptureWriter::default();
     let captured = output.clone();
-    // This lock ensures that only one report is printed, because the report on an exceeded limit comes from another thread.
+    // The lock ensures that only one report is printed. The report on an exceeded limit comes from another thread.
     let turn = Arc::new(Mutex::new(()));
     let last_turn = Arc::clone(&turn);
     let resort = move |stop: Stop| {

@@ -7,7 +7,7 @@ use textwrap::{Options, WordSplitter};
 
 use crate::output::{Colours, columns_of, printable_line};
 
-/// ANSI codes that style a piece of a line.
+/// ANSI codes for the style of a text segment.
 pub type LineStyle = Cow<'static, str>;
 
 pub const PLAIN: LineStyle = Cow::Borrowed("");
@@ -18,7 +18,7 @@ pub const BAD: LineStyle = Cow::Borrowed("1;31");
 pub const HEADING: LineStyle = Cow::Borrowed("1;36");
 pub const WARNING: LineStyle = Cow::Borrowed("33");
 
-/// A line as pieces of text with their styles. It contains no control characters.
+/// Line of text segments with their styles. It contains no control characters.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct ScreenLine(Vec<(String, LineStyle)>);
 

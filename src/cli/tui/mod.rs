@@ -1,5 +1,5 @@
-//! `withy learn watch` in a terminal. One screen shows the task, the file, the result and the hints, and the user presses keys. Each attempt runs
-//! in its own process.
+//! `withy learn watch` in a terminal. One screen shows the task, the file, the result and the hints, and the user presses keys.
+//! Each attempt runs in a separate process.
 //!
 //! ```text
 //! event_loop → terminal → keys

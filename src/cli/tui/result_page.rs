@@ -8,7 +8,7 @@ use crate::exercises::report::{AttemptError, AttemptOutcome, AttemptReport, Scri
 use crate::output::columns_of;
 
 const PRINTED: usize = 12;
-/// Duration after which a run is shown as running [s].
+/// Duration after which a run is displayed as running [s].
 const SHORTEST_SHOWN: u64 = 1;
 
 pub fn outcome(state: &TuiState, columns: usize) -> Vec<ScreenLine> {
@@ -104,7 +104,7 @@ fn excerpt(place: &ScriptPosition, columns: usize) -> Vec<ScreenLine> {
     vec![line, ScreenLine::of("      │ ", FAINT).and(&mark, BAD).cut(columns)]
 }
 
-/// Returns the text after the first `columns` columns. If the cut divides a wide character, a blank replaces its visible half.
+/// Returns the text after the first `columns` columns. If the cut divides a wide character, a blank replaces the visible half.
 fn text_from_column(text: &str, columns: usize) -> String {
     let (mut left_out, mut rest) = (0, text.chars());
     while left_out < columns {

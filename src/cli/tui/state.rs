@@ -15,7 +15,7 @@ pub struct TuiState {
     pub file: String,
     pub progress: StudentProgress,
     pub last: Option<AttemptReport>,
-    /// Seconds since the current run started; `None` if nothing is running.
+    /// Seconds since the current run started; `None` without a run.
     pub running: Option<u64>,
     pub runs: usize,
     pub hints: usize,
@@ -24,7 +24,7 @@ pub struct TuiState {
     pub notice: Option<String>,
     /// Question that waits for a confirmation by pressing the same key again.
     pub confirmation: Option<Confirmation>,
-    /// Exercise number that the user is typing in the list; 0 if none.
+    /// Exercise number that the user is typing in the list; 0 without input.
     pub typed: usize,
 }
 
@@ -51,9 +51,9 @@ pub enum TaskSection {
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Confirmation {
-    /// Leaving an exercise that has not been passed.
+    /// The user leaves an exercise that has not been passed.
     Skip,
-    /// Showing the solution after all hints were given.
+    /// The user requests the solution after all hints were given.
     Solution,
 }
 
@@ -108,8 +108,8 @@ impl TuiState {
         }
     }
 
-    /// Returns the first exercise after the current one that has not been passed. If there is none, the search continues from the beginning of the
-    /// catalogue.
+    /// Returns the first exercise after the current one that has not been passed.
+    /// After the last exercise, the search continues from the beginning of the catalogue.
     pub fn next(&self) -> Option<&'static Exercise> {
         let (before, from) = EXERCISES.split_at(index(self.exercise));
         let others = from.iter().skip(1).chain(before);

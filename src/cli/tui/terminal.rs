@@ -17,7 +17,7 @@ use super::keys::{Key, key};
 use super::line::ScreenLine;
 use crate::output::{Colours, TerminalStyle};
 
-/// Size that is assumed if the terminal does not report one [columns, rows].
+/// Default size if the terminal does not report a size [columns, rows].
 const USUAL: (u16, u16) = (80, 24);
 
 /// True while the terminal is in raw mode.
@@ -28,7 +28,7 @@ pub fn is_there() -> bool {
     stdin().is_terminal() && stdout().is_terminal() && can_draw
 }
 
-/// A terminal in raw mode. Dropping this value restores the previous mode.
+/// Terminal in raw mode. Dropping this value restores the previous mode.
 pub struct RawTerminal {
     colours: Colours,
     drawn: Vec<u8>,
@@ -60,7 +60,7 @@ impl RawTerminal {
         let mut drawing = Vec::new();
         queue!(drawing, BeginSynchronizedUpdate)?;
         for (row, line) in (0..).zip(lines) {
-            // Each line is overwritten without being cleared first, which avoids flicker.
+            // Each line is overwritten without being cleared first, to avoid flicker.
             let drawn = line.drawn(self.colours);
             queue!(drawing, MoveTo(0, row), Print(drawn), Clear(ClearType::UntilNewLine))?;
         }
@@ -82,8 +82,8 @@ impl RawTerminal {
         Ok(())
     }
 
-    /// Waits for the next key, at most for `patience`. Returns `None` if no key was pressed in this time or another event arrived, for example a
-    /// change of the window size.
+    /// Waits for the next key, at most for `patience`.
+    /// Returns `None` if no key was pressed during this time, or if another event arrived, for example a change of the window size.
     ///
     /// # Errors
     /// Fails if reading from the terminal fails.
@@ -100,7 +100,7 @@ impl RawTerminal {
     /// Restores the terminal and suspends the process. When the process continues, the terminal is switched to raw mode again.
     ///
     /// # Errors
-    /// Fails if the process cannot be suspended, or as described for [`enter`](Self::enter).
+    /// Fails if the process cannot be suspended, or in the same cases as [`enter`](Self::enter).
     pub fn suspend(&mut self) -> io::Result<()> {
         restore();
         #[cfg(unix)]

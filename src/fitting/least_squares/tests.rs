@@ -20,7 +20,7 @@ fn solved(ranges: Vec<SearchRange>, function: impl Fn(&[f64]) -> Evaluation) -> 
     found.unwrap()
 }
 
-/// Problem 1 of J. J. Moré, B. S. Garbow, K. E. Hillstrom (1981).
+/// Problem 1 of J. J. Moré, B. S. Garbow, K. E. Hillstrom (1981): Rosenbrock's valley.
 #[test]
 fn rosenbrock_s_valley_is_walked_to_its_end() {
     let found =

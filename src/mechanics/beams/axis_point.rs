@@ -1,4 +1,4 @@
-//! Point of the undeformed axis at which integrals are evaluated.
+//! Quadrature point on the undeformed axis.
 
 use super::BeamError;
 use super::dynamics::Movement;
@@ -6,7 +6,7 @@ use super::simd::{LANES, Lanes};
 use super::span_points::window;
 use crate::geometry::{Basis, Span, Vec2};
 
-/// Length of the derivative of the axis with respect to its parameter, below which it counts as zero, as a fraction of the mean length.
+/// Limit for the derivative of the axis with respect to its parameter, as a fraction of the mean length. Smaller derivatives count as zero.
 const STANDSTILL: f64 = 1e-9;
 
 #[derive(Debug, Clone)]
@@ -23,7 +23,7 @@ impl<const N: usize> AxisPoint<N> {
     pub(super) const EMPTY: Self = Self { shape: [0.0; N], slope: [0.0; N], weight: 0.0 };
 }
 
-/// Consecutive points of the axis, one per vector lane. For each point, the first control point of its span is stored.
+/// Consecutive quadrature points of the axis, one per vector lane. The struct stores the first control point of the span of each point.
 #[derive(Debug, Clone)]
 pub(super) struct AxisPoints<const N: usize> {
     pub(super) shape: [Lanes; N],
@@ -64,8 +64,8 @@ impl<const N: usize> AxisPoints<N> {
     }
 }
 
-/// Increments of control points, arranged in vector lanes. Each lane belongs to a quadrature point and contains the increments of all control
-/// points of its span.
+/// Increments of control points, arranged in vector lanes.
+/// Each lane belongs to a quadrature point and contains the increments of all control points of its span.
 pub(super) struct Windows<'a, const N: usize>([&'a [Movement; N]; LANES]);
 
 impl<const N: usize> Windows<'_, N> {
@@ -83,8 +83,8 @@ impl<const N: usize> Windows<'_, N> {
 pub(super) struct BeamAxis<'a> {
     basis: &'a Basis,
     control_points: &'a [Vec2],
-    /// Smallest length of the derivative with respect to the parameter for which the axis has a direction [length]. The direction of a shorter
-    /// derivative is due to rounding.
+    /// Smallest length of the derivative with respect to the parameter for which the axis has a direction [length].
+    /// A derivative shorter than this limit is due to rounding.
     least_speed: f64,
 }
 

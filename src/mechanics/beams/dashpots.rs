@@ -1,12 +1,16 @@
-//! Kelvin–Voigt dashpots at the quadrature points of a beam, parallel to its elasticity. Axial, shear and bending deformation have relaxation times
-//! `τ`.
+//! Kelvin–Voigt dashpots at the quadrature points of a beam, parallel to its elasticity.
+//! Axial, shear and bending deformation have relaxation times `τ`.
 //!
 //! ```text
-//! N = C τ ΔΓ/Δt      ΔΓ = Λ̄ᵀ (Δx' - Δω J x̄')      M = EI τ Δκ/Δt      D = Σ w (N·ΔΓ + M Δκ) ≥ 0
+//! force:   N = C τ ΔΓ/Δt
+//! strain:  ΔΓ = Λ̄ᵀ (Δx' - Δω J x̄')
+//! moment:  M = EI τ Δκ/Δt
+//! energy:  D = Σ w (N·ΔΓ + M Δκ) ≥ 0
 //! ```
 //!
-//! Here `C = diag(EA, GA)`, `w` are quadrature weights and `D` is the dissipated energy. The dashpots are separate from the quadrature points for
-//! `Γ` and `κ`, so that undamped beams need no additional time. Their forces are independent unknowns, like section forces.
+//! Here `C = diag(EA, GA)`, `w` are quadrature weights and `D` is the dissipated energy.
+//! The dashpots are separate from the quadrature points for `Γ` and `κ`, so that undamped beams need no additional time.
+//! The dashpot forces are independent unknowns, like section forces.
 
 use serde::{Deserialize, Serialize};
 
@@ -46,12 +50,12 @@ impl Relaxation {
     }
 }
 
-/// Rule for the rates of a step: the rate of a quantity `q` is `by_change · Δq - by_last · q̇`, with its change `Δq` in the step and its rate `q̇`
-/// in the previous step.
+/// Rule for the rates of a step. The rate of a quantity `q` is `by_change · Δq - by_last · q̇`.
+/// Here `Δq` is the change in the step, and `q̇` is the rate in the previous step.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RateCollocation {
-    /// Fraction `s` of the step at which directions are taken [-]. Position and rotation are interpolated linearly between the start and the end of
-    /// the step.
+    /// Fraction `s` of the step at which the directions of forces are evaluated [-].
+    /// Position and rotation are interpolated linearly between the start and the end of the step.
     pub fraction: f64,
     /// Factor of the change `Δq` in the step [1/time].
     pub by_change: f64,
@@ -61,7 +65,7 @@ pub struct RateCollocation {
     pub rotations: RotationIncrement,
 }
 
-/// Basis functions at a point of a beam: values [-] and derivatives with respect to arc length [1/length], with the quadrature weight [length].
+/// Basis functions at a point of a beam, with the quadrature weight [length]. Values [-], and derivatives with respect to arc length [1/length].
 #[derive(Debug, Clone)]
 pub(super) struct Functions {
     pub(super) shape: Vec<f64>,
@@ -70,8 +74,8 @@ pub(super) struct Functions {
 }
 
 impl Functions {
-    /// Interpolates increments of the control points of the span. Returns, at the point, the increment of the derivative of the axis, the rotation
-    /// increment, and its derivative.
+    /// Interpolates increments of the control points of the span at the quadrature point.
+    /// Returns the increment of the derivative of the axis, the rotation increment, and the derivative of the rotation increment.
     pub(super) fn interpolate(&self, moved: &[Movement]) -> (Vec2, f64, f64) {
         let (mut gradient, mut rotation, mut bend) = (Vec2::zeros(), 0.0, 0.0);
         for ((shape, slope), [x, y, omega]) in self.shape.iter().zip(&self.slope).zip(moved) {
@@ -96,7 +100,7 @@ pub struct Dashpots {
     order: usize,
     spans: Vec<SpanDashpots>,
     resolution: RateResolution,
-    /// Buffer for the derivatives of the forces of a span, row by row.
+    /// Buffer for the derivatives of the forces of a span, stored row by row.
     block: Vec<f64>,
 }
 
@@ -150,7 +154,7 @@ impl Dashpots {
         self.order
     }
 
-    /// Prepares a step that starts with the given rates of the control points. Iterations start with the forces of the last step.
+    /// Prepares a step that starts with the given rates of the control points. Iterations start with the dashpot forces of the last step.
     pub fn begin_step(&mut self, rates: &[Movement]) {
         for SpanDashpots { first, forces, moments } in &mut self.spans {
             let rates = &rates[*first..*first + self.order];
@@ -159,7 +163,7 @@ impl Dashpots {
         }
     }
 
-    /// Prepares an increment of zero duration without damping.
+    /// Prepares an increment of zero duration, in which the dashpots have no effect.
     pub(crate) fn rest_without_damping(&mut self) {
         for span in &mut self.spans {
             span.forces.iter_mut().for_each(ForceDashpot::rest_without_damping);
@@ -167,13 +171,13 @@ impl Dashpots {
         }
     }
 
-    /// Discards the rates of the last steps. It is called after a jump of the rates.
+    /// Discards the rates of the last steps. Called after a jump of the rates.
     pub(crate) fn clear_rate_history(&mut self) {
         self.resolution = RateResolution::default();
     }
 
-    /// Calls `give` with the forces of the dashpots on control points in the present iterate. Returns the largest force, and the largest mismatch
-    /// between a dashpot force and its damping law.
+    /// Calls `give` with the dashpot forces on control points in the present iterate.
+    /// Returns the largest dashpot force, and the largest difference between a dashpot force and its damping law.
     pub fn add_forces(
         &mut self,
         at: RateCollocation,
@@ -193,8 +197,8 @@ impl Dashpots {
         summary
     }
 
-    /// Calls `give` with the dashpot forces on control points. The mismatches of the dashpot forces are condensed out. Calls `tangent` with the
-    /// first control point of each span and the derivatives of the forces of the span, row by row.
+    /// Calls `give` with the dashpot forces on control points. The unknown dashpot forces are condensed out.
+    /// Calls `tangent` with the first control point of each span and the derivatives of the forces of the span, row by row.
     pub fn add_linearised_forces(
         &mut self,
         at: RateCollocation,
@@ -215,8 +219,8 @@ impl Dashpots {
         }
     }
 
-    /// Calls `give` with the additional forces on control points that would remove the mismatch of the dashpot laws. The directions of the forces
-    /// are those of the last linearisation.
+    /// Calls `give` with the correction of the forces on control points that removes the residuals of the damping laws.
+    /// The directions of the correction are those of the last linearisation.
     pub fn add_mismatch_forces(&self, give: &mut dyn FnMut(usize, Movement)) {
         for SpanDashpots { first, forces, moments } in &self.spans {
             forces.iter().for_each(|dashpot| dashpot.add_mismatch_forces(*first, give));
@@ -224,7 +228,7 @@ impl Dashpots {
         }
     }
 
-    /// Updates the forces after a correction of the increments.
+    /// Updates the dashpot forces after a correction of the increments.
     pub(crate) fn correct(&mut self, correction: &[Movement]) {
         for SpanDashpots { first, forces, moments } in &mut self.spans {
             let correction = &correction[*first..*first + self.order];
@@ -233,8 +237,8 @@ impl Dashpots {
         }
     }
 
-    /// Ends a step of a duration [time] with the given increments. The duration is infinite for an increment without damping. Returns the
-    /// dissipated energy [energy].
+    /// Ends a step of the given duration [time] with the given increments. The duration is infinite for an increment without damping.
+    /// Returns the energy that the dashpots dissipate [energy].
     pub fn advance(
         &mut self,
         moved: &[Movement],
@@ -265,8 +269,8 @@ impl Dashpots {
         sum
     }
 
-    /// Calls `give` with the dashpot forces at the start of the step, computed from the given rates. Rates that the steps do not resolve are
-    /// replaced by an extrapolation of the means of the last two steps.
+    /// Calls `give` with the dashpot forces at the start of the step, computed from the given rates.
+    /// Rates that the steps do not resolve are replaced by an extrapolation of the means of the last two steps.
     pub(crate) fn emit_dashpot_forces(
         &self,
         rates: &[Movement],
@@ -279,8 +283,9 @@ impl Dashpots {
         }
     }
 
-    /// Calls `take` with each rate of strain and curvature at the start of the step, computed from the rates of the control points, and its damping
-    /// coefficient times the quadrature weight. The sum of coefficients times squared rates is a power [energy/time].
+    /// Calls `take` for each rate of strain and curvature at the start of the step. The rates are computed from the rates of the control points.
+    /// The second argument of `take` is the damping coefficient times the quadrature weight.
+    /// The sum of the damping coefficients times the squared rates is a power [energy/time].
     pub(crate) fn each_damped_rate(&self, rates: &[Movement], take: &mut dyn FnMut(f64, f64)) {
         for SpanDashpots { first, forces, moments } in &self.spans {
             let rates = &rates[*first..*first + self.order];
@@ -289,8 +294,9 @@ impl Dashpots {
         }
     }
 
-    /// Dashpot force in space [force] and dashpot moment [force·length] at a place at the start of the step. They are interpolated like section
-    /// forces. Rates that the steps do not resolve are replaced by an extrapolation of the means of the last two steps.
+    /// Dashpot force in space [force] and dashpot moment [force·length] at a section at the start of the step.
+    /// Dashpot forces are interpolated like section forces.
+    /// Rates that the steps do not resolve are replaced by an extrapolation of the means of the last two steps.
     pub(crate) fn transmitted(&self, place: &SectionPlace, rates: &[Movement]) -> (Vec2, f64) {
         let of_span = |span: usize| {
             let span = &self.spans[span];
@@ -329,7 +335,7 @@ impl Dashpots {
     }
 }
 
-/// Force mismatch divided by the derivative of the force, as a strain; zero if the derivative is zero.
+/// Residual of the damping law, converted to a strain by the derivative of the force; zero if the derivative is zero.
 pub(super) fn strain_missing(force: f64, resistance: f64) -> f64 {
     if resistance > 0.0 { (force / resistance).abs() } else { 0.0 }
 }

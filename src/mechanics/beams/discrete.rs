@@ -69,7 +69,7 @@ fn with_sections<S: Sections + 'static>(
         7 => Box::new(DiscreteBeam::<8, S>::new(mesh, variation, length, points)?),
         8 => Box::new(DiscreteBeam::<9, S>::new(mesh, variation, length, points)?),
         9 => Box::new(DiscreteBeam::<10, S>::new(mesh, variation, length, points)?),
-        // This is degree 10. Knot vectors reject higher degrees.
+        // The largest supported degree is 10. Knot vectors reject higher degrees.
         _ => Box::new(DiscreteBeam::<11, S>::new(mesh, variation, length, points)?),
     })
 }
@@ -169,7 +169,7 @@ impl<const N: usize, S: Sections> BodyDynamics for DiscreteBeam<N, S> {
         let mut summaries = [ForceSummary::default(); MOST_PARTS];
         let summaries = &mut summaries[..parts.count()];
         parts.sum(groups, forces, summaries, |summary, groups, first, forces| {
-            // A local copy is used because the summaries of parts are adjacent in memory, where writes by several threads are slow (false sharing).
+            // A local copy is used because the summaries of threads are adjacent in memory, where concurrent writes are slow (false sharing).
             let mut own = *summary;
             let forces = ForcesFrom { first, forces };
             ForceAssembly { iterate, forces, summary: &mut own }.over(groups);

@@ -6,29 +6,29 @@ use super::span_stiffness::SpanStiffness;
 use super::{RotationIncrement, Section, SectionForces, SectionPlace};
 use crate::geometry::{Vec2, larger};
 
-/// Increment of a control point, or its rate, or the force on it. The components are x, y and rotation [length, length, rad].
+/// Increment of a control point, rate of a control point, or force on it. The components are x, y and rotation [length, length, rad].
 pub type Movement = [f64; 3];
 
-/// Times between start (0) and end (1) of a step at which internal forces are evaluated.
+/// Fractions of a step, from start (0) to end (1), at which internal forces are evaluated.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Collocation {
-    /// Fraction `τ` of the step at which the configuration is taken [-]: positions `(1-τ) x0 + τ x1` and rotations `(1-τ) Λ0 + τ Λ1`.
+    /// Fraction `τ` of the step for the configuration [-]: positions `(1-τ) x0 + τ x1` and rotations `(1-τ) Λ0 + τ Λ1`.
     pub configuration: f64,
-    /// Fraction `σ` of the step at which the strain that determines the section forces is taken [-]: `(1-σ) Γ0 + σ Γ1`.
+    /// Fraction `σ` of the step for the strain that determines the section forces [-]: `(1-σ) Γ0 + σ Γ1`.
     pub stress: f64,
     /// Type of rotation increments.
     pub rotations: RotationIncrement,
 }
 
-/// Largest strain mismatch, forces and rotation in an evaluation of internal forces.
+/// Largest strain mismatch, forces and rotation in an evaluation of the internal forces.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct ForceSummary {
-    /// Largest difference between the strains of the section forces and the strains of the configuration [-]. Curvatures are multiplied by a
-    /// length.
+    /// Largest difference between the strain of the configuration and the strain that belongs to the section force [-].
+    /// In the strain mismatch, curvatures are multiplied by a length.
     pub strain_mismatch: f64,
     /// Largest section force [force].
     pub force: f64,
-    /// Largest moment, or section force times a length [force·length].
+    /// Largest bending moment, or section force times a length [force·length].
     pub moment: f64,
     /// Largest rotation increment `|Δω|` of a section [rad].
     pub rotation: f64,
@@ -44,10 +44,11 @@ impl ForceSummary {
     }
 }
 
-/// Function that receives the force derivatives of a span: the first control point of the span, and the rows of its tangent matrix.
+/// Function that receives the tangent matrix of a span. Its arguments are the first control point of the span and the rows of the matrix.
 pub type BlockSink<'a> = &'a mut (dyn FnMut(usize, &[f64]) + Send);
 
-/// Dynamics of a beam or a body of points. It contains reference quantities, the state at the start of a step, and the present iterate of the step.
+/// Dynamics of a beam, particle or rigid body.
+/// The implementing type contains reference quantities, the state at the start of a step, and the present iterate of the step.
 ///
 /// Increments, rates and forces are given for all control points.
 pub trait BodyDynamics: Send + Sync {
@@ -57,8 +58,8 @@ pub trait BodyDynamics: Send + Sync {
     /// First control point of each span.
     fn span_starts(&self) -> Vec<usize>;
 
-    /// Divides the body into at most `most` parts that are evaluated concurrently, if they are large enough. Results do not change. Returns the
-    /// first control point of each part except the first part.
+    /// Divides the body into at most `most` parts that threads evaluate concurrently. Small bodies are not divided. Results do not change.
+    /// Returns the first control point of each part, without that of the first part.
     fn divide(&mut self, most: usize) -> Vec<usize>;
 
     /// Positions of the control points at the start of the step [length].
@@ -70,7 +71,7 @@ pub trait BodyDynamics: Send + Sync {
     /// Prepares a step. Iterations start with the section forces of the last step.
     fn begin_step(&mut self);
 
-    /// Adds `weight` times the internal forces, computed from the present section forces, to the forces on control points.
+    /// Adds `weight` times the internal forces on control points. They are computed from the present section forces.
     fn add_forces(
         &mut self,
         at: Collocation,
@@ -79,11 +80,12 @@ pub trait BodyDynamics: Send + Sync {
         forces: &mut [Movement],
     ) -> ForceSummary;
 
-    /// Adds `weight` times the internal forces, in which the strain mismatches are condensed out. Calls the sink of each part with `weight` times
-    /// the derivatives of these forces, span by span.
+    /// Adds `weight` times the internal forces, with the strain mismatches condensed out.
+    /// Calls the sink of each part, span by span, with `weight` times the derivatives of the internal forces.
     ///
-    /// A span across the cut between two parts is given to the sinks of both parts. The part after the cut receives it before its own spans, the
-    /// part before the cut after its own spans. Each sink must use only the rows of the control points of its part.
+    /// Spans across the cut between two parts are passed to the sinks of both parts.
+    /// The part after the cut receives the spans across the cut before its own spans. The part before the cut receives them after its own spans.
+    /// Each sink must use only the rows of the control points of its part.
     fn add_linearised_forces(
         &mut self,
         at: Collocation,
@@ -93,21 +95,20 @@ pub trait BodyDynamics: Send + Sync {
         tangents: &mut [BlockSink<'_>],
     );
 
-    /// Adds `weight` times the forces that would remove the present strain mismatch. The derivatives of strains are those of the last
-    /// linearisation.
+    /// Adds `weight` times the forces that would remove the present strain mismatch. The derivatives of strains are those of the last linearisation.
     fn add_mismatch_forces(&mut self, weight: f64, forces: &mut [Movement]);
 
     /// Updates the section forces after an iteration has corrected the increments.
     fn correct_section_forces(&mut self, correction: &[Movement]);
 
-    /// Ends a step with the given increments. Its end becomes the start of the next step.
+    /// Ends a step with the given increments. The end of the step becomes the start of the next step.
     fn advance(&mut self, moved: &[Movement], rotations: RotationIncrement);
 
     /// Adds `factor · M · rates` to the forces on control points, with the inertia matrix `M` of the body.
     fn add_inertia(&self, factor: f64, rates: &[Movement], forces: &mut [Movement]);
 
-    /// Calls `tangent` with pieces of the rows of `factor · M`: control point of the row, first control point of the columns, and for each column
-    /// the three entries of the components.
+    /// Calls `tangent` with pieces of the rows of `factor · M`.
+    /// The arguments are the control point of the row, the first control point of the columns, and three entries per column.
     fn add_inertia_tangent(
         &self,
         factor: f64,
@@ -115,8 +116,9 @@ pub trait BodyDynamics: Send + Sync {
         tangent: &mut dyn FnMut(usize, usize, &[Movement]),
     );
 
-    /// Calls `tangent` with pieces of the diagonals of `factor · M`: first control point of the rows, offset of the columns in control points
-    /// (negative to the left of the main diagonal), and three entries per control point.
+    /// Calls `tangent` with pieces of the diagonals of `factor · M`.
+    /// The arguments are the first control point of the rows, the offset of the columns, and three entries per control point.
+    /// The offset counts control points and is negative to the left of the main diagonal.
     fn each_inertia_diagonal(
         &self,
         factor: f64,
@@ -127,12 +129,12 @@ pub trait BodyDynamics: Send + Sync {
     /// Calls `take` with the static tangent stiffness of each span in the configuration at the start of the step.
     fn for_each_static_span(&self, take: &mut dyn FnMut(&SpanStiffness));
 
-    /// Section of a beam, and initial length of its axis [length]; `None` for particles and rigid bodies. For a tapered beam, the mean section is
-    /// returned.
+    /// Section and initial length of the axis of a beam [length]; `None` for particles and rigid bodies.
+    /// For a tapered beam, the mean section is returned.
     fn extent(&self) -> Option<(Section, f64)>;
 
-    /// Appends the unit normals of the sections at the start of the step, as vectors in space [-]. There is one normal for each quadrature point
-    /// for the strain `Γ`.
+    /// Appends the unit normals of the sections at the start of the step, as vectors in space [-].
+    /// The list contains one normal for each quadrature point for the strain `Γ`.
     fn write_normals(&self, normals: &mut Vec<Vec2>);
 
     /// Strain energy at the start of the step [energy].
@@ -141,13 +143,13 @@ pub trait BodyDynamics: Send + Sync {
     /// Axial, shear and bending strain energies at the start of the step [energy].
     fn strain_energies(&self) -> [f64; 3];
 
-    /// Section forces and strains at a place at the start of the step; zero for bodies of points.
+    /// Section forces and strains at a section at the start of the step; zero for particles and rigid bodies.
     fn section_forces(&self, place: &SectionPlace) -> SectionForces;
 
-    /// Length `∫ N_a dX` of every control point [length].
+    /// Length `∫ N_a dX` that belongs to each control point [length].
     fn lumped_lengths(&self) -> Vec<f64>;
 
-    /// Mass `∫ ρA N_a dX` of every control point, excluding point masses [mass].
+    /// Mass `∫ ρA N_a dX` that belongs to each control point, without point masses [mass].
     fn lumped_masses(&self) -> Vec<f64>;
 
     /// Appends the present state to `state`.

@@ -2,7 +2,7 @@
 
 use crate::geometry::GeometryError;
 
-/// Section, mesh or beam that cannot be built.
+/// Error for a section, mesh or beam that cannot be built.
 #[expect(missing_docs, reason = "the messages describe the variants and their fields")]
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum BeamError {
@@ -35,7 +35,7 @@ pub enum BeamError {
         "taper: a place is {value}, but places must increase from 0 (start of the beam) to 1 (its end)"
     )]
     TaperPlace {
-        /// First place that is out of order [-].
+        /// First position that is not in increasing order [-].
         value: f64,
     },
     #[error(
@@ -53,7 +53,7 @@ pub enum BeamError {
         /// Ratio of the longest span to the shortest [-].
         ratio: f64,
     },
-    /// Axis or mesh that cannot be represented.
+    /// Error of the axis or mesh.
     #[error(transparent)]
     Geometry(#[from] GeometryError),
     #[error(

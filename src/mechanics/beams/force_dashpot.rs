@@ -1,12 +1,19 @@
 //! Dashpot for axial and shear strain at a quadrature point.
 //!
 //! ```text
-//! N = C τ (by_change · ΔΓ - by_last · Γ̇)      n = Λs N      Λs = (1-s) Λ0 + s Λ1      gs = g0 + s Δg
-//! R_a = w N_a' n      S_a = -w N_a gs × n      δΔΓ = Λ1ᵀ δg - J (Γ1 + e1) δω/q
+//! force:           N = C τ (by_change · ΔΓ - by_last · Γ̇)
+//! force in space:  n = Λs N
+//! rotation:        Λs = (1-s) Λ0 + s Λ1
+//! gradient:        gs = g0 + s Δg
+//! nodal force:     R_a = w N_a' n
+//! nodal moment:    S_a = -w N_a gs × n
+//! strain:          δΔΓ = Λ1ᵀ δg - J (Γ1 + e1) δω/q
 //! ```
 //!
-//! `R_a` and `S_a` are the force and moment on control point `a`, `g = x'` is the derivative of the position with respect to arc length, and `s` is
-//! the fraction of the step at which directions are taken. Index 0 denotes the start of the step and 1 its end.
+//! The vectors `R_a` and `S_a` are the force and moment on control point `a`.
+//! The vector `g = x'` is the derivative of the position with respect to arc length.
+//! The number `s` is the fraction of the step at which the directions are evaluated.
+//! Index 0 denotes the start of the step and 1 its end.
 
 use super::dashpots::{Functions, RateCollocation, larger_missing};
 use super::dynamics::{ForceSummary, Movement};
@@ -24,7 +31,7 @@ pub(super) struct ForceDashpot {
     gradient: Vec2,
     /// Section rotation `Λ0` at the start of the step.
     rotation: Rotation,
-    /// Mean strain rate `Γ̇` of the previous step. `rate_before` is that of the step before it.
+    /// Mean strain rate `Γ̇` of the previous step. `rate_before` is the mean strain rate of the step before the previous step.
     last_rate: Vec2,
     rate_before: Vec2,
     /// Strain rate `Γ̇` at the start of the step, computed from the rates of the control points.
@@ -39,7 +46,7 @@ pub(super) struct ForceDashpot {
 #[derive(Debug, Clone, Copy)]
 struct DashpotKinematics {
     end_rotation: Rotation,
-    /// Vector `Γ1 + e1` at the end of the step: strain plus the first unit vector.
+    /// Vector `Γ1 + e1` at the end of the step: the strain plus the first unit vector.
     end_stretch: Vec2,
     /// Strain change `ΔΓ` in the step.
     change: Vec2,
@@ -94,8 +101,9 @@ impl ForceDashpot {
         self.last_rate + (self.last_rate - self.rate_before) * late
     }
 
-    /// Returns the mismatch of the axial and shear rates in the last accepted step. `share` is the position of the start of that step on the time
-    /// axis, on which the middle of the step before it is 0 and its own middle is 1.
+    /// Returns the error of the axial and shear rates in the last accepted step.
+    /// The argument `share` is the start of the last step on a scaled time axis.
+    /// On the scaled time axis, the middle of the step before is 0, and the middle of the last step is 1.
     pub(super) fn last_rate_mismatch(&self, share: f64) -> [RateMismatch; 2] {
         let of = |axis: usize| {
             let means = [self.rate_before[axis], self.last_rate[axis]];
@@ -119,8 +127,8 @@ impl ForceDashpot {
         }
     }
 
-    /// Strain change `ΔΓ = Λ̄ᵀ (Δg - t J ḡ)`, with means `Λ̄` and `ḡ` over the step and the tangent-scaled rotation increment `t`. A difference of
-    /// two strains would have the rounding error of numbers of size one.
+    /// Strain change `ΔΓ = Λ̄ᵀ (Δg - t J ḡ)`, with means `Λ̄` and `ḡ` over the step and the tangent-scaled rotation increment `t`.
+    /// A difference of two strains would have the rounding error of numbers close to one.
     fn change(&self, by: Vec2, rotations: RotationIncrement, increment: f64) -> Vec2 {
         let mean = self.rotation.mixed(self.rotation.turned(rotations, increment), 0.5);
         let turned = perpendicular(self.gradient + by * 0.5) * rotations.tangent_scaled(increment);
@@ -245,8 +253,8 @@ impl ForceDashpot {
         self.rotation.to_section(gradient - perpendicular(self.gradient) * spin)
     }
 
-    /// Returns the strain rates at the start of the step. For each component, `selected` determines whether the present rate is used, or a rate
-    /// extrapolated from the last two steps.
+    /// Returns the strain rates at the start of the step.
+    /// For each component, the argument `selected` chooses between the present rate and a rate extrapolated from the last two steps.
     fn selected_rates(&self, selected: DashpotRates<'_>) -> Vec2 {
         let (present, carried) =
             (self.rate(selected.present), self.carried(selected.extrapolation));
@@ -257,8 +265,8 @@ impl ForceDashpot {
         )
     }
 
-    /// Returns the force of the dashpot in space at the start of the step [force], and its contribution to the moment [force·length]. The
-    /// contribution is `w x' × n`, with the quadrature weight `w` and the derivative `x'` of the axis.
+    /// Returns the dashpot force in space at the start of the step [force], and its contribution to the moment [force·length].
+    /// The moment contribution is `w x' × n`, with the quadrature weight `w` and the derivative `x'` of the axis.
     pub(super) fn transmitted(&self, rates: DashpotRates<'_>) -> (Vec2, f64) {
         let force = self.rotation.to_space(self.damping.component_mul(&self.selected_rates(rates)));
         (force, self.functions.weight * cross(self.gradient, force))

@@ -5,7 +5,7 @@ use pulp::Simd;
 use super::dynamics::ForceSummary;
 use super::simd::{LaneChunk, Lanes, Number, Vector};
 
-/// [`ForceSummary`] for each lane.
+/// Values of [`ForceSummary`], one for each lane.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct ForceMaxima<T> {
     pub(super) strain_mismatch: T,
@@ -27,7 +27,7 @@ impl ForceMaxima<Lanes> {
         self.force.put(part, self.force.get(part).larger(force));
     }
 
-    /// Includes the strain mismatch and the moment of a point. Quadrature points for the curvature have a moment but no section force.
+    /// Includes the strain mismatch and the moment of a quadrature point. Quadrature points for the curvature have a moment but no section force.
     #[inline(always)]
     pub(super) fn join_moment<V: Simd>(
         &mut self,

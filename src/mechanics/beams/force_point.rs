@@ -1,13 +1,13 @@
-//! Quadrature point for the axial and shear strain `Γ`: its state between two steps, and its static tangent stiffness.
+//! Quadrature point for the axial and shear strain `Γ`, with its state between two steps and its static tangent stiffness.
 //!
-//! Its evaluation within a step is implemented in [`force_points`](super::force_points).
+//! The quadrature point is evaluated within a step by [`force_points`](super::force_points).
 
 use super::axis_point::AxisPoint;
 use super::span_stiffness::{SpanStiffness, StrainKind};
 use super::{Rotation, Section};
 use crate::geometry::{Vec2, cross, larger, perpendicular};
 
-/// Difference of two strains that are equal within rounding.
+/// Largest difference of two strains that are equal within rounding.
 const SAME_STRAIN: f64 = 64.0 * f64::EPSILON;
 
 #[derive(Debug, Clone)]
@@ -42,8 +42,8 @@ impl<const N: usize> ForcePoint<N> {
         }
     }
 
-    /// Adds the rows of axial and shear strain to the static stiffness of the span. If the section force is nonzero, the rows of the geometric
-    /// stiffness are added.
+    /// Adds the rows of axial and shear strain to the static stiffness of the span.
+    /// Adds also the rows of the geometric stiffness if the section force is nonzero.
     pub(super) fn write_static_rows(&self, section: &Section, span: &mut SpanStiffness) {
         let w = self.axis.weight;
         let row = |by_gradient: Vec2, by_rotation: f64| -> [[f64; 3]; N] {
@@ -67,18 +67,18 @@ impl<const N: usize> ForcePoint<N> {
         }
     }
 
-    /// Section force for the present strain. The second value is true if it is the section force of the last solution.
+    /// Section force for the present strain. The second value is true if the section force of the last solution is returned.
     ///
-    /// A section force from the last solution has a rounding error relative to its own size. A section force computed from the strain has the
-    /// rounding error of a number of size one, multiplied by the stiffness.
+    /// A section force from the last solution has a small rounding error, in proportion to its own size.
+    /// A section force computed from the strain has a larger rounding error: the stiffness times the rounding error of a number close to one.
     fn present_force(&self, section: &Section) -> (Vec2, bool) {
         let missing = self.strain - strain_from(section, self.last_force);
         let is_known = larger(missing.x.abs(), missing.y.abs()) <= SAME_STRAIN;
         (if is_known { self.last_force } else { force_of(section, self.strain) }, is_known)
     }
 
-    /// Returns the section force `n` in space [force] and its contribution to the moment [force·length] at the start of the step. The contribution
-    /// is `w x' × n`, with the quadrature weight `w` and the derivative `x'` of the axis.
+    /// Returns the section force `n` in space [force] and its contribution to the moment [force·length] at the start of the step.
+    /// The moment contribution is `w x' × n`, with the quadrature weight `w` and the derivative `x'` of the axis.
     pub(super) fn transmitted(&self, section: &Section) -> (Vec2, f64) {
         let force = self.rotation.to_space(self.present_force(section).0);
         (force, self.axis.weight * cross(self.gradient, force))
@@ -101,7 +101,7 @@ impl<const N: usize> ForcePoint<N> {
 
     pub(super) fn save(&self, state: &mut Vec<f64>) {
         state.extend([self.gradient.x, self.gradient.y, self.rotation.cos, self.rotation.sin]);
-        // The strain is stored because an exact initial strain is zero. The strain computed from the configuration has rounding errors.
+        // The strain is stored because a strain computed from the configuration has rounding errors. The stored initial strain is exactly zero.
         state.extend([self.last_force.x, self.last_force.y, self.strain.x, self.strain.y]);
     }
 

@@ -3,13 +3,19 @@
 //! Definitions: `Δg = Σ N_a' Δx_a`, `Δω = Σ N_a Δω_a`, `1/q = dΔθ/dΔω` and `C = diag(EA, GA)`.
 //!
 //! ```text
-//! Λ1 = Λ0 R(Δθ(Δω))    Γ1 = Λ1ᵀ (g0 + Δg) - e1
-//! gτ = g0 + τ Δg             Λτ = (1-τ) Λ0 + τ Λ1        N = C ((1-σ) Γ0 + σ Γ1)      n = Λτ N
-//! R_a = w N_a' n             S_a = -w N_a gτ × n
+//! rotation at the end:  Λ1 = Λ0 R(Δθ(Δω))
+//! strain at the end:    Γ1 = Λ1ᵀ (g0 + Δg) - e1
+//! gradient:             gτ = g0 + τ Δg
+//! rotation:             Λτ = (1-τ) Λ0 + τ Λ1
+//! force:                N = C ((1-σ) Γ0 + σ Γ1)
+//! force in space:       n = Λτ N
+//! nodal force:          R_a = w N_a' n
+//! nodal moment:         S_a = -w N_a gτ × n
 //! ```
 //!
-//! `R_a` and `S_a` are the force and moment on control point `a`, with the quadrature weight `w`. The gradient `g = x'` and the rotation are stored
-//! at the point and updated by increments, so that rounding errors of strains do not depend on the distance from the origin.
+//! The vectors `R_a` and `S_a` are the force and moment on control point `a`. The quadrature weight is `w`.
+//! Each point stores its gradient `g = x'` and its rotation, and updates them by increments.
+//! Because of these updates, the rounding errors of strains do not depend on the distance from the origin.
 
 use pulp::Simd;
 
@@ -36,17 +42,18 @@ pub(super) struct ForcePoints<const N: usize> {
     strain: Pair<Lanes>,
     /// Section force `N` of the present iterate.
     force: Pair<Lanes>,
-    /// Section force of the last step, with which the iteration of the next step starts. In fast vibration it is closer to the solution than the
-    /// section force computed from the strain at the start of the step, whose sign may alternate from step to step.
+    /// Section force of the last step, with which the iteration of the next step starts.
+    /// In fast vibration, the last section force is closer to the solution than the section force for the strain at the start of the step.
+    /// The section force for the strain at the start may alternate in sign from step to step.
     last_force: Pair<Lanes>,
-    /// Mismatch `m = Γσ - C⁻¹ N` at the last evaluation: the strain of the configuration minus the strain of the section force.
+    /// Strain mismatch `m = Γσ - C⁻¹ N` at the last evaluation: the difference between the strain of the configuration and the strain `C⁻¹ N`.
     mismatch: Pair<Lanes>,
     linearised_at: StrainKinematics<Lanes>,
     /// Fraction `σ` of the step at the last linearisation.
     linearised_stress: f64,
 }
 
-/// Configuration of an iterate, with the values that corrections of the section force need.
+/// Configuration of an iterate, with the values needed to correct the section force.
 #[derive(Debug, Clone, Copy)]
 struct StrainKinematics<T> {
     end_rotation: Rotation<T>,
@@ -57,15 +64,16 @@ struct StrainKinematics<T> {
     inverse_q: T,
 }
 
-/// Section force `w n` and moment `w gτ × n`, multiplied by the quadrature weight `w`. They are distributed to the control points.
+/// Section force `w n` and moment `w gτ × n` with the quadrature weight `w`, which are distributed to the control points.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Resultant {
     force: Pair<Lanes>,
     torque: Lanes,
 }
 
-/// Derivatives of the forces on control points. `rows[i]` contains the derivatives of force component `i` with respect to the gradient and the
-/// rotation; they are multiplied by the quadrature weight and the basis functions.
+/// Derivatives of the forces on control points.
+/// The entry `rows[i]` contains the derivatives of force component `i` with respect to the gradient and the rotation.
+/// The derivatives are multiplied by the quadrature weight and the basis functions.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct ForceTangent<const N: usize> {
     rows: [[Lanes; 3]; 3],
@@ -146,8 +154,7 @@ impl<const N: usize> ForcePoints<N> {
         (gradient, rotation)
     }
 
-    /// Returns the configuration of an iterate, the strain `Γσ = (1-σ) Γ0 + σ Γ1` that determines the section force, and the rotation increment
-    /// `Δω`.
+    /// Returns the configuration of an iterate, the strain `Γσ = (1-σ) Γ0 + σ Γ1` that determines the section force, and the rotation increment `Δω`.
     #[inline(always)]
     fn configuration<V: Simd>(
         &self,
@@ -287,7 +294,7 @@ impl<const N: usize> ForcePoints<N> {
         tangent: &ForceTangent<N>,
         block: &mut SpanTangent<V, N>,
     ) {
-        // All rows of one component are multiples of the same row.
+        // For each component, the rows of all control points are multiples of one row.
         let mut rows: [BlockRow<N>; 3] = [[[0.0; 3]; N]; 3];
         for (row, [by_x, by_y, by_rotation]) in rows.iter_mut().zip(&tangent.rows) {
             let functions = self.axis.slope.iter().zip(&self.axis.shape);
@@ -309,7 +316,7 @@ impl<const N: usize> ForcePoints<N> {
         }
     }
 
-    /// Computes the forces `C m` that would remove the strain mismatch `m`. Their directions are those of the last linearisation.
+    /// Computes the forces `C m` that would remove the strain mismatch `m`. The directions of the forces are those of the last linearisation.
     #[inline(always)]
     pub(super) fn take_mismatch_forces<V: Simd>(
         &self,
@@ -323,8 +330,8 @@ impl<const N: usize> ForcePoints<N> {
         self.apply_weights(part, weight, (collocated_gradient.get(part), force), resultant);
     }
 
-    /// Corrects the section forces after a correction of the increments: `N ← N + C (m + σ δΓ1)`, with the mismatch `m` and the strain correction
-    /// `δΓ1 = Λ1ᵀ δg - J (Γ1 + e1) δω/q`.
+    /// Corrects the section forces after a correction of the increments:
+    /// Formula: `N ← N + C (m + σ δΓ1)`, with the strain mismatch `m` and the strain correction `δΓ1 = Λ1ᵀ δg - J (Γ1 + e1) δω/q`.
     #[inline(always)]
     pub(super) fn correct_section_forces<V: Simd>(
         &mut self,

@@ -8,7 +8,7 @@ use super::Section;
 use super::dynamics::Movement;
 use super::sections::MassIntegral;
 
-/// Number of control points whose rows are processed together, so that they stay in the cache for all diagonals.
+/// Number of control points whose rows are processed together. The rows of these points stay in the cache while all diagonals are processed.
 const ROWS_PER_PASS: usize = 16;
 
 /// Inertia matrix of a beam with `N` nonzero basis functions per span: `∫ ρA N_a N_b dX` for x and y, `∫ ρI N_a N_b dX` for rotations.
@@ -18,8 +18,8 @@ pub(super) struct InertiaMatrix<const N: usize, I> {
     gram: Vec<[I; N]>,
     /// For each k, the integrals of all control points and components.
     diagonals: [Vec<f64>; N],
-    /// Factors by which the integrals are multiplied to obtain the inertia, for all control points and components. A factor is the inertia per
-    /// length, or one if the integrals contain the inertia already.
+    /// Factors that convert the integrals to inertia, for all control points and components.
+    /// A factor is the inertia per length, or one if the integrals contain the inertia already.
     shares: Vec<f64>,
     section: Section,
 }
@@ -56,8 +56,8 @@ impl<const N: usize, I: MassIntegral> InertiaMatrix<N, I> {
         Arch::new().dispatch(InertiaProduct { matrix: self, points, factor, rates, forces });
     }
 
-    /// Calls `take` with pieces of the diagonals of `factor · M`: first control point of the rows, offset of the columns, and three entries per
-    /// control point.
+    /// Calls `take` with pieces of the diagonals of `factor · M`.
+    /// The arguments are the first control point of the rows, the offset of the columns, and three entries per control point.
     pub(super) fn each_diagonal(
         &self,
         factor: f64,
@@ -67,8 +67,8 @@ impl<const N: usize, I: MassIntegral> InertiaMatrix<N, I> {
         Arch::new().dispatch(Diagonals { matrix: self, points, factor, take });
     }
 
-    /// Calls `take` with pieces of the rows of `factor · M`: control point of the row, first control point of the columns, and for each column the
-    /// three entries of the components.
+    /// Calls `take` with pieces of the rows of `factor · M`.
+    /// The arguments are the control point of the row, the first control point of the columns, and three entries per column.
     pub(super) fn each_row(
         &self,
         factor: f64,
@@ -108,7 +108,7 @@ impl<const N: usize, I> WithSimd for Diagonals<'_, N, I> {
             let end = points.end.min(first + ROWS_PER_PASS);
             for offset in 1 - N as isize..N as isize {
                 let k = offset.unsigned_abs();
-                // Entries to the left of the main diagonal are the transposed entries to its right.
+                // Entries to the left of the main diagonal are transposed entries to its right.
                 let (first, columns) = if offset < 0 {
                     (first.max(k), first.max(k) - k..end.max(k) - k)
                 } else {
@@ -164,7 +164,7 @@ impl<const N: usize, I> WithSimd for InertiaProduct<'_, N, I> {
     }
 }
 
-/// Writes the product of a factor with corresponding entries of two vectors.
+/// Writes the products of a factor and the corresponding entries of two vectors.
 #[inline(always)]
 fn multiply<S: Simd>(simd: S, factor: f64, [one, two]: [&[f64]; 2], out: &mut [f64]) {
     let (head, rest) = S::as_mut_simd_f64s(out);

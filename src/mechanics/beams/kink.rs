@@ -1,7 +1,8 @@
-//! Kink of a beam axis under a point force. The smooth basis functions of a mesh do not represent the displacement that it causes.
+//! Kink of a beam axis under a point force. The smooth basis functions of a mesh cannot represent the displacement due to the kink.
 //!
-//! A force on a shear-flexible beam causes a jump of the tangent of its axis. A smooth mesh misses a part of the displacement under the force. This
-//! part is the same as in a string with the same basis functions, quadrature points and weights (derivation: docs/theory.md, section 10.1).
+//! A point force on a shear-flexible beam causes a jump of the tangent of its axis. A smooth mesh lacks a part of the displacement under the force.
+//! The missing displacement is the same as in a string with the same basis functions, quadrature points and weights.
+//! Derivation: docs/theory.md, section 10.1.
 
 mod running;
 
@@ -10,30 +11,35 @@ use crate::geometry::{
     PiecewisePolynomial, PositiveBand, PositiveFactors, Span, Vec2, lower_splines,
 };
 
-/// Length that is due to rounding, as a fraction of a span.
+/// Largest length that is attributed to rounding, as a fraction of a span.
 const ROUNDING: f64 = 1e-11;
 
-/// Kink of the axis under a point force that a mesh does not represent.
+/// Kink of the axis under a point force, as far as the mesh does not represent it.
 #[derive(Debug, Clone)]
 pub struct MissedKink {
-    /// Kink length `g(ξ)` as a function of the place `ξ` [length].
+    /// Kink length `g(ξ)` as a function of the position `ξ` of the kink [length].
     pub length: PiecewisePolynomial,
-    /// Correction factor `μ` of the inertia of a moving kink [-]. The kinetic energy that the mesh misses is `½ μ ρA g |a|² v²`, with the kink `a`
-    /// and its speed `v`, averaged over the places of the kink. For exactly integrated strains `μ = 1`.
+    /// Correction factor `μ` of the inertia of a moving kink [-].
+    /// The mesh misses the kinetic energy `½ μ ρA g |a|² v²` of a kink `a` with the speed `v`, averaged over the positions of the kink.
+    /// For exactly integrated strains, the correction factor is `μ = 1`.
     pub inertia: f64,
 }
 
-/// Computes the part of a kink that the mesh does not represent. A force `λ` across the beam at `ξ` displaces the axis at `ξ` by `g(ξ) λ/GA` more
-/// than the mesh represents.
+/// Computes the part of a kink that the mesh does not represent.
+/// A force `λ` across the beam at `ξ` displaces the axis at `ξ` by `g(ξ) λ/GA` more than the mesh represents.
 ///
 /// ```text
-/// g(ξ) = l(ξ)ᵀ M⁻¹ r(ξ)        M = Σ w t tᵀ/|x_ξ|        l = ∫ t dξ up to ξ, r = ∫ t dξ from ξ on
+/// kink length:                g(ξ) = l(ξ)ᵀ M⁻¹ r(ξ)
+/// matrix:                     M = Σ w t tᵀ/|x_ξ|
+/// integrals before the kink:  l = ∫ t dξ from the start to ξ
+/// integrals after the kink:   r = ∫ t dξ from ξ to the end
 /// ```
 ///
-/// The matrix `M` contains products of the splines `t` of one degree less, summed over the points and weights of the shear strain. `g` is the
-/// compliance of a string under a point load minus the compliance of the string on these functions, whatever the supports of its ends. It is a
-/// polynomial of twice the degree on each span, and zero at places where the basis is C⁰. The result is `None` if `g` is not positive at other
-/// places. This occurs with fewer quadrature points than the patch rule has.
+/// The matrix `M` contains products of the splines `t` of one degree less, summed over the points and weights of the shear strain.
+/// The length `g` is the compliance of the exact string under a point load minus the compliance of the string on the mesh.
+/// The kink length does not depend on the supports of the string.
+/// The kink length `g` is a polynomial of twice the degree on each span, and zero where the basis is C⁰.
+/// Returns `None` if `g` is not positive at a point where the basis is smoother. This occurs with fewer quadrature points than the patch rule has.
 ///
 /// # Errors
 /// Fails if the mesh has no quadrature, or the axis has a point without a tangent.
@@ -80,8 +86,8 @@ fn control_polygon_length(control_points: &[Vec2], span: &Span, degree: usize) -
     own.windows(2).map(|pair| (pair[1] - pair[0]).norm()).sum()
 }
 
-/// Returns, for each B-spline of degree p-1 on a span, the integral from the start of the span, as coefficients of a polynomial. The coordinate of
-/// the polynomial runs from -1 to 1 over the span. The integrals are the sums `Σ_(a > t) N_a` of splines of degree p.
+/// For each B-spline of degree p-1 on a span, returns the integral from the start of the span as coefficients of a polynomial.
+/// The polynomial has a coordinate from -1 to 1 over the span. Its values are the sums `Σ_(a > t) N_a` of splines of degree p.
 fn fractions(mesh: &Mesh, span: &Span) -> Vec<Vec<f64>> {
     let degree = mesh.basis().degree();
     let half = 0.5 * (span.end - span.start);
@@ -94,12 +100,12 @@ fn fractions(mesh: &Mesh, span: &Span) -> Vec<Vec<f64>> {
     (0..degree).map(|lower| (0..=degree).map(|order| behind(lower, order)).collect()).collect()
 }
 
-/// String on splines. It contains the matrix `M` of products of its strains, the solution of `M a = 1`, and the entries of `M⁻¹` near its diagonal.
+/// String on a mesh of splines: its matrix `M`, the solution of `M a = 1`, and the entries of `M⁻¹` near the diagonal.
 struct SplineString {
     degree: usize,
     products: PositiveBand,
     factors: PositiveFactors,
-    /// Solution of `M a = 1`. It contains the coefficients of the strains of the string under a constant force.
+    /// Solution `a` of `M a = 1`: the coefficients of the strains of the string under a constant force.
     stretched: Vec<f64>,
     inverse: PositiveBand,
 }
@@ -113,9 +119,9 @@ impl SplineString {
         Some(Self { degree, products, factors, stretched, inverse })
     }
 
-    /// Residual of a load on the string that is one for all splines before index `cut`. As an approximate response to this load, these splines have
-    /// the strains under a constant force, and all others have none. The residual is nonzero only in a few entries around `cut`. Returns the index
-    /// of the first of these entries, and the entries.
+    /// Residual for a load on the string that is one for all splines before index `cut`, and zero for the others.
+    /// The approximate response to the load has the strains under a constant force for the splines before `cut`, and zero strains for the others.
+    /// The residual is nonzero in a few entries around `cut` only. Returns the index of the first of these entries, and the entries.
     fn load_residual(&self, cut: usize) -> (usize, Vec<f64>) {
         let (size, reach) = (self.stretched.len(), self.degree - 1);
         let first = cut.saturating_sub(reach);
@@ -136,20 +142,21 @@ impl SplineString {
         (*first..).zip(load).map(|(at, r)| self.inverse.get(row, at) * r).sum()
     }
 
-    /// Coefficients of `g = lᵀ M⁻¹ r` on a span. `fractions` are the parts of its splines in front of a place in the span. The splines of earlier
-    /// spans are entirely in front of the place, those of later spans behind it.
+    /// Coefficients of `g = lᵀ M⁻¹ r` on a span. The argument `fractions` contains, for each spline of the span, the part in front of the kink.
+    /// The splines of earlier spans lie entirely in front of the kink, and the splines of later spans behind it.
     ///
-    /// The earlier or later splines contribute `M⁻¹` times a load of ones up to an index. It consists of the strains under a constant force up to
-    /// the index, and the response to the residual.
+    /// The splines before the kink, and those after the kink, contribute the response to a load. The load is one for all splines up to an index.
+    /// The response consists of the strains under a constant force up to the index, and the response to the residual.
     fn polynomial(&self, span: &Span, fractions: &[Vec<f64>]) -> Vec<f64> {
         let own = span.first..span.first + self.degree;
         let (before, behind) = (self.load_residual(own.start), self.load_residual(own.end));
         let mut sum = vec![0.0; 2 * self.degree + 1];
-        // Product of earlier and later splines.
+        // Products of splines before the kink with splines after the kink.
         sum[0] -=
             (before.0..).zip(&before.1).map(|(at, r)| r * self.response(at, &behind)).sum::<f64>();
         for (i, part) in own.clone().zip(fractions) {
-            // Products of earlier splines with the part of this spline behind the place, and of its part in front with later splines.
+            // Product of the splines of earlier spans and the part of this spline behind the kink.
+            // Product of the part of this spline in front of the kink and the splines of later spans.
             let (earlier, later) = (self.response(i, &before), -self.response(i, &behind));
             sum[0] += earlier;
             sum.iter_mut().zip(part).for_each(|(sum, c)| *sum += (later - earlier) * c);

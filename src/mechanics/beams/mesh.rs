@@ -10,8 +10,9 @@ use crate::geometry::{
 /// Quadrature of the axial and shear strain of a beam.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 pub enum Quadrature {
-    /// Patch rule ([`patch_rule`]): the number of points in each smooth piece of the mesh equals the number of linearly independent derivatives of
-    /// its basis functions. The rule avoids locking and zero-energy modes, and passes the patch test.
+    /// Patch rule ([`patch_rule`]).
+    /// The number of points in each smooth section of the mesh equals the number of linearly independent derivatives of the basis functions.
+    /// The patch rule avoids locking and zero-energy modes, and passes the patch test.
     #[default]
     Patch,
     /// Fixed number of Gauss points per span. Too many points cause locking, too few leave zero-energy modes.
@@ -29,15 +30,16 @@ pub struct Mesh {
 /// Numbers of quadrature points of a beam.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct PointCounts {
-    /// Points for the axial and shear strain `Γ`. Each has a section force as an unknown that is condensed out.
+    /// Quadrature points for the axial and shear strain `Γ`. The section force at each point is an unknown that is condensed out.
     pub force: usize,
-    /// Points for the bending strain `κ`.
+    /// Quadrature points for the bending strain `κ`.
     pub moment: usize,
-    /// Points for the mass matrix, which is integrated once.
+    /// Quadrature points for the mass matrix, which is integrated once.
     pub inertia: usize,
 }
 
-/// Span with its quadrature points for the strain `Γ` and the number of points for the curvature `κ`. Integrals are `∫ f dξ ≈ Σ weight · f(point)`.
+/// Span of the mesh, its quadrature points for the strain `Γ`, and the number of points for the curvature `κ`.
+/// The quadrature is `∫ f dξ ≈ Σ weight · f(point)`.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct QuadratureSpan {
     pub(super) span: Span,
@@ -64,7 +66,7 @@ impl Mesh {
     /// Creates a B-spline mesh with the patch rule. It has `spans` equal spans and continuity C^`continuity` at interior knots.
     ///
     /// # Errors
-    /// Fails if no knot vector exists for these numbers.
+    /// Fails if no knot vector exists for the given numbers.
     pub fn bspline(spans: usize, degree: usize, continuity: usize) -> Result<Self, GeometryError> {
         Ok(Self::new(Basis::BSpline(KnotVector::uniform(spans, degree, continuity)?)))
     }
@@ -85,7 +87,7 @@ impl Mesh {
     /// Returns the mesh with another quadrature of the axial and shear strain.
     ///
     /// # Errors
-    /// Fails if the number of points is zero or far too large for the degree.
+    /// Fails if the number of points is zero, or far too large for the degree.
     pub fn with_quadrature(self, quadrature: Quadrature) -> Result<Self, BeamError> {
         let (degree, most) = (self.basis.degree(), self.basis.degree() + 3);
         match quadrature {
@@ -99,7 +101,7 @@ impl Mesh {
     /// Returns the mesh with the continuity reduced to C⁰ at the given parameters [-].
     ///
     /// # Errors
-    /// Fails if a place lies outside the domain.
+    /// Fails if a parameter lies outside the domain.
     pub fn with_breaks(&self, places: &[f64]) -> Result<Self, GeometryError> {
         let broken =
             places.iter().try_fold(self.basis.clone(), |basis, &xi| basis.with_break(xi))?;
@@ -179,8 +181,8 @@ impl Mesh {
         run[run.len() - 1].first - run[0].first + self.basis.degree()
     }
 
-    /// Number of quadrature points for the strain `Γ`, minus the number of linearly independent derivatives of the basis functions. A positive
-    /// result means that the mesh locks. If the result is negative, each missing point leaves two zero-energy modes.
+    /// Number of quadrature points for the strain `Γ`, minus the number of linearly independent derivatives of the basis functions.
+    /// A positive result means that the mesh locks. If the result is negative, each missing point leaves two zero-energy modes.
     fn excess_points(&self) -> isize {
         let wanted: usize = self.runs().iter().map(|run| self.derivatives(run)).sum();
         self.point_counts().force as isize - wanted as isize
@@ -201,18 +203,18 @@ impl Mesh {
         Ok(spans)
     }
 
-    /// Spans grouped into smooth pieces, which end at C⁰ knots. The strains of different pieces are independent.
+    /// Spans grouped into smooth runs, which end at C⁰ knots. The strains of different runs are independent.
     fn runs(&self) -> Vec<Vec<Span>> {
         let spans = self.basis.spans();
         spans.chunk_by(|a, b| self.is_smooth(a, b)).map(<[Span]>::to_vec).collect()
     }
 
     pub(super) fn is_smooth(&self, a: &Span, b: &Span) -> bool {
-        // Two consecutive spans with a C⁰ knot between them have a single function in common.
+        // Two consecutive spans with a C⁰ knot between them share a single basis function.
         b.first < a.first + self.basis.degree()
     }
 
-    /// Points and weights for `Γ` on each span of a smooth piece.
+    /// Points and weights for `Γ` on each span of a smooth run.
     fn force_rules(&self, run: &[Span]) -> Result<RunRule, BeamError> {
         match self.quadrature {
             Quadrature::Patch => {
@@ -233,8 +235,8 @@ impl Mesh {
         }
     }
 
-    /// Number of quadrature points for the curvature `κ` per span of a smooth piece. If the piece has full continuity, one point fewer than for a
-    /// single polynomial is sufficient.
+    /// Number of quadrature points for the curvature `κ` per span of a smooth run.
+    /// If the run has full continuity, one point fewer than for a single polynomial is sufficient.
     fn moment_points(&self, run: &[Span]) -> usize {
         let degree = self.basis.degree();
         let is_fully_smooth = run.windows(2).all(|pair| pair[1].first == pair[0].first + 1);

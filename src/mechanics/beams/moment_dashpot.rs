@@ -1,7 +1,9 @@
 //! Dashpot for the curvature at a quadrature point.
 //!
 //! ```text
-//! M = EI τ (by_change · Δκ - by_last · κ̇)      Δκ = Δω'/q      S_a = w N_a' M/q
+//! moment:        M = EI τ (by_change · Δκ - by_last · κ̇)
+//! curvature:     Δκ = Δω'/q
+//! nodal moment:  S_a = w N_a' M/q
 //! ```
 
 use super::RotationIncrement;
@@ -14,7 +16,7 @@ pub(super) struct MomentDashpot {
     functions: Functions,
     /// Damping `EI τ` [force·length²·time].
     damping: f64,
-    /// Mean curvature rate `κ̇` of the previous step. `rate_before` is that of the step before it.
+    /// Mean curvature rate `κ̇` of the previous step. `rate_before` is the mean curvature rate of the step before the previous step.
     last_rate: f64,
     rate_before: f64,
     /// Curvature rate `κ̇` at the start of the step, computed from the rates of the control points.
@@ -30,7 +32,7 @@ pub(super) struct MomentDashpot {
 struct RotationKinematics {
     /// Derivative `Δω'` of the rotation increment with respect to arc length.
     slope: f64,
-    /// Derivative `1/q = dΔθ/dΔω` of the rotation angle, and its derivative with respect to `Δω`.
+    /// Derivative `1/q = dΔθ/dΔω` of the rotation angle, followed by its derivative with respect to `Δω`.
     inverse_q: f64,
     inverse_q_slope: f64,
     /// Derivative of the moment with respect to `Δκ`.
@@ -68,14 +70,15 @@ impl MomentDashpot {
         self.moment = 0.0;
     }
 
-    /// Returns the rate at the start of the step, extrapolated from the mean rates of the last two steps. `late` is the time from the middle of the
-    /// last step, as a fraction of the time between the middles of both steps.
+    /// Curvature rate at the start of the step, extrapolated from the mean rates of the last two steps.
+    /// The argument `late` is the time since the middle of the last step. Its unit is the time between the middles of the last two steps.
     fn carried(&self, late: f64) -> f64 {
         self.last_rate + (self.last_rate - self.rate_before) * late
     }
 
-    /// Returns the mismatch of the rate in the last accepted step. `fraction` is the position of the start of that step on the time axis, on which
-    /// the middle of the step before it is 0 and its own middle is 1.
+    /// Returns the error of the rate in the last accepted step.
+    /// The argument `fraction` is the start of the last step on a scaled time axis.
+    /// On the scaled time axis, the middle of the step before is 0, and the middle of the last step is 1.
     pub(super) fn last_rate_mismatch(&self, fraction: f64) -> RateMismatch {
         let damping = self.functions.weight * self.damping;
         RateMismatch::of(damping, self.start_rate, [self.rate_before, self.last_rate], fraction)
@@ -134,7 +137,7 @@ impl MomentDashpot {
         self.mismatch = wanted - self.moment;
         self.distribute(wanted * now.inverse_q, first, give);
 
-        // Derivative δ(M/q). The geometric term contains the moment of the present iterate.
+        // Derivative δ(M/q) of the moment on control points. The geometric term contains the moment of the present iterate.
         let resistance = now.resistance * now.inverse_q;
         let by_slope = resistance * now.inverse_q;
         let by_rotation =

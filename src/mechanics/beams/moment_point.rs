@@ -1,12 +1,12 @@
-//! Quadrature point for the curvature `κ`: its state between two steps, and its static tangent stiffness.
+//! Quadrature point for the curvature `κ`, with its state between two steps and its static tangent stiffness.
 //!
-//! Its evaluation within a step is implemented in [`moment_points`](super::moment_points).
+//! The quadrature point is evaluated within a step by [`moment_points`](super::moment_points).
 
 use super::Section;
 use super::axis_point::AxisPoint;
 use super::span_stiffness::{SpanStiffness, StrainKind};
 
-/// Difference of two curvatures that are equal within rounding, multiplied by the integration length [rad].
+/// Largest difference of two curvatures that are equal within rounding, multiplied by the integration length [rad].
 const SAME_TURN: f64 = 64.0 * f64::EPSILON;
 
 #[derive(Debug, Clone)]

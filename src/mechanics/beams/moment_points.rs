@@ -1,11 +1,15 @@
 //! Quadrature points for the curvature `κ` in vector lanes. The moment is an independent unknown.
 //!
 //! ```text
-//! κ1 = κ0 + Δω'/q     1/q = dΔθ/dΔω     M = EI ((1-σ) κ0 + σ κ1)     S_a = w N_a' M/q
+//! curvature at the end:              κ1 = κ0 + Δω'/q
+//! derivative of the rotation angle:  1/q = dΔθ/dΔω
+//! moment:                            M = EI ((1-σ) κ0 + σ κ1)
+//! nodal moment:                      S_a = w N_a' M/q
 //! ```
 //!
-//! The moment is linear in the curvature, so Newton's method would converge without this unknown. But a moment computed from the increments has
-//! their rounding error times `EI`. In a stiff beam this error is larger than the forces in the balance.
+//! The moment is linear in the curvature, so Newton's method would converge without the moment as an unknown.
+//! A moment computed from the increments would have the rounding error of the increments, multiplied by `EI`.
+//! In a stiff beam, the rounding error of a moment computed from increments is larger than the forces in the balance.
 
 use pulp::Simd;
 
@@ -26,7 +30,7 @@ pub(super) struct MomentPoints<const N: usize> {
     moment: Lanes,
     /// Moment of the last step, with which the iteration of the next step starts.
     last_moment: Lanes,
-    /// Mismatch `m = κσ - M/EI` at the last evaluation.
+    /// Curvature mismatch `m = κσ - M/EI` at the last evaluation.
     mismatch: Lanes,
     linearised_at: CurvatureKinematics<Lanes>,
     /// Fraction `σ` of the step at the last linearisation.
@@ -37,7 +41,7 @@ pub(super) struct MomentPoints<const N: usize> {
 struct CurvatureKinematics<T> {
     /// Derivative `Δω'` of the rotation increment with respect to arc length.
     slope: T,
-    /// Derivative `1/q = dΔθ/dΔω` of the rotation angle, and its derivative with respect to `Δω`.
+    /// Derivative `1/q = dΔθ/dΔω` of the rotation angle, followed by its derivative with respect to `Δω`.
     inverse_q: T,
     inverse_q_slope: T,
 }
@@ -150,8 +154,8 @@ impl<const N: usize> MomentPoints<N> {
         }
     }
 
-    /// Computes the weighted moments `w M/q` in the present iterate, with the quadrature weight `w` and the derivative `1/q = dΔθ/dΔω` of the
-    /// rotation angle.
+    /// Computes the weighted moments `w M/q` in the present iterate.
+    /// The quadrature weight is `w`, and the derivative of the rotation angle is `1/q = dΔθ/dΔω`.
     #[inline(always)]
     pub(super) fn take_forces<V: Simd>(
         &mut self,
@@ -186,7 +190,7 @@ impl<const N: usize> MomentPoints<N> {
         let w = part.splat(weight) * self.axis.weight.get(part);
         weighted_moment.put(part, w * stiffness * collocated_curvature * now.inverse_q);
 
-        // Derivative δ(M/q). The geometric term contains the moment of the present iterate.
+        // Derivative δ(M/q) of the moment on control points. The geometric term contains the moment of the present iterate.
         let moment = self.moment.get(part);
         let (curvature_by_slope, curvature_by_rotation) = now.curvature_by();
         let resistance = stiffness * part.splat(at.stress) * now.inverse_q;
@@ -235,8 +239,7 @@ impl<const N: usize> MomentPoints<N> {
         weighted_moment.put(part, w * moment);
     }
 
-    /// Corrects the moments after a correction of the increments: `M ← M + EI (m + σ δκ1)`, with the mismatch `m` and the curvature correction
-    /// `δκ1`.
+    /// Corrects the moments after a correction of the increments: `M ← M + EI (m + σ δκ1)`, with the mismatch `m` and the curvature correction `δκ1`.
     #[inline(always)]
     pub(super) fn correct_moments<V: Simd>(
         &mut self,

@@ -1,4 +1,4 @@
-//! Plane vectors of one point, or of several points in vector lanes.
+//! Plane vectors at one point, or at several points in vector lanes.
 
 use std::ops::{Add, AddAssign, Mul, Sub};
 
@@ -46,13 +46,13 @@ impl<T> Planar<T> for Pair<T> {
 }
 
 impl<T: Number> Pair<T> {
-    /// First unit vector, with components of the number type of `like`.
+    /// First unit vector. Its components have the number type of `like`.
     #[inline(always)]
     pub(super) fn first_axis(like: T) -> Self {
         Self { x: like.same(1.0), y: like.same(0.0) }
     }
 
-    /// Second unit vector, with components of the number type of `like`.
+    /// Second unit vector. Its components have the number type of `like`.
     #[inline(always)]
     pub(super) fn second_axis(like: T) -> Self {
         Self { x: like.same(0.0), y: like.same(1.0) }
@@ -69,7 +69,7 @@ impl<T: Number> Pair<T> {
         self.x * other.y - self.y * other.x
     }
 
-    /// Vector `J a = (-a2, a1)`.
+    /// Vector `J a = (-a2, a1)`: `a` rotated by 90° counter-clockwise.
     #[inline(always)]
     pub(super) fn perpendicular(self) -> Self {
         Self { x: -self.y, y: self.x }
@@ -172,7 +172,7 @@ impl Rotation<Lanes> {
 }
 
 impl Default for Rotation<Lanes> {
-    /// Placeholder. Every lane is set before it is used.
+    /// Placeholder value; every lane is set before use.
     fn default() -> Self {
         Self { cos: Lanes::default(), sin: Lanes::default() }
     }

@@ -1,8 +1,9 @@
-//! Strain rates at the end of a step. They are accurate also if the steps do not resolve the relaxation of dashpots.
+//! Strain rates at the end of a step. They are accurate even if the steps are longer than the relaxation time of the dashpots.
 //!
-//! In the energy–momentum method, a rate that decays within a step changes from `v0` to the end value `v1 ≈ -v0`. If a stiff dashpot takes part in
-//! a large motion, this error of second order times the damping appears in the forces at the end of a step. The mean rate over a step is accurate,
-//! but the rates at its ends are not. The means of the last two steps, extrapolated to the end, have an error of second order.
+//! In the energy–momentum method, a rate that decays within a step changes from `v0` to about `-v0`.
+//! If a stiff dashpot takes part in a large motion, the error of the end rate, multiplied by the damping, appears in the forces at the end of a step.
+//! The mean rate over a step is accurate, but the rates at the start and the end of the step are not.
+//! The mean rates of the last two steps, extrapolated to the end, have an error of second order.
 
 use super::Movement;
 
@@ -16,8 +17,9 @@ pub(super) struct DashpotRates<'a> {
     pub(super) is_extrapolated: [bool; 3],
 }
 
-/// Two squared differences of rates, multiplied by the damping of axial, shear or bending dashpots [energy/time]. `off` is the deviation of the
-/// rates at the start of a step from the interpolated means of this step and the previous one; `apart` is the difference of these means.
+/// Two squared differences of rates, multiplied by the damping coefficient of axial, shear or bending dashpots [energy/time].
+/// The field `off` is the difference between the rate at the start of a step and the interpolation of the mean rates of two steps.
+/// The field `apart` is the difference of the mean rates of this step and the previous one.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub(super) struct RateMismatch {
     pub(super) off: f64,
@@ -25,9 +27,10 @@ pub(super) struct RateMismatch {
 }
 
 impl RateMismatch {
-    /// Mismatch of a rate with the given damping [force·time; energy/time]. `start` is the rate at the start of a step, `before` and `now` are the
-    /// mean rates of the previous step and of this step. `fraction` is the position of the start of the step on the time axis, on which the middles
-    /// of these steps are 0 and 1.
+    /// Errors of a rate of a dashpot with the given damping coefficient [force·time; energy/time].
+    /// The argument `start` is the rate at the start of a step. The mean rates of the previous step and of this step are `before` and `now`.
+    /// The argument `fraction` is the start of the step on a scaled time axis.
+    /// On the scaled time axis, the middle of the previous step is 0, and the middle of this step is 1.
     pub(super) fn of(damping: f64, start: f64, [before, now]: [f64; 2], fraction: f64) -> Self {
         let (change, off) = (now - before, start - before);
         let off = off - fraction * change;
@@ -40,37 +43,37 @@ impl RateMismatch {
     }
 }
 
-/// Factor by which the weight of earlier steps decreases in each step.
+/// Factor by which the weight of earlier steps decreases with each step.
 const KEPT: f64 = 0.8;
 
-/// Largest deviation of the rates at the ends of steps that counts as resolved, as a fraction of the change of the rates in a step. Vibrations with
-/// the frequency `ω` have smaller deviations if `ω h < 2`, where `h` is the step length.
+/// Largest deviation of the rate at the start of a step that counts as resolved, as a fraction of the change of the mean rates.
+/// Vibrations have smaller deviations if their frequency `ω` and the step length `h` satisfy `ω h < 2`.
 const MOST_OFF: f64 = 0.5;
 
-/// Measure of how well the recent steps resolve the dashpot rates.
+/// Measure of the accuracy with which the recent steps resolve the dashpot rates.
 #[derive(Debug, Clone, Default)]
 pub(super) struct RateResolution {
-    /// Mismatches of axial, shear and bending rates, as sums over all steps with decreasing weight of earlier ones.
+    /// Errors of axial, shear and bending rates, summed over all steps. Recent steps have larger weights.
     mismatches: [RateMismatch; 3],
-    /// Time from the middle of the last step to its end, as a fraction of the time between the middles of the last two steps [-]; zero before the
-    /// second step.
+    /// Time from the middle of the last step to its end, as a fraction of the time between the middles of the last two steps [-].
+    /// Zero before the second step.
     extrapolation: f64,
     /// Duration of the last step [time]; zero before the first step.
     before: f64,
 }
 
 impl RateResolution {
-    /// Position of the start of a step on the time axis, on which the middle of the previous step is 0 and the middle of this step is 1. `duration`
-    /// is the length of this step [time]. Returns `None` if there is no previous step.
+    /// Start of a step on a scaled time axis. On this axis the middle of the previous step is 0, and the middle of this step is 1.
+    /// The argument `duration` is the length of this step [time]. Returns `None` if there is no previous step.
     pub(super) fn fraction(&self, duration: f64) -> Option<f64> {
         let between = duration + self.before;
-        // A substep of the fourth-order method runs backwards in time. The middles of two substeps may then coincide, so that there is no
-        // interpolation.
+        // A substep of the fourth-order method runs backwards in time.
+        // The middles of a forward and a backward substep may coincide, and no interpolation between them exists.
         let is_there = duration.is_finite() && self.before * between > 0.0;
         is_there.then(|| self.before / between)
     }
 
-    /// Records a step of a duration [time], which is infinite for an increment of zero duration.
+    /// Records a step of the given duration [time], which is infinite for an increment of zero duration.
     pub(super) fn add(&mut self, duration: f64, seen: [RateMismatch; 3]) {
         if !duration.is_finite() {
             *self = Self::default();
@@ -107,7 +110,7 @@ impl RateResolution {
 mod tests {
     use super::*;
 
-    /// Selections after each of several steps. `rate` returns the rate at the end of a step.
+    /// Selections of rates after each of several steps. `rate` returns the rate at the end of a step.
     fn selections(rate: impl Fn(i32) -> f64) -> Vec<bool> {
         let mut watch = RateResolution::default();
         let mean = |step: i32| 0.5 * (rate(step) + rate(step - 1));

@@ -1,4 +1,4 @@
-//! Bodies without elasticity: particles and rigid bodies. Their masses are point masses of the scene.
+//! Bodies without elasticity: particles and rigid bodies. Their masses are the point masses of the scene.
 
 use std::ops::Range;
 

@@ -1,4 +1,4 @@
-//! Section rotations, stored as cosine and sine. They are advanced by increments without trigonometric functions.
+//! Section rotations, stored as cosine and sine. Increments update them without trigonometric functions.
 
 use super::pair::Planar;
 use super::simd::Number;
@@ -7,7 +7,7 @@ use crate::elementary::{atan, sin_cos, tan};
 /// Relation between a rotation increment `Δω` and the rotation angle `Δθ`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum RotationIncrement {
-    /// Tangent-scaled increment: `Δθ = 2 atan(Δω/2)`. Then `Λ1 - Λ0 = Δω J (Λ0 + Λ1)/2`, on which conservation is based.
+    /// Tangent-scaled increment: `Δθ = 2 atan(Δω/2)`. It satisfies `Λ1 - Λ0 = Δω J (Λ0 + Λ1)/2`, which makes the methods conserving.
     TangentScaled,
     /// Increment of the angle: `Δθ = Δω`.
     Angle,
@@ -69,7 +69,7 @@ impl RotationIncrement {
         }
     }
 
-    /// Tangent-scaled increment `2 tan(Δθ/2)` of the same rotation, with which `Λ1 - Λ0 = 2 tan(Δθ/2) J (Λ0 + Λ1)/2` [-].
+    /// Tangent-scaled increment `2 tan(Δθ/2)` of the same rotation [-]. It satisfies `Λ1 - Λ0 = 2 tan(Δθ/2) J (Λ0 + Λ1)/2`.
     pub(crate) fn tangent_scaled(self, increment: f64) -> f64 {
         match self {
             Self::TangentScaled => increment,
@@ -84,12 +84,12 @@ impl RotationIncrement {
     }
 }
 
-/// Rotation `Λ = [[c, -s], [s, c]]` from the section frame to space. It may also be the mean of two rotations, which is not a rotation itself.
+/// Rotation `Λ = [[c, -s], [s, c]]` from the section frame to space. The type also stores means of two rotations, which are not rotations.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Rotation<T = f64> {
-    /// Cosine `c` of the angle, or a mean of cosines.
+    /// Cosine `c` of the angle, or a mean of two cosines.
     pub cos: T,
-    /// Sine `s` of the angle, or a mean of sines.
+    /// Sine `s` of the angle, or a mean of two sines.
     pub sin: T,
 }
 
@@ -116,7 +116,7 @@ impl<T: Number> Rotation<T> {
         }
     }
 
-    /// Normalises a rotation whose determinant differs from one because of rounding.
+    /// Normalises a rotation whose determinant is not exactly one because of rounding.
     #[inline(always)]
     pub(crate) fn normalised(self) -> Self {
         let square = self.cos * self.cos + self.sin * self.sin;
@@ -163,7 +163,7 @@ mod tests {
 
     #[test]
     fn the_difference_of_rotations_is_the_increment_times_their_mean() {
-        // This is the property that makes the midpoint rule conserving: Λ1 - Λ0 = Δω J Λ̄.
+        // The midpoint rule conserves momentum because Λ1 - Λ0 = Δω J Λ̄.
         let (start, increment) = (Rotation::by(-0.7), 0.9);
         let end = start.turned(RotationIncrement::TangentScaled, increment);
         let mean = start.mixed(end, 0.5);

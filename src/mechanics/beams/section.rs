@@ -22,7 +22,7 @@ pub struct Section {
     pub rotary_inertia: f64,
 }
 
-/// Shape of a cross section. Bending is about the horizontal centroidal axis.
+/// Shape of a cross section. Bending is about the horizontal axis through the centroid.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub enum SectionShape {
     /// Solid rectangle.
@@ -165,7 +165,7 @@ impl Solid {
         std::mem::discriminant(&self.shape) == std::mem::discriminant(&other.shape)
     }
 
-    /// Interpolates all dimensions and constants linearly between this solid and another one of the same type.
+    /// Interpolates all dimensions and constants linearly between two solids of the same type.
     pub(super) fn mixed(&self, other: &Self, fraction: f64) -> Self {
         let mix = |a: f64, b: f64| a + fraction * (b - a);
         let shape = match (self.shape, other.shape) {

@@ -1,38 +1,43 @@
-//! Section forces at any place of a beam.
+//! Section forces at any position along a beam.
 //!
-//! The balance of a step determines integrals of the section forces, weighted with derivatives of the basis functions and evaluated by the
-//! quadrature of the beam:
-//!
-//! ```text
-//! Σ w N_a' n = F_a          Σ w N_a' M - Σ w N_a (x' × n) = T_a          F_a, T_a: loads minus inertia, known exactly
-//! ```
-//!
-//! The forces `n` and moments `M` at the quadrature points satisfy these equations. At the ends of a beam their error is of first order in the span
-//! length, because the quadrature rules have few points. This module computes forces that satisfy the equations with exact integrals. They are
-//! elements of the space `T` of all derivatives of the basis functions in a run, which is a sequence of smoothly joined spans:
+//! The balance of a step determines integrals of the section forces.
+//! The integrals are weighted with derivatives of the basis functions and evaluated by the quadrature of the beam:
 //!
 //! ```text
-//! ∫ t n̂ dξ = Σ w t n               for all t in T
-//! ∫ t M̂ dξ = Σ w t M + ∫ v (Π m) dξ - Σ w v m      for all t in T, v' = t;  m = x' × n,  ∫ t Π m dξ = Σ w t m
+//! forces:                              Σ w N_a' n = F_a
+//! moments:                             Σ w N_a' M - Σ w N_a (x' × n) = T_a
+//! loads minus inertia, known exactly:  F_a and T_a
 //! ```
 //!
-//! These forces are projections of the exact section forces, also at the ends. In terms of the span length, the error of `n` is of order `p`, the
-//! degree, and the error of `M` at least of order 2 (of order 1 on linear elements, where `M` is constant). With the reproducing kernel of `T`, the
-//! forces are weighted sums over the quadrature points, with weights that decay within a few spans. Runs are independent. Two runs meet at a joint
-//! or at a node of Lagrange elements; there each run has its own value.
+//! The forces `n` and moments `M` at the quadrature points satisfy the two equations with quadrature sums.
+//! At the ends of a beam, the error of the forces at quadrature points is of first order in the span length, because the rules have few points.
+//! This module computes section forces that satisfy the equations with exact integrals.
+//! The computed forces are elements of the space `T` of all derivatives of the basis functions in a run (a sequence of smoothly joined spans):
+//!
+//! ```text
+//! forces:                  ∫ t n̂ dξ = Σ w t n for all t in T
+//! moments:                 ∫ t M̂ dξ = Σ w t M + ∫ v (Π m) dξ - Σ w v m for all t in T
+//! symbols in the moments:  v' = t, m = x' × n, ∫ t Π m dξ = Σ w t m
+//! ```
+//!
+//! The computed forces are projections of the exact section forces, also at the ends.
+//! In terms of the span length, the error of `n` is of order `p`, the degree.
+//! The error of `M` is at least of order 2. On linear elements, where `M` is constant, it is of order 1.
+//! With the reproducing kernel of `T`, the forces are weighted sums over the quadrature points, with weights that decay within a few spans.
+//! Different runs are independent. Two runs meet at a joint or at a node of Lagrange elements, where each run has its own value.
 
 use super::sections::{Interpolation, Sections};
 use super::span_points::{SpanGroup, group_of};
 use super::{BeamError, Mesh, Section};
 use crate::geometry::{LowerSplines, Reproduction, Span, Vec2, cross, larger};
 
-/// Weight that is due to rounding, as a fraction of the largest weight.
+/// Weight that counts as zero, as a fraction of the largest weight.
 const NO_WEIGHT: f64 = 1e-14;
 
 /// Section forces and strains at a cross section.
 ///
-/// These are the forces that the following part of the beam exerts on the preceding part. The components refer to the section frame, whose first
-/// axis is the section normal. With material damping they include the viscous forces.
+/// Section forces are the forces that the following part of the beam exerts on the preceding part.
+/// The components refer to the section frame, whose first axis is the section normal. With material damping, section forces include viscous forces.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct SectionForces {
     /// Unit normal of the section [-]; zero on a particle, which has no section.
@@ -52,7 +57,7 @@ pub struct SectionForces {
 }
 
 impl SectionForces {
-    /// Section forces for a force in space [force], a moment [force·length] and a section normal. The normal may have any length.
+    /// Creates section forces from a force in space [force], a moment [force·length] and a section normal of any length.
     pub(super) fn of(section: &Section, normal: Vec2, force: Vec2, moment: f64) -> Self {
         let normal = normal.normalize();
         let (axial, shear) = (normal.dot(&force), cross(normal, force));
@@ -84,7 +89,7 @@ impl SectionForces {
     }
 }
 
-/// Place of a beam, with the weights of the quadrature points in the sums for its section forces.
+/// Position along a beam, with the weights of the quadrature points in the sums for the section forces.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct SectionPlace {
     pub(super) force_shares: Vec<ForceShare>,
@@ -117,7 +122,7 @@ impl SectionPlace {
     }
 }
 
-/// Weights with which a quadrature point for the strain `Γ` contributes to the section forces of a place.
+/// Weights of a quadrature point for the strain `Γ` in the section forces at a position.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct ForceShare {
     pub(super) span: usize,
@@ -126,11 +131,11 @@ pub(super) struct ForceShare {
     pub(super) of_normal: f64,
     /// Weight of the section force at the point [-].
     pub(super) of_force: f64,
-    /// Weight, in the moment, of the contribution `w x' × n` of the point [-].
+    /// Weight of the moment contribution `w x' × n` of the point [-].
     pub(super) of_couple: f64,
 }
 
-/// Weight with which a quadrature point for the curvature `κ` contributes to the moment of a place.
+/// Weight of a quadrature point for the curvature `κ` in the moment at a position.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct MomentShare {
     pub(super) span: usize,
@@ -142,7 +147,7 @@ pub(super) struct MomentShare {
 #[derive(Debug, Clone)]
 pub struct SectionPoints {
     runs: Vec<SmoothRun>,
-    /// Largest number of points from which the normal is interpolated. Half of these points are in front of the place, the others behind it.
+    /// Largest number of points from which the normal is interpolated. Half of these points are in front of the position, the others behind it.
     most: usize,
 }
 
@@ -154,7 +159,7 @@ struct SmoothRun {
     of_moment: Vec<PointAt>,
 }
 
-/// Quadrature point. It is described by its parameter, its weight, the index of its span in the run and in the beam, and its index in the span.
+/// Quadrature point with its parameter, its weight, the index of its span in the run and in the beam, and its index in the span.
 #[derive(Debug, Clone, Copy)]
 struct PointAt {
     xi: f64,
@@ -189,7 +194,7 @@ impl SectionPoints {
         Ok(Self { runs, most: (mesh.basis().degree() + 1).next_multiple_of(2) })
     }
 
-    /// Place at a parameter of the mesh. Where two runs meet, it is the place on the second run.
+    /// Position at a parameter of the mesh. If two runs meet there, the position belongs to the second run.
     ///
     /// # Errors
     /// Fails in the same cases as [`of`](Self::of).
@@ -198,8 +203,8 @@ impl SectionPoints {
         self.runs[run].place(xi, self.most)
     }
 
-    /// Places along the whole beam with their parameters: the knots, and `within` places in each span. Where two runs meet there are two places,
-    /// first the place on the first run.
+    /// Positions along the whole beam with their parameters: the knots, and `within` positions in each span.
+    /// At the meeting point of two runs there are two positions. The first of them belongs to the first run.
     ///
     /// # Errors
     /// Fails in the same cases as [`of`](Self::of).

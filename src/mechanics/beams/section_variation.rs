@@ -5,11 +5,11 @@ use serde::{Deserialize, Serialize};
 use super::{BeamError, Section, Solid};
 use crate::geometry::{GaussRule, larger};
 
-/// Largest number of places of a taper.
+/// Largest number of positions at which a taper is defined.
 const MOST_PLACES: usize = 10_000;
 
-/// Number of Gauss points in each piece of a taper. They integrate polynomials of degree five exactly, including the bending stiffness of a
-/// linearly varying height.
+/// Number of Gauss points in each linear piece of a taper.
+/// Three points integrate polynomials of degree five exactly, including the bending stiffness of a linearly varying height.
 const POINTS: usize = 3;
 
 /// Sections along the axis of a beam.
@@ -17,9 +17,9 @@ const POINTS: usize = 3;
 pub enum SectionVariation {
     /// Uniform section.
     Uniform(Section),
-    /// Stiffness and inertia that vary linearly between places. Places are fractions of the length [-] and increase from 0 to 1.
+    /// Stiffness and inertia that vary linearly between positions. Positions are fractions of the length [-] and increase from 0 to 1.
     Numbers(Vec<(f64, Section)>),
-    /// Dimensions and material that vary linearly between places, for solids with the same type of shape.
+    /// Dimensions and material that vary linearly between positions, for solids with the same type of shape.
     Dimensions(Vec<(f64, Solid)>),
 }
 
@@ -30,10 +30,10 @@ impl From<Section> for SectionVariation {
 }
 
 impl SectionVariation {
-    /// Checks the sections and their places, and returns them.
+    /// Checks the sections and their positions, and returns them.
     ///
     /// # Errors
-    /// Fails if a number of a section is out of range, or places do not increase from 0 to 1.
+    /// Fails if a number of a section is out of range, or if the positions do not increase from 0 to 1.
     pub fn validated(self) -> Result<Self, BeamError> {
         match &self {
             Self::Uniform(section) => return section.validated().map(Self::Uniform),
@@ -82,7 +82,7 @@ impl SectionVariation {
         }
     }
 
-    /// Mean section over the length; for a uniform beam its section.
+    /// Mean section over the length. For a uniform beam it is the section itself.
     pub fn mean(&self) -> Section {
         if let Self::Uniform(section) = self {
             return *section;
@@ -102,13 +102,13 @@ impl SectionVariation {
         self.sections().into_iter().reduce(|a, b| a.each(&b, larger)).unwrap_or_default()
     }
 
-    /// Speed of the fastest axial wave, `√(EA/ρA)` [length/time]. The maximum over the places of a taper is sufficient, because waves between the
-    /// places are not faster.
+    /// Speed of the fastest axial wave, `√(EA/ρA)` [length/time].
+    /// The maximum over the positions of a taper is sufficient, because waves between these positions are not faster.
     pub fn axial_wave_speed(&self) -> f64 {
         self.sections().iter().map(Section::axial_wave_speed).fold(0.0, larger)
     }
 
-    /// Places of a taper, as fractions of the length [-]; empty for a uniform beam.
+    /// Positions at which a taper is defined, as fractions of the length [-]; empty for a uniform beam.
     pub fn places(&self) -> Vec<f64> {
         match self {
             Self::Uniform(_) => Vec::new(),
@@ -117,7 +117,7 @@ impl SectionVariation {
         }
     }
 
-    /// Sections at the places of a taper; the single section of a uniform beam.
+    /// Sections at the positions of a taper, or the single section of a uniform beam.
     pub fn sections(&self) -> Vec<Section> {
         match self {
             Self::Uniform(section) => vec![*section],
@@ -127,7 +127,7 @@ impl SectionVariation {
     }
 }
 
-/// Values at the places before and after a fraction of the length, and the interpolation weight of the second value.
+/// Values at the positions before and after a fraction of the length, and the interpolation weight of the second value.
 fn between<T: Copy>(all: &[(f64, T)], part: f64) -> (f64, [T; 2]) {
     let beyond = all.partition_point(|(place, _)| *place <= part).clamp(1, all.len() - 1);
     let [(start, before), (end, after)] = [all[beyond - 1], all[beyond]];
@@ -170,7 +170,7 @@ mod tests {
 
     #[test]
     fn means_are_integrals() {
-        // Integral of h: 0.9 over a quarter of the length, 0.5 over the rest. Integral of h³: from antiderivatives on the linear pieces.
+        // Height h: 0.9 over a quarter of the length, 0.5 over the rest. Integral of h³: from antiderivatives on the linear pieces.
         let mean = wedge().mean();
         assert!((mean.mass_per_length - 1.5 * (0.25 * 0.9 + 0.75 * 0.5)).abs() < 1e-14);
         let cubes = 0.25 * (1.0 - 0.8_f64.powi(4)) / (4.0 * 0.2)

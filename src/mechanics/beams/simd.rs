@@ -1,7 +1,7 @@
 //! Vector lanes: values of consecutive quadrature points that one vector instruction processes together.
 //!
-//! Each lane performs the operations of its point in the same order and without fused multiply–add, so that vectors of any width give identical
-//! results.
+//! Each lane performs the operations of its point in the same order and without fused multiply–add.
+//! Vectors of any width give identical results.
 
 use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub};
 
@@ -25,7 +25,7 @@ pub(super) struct LaneChunk<V> {
 }
 
 impl<V: Simd> LaneChunk<V> {
-    /// Number of such subsets in all lanes.
+    /// Number of chunks needed for all lanes.
     pub(super) const COUNT: usize = {
         assert!(LANES.is_multiple_of(V::F64_LANES), "vectors are no longer than the lanes");
         LANES / V::F64_LANES
@@ -70,7 +70,7 @@ impl Lanes {
     }
 }
 
-/// Number type in formulas for points: a scalar, or values in several lanes.
+/// Number type in formulas for quadrature points: a scalar, or values in several lanes.
 pub trait Number:
     Copy
     + Add<Output = Self>
@@ -80,7 +80,7 @@ pub trait Number:
     + Div<Output = Self>
     + Neg<Output = Self>
 {
-    /// Number of the same type with the given value in all lanes.
+    /// Value of the same type with the given number in all lanes.
     fn same(self, number: f64) -> Self;
 
     fn abs(self) -> Self;

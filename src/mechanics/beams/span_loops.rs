@@ -1,6 +1,6 @@
 //! Loops of a step over the spans of a beam, compiled for vector instructions.
 //!
-//! Several points are evaluated at once in vector lanes. Their results are added span by span, in the order of the beam.
+//! Several quadrature points are evaluated at once in vector lanes. Their results are added span by span, in the order of the beam.
 
 use pulp::{Arch, Simd, WithSimd};
 
@@ -14,8 +14,7 @@ use super::simd::{LANES, LaneChunk, Lanes};
 use super::span_points::{SpanGroup, window_mut};
 use super::{RotationIncrement, Section};
 
-/// Operation that is repeated for all spans. Each operation is a type, so that the compiler uses the selected vector instructions in the whole
-/// loop.
+/// Operation that is repeated for all spans. Each operation is a separate type, so that the compiler uses vector instructions in the whole loop.
 pub(super) trait SpanLoop<const N: usize, S> {
     /// Performs the operation for a group of spans.
     fn at<V: Simd>(&mut self, simd: V, group: &mut SpanGroup<N, S>);
@@ -114,7 +113,7 @@ impl<const N: usize, S: Sections> SpanLoop<N, S> for ForceAssembly<'_> {
     }
 }
 
-/// Adds the internal forces, in which the strain mismatches are condensed out, and calls the sink with the tangent matrix of each span.
+/// Adds the internal forces with strain mismatches condensed out, and calls the sink with the tangent matrix of each span.
 pub(super) struct Linearisation<'a> {
     pub(super) iterate: SpanInputs<'a>,
     pub(super) forces: ForcesFrom<'a>,

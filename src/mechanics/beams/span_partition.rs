@@ -1,9 +1,10 @@
 //! Division of the spans of a beam into parts that threads process concurrently. Results are identical to those of one thread.
 //!
-//! The beam is cut at control points. Each part owns the control points up to the next cut, and the spans with these control points only. A few
-//! spans have control points on both sides of a cut. The terms of each sum must be added in the order of the spans, because the order affects
-//! rounding. Hence the contributions of spans across a cut are computed twice. First they are added to the control points after the cut. When all
-//! parts are completed, they are added to the control points before the cut.
+//! The beam is cut at control points. Each part owns the control points up to the next cut, and the spans that have only these control points.
+//! A few spans have control points on both sides of a cut.
+//! The terms of each sum must be added in the order of the spans, because the order affects rounding.
+//! Hence the contributions of spans across a cut are computed twice. The first computation adds them to the control points after the cut.
+//! When all parts are completed, the second computation adds them to the control points before the cut.
 
 use std::ops::Range;
 
@@ -16,13 +17,13 @@ use crate::threads::run_concurrently;
 type PartOf<'a, const N: usize, S, C> =
     (&'a mut C, &'a mut [SpanGroup<N, S>], usize, &'a mut [Movement]);
 
-/// Largest number of concurrent parts. More parts are not faster, because a few cores exhaust the memory bandwidth.
+/// Largest number of concurrent parts. More parts are not faster, because a few processor cores exhaust the memory bandwidth.
 pub(super) const MOST_PARTS: usize = 8;
 
-/// Smallest number of spans in a part. Smaller parts gain little, and cost time if the other cores are busy (docs/studies.md).
+/// Smallest number of spans in a part. Smaller parts gain little time, and lose time if the other cores are busy (docs/studies.md).
 const SMALLEST_PART: usize = 4000;
 
-/// Smallest number of spans in a part for light operations. These take less than a tenth of the time of computing tangents.
+/// Smallest number of spans in a part for operations that take less than a tenth of the time of computing tangents.
 const SMALLEST_LIGHT_PART: usize = 2000;
 
 fn count_spans<const N: usize, S>(groups: &[SpanGroup<N, S>]) -> usize {
@@ -41,7 +42,7 @@ pub(super) struct SpanPartition {
 }
 
 impl SpanPartition {
-    /// Returns a partition into at most `most` parts that are large enough for a thread each.
+    /// Returns a partition into at most `most` parts. Each part is large enough to justify a thread.
     pub(super) fn worthwhile<const N: usize, S: Sections>(
         groups: &[SpanGroup<N, S>],
         most: usize,
@@ -73,7 +74,7 @@ impl SpanPartition {
         !self.cuts.is_empty() && spans >= SMALLEST_LIGHT_PART * self.count()
     }
 
-    /// Applies a light operation to each span independently. Parts are processed concurrently.
+    /// Applies an operation to each span independently. The parts of the beam are processed concurrently.
     pub(super) fn each<const N: usize, S: Sections>(
         &self,
         groups: &mut [SpanGroup<N, S>],
@@ -105,10 +106,10 @@ impl SpanPartition {
         run_concurrently(parts, |(points, sums)| work(points, sums));
     }
 
-    /// Adds contributions of spans to control points. Parts are processed concurrently.
+    /// Adds contributions of spans to control points. The parts of the beam are processed concurrently.
     ///
-    /// `work` is called with the context of a part, some spans, the first control point of its sums, and the sums. For spans across a cut it is
-    /// called twice, and must compute the same values both times.
+    /// The callback `work` receives the context of a part, some spans, the first control point of their sums, and the sums.
+    /// For spans across a cut, `work` is called twice and must compute the same values both times.
     pub(super) fn sum<const N: usize, S: Sections, C: Send>(
         &self,
         groups: &mut [SpanGroup<N, S>],

@@ -16,8 +16,8 @@ use super::simd::{LANES, LaneChunk};
 use super::span_stiffness::SpanStiffness;
 use crate::geometry::Vec2;
 
-/// Number of spans whose points are arranged in lanes together. It is large enough that few lanes are unused, and small enough that the points stay
-/// in the cache.
+/// Number of spans whose points are arranged in lanes together.
+/// With this number of spans, few vector lanes are unused and the points stay in the cache.
 pub(super) const SPANS_AT_ONCE: usize = 16;
 
 /// Span of a group, with the range of its points in the group.
@@ -28,7 +28,7 @@ pub(super) struct SpanPlace {
     pub(super) moment_points: Range<usize>,
 }
 
-/// Span with `N` nonzero basis functions, and its points before they are arranged in lanes.
+/// Span with `N` nonzero basis functions, and its quadrature points before they are arranged in lanes.
 pub(super) struct SpanOfPoints<const N: usize> {
     pub(super) first: usize,
     pub(super) force_points: Vec<(ForcePoint<N>, Section)>,
@@ -44,7 +44,7 @@ pub(super) struct SpanGroup<const N: usize, S = Uniform> {
     pub(super) sections: S,
 }
 
-/// Increments of the `N` control points that follow `first`, itself included.
+/// Increments of `N` consecutive control points, starting with `first`.
 #[inline(always)]
 pub(super) fn window<const N: usize>(movements: &[Movement], first: usize) -> &[Movement; N] {
     movements[first..]
@@ -71,7 +71,7 @@ pub(super) fn group_of<const N: usize, S>(
 }
 
 impl<const N: usize, S: Sections> SpanGroup<N, S> {
-    /// Arranges the points of consecutive spans in lanes.
+    /// Arranges the quadrature points of consecutive spans in lanes.
     pub(super) fn side_by_side(spans: &[SpanOfPoints<N>]) -> Self {
         let (mut places, mut of_force, mut of_moment) = (Vec::new(), 0, 0);
         for span in spans {
@@ -243,7 +243,7 @@ impl<const N: usize, S: Sections> SpanGroup<N, S> {
         points.map(|(point, section)| point.strain_energy(section)).sum::<f64>()
     }
 
-    /// Adds the axial, shear and bending strain energies of these spans to `sums` [energy].
+    /// Adds the axial, shear and bending strain energies of the spans in the group to `sums` [energy].
     pub(super) fn add_strain_energies(&self, section: &Section, sums: &mut [f64; 3]) {
         for span in &self.spans {
             for (point, section) in self.force_points_of(section, span) {
@@ -255,7 +255,7 @@ impl<const N: usize, S: Sections> SpanGroup<N, S> {
         }
     }
 
-    /// Appends the section normals at the points for `Γ`, span by span.
+    /// Appends the section normals at the quadrature points for `Γ`, span by span.
     pub(super) fn write_normals(&self, normals: &mut Vec<Vec2>) {
         let count = self.spans[self.spans.len() - 1].force_points.end;
         normals.extend((0..count).map(|index| self.force_point(index).normal()));

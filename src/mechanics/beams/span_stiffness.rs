@@ -1,12 +1,15 @@
-//! Static stiffness of a span in factored form. It consists of strains with their stiffnesses, and of the geometric stiffness due to section
-//! forces.
+//! Static stiffness of a span in factored form: strains with their stiffnesses, and the geometric stiffness due to section forces.
 //!
 //! ```text
-//! δΓ = Λᵀ δg - J (Γ + e1) δω        δκ = δω'        these are the rows of B, with the stiffness C: w diag(EA, GA) and w EI
-//! K_g = p qᵀ + q pᵀ      p·δ = w (Λ J N·δg - ½ g·ΛN δω)      q·δ = δω
+//! strain:                           δΓ = Λᵀ δg - J (Γ + e1) δω
+//! curvature:                        δκ = δω'
+//! rows of B:                        δΓ and δκ
+//! stiffness C of the rows of B:     w diag(EA, GA) and w EI
+//! geometric stiffness:              K_g = p qᵀ + q pᵀ
+//! rows of the geometric stiffness:  p·δ = w (Λ J N·δg - ½ g·ΛN δω) and q·δ = δω
 //! ```
 //!
-//! The stiffness is `K = Bᵀ C B + K_g`. The sum is not formed, because rounding errors of the large first term would exceed its small eigenvalues.
+//! The stiffness is `K = Bᵀ C B + K_g`. This sum is not formed, because rounding errors of the large first term would exceed its small eigenvalues.
 
 /// Type of a strain of a beam.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -24,14 +27,14 @@ pub enum StrainKind {
 pub struct SpanStiffness {
     /// First control point of the span.
     pub first: usize,
-    /// Rows of derivatives of strains and curvatures with respect to displacements and rotations, one after the other [1/length; shear by rotation:
-    /// -; curvature by rotation: 1/length].
+    /// Rows of derivatives of strains and curvatures with respect to displacements and rotations, stored one after the other.
+    /// Units of the rows: [1/length]; shear by rotation [-]; curvature by rotation [1/length].
     pub strains: Vec<f64>,
-    /// Stiffness of each strain or curvature, times the integration length [force·length, force·length³].
+    /// Stiffness for each strain or curvature, times the integration length [force·length, force·length³].
     pub stiffness: Vec<f64>,
     /// Type of the strain in each row; empty for bodies that are not beams.
     pub kinds: Vec<StrainKind>,
-    /// Pairs of rows `p` and `q` of the geometric stiffness, one after the other [force; force·length for rotations, -].
+    /// Pairs of rows `p` and `q` of the geometric stiffness, stored one after the other [force; force·length for rotations, -].
     pub twists: Vec<f64>,
     /// For each pair of rows, the fraction of its section force that may be due to rounding [-].
     pub rounding_fractions: Vec<f64>,
@@ -48,7 +51,7 @@ impl SpanStiffness {
         self.rounding_fractions.clear();
     }
 
-    /// Adds the row of a strain or curvature: its derivatives with respect to x, y and rotation of each control point.
+    /// Adds the row of a strain or curvature, with its derivatives with respect to x, y and rotation of each control point.
     pub(super) fn add_strain<const N: usize>(
         &mut self,
         kind: StrainKind,

@@ -1,4 +1,4 @@
-//! Places on a body.
+//! Positions on a body.
 
 use serde::{Deserialize, Serialize};
 
@@ -16,7 +16,7 @@ pub enum BodyIndex {
     Rigid(usize, usize),
 }
 
-/// Place on a body of a scene.
+/// Position on a body of a scene.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Station {
     /// Body of the station.
@@ -25,12 +25,12 @@ pub struct Station {
     pub arc_length: f64,
 }
 
-/// Place on a body of a model, with the basis functions that are nonzero there.
+/// Position on a body of a model, with the basis functions that are nonzero there.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct BodyPoint {
     /// Index of the body in the model: beams, then particles, then rigid bodies.
     pub body: usize,
-    /// First control point whose basis function is nonzero at the place.
+    /// First control point whose basis function is nonzero at this position.
     pub first: usize,
     shape: [f64; MAX_DEGREE + 1],
     order: usize,
@@ -54,7 +54,7 @@ impl Station {
         Self { body: BodyIndex::Rigid(body, point), arc_length: 0.0 }
     }
 
-    /// Returns true if both stations coincide within rounding. `length` is the length of the body.
+    /// Returns true if two stations coincide within rounding. `length` is the length of the body.
     pub fn is_at(&self, other: &Self, length: f64) -> bool {
         let apart = (self.arc_length - other.arc_length).abs();
         self.body == other.body && apart <= ROUNDING_OF_PLACES * length
@@ -73,7 +73,7 @@ impl Station {
         !matches!(self.body, BodyIndex::Particle(_))
     }
 
-    /// Parameter of the mesh [-] at this station of an axis.
+    /// Parameter of the mesh [-] at this station.
     ///
     /// # Errors
     /// Fails if the station lies outside the axis.
@@ -84,26 +84,26 @@ impl Station {
 }
 
 impl BodyPoint {
-    /// Place of a particle.
+    /// Position of a particle.
     pub fn of_particle(body: usize) -> Self {
         Self::of_point(body, 0, 0.0)
     }
 
-    /// Place of a point of a rigid body. `point` is the index of its control point (0 is the centre of mass), `angle` the initial angle of the body
-    /// [rad].
+    /// Position of a point of a rigid body.
+    /// The argument `point` is the index of its control point (0 is the centre of mass). The initial angle of the body is `angle` [rad].
     pub fn of_point(body: usize, point: usize, angle: f64) -> Self {
         let mut shape = [0.0; MAX_DEGREE + 1];
         shape[0] = 1.0;
         Self { body, first: point, shape, order: 1, tangent_angle: angle }
     }
 
-    /// Place of a beam at a parameter of its mesh.
+    /// Position on a beam at a parameter of its mesh.
     ///
     /// # Errors
-    /// Fails if the parameter lies outside the mesh, or the axis has no tangent there.
+    /// Fails if the parameter lies outside the mesh, or if the axis has no tangent at the parameter.
     pub fn at(body: usize, axis: &Curve, mesh: &Mesh, xi: f64) -> Result<Self, GeometryError> {
         let values = mesh.basis().evaluate(xi)?;
-        // At a break, some functions of the span are zero. Control points of such functions are left out.
+        // At a break, some functions of the span are zero. The control points of these functions are left out.
         let is_here = |value: &f64| *value != 0.0;
         let skipped = values.values().iter().position(is_here).unwrap_or(0);
         let last = values.values().iter().rposition(is_here).unwrap_or(0);
@@ -125,14 +125,14 @@ impl BodyPoint {
         (self.first..).zip(self.shape().iter().copied())
     }
 
-    /// Control point whose basis function is largest at the station. At a break of the mesh it lies at the station.
+    /// Control point whose basis function is largest at the station. At a break of the mesh, this control point coincides with the station.
     pub(crate) fn nearest_control_point(&self) -> usize {
         self.weights()
             .max_by(|(_, a), (_, b)| a.total_cmp(b))
             .map_or(self.first, |(index, _)| index)
     }
 
-    /// Interpolates values that are given at all control points.
+    /// Interpolates values of control points at the station.
     pub fn interpolate(&self, values: &[Vec2]) -> Vec2 {
         self.weights().map(|(index, weight)| values[index] * weight).sum()
     }

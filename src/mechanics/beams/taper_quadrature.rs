@@ -3,7 +3,7 @@
 use super::{BeamError, Mesh, Section, SectionVariation};
 use crate::geometry::{GaussRule, larger};
 
-/// Number of Gauss points between consecutive places or knots, for accurate reference integrals.
+/// Number of Gauss points between consecutive positions or knots, for accurate reference integrals.
 const POINTS: usize = 8;
 
 /// Relative errors of integrals along a beam that are computed by the quadrature of its mesh [-].
@@ -11,15 +11,15 @@ const POINTS: usize = 8;
 pub struct TaperQuadrature {
     /// Error of the mass, `∫ ρA`.
     pub mass: f64,
-    /// Error of `∫ 1/EA`, the axial compliance of a bar under end forces.
+    /// Error of `∫ 1/EA`, the axial compliance of the beam under end forces.
     pub stretching: f64,
     /// Error of `∫ 1/EI`, the rotation of the ends under moments.
     pub bending: f64,
 }
 
 impl TaperQuadrature {
-    /// Computes the quadrature errors for the sections of a beam. Places along the beam are used as fractions of the parameter. This is exact for
-    /// spans of equal length.
+    /// Computes the quadrature errors for the sections of a beam. Positions along the beam are converted to the same fractions of the parameter.
+    /// The conversion of positions to parameters is exact for spans of equal length.
     ///
     /// # Errors
     /// Fails if the mesh has no quadrature.
@@ -91,7 +91,7 @@ mod tests {
         let (thin, thick) = (of(1.0, 1.0), of(1.0, 20.0));
         let flange = vec![(0.0, thin), (0.52, thin), (0.53, thick), (0.54, thin), (1.0, thin)];
         let seen = TaperQuadrature::of(&SectionVariation::Numbers(flange), &mesh).unwrap();
-        // The flange contributes 0.19 of the total mass 1.19. The stiffness is uniform.
+        // The flange contributes 0.19 to the total mass 1.19. The stiffness is uniform.
         assert!(seen.mass > 0.05 && seen.mass < 0.2, "{seen:?}");
         assert!(seen.bending < 1e-12 && seen.stretching < 1e-12, "{seen:?}");
         let uniform = SectionVariation::Uniform(thin);

@@ -1,8 +1,8 @@
-//! Trigonometric, hyperbolic and exponential functions and their inverses. They come from the crate `libm`, a Rust port of the functions of musl
-//! and FreeBSD.
+//! Trigonometric, hyperbolic and exponential functions and their inverses.
+//! The functions come from the crate `libm`, a Rust port of the functions of musl and FreeBSD.
 //!
-//! Errors are mostly below one unit in the last place, and below two units for hyperbolic functions. Angles are in radians. Undefined values are
-//! NaN as required by IEEE 754.
+//! Errors are mostly below one unit in the last place, and below two units for hyperbolic functions. Angles are in radians.
+//! Undefined values are NaN as required by IEEE 754.
 
 /// Sine of an angle [rad], identical on every machine.
 #[inline]
@@ -16,7 +16,7 @@ pub fn cos(angle: f64) -> f64 {
     libm::cos(angle)
 }
 
-/// Sine and cosine of an angle [rad]. They equal [`sin`] and [`cos`] but take less time.
+/// Sine and cosine of an angle [rad]. The results equal [`sin`] and [`cos`], but one call is faster than two.
 #[inline]
 pub fn sin_cos(angle: f64) -> (f64, f64) {
     libm::sincos(angle)
@@ -28,19 +28,19 @@ pub fn tan(angle: f64) -> f64 {
     libm::tan(angle)
 }
 
-/// Angle in `[-π/2, π/2]` [rad] with sine `x`; NaN outside `[-1, 1]`.
+/// Angle in `[-π/2, π/2]` [rad] whose sine is `x`; NaN outside `[-1, 1]`.
 #[inline]
 pub fn asin(x: f64) -> f64 {
     libm::asin(x)
 }
 
-/// Angle in `[0, π]` [rad] with cosine `x`; NaN outside `[-1, 1]`.
+/// Angle in `[0, π]` [rad] whose cosine is `x`; NaN outside `[-1, 1]`.
 #[inline]
 pub fn acos(x: f64) -> f64 {
     libm::acos(x)
 }
 
-/// Angle in `[-π/2, π/2]` [rad] with tangent `x`.
+/// Angle in `[-π/2, π/2]` [rad] whose tangent is `x`.
 #[inline]
 pub fn atan(x: f64) -> f64 {
     libm::atan(x)
@@ -129,7 +129,7 @@ mod tests {
     use super::*;
     use proptest::prelude::*;
 
-    /// Distance of two numbers as a multiple of the unit in the last place.
+    /// Difference of two numbers as a multiple of the unit in the last place.
     fn apart(a: f64, b: f64) -> u64 {
         let place = |x: f64| match x.to_bits() as i64 {
             bits if bits < 0 => i64::MIN - bits,
@@ -158,13 +158,13 @@ mod tests {
             (atan2(0.0, -1.0), atan2(-0.0, -1.0)),
             (std::f64::consts::PI, -std::f64::consts::PI)
         );
-        // The squares of these arguments overflow.
+        // The squares of the arguments below overflow.
         let large = 2_f64.powi(900);
         assert_eq!((hypot(3.0, 4.0), hypot(3.0 * large, 4.0 * large)), (5.0, 5.0 * large));
         assert_eq!((sin(-0.0).to_bits(), cos(0.0)), ((-0.0_f64).to_bits(), 1.0));
     }
 
-    // The functions of the machine are accurate to about one unit in the last place, so both results must be close to each other.
+    // The functions of the machine are accurate to about one unit in the last place. Both results must therefore agree closely.
     proptest! {
         #[test]
         fn they_are_those_of_the_machine_but_for_the_last_bits(

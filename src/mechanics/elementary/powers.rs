@@ -6,9 +6,9 @@ pub fn square(x: f64) -> f64 {
     x * x
 }
 
-/// Integer power, computed by repeated squaring from the lowest bit of the exponent on. For a negative exponent `-n` it is `1/xⁿ`.
+/// Integer power, computed by repeated squaring from the lowest bit of the exponent. For a negative exponent `-n` the result is `1/xⁿ`.
 ///
-/// The order of multiplications and therefore every rounding error is fixed. For `f64::powi` the compiler chooses the order.
+/// The order of multiplications is fixed, which also fixes every rounding error. For `f64::powi` the compiler chooses the order.
 #[inline]
 pub fn whole_power(x: f64, exponent: i32) -> f64 {
     let (mut power, mut squares, mut left) = (1.0, x, exponent.unsigned_abs());

@@ -8,7 +8,7 @@ use super::{GeometryError, Vec2, perpendicular, unit};
 use crate::elementary::power;
 use std::f64::consts::TAU;
 
-/// Relative rounding error by which the sweep of an arc may exceed a full turn.
+/// Relative amount by which the angle of an arc may exceed a full turn because of rounding.
 const ROUNDING: f64 = 1e-12;
 
 /// Arc of a circle of radius `r` about the point `c`, `x(ξ) = c + r (cos φ, sin φ)` with `φ = (1 - ξ) φ_from + ξ φ_to` on `[0, 1]`.
@@ -53,7 +53,7 @@ impl CircularArc {
         Ok(arc)
     }
 
-    /// Angle from start to end [rad], positive counter-clockwise.
+    /// Angle from the start to the end of the arc [rad], positive counter-clockwise.
     pub(super) fn sweep(&self) -> f64 {
         self.to_angle - self.from_angle
     }
@@ -70,7 +70,7 @@ impl CircularArc {
     pub(super) fn derivative(&self, xi: f64, order: usize) -> Result<Vec2, GeometryError> {
         check_inside(xi, 0.0, 1.0)?;
         let outward = unit((1.0 - xi) * self.from_angle + xi * self.to_angle);
-        // Each derivative rotates the vector by +90° and multiplies it by the sweep.
+        // Each derivative rotates the vector by +90° and multiplies it by the angle of the arc.
         let turned = match order % 4 {
             0 => outward,
             1 => perpendicular(outward),

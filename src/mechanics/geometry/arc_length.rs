@@ -3,16 +3,16 @@
 use super::GaussRule;
 use std::sync::LazyLock;
 
-/// Largest number of times that an interval is halved. It is reached only at cusps.
+/// Largest number of successive halvings of an interval. Only curves with cusps reach it.
 const DEPTH: usize = 48;
 
-/// Largest number of iterations. Newton's method needs about five, bisection alone about 60.
+/// Largest number of iterations. Newton's method needs about five, and bisection alone about 60.
 const STEPS: usize = 100;
 
 static RULE: LazyLock<GaussRule> = LazyLock::new(|| GaussRule::legendre(16));
 
-/// Integral `∫ speed dξ` from `start` to `end`. Intervals are halved until the 16-point Gauss rule on an interval and on its two halves agree
-/// within `tolerance`.
+/// Integral `∫ speed dξ` from `start` to `end`.
+/// Intervals are halved until the 16-point Gauss rule on an interval and on its two halves agree within `tolerance`.
 pub(super) fn integrate(speed: &impl Fn(f64) -> f64, start: f64, end: f64, tolerance: f64) -> f64 {
     refine(speed, (start, end), gauss(speed, start, end), tolerance, DEPTH)
 }
@@ -38,8 +38,8 @@ fn refine(
     }
 }
 
-/// Parameter `ξ` in `[start, end]` for which the integral of `speed` from `start` to `ξ` equals `length`. It is found by Newton's method combined
-/// with bisection.
+/// Parameter `ξ` in `[start, end]` for which the integral of `speed` from `start` to `ξ` equals `length`.
+/// The parameter is computed by Newton's method combined with bisection.
 pub(super) fn invert(
     speed: &impl Fn(f64) -> f64,
     start: f64,

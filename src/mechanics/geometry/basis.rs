@@ -6,7 +6,7 @@ use super::knots::check_inside;
 use super::values::LowDerivatives;
 use super::{BasisValues, GeometryError, KnotVector, LagrangeBasis, MAX_DEGREE, Span, bspline};
 
-/// Distance of a break from a knot at which both coincide, as a fraction of the domain.
+/// Largest distance between a break and a knot that count as equal, as a fraction of the domain.
 const SAME_BREAK: f64 = 1e-10;
 
 /// Basis functions `N_i(ξ)` whose sum is one. Each function is nonzero on a few spans only.
@@ -35,7 +35,7 @@ impl Basis {
         }
     }
 
-    /// Interval of the parameter ξ [-]: start and end.
+    /// Interval of the parameter ξ [-], given by its start and end.
     pub fn domain(&self) -> (f64, f64) {
         match self {
             Self::BSpline(knots) => knots.domain(),
@@ -59,7 +59,7 @@ impl Basis {
         }
     }
 
-    /// Span that contains the parameter `xi` [-]. At a break it is the span on the right.
+    /// Span that contains the parameter `xi` [-]. At a break, the span on the right is returned.
     ///
     /// # Errors
     /// Fails if `xi` is outside the domain or NaN.
@@ -85,10 +85,11 @@ impl Basis {
         Ok(self.evaluate_in(&self.span_at(xi)?, xi))
     }
 
-    /// Functions of a span of this basis at any `xi`. Outside the span their polynomials are extended; at its ends the values are one-sided limits.
+    /// Functions of a span of this basis at any `xi`. Outside the span, their polynomials are extended.
+    /// At the ends of the span, the values are one-sided limits.
     ///
     /// # Panics
-    /// May panic if the span belongs to another basis.
+    /// May panic if the span does not belong to this basis.
     pub(crate) fn evaluate_in(&self, span: &Span, xi: f64) -> BasisValues {
         match self {
             Self::BSpline(knots) => bspline::evaluate(knots, span, xi),
@@ -96,7 +97,8 @@ impl Basis {
         }
     }
 
-    /// Functions of degree `WIDTH - 1` as in [`evaluate_in`](Self::evaluate_in), up to third derivatives. The largest width serves any degree.
+    /// Computes functions of degree `WIDTH - 1` like [`evaluate_in`](Self::evaluate_in), up to third derivatives.
+    /// The largest width can be used for any degree.
     #[inline]
     pub(super) fn evaluate_low<const WIDTH: usize>(
         &self,
@@ -112,7 +114,7 @@ impl Basis {
         low
     }
 
-    /// Number of continuous derivatives at the interior break with the fewest of them. For a single polynomial it is the degree.
+    /// Smallest number of continuous derivatives at any interior break. For a single polynomial the degree is returned.
     pub fn continuity(&self) -> usize {
         let breaks = self.breaks();
         match self {
@@ -126,8 +128,8 @@ impl Basis {
         }
     }
 
-    /// Interpolation parameter of each function: the Greville abscissae of splines, or the nodes of Lagrange elements. They increase strictly and
-    /// include the ends of the domain.
+    /// Interpolation parameter of each function: the Greville abscissae of splines, or the nodes of Lagrange elements.
+    /// The parameters increase strictly and include the ends of the domain.
     pub(crate) fn abscissae(&self) -> Vec<f64> {
         match self {
             Self::BSpline(knots) => knots.greville(),
@@ -135,8 +137,9 @@ impl Basis {
         }
     }
 
-    /// Returns a basis of the same type with about `ratio` times as many spans. Breaks of reduced continuity are kept, with at least one span
-    /// between two of them. The lengths of the spans between them vary as in this basis.
+    /// Returns a basis of the same type with about `ratio` times as many spans.
+    /// Breaks of reduced continuity are kept, with at least one span between two such breaks.
+    /// The spans between kept breaks have the same relative lengths as in this basis.
     ///
     /// # Errors
     /// Fails if the basis has too many or too short spans.
@@ -169,8 +172,8 @@ impl Basis {
 
     /// Returns the basis with continuity C⁰ at `xi`. The multiplicity of the knot becomes `degree`, or the Lagrange element is split.
     ///
-    /// If a knot is closer to `xi` than 1e-10 of the domain, this knot is used instead. At the ends, and where the basis is C⁰ already, the basis
-    /// is not changed.
+    /// If a knot is closer to `xi` than 1e-10 of the domain, this knot is used instead.
+    /// The basis is not changed at the ends of the domain, or where it is C⁰ already.
     ///
     /// # Errors
     /// Fails if `xi` is outside the domain or NaN, or there are too many spans.
@@ -193,7 +196,7 @@ impl Basis {
     }
 }
 
-/// Divides the interval of the breaks into `ratio` times as many spans (rounded up), with the same relative variation of their lengths.
+/// Divides the interval of the breaks into `ratio` times as many spans (rounded up). Their lengths have the same relative variation.
 fn respaced(breaks: &[f64], ratio: f64) -> Vec<f64> {
     let old = (breaks.len() - 1) as f64;
     let new = (old * ratio).ceil().max(1.0);

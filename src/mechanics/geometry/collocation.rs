@@ -9,9 +9,9 @@ pub(super) struct CollocationRow<R> {
     pub(super) right_side: R,
 }
 
-/// Solves a banded system by Gaussian elimination without row exchanges. This is stable for the totally positive matrices of B-spline collocation
-/// (de Boor & Pinkus 1977, Numer. Math. 27). It causes no additional nonzero entries, because the indices of the first and the last nonzero column
-/// do not decrease from row to row.
+/// Solves a banded system by Gaussian elimination without row exchanges.
+/// The elimination is stable for the totally positive matrices of B-spline collocation (de Boor & Pinkus 1977, Numer. Math. 27).
+/// The elimination creates no additional nonzero entries, because the first and last nonzero columns never move left from one row to the next.
 pub(super) fn solve<R>(mut rows: Vec<CollocationRow<R>>) -> Vec<R>
 where
     R: Copy + Default + AddAssign + SubAssign + Mul<f64, Output = R> + Div<f64, Output = R>,

@@ -7,20 +7,20 @@ use super::values::{FunctionRow, LOW_ORDERS, LowDerivatives};
 use super::{Basis, GaussRule, MAX_DEGREE, PiecewisePolynomial, Span};
 
 /// Basis functions `B_i` along a path from the parameter ξ₀ to ξ₁. The path belongs to a point that slides along `Σ B_i(ξ) x_i` during a time step.
-/// The divided differences `(B_i(ξ₁) - B_i(ξ₀)) / (ξ₁ - ξ₀)` are accurate for paths of any length, including zero, and across breaks of any
-/// continuity.
+/// The divided differences `(B_i(ξ₁) - B_i(ξ₀)) / (ξ₁ - ξ₀)` are accurate for paths of any length, including zero.
+/// The divided differences are also accurate across breaks of any continuity.
 ///
-/// The functions `first, first + 1, …` are those that are nonzero somewhere on the spans of the path. Every accessor returns one value for each of
-/// them. Parameters and results are dimensionless.
+/// The functions `first, first + 1, …` are all functions that are nonzero somewhere on the spans of the path.
+/// Every accessor returns one value for each function that is nonzero somewhere on the path. Parameters and results are dimensionless.
 ///
-/// If a path starts at a break, its first span is the one in its direction. If it ends at a break, its last span is the one it has passed. A
-/// path of zero length at a break lies in the span on the right. Outside the domain, the polynomials of the end spans are extended.
+/// If a path starts at a break, its first span is the span in its direction. If a path ends at a break, its last span is the span before the break.
+/// A path of zero length at a break lies in the span on the right. Outside the domain, the polynomials of the end spans are extended.
 #[derive(Debug, Clone)]
 pub struct ContactPath {
-    /// Data that all copies for the same beam share.
+    /// Data shared by all copies of a path on the same beam.
     line: Arc<PathSupport>,
     interval: PathInterval,
-    /// Basis functions at the start of the path, on the first span of the path. They are kept for later paths with the same start.
+    /// Basis functions at the start of the path, on the first span of the path. The functions are kept for later paths with the same start.
     departing: Option<(f64, usize, FunctionRow)>,
     first: usize,
     length: usize,
@@ -39,7 +39,7 @@ enum PathQuantity {
     Change,
 }
 
-/// Number of rows.
+/// Number of rows in the table of path quantities.
 const QUANTITIES: usize = PathQuantity::Change as usize + 1;
 
 #[derive(Debug)]
@@ -65,13 +65,13 @@ struct PathPiece {
     enter: f64,
     leave: f64,
     before: f64,
-    /// Length of the piece, as a fraction of the path.
+    /// Length of this piece of the path, as a fraction of the whole path.
     share: f64,
 }
 
 impl ContactPath {
-    /// Creates a path of zero length at the start of the domain of `basis`. The memory for all paths is allocated here, so
-    /// [`set_interval`](Self::set_interval) allocates none.
+    /// Creates a path of zero length at the start of the domain of `basis`.
+    /// The constructor allocates the memory for all paths, so [`set_interval`](Self::set_interval) allocates none.
     pub fn new(basis: Basis) -> Self {
         let room = QUANTITIES * basis.functions();
         let (start, _) = basis.domain();
@@ -90,9 +90,9 @@ impl ContactPath {
         passage
     }
 
-    /// Changes the path to the one from ξ₀ = `from` to ξ₁ = `to`. The start must lie in the domain; the end may lie outside.
+    /// Replaces the path by the path from ξ₀ = `from` to ξ₁ = `to`. The start must lie in the domain; the end may lie outside.
     ///
-    /// If one of the parameters is not finite, all values are NaN, and the functions are those of the span of `from`.
+    /// If a parameter is not finite, all values are NaN, and the functions are those of the span of `from`.
     pub fn set_interval(&mut self, from: f64, to: f64) {
         let is_there = self.length > 0 && (self.interval.from, self.interval.to) == (from, to);
         if is_there {
@@ -105,7 +105,7 @@ impl ContactPath {
         self.first = self.line.spans[low].first;
         self.length = self.line.spans[high].first + self.line.basis.degree() + 1 - self.first;
         if finite {
-            // The common degrees are compile-time constants.
+            // Common degrees are compile-time constants, for speed.
             match self.line.basis.degree() {
                 1 => self.set_values::<2>(interval),
                 2 => self.set_values::<3>(interval),
@@ -137,7 +137,7 @@ impl ContactPath {
         self.row(PathQuantity::End)
     }
 
-    /// Means `½ (B_i(ξ₀) + B_i(ξ₁))` of the values at the start and at the end. They sum to one.
+    /// Mean values `½ (B_i(ξ₀) + B_i(ξ₁))` of the functions at the start and the end. They sum to one.
     pub fn mean(&self) -> &[f64] {
         self.row(PathQuantity::Mean)
     }
@@ -147,17 +147,17 @@ impl ContactPath {
         self.row(PathQuantity::Slope)
     }
 
-    /// Divided differences `D_i = (B_i(ξ₁) - B_i(ξ₀)) / (ξ₁ - ξ₀)`, which are the means of `B_i'` over the path. They are accurate to rounding. For
-    /// a path of zero length they are `B_i'(ξ₀)`. They sum to zero.
+    /// Divided differences `D_i = (B_i(ξ₁) - B_i(ξ₀)) / (ξ₁ - ξ₀)`, accurate to rounding. They are the means of `B_i'` over the path.
+    /// For a path of zero length the divided differences are `B_i'(ξ₀)`. They sum to zero.
     pub fn difference(&self) -> &[f64] {
         self.row(PathQuantity::Difference)
     }
 
-    /// Derivatives of the divided differences with respect to the end of the path for fixed ξ₀: `∂D_i/∂ξ₁ = (B_i'(ξ₁) - D_i) / (ξ₁ - ξ₀)`. For a
-    /// path of zero length they are `½ B_i''(ξ₀)`. They sum to zero.
+    /// Derivatives of the divided differences with respect to the end of the path for fixed ξ₀: `∂D_i/∂ξ₁ = (B_i'(ξ₁) - D_i) / (ξ₁ - ξ₀)`.
+    /// For a path of zero length, the derivatives `∂D_i/∂ξ₁` are `½ B_i''(ξ₀)`. They sum to zero.
     ///
-    /// They are accurate to rounding unless `B_i'` jumps on the path. In this case they have the rounding error of `D_i` divided by the length of
-    /// the path.
+    /// The derivatives are accurate to rounding unless `B_i'` jumps on the path.
+    /// If `B_i'` jumps, the derivatives have the rounding error of `D_i` divided by the length of the path.
     pub fn change(&self) -> &[f64] {
         self.row(PathQuantity::Change)
     }
@@ -194,8 +194,8 @@ impl ContactPath {
         function.in_span(self.interval.arrival, self.interval.to)
     }
 
-    /// Number of spans between two parameters, including fractions. For a path within one span it is the length of the path divided by the length
-    /// of the span.
+    /// Number of spans that the path between two parameters covers, including fractions of spans.
+    /// For a path within one span, the number is the length of the path divided by the length of the span.
     pub(crate) fn spans_between(&self, from: f64, to: f64) -> f64 {
         let (from, to) = if from <= to { (from, to) } else { (to, from) };
         let PathInterval { departure, arrival, .. } = self.interval(from, to);
@@ -252,11 +252,12 @@ impl ContactPath {
         }
     }
 
-    /// Sets all rows for a path in one span. The integrals of [`add_quotients`](Self::add_quotients) follow from the derivatives at its end: with
-    /// `h = Δξ`
+    /// Sets all rows for a path within one span.
+    /// The integrals of [`add_quotients`](Self::add_quotients) follow from the derivatives at the end of the path, with `h = Δξ`:
     ///
     /// ```text
-    /// D = B' - h/2 B'' + h²/6 B'''        ∂D/∂ξ1 = ½ B'' - h/6 B'''
+    /// divided difference:  D = B' - h/2 B'' + h²/6 B'''
+    /// derivative of D:     ∂D/∂ξ1 = ½ B'' - h/6 B'''
     /// ```
     fn set_in_span<const WIDTH: usize>(
         &mut self,
@@ -288,8 +289,8 @@ impl ContactPath {
         add(mean, 0, 0.5, end);
     }
 
-    /// Adds two integrals over the path with `0 < s < 1`: `D = ∫ B'(ξ₀ + s Δξ) ds`, and its derivative `∫ s B''(ξ₀ + s Δξ) ds` unless `B'` jumps on
-    /// the path.
+    /// Adds the integral `D = ∫ B'(ξ₀ + s Δξ) ds` over the path, with `0 < s < 1`.
+    /// Unless `B'` jumps on the path, adds also its derivative `∫ s B''(ξ₀ + s Δξ) ds`.
     fn add_quotients<const WIDTH: usize>(&mut self, interval: PathInterval) {
         let PathSupport { basis, spans, kinks, rule } = &*self.line;
         let [.., slope, difference, change] = rows(&mut self.numbers, self.length);
@@ -325,7 +326,7 @@ impl PathInterval {
 
     fn piece(self, index: usize, span: &Span) -> PathPiece {
         if self.departure == self.arrival {
-            // This case is separate, because the other case divides by the length of the path, which may be zero here.
+            // A path within one span is treated separately, because the general case divides by the length of the path, which may be zero.
             return PathPiece { enter: self.from, leave: self.to, before: 0.0, share: 1.0 };
         }
         let (behind, ahead) = if self.departure < self.arrival {
@@ -345,8 +346,8 @@ impl PathInterval {
     }
 }
 
-/// For each span, counts the breaks at or before its start at which first derivatives of the basis jump. At such a break, at most one function is
-/// nonzero on both sides.
+/// For each span, counts the breaks at or before its start at which first derivatives of the basis jump.
+/// At a break with a jump of the derivative, at most one function is nonzero on both sides.
 fn kinks(spans: &[Span], degree: usize) -> Vec<usize> {
     let jumps = spans.windows(2).map(|pair| usize::from(pair[1].first - pair[0].first >= degree));
     std::iter::once(0)

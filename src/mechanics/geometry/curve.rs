@@ -6,10 +6,10 @@ use super::knots::check_inside;
 use super::{CircularArc, GeometryError, KnotVector, Line, SplineCurve, Vec2, cross, local_cubic};
 use crate::elementary::{atan2, hypot};
 
-/// Distance of two points at which they coincide, as a fraction of the size of the curve.
+/// Largest distance of two points that count as coincident, as a fraction of the size of the curve.
 pub const ROUNDING_OF_PLACES: f64 = 1e-12;
 
-/// Speed `|dx/dξ|` at which a curve has no tangent, as a fraction of the mean speed.
+/// Largest speed `|dx/dξ|` that counts as zero, as a fraction of the mean speed. A curve has no tangent where its speed is zero.
 const STANDSTILL: f64 = 1e-12;
 
 /// Returns true if an arc length lies on a curve of the given length, within rounding.
@@ -38,8 +38,8 @@ impl Curve {
         Line::new(from, to).map(Self::Line)
     }
 
-    /// Returns the circular arc about `center` [length] with `radius` [length] between two angles from the first axis [rad], with ξ from 0 to 1. It
-    /// is counter-clockwise if `to_angle` is larger.
+    /// Returns the circular arc about `center` [length] with `radius` [length] between two angles from the first axis [rad]. ξ runs from 0 to 1.
+    /// The arc is counter-clockwise if `to_angle` is larger than the first angle.
     ///
     /// # Errors
     /// Fails if numbers are not finite, the radius is not positive, the angles are equal, or the arc exceeds a full turn.
@@ -60,11 +60,11 @@ impl Curve {
         SplineCurve::new(knots, control_points).map(Self::Spline)
     }
 
-    /// Returns the C¹ cubic spline through `n + 1` points [length] by local cubic interpolation (The NURBS Book, section 9.3.4): `2n + 2` control
-    /// points, double interior knots at the points, ξ from 0 to 1.
+    /// Returns the C¹ cubic spline through `n + 1` points [length] by local cubic interpolation (The NURBS Book, section 9.3.4).
+    /// The spline has `2n + 2` control points and double interior knots at the points. ξ runs from 0 to 1.
     ///
     /// # Errors
-    /// Fails if there are fewer than two points, coordinates are not finite, or consecutive points are closer than 1e-12 of the whole.
+    /// Fails if there are fewer than two points, coordinates are not finite, or consecutive points are closer than 1e-12 of the size of the curve.
     pub fn through(points: &[Vec2]) -> Result<Self, GeometryError> {
         local_cubic::through(points).map(Self::Spline)
     }
@@ -85,7 +85,7 @@ impl Curve {
         self.derivative(xi, 0)
     }
 
-    /// Derivative `dᵏx/dξᵏ` of `order` k [length]. At knots it is the limit from the right.
+    /// Derivative `dᵏx/dξᵏ` of `order` k [length]. At knots, the limit from the right is returned.
     ///
     /// # Errors
     /// Fails if `xi` is outside the domain or NaN.
@@ -100,16 +100,16 @@ impl Curve {
     /// Angle of the tangent `dx/dξ` from the first axis [rad], in `[-π, π]`.
     ///
     /// # Errors
-    /// Fails if `xi` is outside the domain or NaN, or the derivative is zero there.
+    /// Fails if `xi` is outside the domain or NaN, or if the derivative is zero at `xi`.
     pub fn tangent_angle(&self, xi: f64) -> Result<f64, GeometryError> {
         let velocity = self.velocity(xi)?;
         Ok(atan2(velocity.y, velocity.x))
     }
 
-    /// Curvature `(x' × x'') / |x'|³` [1/length], positive if the curve turns counter-clockwise. At knots it is the limit from the right.
+    /// Curvature `(x' × x'') / |x'|³` [1/length], positive if the curve turns counter-clockwise. At knots, the limit from the right is returned.
     ///
     /// # Errors
-    /// Fails if `xi` is outside the domain or NaN, or the derivative is zero there.
+    /// Fails if `xi` is outside the domain or NaN, or if the derivative is zero at `xi`.
     pub fn curvature(&self, xi: f64) -> Result<f64, GeometryError> {
         let velocity = self.velocity(xi)?;
         match self {
@@ -145,7 +145,8 @@ impl Curve {
         }
     }
 
-    /// Parameter [-] at an arc length from the start [length]. If the arc length is beyond an end only by rounding, the result is this end.
+    /// Parameter [-] at an arc length from the start [length].
+    /// If the arc length exceeds the length of the curve only by rounding, the parameter of the end is returned.
     ///
     /// # Errors
     /// Fails if `arc_length` is outside `[0, length]` or NaN.
@@ -161,7 +162,7 @@ impl Curve {
         }
     }
 
-    /// Derivative `dx/dξ`. Fails if it is zero.
+    /// Derivative `dx/dξ`. Fails if the derivative is zero.
     fn velocity(&self, xi: f64) -> Result<Vec2, GeometryError> {
         let velocity = self.derivative(xi, 1)?;
         let (start, end) = self.domain();

@@ -2,14 +2,13 @@
 
 use super::Vec2;
 
-/// Error of a curve, basis or quadrature rule. Every message contains the object, the value, the allowed range and, if it is not obvious, the
-/// remedy.
+/// Error of a curve, basis or quadrature rule. Every message contains the object, the value, the allowed range and, if it is not obvious, the remedy.
 #[expect(missing_docs, reason = "the messages describe the variants and their fields")]
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum GeometryError {
     #[error("{object} is {value}, but must be a finite number")]
     NotFinite {
-        /// Meaning of the number, such as "knot 3".
+        /// Name of the rejected number, such as "knot 3".
         object: String,
         value: f64,
     },
@@ -41,7 +40,7 @@ pub enum GeometryError {
         .index - 1
     )]
     DecreasingKnots {
-        /// Index of the knot, from 0.
+        /// Index of the knot, counted from 0.
         index: usize,
         /// Knot [-].
         value: f64,
@@ -49,7 +48,7 @@ pub enum GeometryError {
         previous: f64,
     },
 
-    /// End knot with a wrong multiplicity. The curve would not end at its last control point.
+    /// Error for an end knot with a wrong multiplicity. The curve would not end at its last control point.
     #[error(
         "knots: the {end} knot {knot} has multiplicity {multiplicity}; an open knot vector of degree {degree} \
          repeats it {} times: write {}",
@@ -64,7 +63,7 @@ pub enum GeometryError {
         degree: usize,
     },
 
-    /// Interior knot with a multiplicity so high that the curve would be discontinuous.
+    /// Error for an interior knot with so many repetitions that the curve would be discontinuous.
     #[error(
         "knots: the interior knot {knot} has multiplicity {multiplicity}, but at most {degree} (the degree) is allowed for a continuous curve"
     )]
@@ -76,7 +75,7 @@ pub enum GeometryError {
         degree: usize,
     },
 
-    /// Span between almost equal knots or breaks, whose length is due to rounding.
+    /// Error for a span between almost equal knots or breaks, whose length is due to rounding.
     #[error(
         "{object}: the span from {start} to {end} is shorter than 1e-12 of the domain; make the two values equal or move them apart"
     )]
@@ -100,7 +99,7 @@ pub enum GeometryError {
         .index - 1
     )]
     BreakOrder {
-        /// Index of the break, from 0.
+        /// Index of the break, counted from 0.
         index: usize,
         /// Break [-].
         value: f64,
@@ -141,7 +140,7 @@ pub enum GeometryError {
         .index - 1, .point.x, .point.y
     )]
     CoincidentPoints {
-        /// Index of the second point, from 0.
+        /// Index of the second point, counted from 0.
         index: usize,
         /// Position of both points [length].
         point: Vec2,
@@ -149,13 +148,13 @@ pub enum GeometryError {
 
     #[error("line: start and end are both ({}, {}), but must differ", .point.x, .point.y)]
     ZeroLengthLine {
-        /// Start and end [length].
+        /// Position of the start and the end [length].
         point: Vec2,
     },
 
     #[error("spline: all control points are ({}, {}); at least one must differ", .point.x, .point.y)]
     ZeroLengthSpline {
-        /// Place of the control points [length].
+        /// Position of the control points [length].
         point: Vec2,
     },
 

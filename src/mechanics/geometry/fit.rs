@@ -3,12 +3,12 @@
 use super::collocation::{CollocationRow, solve};
 use super::{Basis, Curve, GeometryError, Vec2};
 
-/// Returns the control points (splines) or nodes (Lagrange elements) that represent `curve` in `basis`, one per function [length]. The parameter of
-/// the basis is mapped to the parameter of the curve by an affine map.
+/// Returns the control points (splines) or nodes (Lagrange elements) that represent `curve` in `basis`, one per function [length].
+/// The parameter of the basis is mapped to the parameter of the curve by an affine map.
 ///
-/// The result is exact for lines, and for splines with the same knots. Other curves are interpolated at the [abscissae](Basis::abscissae) of the
-/// basis, which include the ends. For smooth curves the error is of order `degree + 1` in the span length. Kinks of the curve are represented only
-/// at C⁰ breaks of the basis.
+/// The interpolation is exact for lines, and for splines with the same knots.
+/// Other curves are interpolated at the [abscissae](Basis::abscissae) of the basis, which include the ends.
+/// For smooth curves the error is of order `degree + 1` in the span length. Kinks of the curve are represented only at C⁰ breaks of the basis.
 ///
 /// # Errors
 /// Fails if the curve cannot be evaluated.
@@ -22,7 +22,7 @@ pub fn interpolate(curve: &Curve, basis: &Basis) -> Result<Vec<Vec2>, GeometryEr
     let points =
         abscissae.iter().map(|&xi| curve.point(corresponding(xi, basis.domain(), curve.domain())));
     match (curve, basis) {
-        // If the control points lie on the line at these abscissae, splines and Lagrange elements represent the line exactly.
+        // If the control points lie on a line at the abscissae of the basis, splines and Lagrange elements represent the line exactly.
         (Curve::Line(_), _) | (_, Basis::Lagrange(_)) => points.collect(),
         _ => {
             let rows = abscissae.iter().zip(points).map(|(&xi, point)| {

@@ -1,4 +1,4 @@
-//! Open knot vectors, which define the breaks of a spline and its continuity at them.
+//! Open knot vectors. A knot vector defines the breaks of a spline and the continuity of the spline at the breaks.
 
 use serde::{Deserialize, Serialize};
 
@@ -11,11 +11,12 @@ pub const MAX_DEGREE: usize = 10;
 /// Largest number of spans (elements) of a basis.
 pub const MAX_SPANS: usize = 400_000;
 
-/// Length of a span that is rejected because it is due to rounding, as a fraction of the domain.
+/// Largest span length that is attributed to rounding, as a fraction of the domain. A knot vector with such a span is rejected.
 const SHORTEST_SPAN: f64 = 1e-12;
 
-/// Open knot vector of degree `p`: knots `ξ_0 ≤ … ≤ ξ_m` on an interval `[a, b]`. The end knots are repeated exactly `p + 1` times, interior knots
-/// at most `p` times, so that splines are at least continuous. Knots are dimensionless. See The NURBS Book, section 2.2.
+/// Open knot vector of degree `p`: knots `ξ_0 ≤ … ≤ ξ_m` on an interval `[a, b]`.
+/// The end knots are repeated exactly `p + 1` times. Interior knots are repeated at most `p` times, so that splines are at least continuous.
+/// Knots are dimensionless. See The NURBS Book, section 2.2.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(try_from = "(usize, Vec<f64>)")]
 pub struct KnotVector {
@@ -23,10 +24,10 @@ pub struct KnotVector {
     knots: Vec<f64>,
 }
 
-/// Knot interval of nonzero length, or Lagrange element. On it each function is a single polynomial.
+/// Knot interval of nonzero length, or Lagrange element. Each function is a single polynomial on it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Span {
-    /// First basis function that is nonzero on the span. The next `degree` functions are the other nonzero ones.
+    /// First basis function that is nonzero on the span. The next `degree` functions are also nonzero.
     pub first: usize,
     /// Start of the span [-].
     pub start: f64,
@@ -46,8 +47,9 @@ impl KnotVector {
     /// Creates the knot vector of `degree` 1 to [`MAX_DEGREE`] with the given `knots`.
     ///
     /// # Errors
-    /// Fails for an unavailable degree; knots that are too few, not finite, decreasing or all equal; end knots not repeated `degree + 1` times;
-    /// interior knots repeated more than `degree` times; spans shorter than 1e-12 of the domain; more than [`MAX_SPANS`] spans.
+    /// Fails for a degree out of range, too few knots, and knots that are infinite, decreasing or all equal.
+    /// Fails if end knots are not repeated `degree + 1` times, or interior knots are repeated more than `degree` times.
+    /// Fails for spans shorter than 1e-12 of the domain, or more than [`MAX_SPANS`] spans.
     pub fn new(degree: usize, knots: Vec<f64>) -> Result<Self, GeometryError> {
         check_degree(degree, MAX_DEGREE)?;
         if knots.len() < 2 * (degree + 1) {
@@ -62,8 +64,8 @@ impl KnotVector {
         Ok(vector)
     }
 
-    /// Creates `spans` equal spans on `[0, 1]`. At interior knots, splines have `continuity` continuous derivatives, so the multiplicity of the
-    /// knots is `degree - continuity`.
+    /// Creates `spans` equal spans on `[0, 1]`.
+    /// At interior knots, splines have `continuity` continuous derivatives. The multiplicity of these knots is therefore `degree - continuity`.
     ///
     /// # Errors
     /// Fails for `spans` outside 1 to [`MAX_SPANS`], `degree` outside 1 to [`MAX_DEGREE`], or `continuity` not below `degree`.
@@ -112,7 +114,7 @@ impl KnotVector {
             .collect()
     }
 
-    /// Distinct knots [-] in order, ends included.
+    /// Distinct knots [-] in increasing order, including the ends.
     pub fn breaks(&self) -> Vec<f64> {
         let mut breaks = self.knots.clone();
         breaks.dedup();
@@ -125,8 +127,8 @@ impl KnotVector {
             - self.knots.partition_point(|&knot| knot < xi)
     }
 
-    /// Index `i` with `ξ_i ≤ xi < ξ_{i+1}`. At the right end it is the index of the last nonempty span (The NURBS Book, algorithm A2.1). The
-    /// functions `i - p` to `i` are nonzero there.
+    /// Index `i` with `ξ_i ≤ xi < ξ_{i+1}`. At the right end, the index of the last nonempty span is returned (The NURBS Book, algorithm A2.1).
+    /// The functions `i - p` to `i` are nonzero at `xi`.
     ///
     /// # Errors
     /// Fails if `xi` is outside the domain or NaN.
@@ -140,8 +142,7 @@ impl KnotVector {
     /// Returns the knot vector with `xi` inserted `times` times.
     ///
     /// # Errors
-    /// Fails if `xi` is not strictly inside the domain, if it is closer to another knot than 1e-12 of the domain, or if its multiplicity would
-    /// exceed the degree.
+    /// Fails if `xi` is not strictly inside the domain, too close to another knot (1e-12 of the domain), or repeated more often than the degree.
     pub fn insert(&self, xi: f64, times: usize) -> Result<Self, GeometryError> {
         let (start, end) = self.domain();
         if !(start < xi && xi < end) {
@@ -161,14 +162,14 @@ impl KnotVector {
         Self::new(self.degree, knots)
     }
 
-    /// Greville abscissae `(ξ_{i+1} + … + ξ_{i+p}) / p`, one per basis function, strictly increasing. If the control points lie on a line at these
-    /// parameters, the curve has uniform speed.
+    /// Greville abscissae `(ξ_{i+1} + … + ξ_{i+p}) / p`, one per basis function, strictly increasing.
+    /// If the control points of a curve lie on a line at the Greville abscissae, the curve has uniform speed.
     pub fn greville(&self) -> Vec<f64> {
         self.knots[1..self.knots.len() - 1]
             .windows(self.degree)
             .map(|knots| {
                 let (low, high) = (knots[0], knots[knots.len() - 1]);
-                // The mean of equal numbers may have a rounding error, but the ends must be exact.
+                // The mean of equal numbers may have a rounding error, but the end abscissae must be exact.
                 if low == high {
                     low
                 } else {

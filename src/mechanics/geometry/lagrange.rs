@@ -7,11 +7,11 @@ use super::knots::{check_degree, check_inside, check_span_lengths, check_spans};
 use super::values::{BasisValues, FunctionRow};
 use super::{GeometryError, Span};
 
-/// Largest degree of Lagrange elements. For higher degrees equally spaced nodes are unsuitable.
+/// Largest degree of Lagrange elements. Equally spaced nodes are unsuitable for higher degrees.
 const LARGEST_DEGREE: usize = 3;
 
-/// Continuous piecewise Lagrange polynomials with `degree + 1` equally spaced nodes per element. Neighbouring elements share a node, so there are
-/// `elements · degree + 1` nodes and as many functions.
+/// Continuous piecewise Lagrange polynomials with `degree + 1` equally spaced nodes per element.
+/// Neighbouring elements share a node, so there are `elements · degree + 1` nodes and as many functions.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(try_from = "(usize, Vec<f64>)")]
 pub struct LagrangeBasis {
@@ -31,8 +31,8 @@ impl LagrangeBasis {
     /// Creates elements of `degree` 1 to 3 between consecutive `breaks` (dimensionless, increasing).
     ///
     /// # Errors
-    /// Fails for an unavailable degree; breaks that are fewer than two, not finite, not increasing, or closer than 1e-12 of the domain; more than
-    /// [`MAX_SPANS`](super::MAX_SPANS) elements.
+    /// Fails for a degree out of range, fewer than two breaks, and breaks that are not finite or not increasing.
+    /// Fails for spans shorter than 1e-12 of the domain, or more than [`MAX_SPANS`](super::MAX_SPANS) elements.
     pub fn new(degree: usize, breaks: Vec<f64>) -> Result<Self, GeometryError> {
         check_degree(degree, LARGEST_DEGREE)?;
         check_spans(breaks.len().saturating_sub(1))?;
@@ -86,7 +86,7 @@ impl LagrangeBasis {
         (0..self.breaks.len() - 1).map(|element| self.span(element)).collect()
     }
 
-    /// Element that contains the parameter `xi` [-]. At a break it is the element on the right.
+    /// Element that contains the parameter `xi` [-]. At a break, the element on the right is returned.
     ///
     /// # Errors
     /// Fails if `xi` is outside the domain or NaN.
@@ -134,8 +134,8 @@ impl LagrangeBasis {
         }
     }
 
-    /// Polynomial `L_j = Π_{m≠j} (ξ - ξ_m) / (ξ_j - ξ_m)` and its derivatives. It is multiplied factor by factor. For a linear factor `f`, Leibniz'
-    /// rule is `(f g)⁽ᵏ⁾ = f g⁽ᵏ⁾ + k f' g⁽ᵏ⁻¹⁾`.
+    /// Polynomial `L_j = Π_{m≠j} (ξ - ξ_m) / (ξ_j - ξ_m)` with its derivatives, computed by multiplying the linear factors.
+    /// For a linear factor `f`, Leibniz' rule is `(f g)⁽ᵏ⁾ = f g⁽ᵏ⁾ + k f' g⁽ᵏ⁻¹⁾`.
     fn polynomial(&self, span: &Span, j: usize, xi: f64) -> FunctionRow {
         let mut derivatives = FunctionRow::default();
         derivatives[0] = 1.0;

@@ -3,16 +3,16 @@
 use super::error::finite_point;
 use super::{GeometryError, KnotVector, SplineCurve, Vec2, cross};
 
-/// Angle at which two chords count as parallel [rad]. Also the length of a sum of chords that counts as zero, as a fraction of the lengths of the
-/// chords.
+/// Largest angle between two chords that count as parallel [rad].
+/// A sum of chords counts as zero if it is shorter than this number times the lengths of the chords.
 const PARALLEL: f64 = 1e-12;
 
-/// Local cubic interpolation (The NURBS Book, section 9.3.4) through `n + 1` points. One cubic piece joins each pair of consecutive points. Its end
-/// tangents are those of [`tangents`], and the speed at the ends and the middle is equal for all pieces. The curve is C¹ on `[0, 1]`, with `2n + 2`
-/// control points and double interior knots.
+/// Local cubic interpolation (The NURBS Book, section 9.3.4) through `n + 1` points. One cubic piece joins each pair of consecutive points.
+/// The end tangents of a piece are those of [`tangents`]. The speed at the ends and in the middle is equal for all pieces.
+/// The curve is C¹ on `[0, 1]`, with `2n + 2` control points and double interior knots.
 ///
 /// # Errors
-/// Fails if there are fewer than two points, coordinates are not finite, or consecutive points are closer than 1e-12 of the whole.
+/// Fails if there are fewer than two points, coordinates are not finite, or consecutive points are closer than 1e-12 of the size of the curve.
 pub(super) fn through(points: &[Vec2]) -> Result<SplineCurve, GeometryError> {
     if points.len() < 2 {
         return Err(GeometryError::TooFewPoints { count: points.len(), needed: 2 });
@@ -43,19 +43,20 @@ pub(super) fn through(points: &[Vec2]) -> Result<SplineCurve, GeometryError> {
     SplineCurve::new(KnotVector::new(3, knots)?, control_points)
 }
 
-/// Speed `α = |x'|` at start, middle and end of a piece on the unit interval. It is the positive root of equation 9.50, for a `chord` and the sum
-/// `T_0 + T_3` of the end tangents.
+/// Common speed `α = |x'|` at the start, the middle and the end of a cubic piece on the unit interval.
+/// The speed is the positive root of equation 9.50, for a `chord` and the sum `T_0 + T_3` of the end tangents.
 fn common_speed(chord: Vec2, tangent_sum: Vec2) -> f64 {
     let a = 16.0 - tangent_sum.norm_squared();
     let half_b = 6.0 * chord.dot(&tangent_sum);
     let c = -36.0 * chord.norm_squared();
     let root = (half_b * half_b - a * c).sqrt();
-    // Each form of the root avoids cancellation for its sign of `half_b`.
+    // The form of the root depends on the sign of `half_b`, so that no cancellation occurs.
     if half_b > 0.0 { -c / (half_b + root) } else { (root - half_b) / a }
 }
 
-/// Unit tangents at the points between `chords` and at both ends. Akima's rule computes them from two chords on either side (equations 9.29 and
-/// 9.31). Equation 9.33 gives the additional chords beyond the ends.
+/// Unit tangents at the points between consecutive `chords` and at both ends.
+/// Akima's rule computes a tangent from two chords on either side (equations 9.29 and 9.31).
+/// Equation 9.33 of The NURBS Book gives the additional chords beyond the ends.
 fn tangents(chords: &[Vec2]) -> Vec<Vec2> {
     let count = chords.len();
     let before = continued(chords[0], chords[1.min(count - 1)]);
@@ -64,17 +65,19 @@ fn tangents(chords: &[Vec2]) -> Vec<Vec2> {
     all.windows(4).map(|chords| akima_tangent(chords[0], chords[1], chords[2], chords[3])).collect()
 }
 
-/// Returns two chords beyond an end, which continue the rotation of the last two chords. The book uses the chord `2 near - far`; here `far` is
-/// first scaled to the length of `near`. For equally spaced points the result is the same. For other points the scaling prevents a curve that
-/// starts backwards.
+/// Returns two chords beyond an end, which continue the rotation of the last two chords.
+/// The NURBS Book uses the chord `2 near - far`.
+/// This function first scales `far` to the length of `near`, which changes nothing for equally spaced points.
+/// For unequally spaced points, the scaling prevents curves that start in the backward direction.
 fn continued(near: Vec2, far: Vec2) -> [Vec2; 2] {
     let next = |near: Vec2, far: Vec2| 2.0 * near - near.norm() / far.norm() * far;
     let first = next(near, far);
     [first, next(first, near)]
 }
 
-/// Unit tangent at the point between the chords `b` and `c` of four consecutive chords. At a corner between two straight parts both chords have
-/// equal weight, so the corner is rounded. If the direction reverses, the tangent is that of the following chord.
+/// Unit tangent at the point between the chords `b` and `c` of four consecutive chords.
+/// At a corner between two straight parts, both chords have equal weight, which rounds the corner.
+/// If the direction reverses, the tangent is the direction of the following chord.
 fn akima_tangent(a: Vec2, b: Vec2, c: Vec2, d: Vec2) -> Vec2 {
     let (bend_before, bend_after) = (cross(a, b).abs(), cross(c, d).abs());
     let straight = bend_before <= PARALLEL * a.norm() * b.norm()
@@ -182,7 +185,7 @@ mod tests {
             for (&xi, &point) in breaks.iter().zip(&points) {
                 prop_assert!(near(curve.derivative(xi, 0).unwrap(), point));
             }
-            // The speed is equal at the ends and the middle of every piece.
+            // The speed at the ends and in the middle is equal for all pieces.
             let speed = curve.derivative(0.0, 1).unwrap().norm();
             for (span, next) in knots.spans().iter().zip(breaks.iter().skip(1)) {
                 let middle = curve.derivative(0.5 * (span.start + span.end), 1).unwrap().norm();

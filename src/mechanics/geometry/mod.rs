@@ -1,4 +1,4 @@
-//! Knot vectors, bases, planar curves and quadrature. This module does not depend on mechanics or other modules.
+//! Knot vectors, bases, planar curves and quadrature. This module uses no other module.
 
 mod arc;
 mod arc_length;

@@ -5,15 +5,15 @@ use super::{Curve, GeometryError, Vec2};
 /// Number of initial samples of a curve.
 const SAMPLES: usize = 512;
 
-/// Number of bisections, after which the parameter is as accurate as possible.
+/// Number of bisections, after which the parameter is accurate to rounding.
 const HALVINGS: usize = 60;
 
 /// Parameter of the point on a curve that is nearest to a given point. If several points are equally near, the first one is returned.
 ///
-/// Details of the curve that are smaller than a five-hundredth of its length may be missed.
+/// Details of the curve may be missed if they are shorter than about 1/500 of the curve.
 ///
 /// # Errors
-/// Errors of the evaluation of the curve.
+/// Fails if the curve cannot be evaluated.
 pub fn nearest(curve: &Curve, point: Vec2) -> Result<f64, GeometryError> {
     let (start, end) = curve.domain();
     let sample = |index: usize| start + (end - start) * (index as f64 / SAMPLES as f64);
@@ -24,7 +24,7 @@ pub fn nearest(curve: &Curve, point: Vec2) -> Result<f64, GeometryError> {
             best = (distance, index);
         }
     }
-    // The derivative of the squared distance changes its sign between the neighbours of the sample, or an end of the curve is nearest.
+    // Either the derivative of the squared distance changes sign between the neighbours of the sample, or an end of the curve is nearest.
     let slope = |xi: f64| Ok((curve.point(xi)? - point).dot(&curve.derivative(xi, 1)?));
     let mut low = sample(best.1.saturating_sub(1));
     let mut high = sample((best.1 + 1).min(SAMPLES));

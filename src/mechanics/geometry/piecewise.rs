@@ -3,11 +3,11 @@
 use super::{GaussRule, Span, larger};
 use nalgebra::{DMatrix, DVector};
 
-/// Function of the parameter ξ of a basis. It is a polynomial on each span of the basis, of the same degree on all spans.
+/// Piecewise polynomial function of the parameter ξ of a basis. It has the same degree on all spans.
 #[derive(Debug, Clone)]
 pub struct PiecewisePolynomial {
     spans: Vec<(f64, f64)>,
-    /// Coefficients of all spans, one span after the other. The function is `Σ c_k t^k`, where `t` runs from -1 to 1 on the span.
+    /// Coefficients of all spans, one span after the other. On a span the function is `Σ c_k t^k`, where `t` runs from -1 to 1.
     coefficients: Vec<f64>,
     count: usize,
     /// Quadrature points and weights on `[0, 1]`, exact for polynomials of one degree less than the function.
@@ -30,7 +30,7 @@ pub struct FunctionOnPath {
 }
 
 impl PiecewisePolynomial {
-    /// Creates a function from a row of coefficients for each span. It is `Σ c_k t^k`, where `t` runs from -1 to 1 on the span.
+    /// Creates a function from a row of coefficients for each span. On a span the function is `Σ c_k t^k`, where `t` runs from -1 to 1.
     pub fn new(spans: &[Span], rows: &[Vec<f64>]) -> Self {
         let count = rows.first().map_or(1, Vec::len);
         let place = |span: &Span| (0.5 * (span.start + span.end), 0.5 * (span.end - span.start));
@@ -42,8 +42,8 @@ impl PiecewisePolynomial {
         }
     }
 
-    /// Creates the integral of a function over consecutive spans, starting at the first span. On each span the function is interpolated at `points`
-    /// Gauss points.
+    /// Creates the integral of a function over consecutive spans, starting at the first span.
+    /// On each span the function is interpolated at `points` Gauss points.
     pub fn integral(spans: &[Span], points: usize, function: impl Fn(&Span, f64) -> f64) -> Self {
         let rule = GaussRule::legendre(points);
         let places: Vec<f64> = rule.iter_on(-1.0, 1.0).map(|(t, _)| t).collect();
@@ -67,19 +67,19 @@ impl PiecewisePolynomial {
         Self::new(spans, &rows)
     }
 
-    /// Quadrature points and weights on `[0, 1]` by which the derivative of the function is integrated exactly over a part of a span.
+    /// Quadrature points and weights on `[0, 1]` that integrate the derivative of the function exactly over a part of a span.
     pub(super) fn rule(&self) -> &[(f64, f64)] {
         &self.rule
     }
 
-    /// Largest of the values at the centres of the spans.
+    /// Largest value of the function at the centres of the spans.
     pub(crate) fn largest_in_middle(&self) -> f64 {
         let middles = self.spans.iter().enumerate();
         middles.map(|(span, (middle, _))| self.in_span(span, *middle)[0]).fold(0.0, larger)
     }
 
-    /// Values along a path whose ends belong to one span: Horner's scheme at both ends, of the polynomial `f` and of its quotients `f[·, ξ1]` and
-    /// `f[·, ξ1, ξ1]`.
+    /// Values along a path within one span.
+    /// Horner's scheme evaluates the polynomial `f` and its quotients `f[·, ξ1]` and `f[·, ξ1, ξ1]` at both ends.
     #[inline]
     pub(super) fn between(&self, span: usize, from: f64, to: f64) -> FunctionOnPath {
         let (middle, half) = self.spans[span];
@@ -100,7 +100,7 @@ impl PiecewisePolynomial {
         on
     }
 
-    /// Value, first and second derivative with respect to ξ of the polynomial of a span, also outside the span.
+    /// Value, first and second derivative of the polynomial of a span with respect to ξ. ξ may lie outside the span.
     #[inline]
     pub(crate) fn in_span(&self, span: usize, xi: f64) -> [f64; 3] {
         let (middle, half) = self.spans[span];
@@ -118,7 +118,7 @@ impl PiecewisePolynomial {
 mod tests {
     use super::*;
 
-    /// `f[a, b] = a² + ab + b²` and `f[a, b, b] = a + 2b` for `f = ξ³`.
+    /// For `f = ξ³`, the quotients are `f[a, b] = a² + ab + b²` and `f[a, b, b] = a + 2b`.
     #[test]
     fn quotients_in_a_span_are_exact_for_paths_of_any_length() {
         let span = Span { first: 0, start: 1.0, end: 3.0 };

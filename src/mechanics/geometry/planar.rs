@@ -11,7 +11,7 @@ pub fn perpendicular(a: Vec2) -> Vec2 {
     Vec2::new(-a.y, a.x)
 }
 
-/// Cross product `a × b = a1 b2 - a2 b1`, positive if `b` is counter-clockwise of `a`.
+/// Cross product `a × b = a1 b2 - a2 b1`, positive if `b` is counter-clockwise from `a`.
 #[inline]
 pub fn cross(a: Vec2, b: Vec2) -> f64 {
     a.x * b.y - a.y * b.x

@@ -1,6 +1,6 @@
 //! Symmetric positive definite band matrices, and entries of their inverse near the diagonal.
 
-/// Ratio of a pivot to the diagonal entry below which the matrix counts as singular.
+/// Smallest ratio of a pivot to the diagonal entry. Below it, the matrix counts as singular.
 const ROUNDING: f64 = 1e-11;
 
 /// Symmetric positive definite band matrix, for example the matrix of scalar products of splines. Entries outside the band are zero.
@@ -41,7 +41,7 @@ impl PositiveBand {
         self.rows[low].get(high - low).copied().unwrap_or(0.0)
     }
 
-    /// Computes the factors `L D Lᵀ`; `None` if a pivot is not positive or is due to rounding.
+    /// Computes the factors `L D Lᵀ`. Returns `None` if a pivot is not positive, or so small that it is due to rounding.
     pub fn factorise(&self) -> Option<PositiveFactors> {
         let mut columns = self.rows.clone();
         for at in 0..columns.len() {
@@ -78,8 +78,7 @@ impl PositiveFactors {
 
     /// Entries of the inverse that are up to `width` columns away from its diagonal. `width` must be at least the half-bandwidth.
     ///
-    /// They are computed from `Lᵀ Z = D⁻¹ L⁻¹`, where `Z` is the inverse, starting with the last row (Takahashi, Fagan & Chin 1973; Erisman &
-    /// Tinney 1975).
+    /// With the inverse `Z`, the entries follow from `Lᵀ Z = D⁻¹ L⁻¹`, starting with the last row (Erisman & Tinney 1975).
     pub fn inverse(&self, width: usize) -> PositiveBand {
         let size = self.columns.len();
         let mut inverse = PositiveBand::zeros(size, width);

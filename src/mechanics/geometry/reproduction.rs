@@ -5,19 +5,19 @@ use super::{Basis, BasisValues, GaussRule, GeometryError, Span};
 
 /// Space `T` of the derivatives of the basis functions in a run of spans, with their scalar products.
 ///
-/// The scalar products of a function `f` with all elements of `T` determine its projection `Π f`. For smooth functions, the error of the projection
-/// is of order `p` up to the ends of the run, where `p` is the degree of the basis.
+/// The scalar products of a function `f` with all elements of `T` determine its projection `Π f` onto `T`.
+/// For smooth functions, the error of the projection is of order `p` up to the ends of the run, where `p` is the degree of the basis.
 #[derive(Debug, Clone)]
 pub struct LowerSplines {
     basis: Basis,
     run: Vec<Span>,
     count: usize,
-    /// Factors `L D Lᵀ` of the matrix of scalar products `∫ T_t T_u dξ`. Row t contains the pivot and the factors of the following rows.
+    /// Factors `L D Lᵀ` of the matrix of scalar products `∫ T_t T_u dξ`. Row t contains the pivot and the factors of the rows below it.
     factors: Vec<Vec<f64>>,
 }
 
-/// Reproducing kernel at a place ξ of a run. It is the function `ρ` in `T` with `∫ ρ t dξ = t(ξ)` for all t in `T`, stored as a spline `v` with `v'
-/// = ρ`.
+/// Reproducing kernel of the space `T` at a parameter ξ of a run.
+/// The kernel is the function `ρ` in `T` with `∫ ρ t dξ = t(ξ)` for all t in `T`. It is stored as a spline `v` with `v' = ρ`.
 #[derive(Debug, Clone)]
 pub struct Reproduction<'a> {
     splines: &'a LowerSplines,
@@ -49,8 +49,8 @@ impl LowerSplines {
         Ok(splines)
     }
 
-    /// Calls `add` for every point of a quadrature rule that integrates products of a function and a derivative exactly. The arguments are the
-    /// index of the first derivative, the weight, the derivatives and the functions.
+    /// Calls `add` for every point of a quadrature rule that integrates the product of a basis function and a derivative exactly.
+    /// The arguments of `add` are the index of the first derivative, the weight, the derivatives and the functions.
     fn integrate(
         &self,
         mut add: impl FnMut(usize, f64, &[f64], &BasisValues),
@@ -86,7 +86,7 @@ impl LowerSplines {
         values
     }
 
-    /// Reproducing kernel at the place `xi` on a span of the run.
+    /// Reproducing kernel at the parameter `xi` on a span of the run.
     ///
     /// # Errors
     /// Fails if there is no Gauss rule for the degree.
@@ -120,7 +120,7 @@ impl Reproduction<'_> {
         self.combine(&self.kernel, span, &self.splines.basis.evaluate_in(span, xi))
     }
 
-    /// Value of `Π v - v` at a parameter of a span: the projection error of the integral of the kernel `ρ`.
+    /// Value of `Π v - v` at a parameter of a span: the projection error of `v`, the integral of the kernel `ρ`.
     pub(crate) fn projection_error(&self, span: &Span, xi: f64) -> f64 {
         let values = self.splines.basis.evaluate_in(span, xi);
         let functions = values.values().iter().zip(&self.integral[self.splines.first(span)..]);
@@ -134,7 +134,7 @@ impl Reproduction<'_> {
     }
 }
 
-/// Factors `L D Lᵀ` of a symmetric positive definite matrix. Its rows are given starting with the diagonal entry.
+/// Factors `L D Lᵀ` of a symmetric positive definite matrix. Each row of the input starts with its diagonal entry.
 fn factorised(mut rows: Vec<Vec<f64>>) -> Vec<Vec<f64>> {
     for t in 0..rows.len() {
         let (done, rest) = rows.split_at_mut(t + 1);
@@ -197,7 +197,7 @@ mod tests {
                         place.projection_error(on, at) * slope(on, at)
                     });
                     assert!(missed.abs() < 1e-10, "{missed:e}");
-                    // Since v' = ρ, v(end) - v(start) = ∫ ρ dξ = 1.
+                    // The kernel satisfies v(end) - v(start) = ∫ ρ dξ = 1, because v' = ρ.
                     let ends = [place.integral[0], place.integral[basis.functions() - 1]];
                     assert!((ends[1] - ends[0] - 1.0).abs() < 1e-10);
                 }

@@ -73,7 +73,7 @@ impl SplineCurve {
     /// Returns the same curve with the knot `xi` inserted `times` times (Boehm 1980; The NURBS Book, section 5.2, equation 5.15).
     ///
     /// # Errors
-    /// Errors of [`KnotVector::insert`].
+    /// Fails in the same cases as [`KnotVector::insert`].
     pub fn insert(&self, xi: f64, times: usize) -> Result<Self, GeometryError> {
         let finer = self.knots.insert(xi, times)?;
         let mut control_points = self.control_points.clone();
@@ -137,8 +137,8 @@ impl SplineCurve {
     }
 }
 
-/// Returns the control points after `xi` has been inserted once as a knot. Each new control point divides a side of the old control polygon. It
-/// divides the side in the same ratio in which `xi` divides the support of a spline of one degree less.
+/// Returns the control points after `xi` has been inserted once as a knot. Each new control point divides a side of the old control polygon.
+/// The new control point divides the side in the same ratio in which `xi` divides the support of a spline of one degree less.
 fn insert_once(knots: &KnotVector, points: &[Vec2], xi: f64) -> Result<Vec<Vec2>, GeometryError> {
     let (span, degree, multiplicity) = (knots.span_at(xi)?, knots.degree(), knots.multiplicity(xi));
     let divide = |i: usize| {

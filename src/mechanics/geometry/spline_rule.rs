@@ -1,4 +1,4 @@
-//! Gauss quadrature for splines with the smallest number of points from which all derivatives are determined.
+//! Gauss quadrature for splines with the smallest number of points that determine all derivatives.
 
 use super::collocation::{CollocationRow, solve};
 use super::{Basis, BasisValues, GaussRule, Span};
@@ -6,23 +6,26 @@ use super::{Basis, BasisValues, GaussRule, Span};
 /// Quadrature points of each span of a run, with their weights: `∫ f dξ ≈ Σ weight · f(point)`.
 pub type RunRule = Vec<Vec<(f64, f64)>>;
 
-/// Difference of two span lengths that count as equal, as a fraction of the lengths.
+/// Largest relative difference of two span lengths that count as equal.
 const EQUAL: f64 = 1e-9;
 
-/// Computes the patch rule of a run of spans. It has as many points as there are linearly independent derivatives of the basis functions, and its
-/// weights integrate all these derivatives exactly.
+/// Computes the patch rule of a run of spans.
+/// The rule has as many points as there are linearly independent derivatives of the basis functions.
+/// The weights of the rule integrate all derivatives of the basis functions exactly.
 ///
-/// The spans are consecutive and joined at least C¹. The derivatives of the `F` basis functions of degree `p` form the space of the `P = F - 1`
-/// splines `T` of degree `p - 1`. The points of the rule are the zeros of the spline of degree `p` that is orthogonal to all of `T`. For a single
-/// span they are the Gauss points. On equal spans of full continuity, far from the ends, the orthogonal spline alternates. Its zeros are then the
-/// centres of spans for odd degrees, and the knots for even degrees.
+/// The spans are consecutive and joined at least C¹.
+/// The derivatives of the `F` basis functions of degree `p` form the space of the `P = F - 1` splines `T` of degree `p - 1`.
+/// The points of the rule are the zeros of the spline of degree `p` that is orthogonal to all splines `T`.
+/// For a single span, the points of the rule are the Gauss points.
+/// On equal spans of full continuity, far from the ends, the orthogonal spline oscillates with a period of two spans.
+/// The zeros of this oscillating spline are the centres of spans for odd degrees, and the knots for even degrees.
 ///
-/// A common mesh consists of cubic functions of full continuity on three or more equal spans. For it, other points have half the error: two Gauss
-/// points in the first and in the last span, and the centres of the other spans (docs/theory.md, section 4).
+/// For cubic functions of full continuity on three or more equal spans, another rule has half the error (docs/theory.md, section 4).
+/// The better rule uses two Gauss points in the first and the last span, and the centres of the other spans.
 ///
-/// The orthogonal spline has `P` zeros because of total positivity (de Boor, A Practical Guide to Splines, rev. ed. 2001, chapter XI). That weights
-/// are positive, and that `Σ w T² ≥ 0.79 ∫ T² dξ`, is not proven but tested for every degree and continuity. The result is `None` if fewer zeros
-/// are found because of rounding, or if a weight is not positive. No spans with this result are known.
+/// The orthogonal spline has `P` zeros because of total positivity (de Boor, A Practical Guide to Splines, rev. ed. 2001, chapter XI).
+/// Tests for every degree and continuity confirm that the weights are positive and that `Σ w T² ≥ 0.79 ∫ T² dξ`. There is no proof.
+/// Returns `None` if fewer zeros are found because of rounding, or if a weight is not positive. No spans are known for which this happens.
 pub fn patch_rule(basis: &Basis, run: &[Span]) -> Option<RunRule> {
     if let [span] = run {
         return gauss_points(basis.degree(), span).map(|rule| vec![rule]);
@@ -61,8 +64,9 @@ fn middles(run: &[Span]) -> Option<Vec<Vec<f64>>> {
     run.iter().enumerate().map(of).collect()
 }
 
-/// Splines of one degree less as sums of derivatives. `T_t = -Σ_(a ≤ t) N'_a` is a positive multiple of a B-spline, and its integral is one. The
-/// splines that are nonzero on a span have the same indices as the functions of the span, except the last.
+/// Splines of one degree less, computed as sums of derivatives.
+/// Each spline `T_t = -Σ_(a ≤ t) N'_a` is a positive multiple of a B-spline, and its integral is one.
+/// The splines that are nonzero on a span have the same indices as the functions of the span, without the last index.
 pub fn lower_splines(values: &BasisValues) -> impl Iterator<Item = f64> + '_ {
     let partial = values.slopes().iter().scan(0.0, |sum, slope| {
         *sum -= slope;
@@ -80,11 +84,11 @@ fn empty_rows(count: usize, room: usize) -> Vec<CollocationRow<f64>> {
     std::iter::repeat_with(row).take(count).collect()
 }
 
-/// Coefficients `q_s` of a spline on a run of spans. The spline is orthogonal to all splines of one degree less on this run. The last coefficient is
-/// normalised to one.
+/// Coefficients `q_s` of a spline on a run of spans. The spline is orthogonal to all splines of one degree less on this run.
+/// The last coefficient of the spline is normalised to one.
 ///
-/// The equations are `Σ_s q_s ∫ T_t N_s dξ = 0` for each spline `T_t` of one degree less, with the basis functions `N_s`. Their matrix is totally
-/// positive and has one more column than rows.
+/// The equations are `Σ_s q_s ∫ T_t N_s dξ = 0` for each spline `T_t` of one degree less, with the basis functions `N_s`.
+/// The matrix of the equations for `q_s` is totally positive and has one more column than rows.
 fn orthogonal_spline(basis: &Basis, run: &[Span]) -> Option<Vec<f64>> {
     let (degree, offset) = (basis.degree(), run.first()?.first);
     let unknowns = lower_count(basis, run)?;
@@ -117,8 +121,8 @@ fn orthogonal_spline(basis: &Basis, run: &[Span]) -> Option<Vec<f64>> {
     coefficients.iter().all(|coefficient| coefficient.is_finite()).then_some(coefficients)
 }
 
-/// Places of a span, from -1 to 1, between which zeros are searched. They are denser towards the ends, like Gauss points, so that at most one zero
-/// lies between two of them.
+/// Parameters in a span, from -1 to 1, between which zeros are searched.
+/// The parameters are denser towards the ends, like Gauss points, so that at most one zero lies between two of them.
 fn places(degree: usize) -> Vec<f64> {
     let count = 8 * (degree + 1);
     let place = |at: usize| {
@@ -128,7 +132,7 @@ fn places(degree: usize) -> Vec<f64> {
     (0..count).map(place).collect()
 }
 
-/// Zeros of a spline on each span. `None` unless their total number equals the number of basis functions of one degree less.
+/// Zeros of a spline on each span. `None` unless the total number of zeros equals the number of basis functions of one degree less.
 fn zeros(basis: &Basis, run: &[Span], coefficients: &[f64]) -> Option<Vec<Vec<f64>>> {
     let (degree, offset) = (basis.degree(), run.first()?.first);
     let places = places(degree);
@@ -175,7 +179,7 @@ impl Polynomial {
         self.0.iter().rev().fold(0.0, |sum, coefficient| sum * t + coefficient)
     }
 
-    /// Zero between two places with values of opposite sign, found by bisection. `low` is the value at the left place.
+    /// Zero of the polynomial between two parameters with values of opposite sign, found by bisection. `low` is the value at the left parameter.
     fn zero_between(&self, mut left: f64, mut right: f64, low: f64) -> f64 {
         if low == 0.0 {
             return left;
@@ -196,12 +200,11 @@ impl Polynomial {
 
 /// Weights for which the quadrature points integrate the derivatives of all basis functions of a run of spans exactly.
 ///
-/// `points` lists the quadrature points of each span; their total is one less than the number of basis functions. Returns `None` if no such weights
-/// exist or a weight is not finite.
+/// The argument `points` lists the quadrature points of each span. Their total number is one less than the number of basis functions.
+/// Returns `None` if no weights integrate all derivatives exactly, or if a weight is not finite.
 ///
-/// The weights are the solution of a collocation system with the splines of one degree less, whose matrix is totally positive (F. Auricchio, F.
-/// Calabrò, T. J. R. Hughes, A. Reali & G. Sangalli, A simple algorithm for obtaining nearly optimal quadrature rules for NURBS-based isogeometric
-/// analysis, Comput. Methods Appl. Mech. Eng. 249-252 (2012) 15-27).
+/// The weights solve a collocation system with the splines of one degree less. Its matrix is totally positive.
+/// Reference: F. Auricchio, F. Calabrò, T. J. R. Hughes, A. Reali & G. Sangalli, Comput. Methods Appl. Mech. Eng. 249–252 (2012) 15–27.
 fn derivative_weights(basis: &Basis, run: &[Span], points: &[Vec<f64>]) -> Option<Vec<f64>> {
     let (first, last) = (run.first()?, run.last()?);
     let unknowns = lower_count(basis, run)?;
@@ -220,14 +223,14 @@ fn derivative_weights(basis: &Basis, run: &[Span], points: &[Vec<f64>]) -> Optio
             number += 1;
         }
     }
-    // Every point must lie within the support of its spline (Schoenberg & Whitney 1953).
+    // Every point must lie within the support of the spline with the same index (Schoenberg & Whitney 1953).
     let has_own = |(at, row): (usize, &CollocationRow<f64>)| {
         (row.first..row.first + row.entries.len()).contains(&at)
     };
     if number != unknowns || !rows.iter().enumerate().all(has_own) {
         return None;
     }
-    // The integral ∫ N'_a dξ is the difference between the values of N_a at both ends.
+    // The integral ∫ N'_a dξ is the value of N_a at the right end minus the value at the left end.
     let ends = [(first, first.start, 1.0), (last, last.end, -1.0)];
     for (span, xi, sign) in ends {
         let from = span.first - first.first;

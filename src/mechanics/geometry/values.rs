@@ -1,8 +1,8 @@
-//! Basis functions that are nonzero at a parameter, with all their derivatives.
+//! Basis functions that are nonzero at a parameter, with all derivatives.
 
 use super::{MAX_DEGREE, Vec2};
 
-/// Largest number of functions of one span. Their derivatives of order 0 to the degree need as many rows.
+/// Largest number of nonzero functions on a span. It is also the largest number of derivative orders, from 0 to the degree.
 const WIDTH: usize = MAX_DEGREE + 1;
 
 /// One value for each nonzero function of a span. Only the first `degree + 1` values are used.
@@ -10,8 +10,8 @@ pub(super) type FunctionRow = [f64; WIDTH];
 
 const ZERO: FunctionRow = [0.0; WIDTH];
 
-/// The `degree + 1` basis functions `N_first … N_{first+degree}` of one span, and all their derivatives with respect to ξ, at one parameter. All
-/// other functions are zero there. Values are dimensionless and need no allocated memory.
+/// The `degree + 1` nonzero basis functions of one span at one parameter, starting with `N_first`, and all their derivatives with respect to ξ.
+/// All other basis functions are zero at this parameter. Values are dimensionless and need no allocated memory.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct BasisValues {
     /// Index in the basis of the first nonzero function.
@@ -41,7 +41,7 @@ impl BasisValues {
         self.derivatives(1)
     }
 
-    /// Derivatives of the given `order` of the `degree + 1` functions with respect to ξ. Above the degree they are zero.
+    /// Derivatives of the given `order` of the `degree + 1` functions with respect to ξ. They are zero for orders above the degree.
     pub fn derivatives(&self, order: usize) -> &[f64] {
         let row = if order <= self.degree { &self.rows[order] } else { &ZERO };
         &row[..=self.degree]
@@ -53,7 +53,8 @@ impl BasisValues {
     /// Panics if there are fewer points than basis functions.
     pub(crate) fn combine(&self, order: usize, points: &[Vec2]) -> Vec2 {
         let points = &points[self.first..=self.first + self.degree];
-        // The derivatives sum to zero, so the origin of the points affects rounding only. Rounding is smallest for a near origin.
+        // The derivatives sum to zero, so the origin of the points affects rounding only.
+        // The rounding error is smallest if the origin is near the points.
         let origin = if order == 0 { Vec2::zeros() } else { points[0] };
         self.derivatives(order).iter().zip(points).map(|(n, point)| *n * (point - origin)).sum()
     }

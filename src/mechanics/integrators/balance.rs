@@ -1,4 +1,4 @@
-//! Equations of one step and the memory to solve them, shared by all integrators.
+//! Equations of one step and the memory to solve them, used by all integrators.
 
 use super::prescribed::BalancedAt;
 use super::{FailureSource, Interval, Mechanism, Solution, Stage, StepError};
@@ -6,18 +6,18 @@ use crate::elementary::square;
 use crate::linalg::BorderedMatrix;
 use crate::newton::{Equations, Newton, NewtonError, NewtonReport, ResidualNorms, Tolerance};
 
-/// Largest rotation increment `Δω`, which is the mean angular velocity times the step length. For larger increments the direction of rotation is
-/// ambiguous.
+/// Largest allowed rotation increment `Δω`, which is the mean angular velocity times the step length.
+/// For larger rotation increments the direction of rotation is ambiguous.
 const LARGEST_INCREMENT: f64 = std::f64::consts::PI;
 
-/// Smallest chord of the path of a slider in the mean configuration, as a fraction of the length of the path. If a rotation of about π folds the
-/// path, the contact equations have no defined direction, and spurious solutions exist.
+/// Smallest allowed chord of the path of a slider in the mean configuration, as a fraction of the length of the path.
+/// A rotation of about π folds the path. The contact equations then have no defined direction, and spurious solutions exist.
 const SHORTEST_CHORD: f64 = 1e-3;
 
 /// Coefficients of an integrator in the balance of a step.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct BalanceCoefficients {
-    /// Factor `ι` of the inertia. The acceleration is `ι d/Δt²` plus the part that is known at the start of the step [-].
+    /// Factor `ι` of the inertia [-]. The acceleration is `ι d/Δt²` plus a part that is known at the start of the step.
     pub(super) inertia: f64,
     pub(super) stage: Stage,
     /// Factor of the forces that depend on the increments [-].
@@ -34,9 +34,9 @@ impl BalanceCoefficients {
 
 /// Balance of a step: `R(d, z) = ι/Δt² M d + weight · F(stage, u) + constant + G(u, z)` with the increment `u = Δt v0 + d`.
 ///
-/// Here `z` are the constraint multipliers and `G` their forces, averaged over the step. The unknown is not the increment `u` but its deviation `d`
-/// from a motion with constant velocity. Hence the rounding error of `v1 = v0 + 2/Δt d` is relative to the velocity change, and momenta do not
-/// drift over many steps.
+/// Here `z` are the constraint multipliers and `G` their forces, averaged over the step.
+/// The unknown is not the increment `u` but its deviation `d` from a motion with constant velocity.
+/// Hence the rounding error of `v1 = v0 + 2/Δt d` is proportional to the change of velocity, and momenta do not drift over many steps.
 pub(super) struct StepBalance<'a> {
     mechanism: &'a mut dyn Mechanism,
     rule: BalanceCoefficients,
@@ -125,7 +125,7 @@ pub(super) struct StepSolver {
     rates: Vec<f64>,
     residual: Vec<f64>,
     balanced: Vec<(Stage, f64)>,
-    /// True if the integrator balances changes of momentum and not accelerations.
+    /// True if the integrator balances changes of momentum. False if it balances accelerations.
     balances_rates: bool,
 }
 
@@ -170,7 +170,7 @@ impl StepSolver {
         self.balances_rates = true;
     }
 
-    /// Adds `share` times the forces of a stage at zero increments to the balance of the step.
+    /// Adds `share` times the forces of a stage, evaluated at zero increments, to the balance of the step.
     pub(super) fn carry(&mut self, mechanism: &mut dyn Mechanism, stage: Stage, share: f64) {
         self.increments.fill(0.0);
         mechanism.add_forces(stage, &self.increments, share, &mut self.constant_residual);
@@ -202,7 +202,8 @@ impl StepSolver {
         self.unknowns.copy_from_slice(solution);
     }
 
-    /// Solves the balance of the step by the function `way`. It receives the Newton solver, the equations, their unknowns and their residual.
+    /// Solves the balance of the step by the function `way`.
+    /// The function `way` receives the Newton solver, the equations, their unknowns and their residual.
     pub(super) fn solve_by(
         &mut self,
         mechanism: &mut dyn Mechanism,
@@ -280,8 +281,9 @@ impl StepSolver {
         self.accept(mechanism, |_, v0, d| v0 + twice_inverse * d);
     }
 
-    /// Ends the step with the present increments. `rate` computes the final rate of an unknown from its index, its initial rate and its deviation
-    /// from constant velocity.
+    /// Ends the step with the present increments.
+    /// The callback `rate` computes the final rate of an unknown.
+    /// The arguments of `rate` are the index, the initial rate, and the deviation `d` from a motion with constant velocity.
     pub(super) fn accept(
         &mut self,
         mechanism: &mut dyn Mechanism,

@@ -4,17 +4,17 @@ use super::balance::{BalanceCoefficients, StepSolver};
 use super::{Integrator, Interval, Mechanism, Stage, StepError};
 use crate::newton::{NewtonReport, Tolerance};
 
-/// Energy–momentum method in which the strain for the section forces is taken later than in the middle of the step. It damps high frequencies, and
-/// conserves linear and angular momentum to rounding for any step size.
+/// Energy–momentum method in which the section forces belong to a strain later than the middle of the step.
+/// The method damps high frequencies, and conserves linear and angular momentum to rounding for any step size.
 ///
-/// `M (v1 - v0)/Δt + F(damped midpoint) = 0`, `(v0 + v1)/2 = Δq/Δt`, with the section forces
-/// `N̄ = C (½(Γ0 + Γ1) + χ/2 ΔΓ)`, `M̄ = EI (½(κ0 + κ1) + χ/2 Δκ)`, `χ ≥ 0`.
+/// Balance: `M (v1 - v0)/Δt + F(damped midpoint) = 0` and `(v0 + v1)/2 = Δq/Δt`.
+/// Section forces: `N̄ = C (½(Γ0 + Γ1) + χ/2 ΔΓ)` and `M̄ = EI (½(κ0 + κ1) + χ/2 Δκ)` with `χ ≥ 0`.
 ///
-/// A step dissipates exactly the energy `χ/2 ∫ ΔΓ·C ΔΓ + EI Δκ² dX`. The method is of first order. For `χ = 0` it is the energy–momentum method, of
-/// second order.
+/// A step dissipates exactly the energy `χ/2 ∫ ΔΓ·C ΔΓ + EI Δκ² dX`. The method is of first order.
+/// For `χ = 0` the method is the energy–momentum method, which is of second order.
 ///
-/// The method follows F. Armero & I. Romero, Comput. Methods Appl. Mech. Eng. 190 (2001) 2603–2649, who add dissipation to the averaged stresses of
-/// a conserving method. Here the added stress is linear in the strain.
+/// The method follows F. Armero & I. Romero, Comput. Methods Appl. Mech. Eng. 190 (2001) 2603–2649.
+/// The authors add dissipation to the averaged stresses of a conserving method. In this program, the added stress is linear in the strain.
 #[derive(Debug, Clone)]
 pub struct EnergyDecaying {
     solver: StepSolver,

@@ -4,13 +4,13 @@ use super::balance::{BalanceCoefficients, StepSolver};
 use super::{Integrator, Interval, Mechanism, Stage, StepError};
 use crate::newton::{NewtonReport, Tolerance};
 
-/// Energy–momentum method. It conserves energy, linear and angular momentum to rounding for any step size. This follows from midpoint kinematics
-/// with tangent-scaled rotations and averaged section forces.
+/// Energy–momentum method. It conserves energy, linear and angular momentum to rounding for any step size.
+/// Conservation follows from midpoint kinematics with tangent-scaled rotations and averaged section forces.
 ///
-/// `M (v1 - v0)/Δt + F(midpoint) = 0`, `(v0 + v1)/2 = Δq/Δt`. Second order.
+/// Balance of a step: `M (v1 - v0)/Δt + F(midpoint) = 0`, `(v0 + v1)/2 = Δq/Δt`. The method is of second order.
 ///
-/// References: N. Stander & E. Stein, An energy-conserving planar finite beam element for dynamics of flexible mechanisms,
-/// Eng. Comput. 13 (1996) 60–85; J. C. Simo, N. Tarnow & M. Doblaré, Int. J. Numer. Meth. Eng. 38 (1995) 1431–1473.
+/// Reference: N. Stander & E. Stein, Eng. Comput. 13 (1996) 60–85 (planar finite beam element for flexible mechanisms).
+/// Reference: J. C. Simo, N. Tarnow & M. Doblaré, Int. J. Numer. Methods Eng. 38 (1995) 1431–1473.
 #[derive(Debug, Clone)]
 pub struct EnergyMomentum {
     solver: StepSolver,

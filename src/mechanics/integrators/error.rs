@@ -7,9 +7,9 @@ use std::rc::Rc;
 use super::{Interval, Overshoot};
 use crate::newton::NewtonError;
 
-/// Error that does not come from the mechanics of a step. It is displayed unchanged, and can be downcast to its type.
+/// Error from outside the solver. It is displayed unchanged, and can be downcast to its type.
 ///
-/// The type is not `Send`, because the error may come from a script function, and errors of script functions are not.
+/// The type is not `Send`, because errors of script functions are not `Send`.
 #[derive(Debug, Clone)]
 pub struct ExternalError(Rc<dyn Error>);
 
@@ -25,7 +25,7 @@ impl ExternalError {
     }
 }
 
-/// Two errors with equal messages are treated as equal.
+/// Two external errors are equal if their messages are equal.
 impl PartialEq for ExternalError {
     fn eq(&self, other: &Self) -> bool {
         self.0.to_string() == other.0.to_string()
@@ -44,10 +44,10 @@ impl Error for ExternalError {
     }
 }
 
-/// Place in a mechanism at which a step failed.
+/// Object in a mechanism at which a step failed.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum FailureSource {
-    /// Unknown with the given index: its equation or its row of the matrix.
+    /// Unknown of the equations, given by its index.
     Unknown(usize),
     /// Named object.
     Named(String),
@@ -60,7 +60,7 @@ fn at(culprit: Option<&FailureSource>) -> String {
     }
 }
 
-/// Step that failed. The mechanism is in its state at the start of the step.
+/// Error of a step that failed. The mechanism is in its state at the start of the step.
 #[expect(missing_docs, reason = "the messages describe the variants and their fields")]
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum StepError {
@@ -68,11 +68,11 @@ pub enum StepError {
     Newton {
         /// Interval of the step [time].
         interval: Interval,
-        /// Reason, with the residual norms of all iterations.
+        /// Reason of the failure, with the residual norms of all iterations.
         source: Box<NewtonError>,
         /// Number of Newton iterations of earlier substeps.
         before: usize,
-        /// Place of the failure, if known.
+        /// Object at which the step failed, if known.
         failure_source: Option<Box<FailureSource>>,
     },
     #[error(
@@ -82,7 +82,7 @@ pub enum StepError {
     Rotation {
         /// Interval of the step [time].
         interval: Interval,
-        /// Rotation increment `Δω` of the section, which is mean rate times step [rad].
+        /// Rotation increment `Δω` of the section: its mean rate times the step size [rad].
         rotation: f64,
         iterations: usize,
     },
@@ -97,7 +97,7 @@ pub enum StepError {
         chord: f64,
         iterations: usize,
     },
-    /// Limit of a constraint that is passed within the step. The step must be repeated so that it ends at the limit.
+    /// A limit of a constraint was passed within the step. The step must be repeated so that it ends at the limit.
     #[error(
         "limit {} of a constraint is exceeded within the step of {:.3e} from t = {}",
         overshoot.event, interval.duration(), interval.start

@@ -5,8 +5,8 @@ use crate::newton::{NewtonReport, Tolerance};
 
 /// Lengths of the first three of seven substeps, as fractions of the step. The last three have the same lengths in reverse order.
 ///
-/// They satisfy five equations. These are the conditions of order four, and the condition that slow loads do not excite vibrations with a phase of
-/// 2π or 4π per step (theory.md 8.3).
+/// The lengths satisfy the conditions of order four.
+/// The lengths also satisfy a second condition: slow loads do not excite vibrations with a phase of 2π or 4π per step (theory.md 8.3).
 const SHARES: [f64; 3] =
     [0.161_052_153_814_088_86, 0.193_890_122_365_726_64, 0.426_192_546_250_769_94];
 
@@ -16,15 +16,16 @@ const ENDS: [f64; 7] = {
     [a, a + b, a + b + c, 1.0 - (a + b + c), 1.0 - (a + b), 1.0 - a, 1.0]
 };
 
-/// Fourth-order method. A step consists of seven energy–momentum substeps with the lengths `a, b, c, 1 - 2(a + b + c), c, b, a`; the fourth one
-/// runs backwards in time. Each substep conserves energy, linear and angular momentum to rounding, and so does the whole step.
+/// Fourth-order method.
+/// A step consists of seven energy–momentum substeps with the lengths `a, b, c, 1 - 2(a + b + c), c, b, a`.
+/// The fourth substep runs backwards in time.
+/// Each substep conserves energy, linear and angular momentum to rounding. Hence the whole step conserves them too.
 ///
-/// In a step of a symmetric second-order method, the leading error is proportional to `Δt³`. These errors cancel because the sum of the cubes of
-/// the substep lengths is zero, so that the method has order four. The remaining error is small because the lengths are small. The lengths are
-/// chosen such that slow loads do not excite unresolved vibrations.
+/// In a step of a symmetric second-order method, the leading error is proportional to the third power of the step size.
+/// The leading errors of the substeps cancel, because the sum of the cubes of the substep lengths is zero. Hence the method has order four.
+/// The remaining error is small because the lengths are small. The lengths are chosen such that slow loads do not excite unresolved vibrations.
 ///
-/// Methods of this type: R. I. McLachlan, On the numerical integration of ordinary differential equations by symmetric composition methods, SIAM J.
-/// Sci. Comput. 16 (1995) 151–168. The coefficients were computed for this program.
+/// Reference for composition methods: R. I. McLachlan, SIAM J. Sci. Comput. 16 (1995) 151–168. The coefficients were computed for this program.
 #[derive(Debug, Clone)]
 pub struct FourthOrder {
     substep: EnergyMomentum,
@@ -39,14 +40,14 @@ impl FourthOrder {
 
     /// Creates the method, and allocates memory for a mechanism.
     pub fn new(mechanism: &mut dyn Mechanism, tolerance: Tolerance) -> Self {
-        // This allocates the memory for the saved state before the first step.
+        // The call of `save_state` allocates the memory for the saved state before the first step.
         mechanism.checkpoint().save_state();
         Self { substep: EnergyMomentum::new(mechanism, tolerance) }
     }
 }
 
 impl Integrator for FourthOrder {
-    /// The reported iterations are the sum over all substeps.
+    /// The reported number of iterations is the sum over all substeps.
     fn step(
         &mut self,
         mechanism: &mut dyn Mechanism,
@@ -56,7 +57,7 @@ impl Integrator for FourthOrder {
     }
 }
 
-/// Takes the substeps one after the other. If one fails, the mechanism is restored to the start of the step.
+/// Takes the substeps one after the other. If a substep fails, the mechanism is restored to the start of the step.
 pub(super) fn in_parts(
     mechanism: &mut dyn Mechanism,
     interval: Interval,
@@ -97,12 +98,12 @@ mod tests {
         starts.zip(ends).map(|(start, end)| end - start).collect()
     }
 
-    /// Phase per step of a vibration with the given `ω Δt`.
+    /// Phase per step of a vibration with the given frequency times step size, `ω Δt`.
     fn turn(parts: &[f64], frequency: f64) -> f64 {
         parts.iter().map(|part| 2.0 * (0.5 * part * frequency).atan()).sum()
     }
 
-    /// Frequency `ω Δt` above which the phase per step exceeds an angle; `None` if there is none.
+    /// Frequency `ω Δt` above which the phase per step exceeds an angle; `None` if the phase never exceeds it.
     fn passage(parts: &[f64], angle: f64) -> Option<f64> {
         let (mut low, mut high) = (1.0, 1e4);
         if turn(parts, high) < angle {
@@ -115,8 +116,8 @@ mod tests {
         Some(low)
     }
 
-    /// Largest amplitude of a vibration in 3000 steps under a sine load with the phase `load` per step. The vibration starts from its static
-    /// response, which is also the unit of the amplitude.
+    /// Largest amplitude of a vibration in 3000 steps under a sine load with the phase `load` per step.
+    /// The vibration starts from its static response, which is also the unit of the amplitude.
     fn amplitude(parts: &[f64], frequency: f64, load: f64) -> f64 {
         let (mut place, mut rate, mut largest) = (0.0_f64, load, 0.0_f64);
         for step in 0..3000 {
@@ -124,7 +125,7 @@ mod tests {
             for part in parts {
                 let ended = begun + part;
                 let mean = ((load * begun).cos() - (load * ended).cos()) / (load * part);
-                // Stiffness and static response are 1, so rate' = ω² (mean - place), with both values in the middle of the substep.
+                // Stiffness and static response are 1. Hence rate' = ω² (mean - place), with both values in the middle of the substep.
                 let stiffness = (0.5 * part * frequency).powi(2);
                 let moved = (part * rate + 2.0 * stiffness * (mean - place)) / (1.0 + stiffness);
                 (place, rate, begun) = (place + moved, 2.0 * moved / part - rate, ended);

@@ -6,18 +6,21 @@ use super::{Integrator, Interval, Mechanism, Stage, StepError};
 use crate::elementary::square;
 use crate::newton::{NewtonReport, Tolerance};
 
-/// Generalized-α method: Newmark's formulas, with inertia and forces balanced at different times. High frequencies are damped by a factor of down
-/// to `ρ∞` per step, low frequencies very little. Neither energy nor momenta are conserved. Second order.
+/// Generalized-α method: Newmark's formulas, with inertia and forces balanced at different times.
+/// High frequencies are damped by a factor of down to `ρ∞` per step, low frequencies very little. The method conserves neither energy nor momenta.
+/// The method is of second order.
 ///
 /// ```text
-/// M ((1-αm) a1 + αm a0) + (1-αf) F(end) + αf F(start) = 0
-/// Δq = Δt v0 + Δt² ((½-β) a0 + β a1)          v1 = v0 + Δt ((1-γ) a0 + γ a1)
-/// αm = (2ρ∞ - 1)/(ρ∞ + 1)     αf = ρ∞/(ρ∞ + 1)     γ = ½ - αm + αf     β = ¼ (1 - αm + αf)²
+/// balance of forces:        M ((1-αm) a1 + αm a0) + (1-αf) F(end) + αf F(start) = 0
+/// Newmark's displacements:  Δq = Δt v0 + Δt² ((½-β) a0 + β a1)
+/// Newmark's rates:          v1 = v0 + Δt ((1-γ) a0 + γ a1)
+/// weights αm and αf:        αm = (2ρ∞ - 1)/(ρ∞ + 1) and αf = ρ∞/(ρ∞ + 1)
+/// Newmark's coefficients:   γ = ½ - αm + αf and β = ¼ (1 - αm + αf)²
 /// ```
 ///
-/// Rotation increments are increments of the angle. Accelerations `a` are part of the state. They are unknown at the start, after an impact, and at
-/// a jump of a load. In these cases a step of the trapezoidal rule determines them as `(v1 - v0)/Δt`. With `ρ∞ = 1` all steps are steps of the
-/// trapezoidal rule.
+/// Rotation increments are increments of the angle. Accelerations `a` are part of the state.
+/// Accelerations are unknown at the start, after an impact, and at a jump of a load.
+/// If accelerations are unknown, a step of the trapezoidal rule determines them as `(v1 - v0)/Δt`. With `ρ∞ = 1`, all steps use the trapezoidal rule.
 ///
 /// Reference: J. Chung & G. M. Hulbert, J. Appl. Mech. 60 (1993) 371–375.
 #[derive(Debug, Clone)]
@@ -57,8 +60,7 @@ impl GeneralizedAlpha {
     /// Stages at which forces are evaluated.
     pub const STAGES: &[Stage] = &[Stage::Start, Stage::End];
 
-    /// Creates the method with the parameter `ρ∞` [-], and allocates memory for a mechanism. The state of the mechanism then includes
-    /// accelerations.
+    /// Creates the method with the parameter `ρ∞` [-], and allocates memory for a mechanism. The state of the mechanism then includes accelerations.
     pub fn new(rho_infinity: f64, mechanism: &mut dyn Mechanism, tolerance: Tolerance) -> Self {
         mechanism.accelerated().enable_accelerations();
         Self {
@@ -104,7 +106,7 @@ impl GeneralizedAlpha {
             inertia: (1.0 - inertia_before) / beta,
             stage: Stage::End,
             weight: 1.0 - forces_before,
-            // Prescribed accelerations are taken at the time of the forces.
+            // Prescribed accelerations are evaluated at the same time as the forces.
             prescribed: BalancedAt::Fraction(1.0 - forces_before),
         };
         let report = solver.solve(mechanism, interval, rule)?;

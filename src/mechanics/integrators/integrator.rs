@@ -5,11 +5,11 @@ use crate::newton::NewtonReport;
 
 /// Time integrator, which takes steps of a mechanism.
 pub trait Integrator {
-    /// Advances the mechanism over the interval. After an error the mechanism is unchanged.
+    /// Advances the mechanism over the interval. If the step fails, the mechanism is unchanged.
     ///
     /// # Errors
-    /// Fails if the equations have no solution, a rotation increment is too large, a constraint limit lies within the interval, or a load cannot be
-    /// evaluated.
+    /// Fails if the equations have no solution, a rotation increment is too large, or a load has no value.
+    /// Also fails if a constraint limit lies within the interval.
     fn step(
         &mut self,
         mechanism: &mut dyn Mechanism,

@@ -1,13 +1,13 @@
 //! Time interval of a step.
 
-/// Interval of a step or a part of it [time].
+/// Interval of a step or of a substep [time].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Interval {
     /// Start [time].
     pub start: f64,
     /// End [time].
     pub end: f64,
-    /// Duration. It is stored because the difference of two large times is less accurate.
+    /// Duration of the interval. It is stored because the difference of two large times is less accurate.
     duration: f64,
     ending: IntervalEnd,
 }
@@ -27,12 +27,12 @@ impl Interval {
         Self { start, end, duration: end - start, ending: IntervalEnd::Step }
     }
 
-    /// Interval with an exact duration. Only its end time is rounded [time].
+    /// Interval with an exact start and duration [time]. Only its end time is rounded.
     pub fn lasting(start: f64, duration: f64) -> Self {
         Self { start, end: start + duration, duration, ending: IntervalEnd::Step }
     }
 
-    /// Part of the interval between two fractions of its duration [-]. It runs backwards in time if the second fraction is smaller.
+    /// Part of the interval between two fractions of its duration [-]. The part runs backwards in time if the second fraction is smaller.
     pub fn part(&self, from: f64, to: f64) -> Self {
         let duration = (to - from) * self.duration;
         let start = self.start + from * self.duration;

@@ -4,23 +4,25 @@ use super::{FailureSource, Interval, PrescribedKinematics, StepError};
 use crate::linalg::{BandedMatrix, BlockLayout, Border, BorderShape};
 use crate::newton::ResidualPart;
 
-/// Time within a step at which forces are evaluated. Increments are relative to the start of the step.
+/// Stage of a step: a time within the step at which forces are evaluated. Increments are relative to the start of the step.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Stage {
-    /// Start of the step. Loads are replaced by a linear function of time that has the same mean over the step and the same change in the step.
-    /// Their value is the value of this function at the start.
+    /// Start of the step. A load is replaced by a linear function of time with the same mean over the step and the same change in the step.
+    /// At this stage, the load has the value of the linear function at the start of the step.
     Start,
     /// Middle of the step: mean configuration, averaged section forces, mean loads.
     ///
-    /// The internal forces then do exactly the work by which the strain energy changes (Stander & Stein 1996; Simo, Tarnow & Doblaré 1995).
+    /// In the middle of the step, the work of the internal forces is exactly the change of the strain energy.
+    /// References: Stander & Stein 1996; Simo, Tarnow & Doblaré 1995.
     Midpoint,
-    /// Middle of the step as for [`Midpoint`](Self::Midpoint), but the section forces belong to a later strain: the mean strain plus `χ/2` times
-    /// the change of the strain in the step. The contained value is `χ`.
+    /// Middle of the step as for [`Midpoint`](Self::Midpoint), but with section forces of a later strain.
+    /// The later strain is the mean strain plus `χ/2` times the change of the strain in the step.
+    /// The value in the enum variant is the dissipation parameter `χ`.
     ///
-    /// The internal forces then do additional work, which is `χ/2` times the integral of `ΔΓ·C ΔΓ + EI Δκ²`.
+    /// With section forces of a later strain, the internal forces do additional work: `χ/2` times the integral of `ΔΓ·C ΔΓ + EI Δκ²`.
     DampedMidpoint(f64),
-    /// End of the step. Loads are replaced by a linear function of time that has the same mean over the step and the same change in the step. Their
-    /// value is the value of this function at the end.
+    /// End of the step. A load is replaced by a linear function of time with the same mean over the step and the same change in the step.
+    /// At this stage, the load has the value of the linear function at the end of the step.
     End,
 }
 
@@ -44,12 +46,12 @@ pub trait Inertia {
 pub trait Forces {
     /// Adds `weight` times the forces of a stage to `out`: internal forces minus loads, computed from the present section forces.
     ///
-    /// Returns the largest mismatch between the strains of the section forces and the strains of the configuration.
+    /// Returns the largest difference between the strains of the configuration and the strains that belong to the section forces.
     fn add_forces(&mut self, stage: Stage, increments: &[f64], weight: f64, out: &mut [f64])
     -> f64;
 
-    /// Adds `weight` times the forces of a stage to `out`, and their derivatives with respect to the increments to the tangent. The strain
-    /// mismatches are condensed out of the forces.
+    /// Adds `weight` times the forces of a stage to `out`, and their derivatives with respect to the increments to the tangent.
+    /// The strain mismatches are condensed out of the forces.
     fn add_linearised_forces(
         &mut self,
         stage: Stage,
@@ -59,8 +61,7 @@ pub trait Forces {
         tangent: &mut BandedMatrix,
     );
 
-    /// Adds `weight` times the forces that would remove the present strain mismatch. The derivatives of strains are those of the last
-    /// linearisation.
+    /// Adds `weight` times the forces that would remove the present strain mismatch. The derivatives of strains are those of the last linearisation.
     fn add_mismatch_forces(&mut self, weight: f64, out: &mut [f64]);
 
     /// Updates the section forces after an iteration has corrected the increments. The derivatives are those of the last linearisation.
@@ -69,7 +70,7 @@ pub trait Forces {
     /// Largest force residual, as a fraction of the forces in this step [-].
     fn relative_imbalance(&self, residual: &[f64]) -> f64;
 
-    /// Place of the largest value in a part of the residual, for messages.
+    /// Object with the largest value in a part of the residual, for messages.
     fn worst(&self, _part: ResidualPart, _residual: &[f64]) -> Option<FailureSource> {
         None
     }
@@ -94,8 +95,8 @@ pub trait Constraints {
     /// Adds the constraint forces and then the constraint violations to `out`.
     fn add_constraints(&mut self, increments: &[f64], unknowns: &[f64], out: &mut [f64]);
 
-    /// Adds constraint forces and violations to `out`, and their derivatives with respect to increments and constraint unknowns to the border of
-    /// the tangent.
+    /// Adds constraint forces and violations to `out`.
+    /// Adds the derivatives of both with respect to increments and constraint unknowns to the border of the tangent.
     fn add_linearised_constraints(
         &mut self,
         increments: &[f64],
@@ -113,17 +114,17 @@ pub trait Constraints {
     /// Fails if a slider passes a limit within the step, or misses the limit at which the step has to end.
     fn check_constraints(&mut self, unknowns: &[f64]) -> Result<(), Overshoot>;
 
-    /// Shortest chord of the path of a slider in the mean configuration of the last evaluation, as a fraction of the initial length of the path
-    /// [-].
+    /// Shortest chord of the path of a slider in the mean configuration of the last evaluation [-]. Its unit is the initial length of the path.
     fn shortest_chord(&self) -> f64;
 }
 
 /// Mechanical system that integrators advance. It has unknowns, a state, and data of the present step.
 ///
-/// Increments and rates belong to the unknown degrees of freedom. The unknowns of constraints (contact forces and contact positions) follow them.
-/// They have no inertia, and there are as many constraint equations. Force vectors have further entries for supported degrees of freedom, which are
-/// fixed or prescribed. The residual of these entries is the support reaction. If motions are prescribed, the vectors of increments and rates end
-/// with the last prescribed degree of freedom.
+/// Increments and rates belong to the unknown degrees of freedom. The constraint unknowns (contact forces and contact positions) follow them.
+/// The constraint unknowns have no inertia. There are as many constraint equations as constraint unknowns.
+/// Force vectors also have entries for supported degrees of freedom, which are fixed or prescribed.
+/// The residual at a supported degree of freedom is the support reaction.
+/// With prescribed motions, the vectors of increments and rates end with the prescribed degrees of freedom.
 pub trait Mechanism: Inertia + Forces + Constraints {
     /// Number of unknown degrees of freedom.
     fn unknowns(&self) -> usize;
@@ -134,7 +135,7 @@ pub trait Mechanism: Inertia + Forces + Constraints {
     /// Half-bandwidth of the tangent.
     fn half_bandwidth(&self) -> usize;
 
-    /// Number of threads with which the equations are solved. It does not affect results.
+    /// Number of threads that solve the equations. The number does not affect the results.
     fn threads(&self) -> usize {
         1
     }
@@ -142,7 +143,7 @@ pub trait Mechanism: Inertia + Forces + Constraints {
     /// Rates of the unknowns at the start of the step [length/time, 1/time].
     fn rates(&self) -> &[f64];
 
-    /// Rates from which the next step is predicted [length/time, 1/time].
+    /// Rates for the prediction of the next step [length/time, 1/time].
     fn expected_rates(&self) -> &[f64];
 
     /// Prescribed motions in the present step.
@@ -166,7 +167,7 @@ pub trait Mechanism: Inertia + Forces + Constraints {
 
 /// Mechanical system that can store one of its states, for methods with substeps.
 pub trait Checkpoint {
-    /// Stores the present state at the start of a step. It replaces the state stored before.
+    /// Stores the present state at the start of a step. The previously stored state is overwritten.
     fn save_state(&mut self);
 
     /// Restores the stored state bit for bit.
@@ -175,13 +176,13 @@ pub trait Checkpoint {
 
 /// Mechanical system that can have accelerations in its state.
 pub trait Accelerated {
-    /// Adds accelerations to the state. They are unknown until they are set.
+    /// Adds accelerations to the state. The accelerations are unknown until they are set.
     fn enable_accelerations(&mut self);
 
     /// Accelerations just after the start of the present step, if known [length/time², 1/time²].
     fn accelerations(&self) -> Option<&[f64]>;
 
-    /// Sets the accelerations [length/time², 1/time²], if they are enabled.
+    /// Sets the accelerations [length/time², 1/time²]. Has no effect unless accelerations are enabled.
     fn set_accelerations(&mut self, accelerations: &[f64]);
 }
 
@@ -194,18 +195,19 @@ pub struct Solution<'a> {
     pub constraints: &'a [f64],
     /// Rates at the end of the step [length/time, 1/time].
     pub rates: &'a [f64],
-    /// Residual of the equations [force, force·length]. At supported degrees of freedom it is the reaction.
+    /// Residual of the equations [force, force·length]. At supported degrees of freedom it is the support reaction.
     pub residual: &'a [f64],
-    /// Stages at which forces are evaluated, with their weights [-]. The weighted sum of the forces at these stages is the rate of change of the
-    /// momenta. The list is empty if the method balances accelerations instead of momenta.
+    /// Stages at which forces are evaluated, with their weights [-].
+    /// The weighted sum of the forces at the balanced stages is the rate of change of the momenta.
+    /// The list of balanced stages is empty if the method balances accelerations instead of momenta.
     pub balanced: &'a [(Stage, f64)],
 }
 
 /// Event of a constraint that was passed within a step, such as a limit.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Overshoot {
-    /// Number of the event among the events of all constraints.
+    /// Index of the event among the events of all constraints.
     pub event: usize,
-    /// Distance beyond the event, in a unit of the constraint; negative if the event was not reached.
+    /// Distance beyond the event, in the unit of the constraint; negative if the event was not reached.
     pub distance: f64,
 }

@@ -1,10 +1,10 @@
 //! Prescribed motions of degrees of freedom, which are not unknowns.
 
-/// Prescribed motions of a mechanism in the present step. They are numbered after the unknowns and the constraint multipliers. All vectors are
-/// empty if nothing is prescribed.
+/// Prescribed motions of a mechanism in the present step. They are numbered after the unknowns and the constraint multipliers.
+/// All vectors of this struct are empty without prescribed motions.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct PrescribedKinematics {
-    /// Increments in the step [length, rad]. They follow zeros for the constraint multipliers, as in the other vectors.
+    /// Increments in the step [length, rad]. As in the other vectors, the first entries are zeros for the constraint multipliers.
     pub increments: Vec<f64>,
     /// Rates at the end of the step [length/time, 1/time].
     pub rates: Vec<f64>,
@@ -14,7 +14,7 @@ pub struct PrescribedKinematics {
     pub accelerations: [Vec<f64>; 2],
 }
 
-/// Acceleration of prescribed degrees of freedom that a method uses in its balance.
+/// Acceleration of the prescribed degrees of freedom in the balance of a method.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum BalancedAt {
     Mean,

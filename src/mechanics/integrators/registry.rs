@@ -1,4 +1,4 @@
-//! List of the integrators and their claims, used by tests and help.
+//! List of the integrators and their conservation properties, used by tests and help.
 
 use serde::{Deserialize, Serialize};
 
@@ -30,23 +30,23 @@ pub enum Method {
     },
 }
 
-/// Claim of a method about the conservation of energy.
+/// Statement about the conservation of energy by a method.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum EnergyClaim {
     /// The energy is conserved to rounding.
     Conserved,
     /// The energy never increases by more than rounding.
     NonIncreasing,
-    /// No claim.
+    /// No statement about the energy.
     Unclaimed,
 }
 
-/// Claims of a method for nonlinear problems. The exchange with loads and supports is included.
+/// Properties of a method for nonlinear problems. The exchange of energy and momenta with loads and supports is included.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Claims {
     /// Order of convergence in time.
     pub order: u32,
-    /// Claim about the energy.
+    /// Statement about the energy.
     pub energy: EnergyClaim,
     /// True if linear momentum is conserved to rounding.
     pub momentum: bool,
@@ -110,7 +110,7 @@ pub struct IntegratorEntry {
     pub name: &'static str,
     /// Recommended use as a sentence.
     pub summary: &'static str,
-    /// Claims of the method.
+    /// Conservation properties of the method.
     pub claims: Claims,
     /// Parameter, if the method has one.
     pub parameter: Option<MethodParameter>,
@@ -118,7 +118,7 @@ pub struct IntegratorEntry {
     pub source: &'static str,
 }
 
-/// All time integrators, the default first.
+/// All time integrators. The first entry is the default.
 pub const INTEGRATORS: &[IntegratorEntry] =
     &[ENERGY_MOMENTUM, TRAPEZOIDAL, ENERGY_DECAYING, FOURTH_ORDER, GENERALIZED_ALPHA];
 
@@ -220,7 +220,7 @@ impl Method {
         }
     }
 
-    /// Step size for which the longest substep lasts `duration` [time]. A negative duration refers to substeps backwards in time.
+    /// Step size for which the longest substep has the duration `duration` [time]. A negative duration refers to substeps backwards in time.
     pub fn step_with_part(&self, duration: f64) -> f64 {
         let [onwards, back] = match self {
             Self::FourthOrder => FourthOrder::LONGEST,
@@ -229,7 +229,7 @@ impl Method {
         duration / if duration < 0.0 { back } else { onwards }
     }
 
-    /// Value of the parameter of the method [-]; `None` if it has none.
+    /// Value of the parameter of the method [-]; `None` if the method has no parameter.
     pub fn parameter(&self) -> Option<f64> {
         match *self {
             Self::EnergyMomentum | Self::Trapezoidal | Self::FourthOrder => None,

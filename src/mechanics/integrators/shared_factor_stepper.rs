@@ -1,4 +1,4 @@
-//! Steps of several similar mechanisms that share the factorised matrix of one of them.
+//! Steps of several similar mechanisms that share the factorised matrix of one mechanism.
 
 use super::balance::{BalanceCoefficients, StepSolver};
 use super::fourth_order::in_parts;
@@ -6,12 +6,13 @@ use super::{EnergyMomentum, Interval, Mechanism, Method, Stage, StepError};
 use crate::linalg::BorderedLu;
 use crate::newton::{NewtonReport, Tolerance};
 
-/// Integrator that advances a mechanism, the leader, together with companions. These are mechanisms of the same structure with slightly different
-/// parameters and states.
+/// Integrator that advances a mechanism, the leader, together with companions.
+/// Companions have the structure of the leader, with slightly different parameters and states.
 ///
-/// The balance `R(u; p + δ) = 0` of a companion is solved iteratively. The iteration starts from the solution of the leader and uses the factors of
-/// the last Newton iteration of the leader. Each correction reduces the error by a factor of the order of `δ` plus the size of that Newton
-/// iteration. A few corrections without factorisation therefore reach rounding.
+/// The balance `R(u; p + δ) = 0` of a companion is solved iteratively.
+/// The iteration starts from the solution of the leader and uses the factors of the last Newton iteration of the leader.
+/// Each correction reduces the error by a factor of the order of `δ` plus the size of the last Newton iteration of the leader.
+/// A few corrections without factorisation reduce the error to rounding.
 #[derive(Debug, Clone)]
 pub struct SharedFactorStepper {
     leader: StepSolver,
@@ -28,10 +29,10 @@ enum SubstepCount {
 /// Solver statistics of a step with companions.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SharedFactorWork {
-    /// Statistics of the leader. They are the same as without companions.
+    /// Statistics of the leader, which do not depend on the companions.
     pub leader: NewtonReport,
-    /// Statistics of all companions together, or the error of one that failed. The iterations are additional factorisations, needed where the
-    /// factors of the leader did not suffice.
+    /// Statistics of all companions together, or the error of a companion that failed.
+    /// The iterations of companions are additional factorisations, which are needed if the factors of the leader are not sufficient.
     pub companions: Result<NewtonReport, StepError>,
 }
 
@@ -48,11 +49,11 @@ impl SharedFactorStepper {
         Some(Self { leader, follower, parts })
     }
 
-    /// Advances the leader and the companions over the interval. The result of the leader is bit for bit the same as without companions. If a
-    /// companion fails, the states of all companions are undefined, and the leader continues.
+    /// Advances the leader and the companions over the interval. The result of the leader is bit for bit the same as without companions.
+    /// If a companion fails, the states of all companions are undefined, and the leader continues.
     ///
     /// # Errors
-    /// Errors of the step of the leader. The leader is then unchanged, and the states of the companions are undefined.
+    /// Fails if the step of the leader fails. The leader is then unchanged, and the states of the companions are undefined.
     pub fn step(
         &mut self,
         leader: &mut dyn Mechanism,

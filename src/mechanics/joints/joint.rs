@@ -1,7 +1,7 @@
-//! Joints. They tie displacement components of two stations, which then share an unknown.
+//! Joints. A joint ties displacement components of two stations, which then share an unknown.
 //!
-//! Both stations have the same increments in every step, whatever the integrator. Hence a joint has no gap, does no work, and transmits force and
-//! moment unchanged.
+//! Both stations of a joint have the same increments in every step, for every integrator.
+//! Hence a joint has no gap, does no work, and transmits force and moment unchanged.
 
 use serde::{Deserialize, Serialize};
 
@@ -86,22 +86,22 @@ impl Components {
 pub enum JointKind {
     /// Hinge: ties positions, leaves rotations free.
     Hinge,
-    /// Rigid joint: ties positions and rotations, so that the initial angle between the sections is kept. With the ground it is a clamp.
+    /// Rigid joint: ties positions and rotations. The initial angle between the sections is kept. A rigid joint to the ground is a clamp.
     Rigid,
-    /// Support: fixes some components of a station, leaves the others free.
+    /// Support: fixes some components of a station and leaves the other components free.
     Support(Components),
-    /// Inclined roller: the station is free along a unit vector that is not parallel to an axis, fixed across this vector, and free to rotate.
+    /// Inclined roller: the station is fixed across a unit vector that is not parallel to an axis. It is free along this vector, and free to rotate.
     InclinedRoller(Vec2),
     /// Inclined guide: an inclined roller with fixed rotation.
     InclinedGuide(Vec2),
 }
 
-/// Partner of the station of a joint.
+/// Object to which a joint ties its station.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub enum Partner {
     /// Ground, at the initial position of the station.
     Ground,
-    /// Station of another beam or the same beam at the same place.
+    /// Station of a beam with the same initial position.
     Station(Station),
 }
 
@@ -121,7 +121,7 @@ pub struct Joint {
 enum MotionLine {
     Horizontal,
     Vertical,
-    /// Direction of a unit vector that is not parallel to an axis [-].
+    /// Unit vector that is not parallel to an axis [-].
     Inclined(Vec2),
 }
 
@@ -139,7 +139,7 @@ impl MotionLine {
 }
 
 impl JointKind {
-    /// Roller that is free along a direction and free to rotate. If the direction is parallel to an axis it is a support. `None` for a zero vector.
+    /// Roller that is free along a direction and free to rotate. A direction parallel to an axis gives a support. `None` for a zero vector.
     pub fn roller(along: Vec2) -> Option<Self> {
         Some(match MotionLine::along(along)? {
             MotionLine::Horizontal => Self::Support(Components::Y),
@@ -148,8 +148,7 @@ impl JointKind {
         })
     }
 
-    /// Guide that is free along a direction, with fixed rotation. If the direction is parallel to an axis it is a support. `None` for a zero
-    /// vector.
+    /// Guide that is free along a direction, with fixed rotation. A direction parallel to an axis gives a support. `None` for a zero vector.
     pub fn guide(along: Vec2) -> Option<Self> {
         Some(match MotionLine::along(along)? {
             MotionLine::Horizontal => Self::Support(Components::YRotation),

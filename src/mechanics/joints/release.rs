@@ -2,10 +2,10 @@
 
 use serde::{Deserialize, Serialize};
 
-/// Object that can be released. The value is its index among the objects of the same type.
+/// Object that can be released, with its index among the objects of the same type.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Releasable {
-    /// Joint: a hinge, a rigid joint, a clamp, a support.
+    /// Joint: a hinge, a rigid joint, a clamp or a support.
     Joint(usize),
     /// Slider.
     Slider(usize),
@@ -18,9 +18,9 @@ pub enum Releasable {
 /// Event that triggers a release.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub enum Trigger {
-    /// Time after the start, at which a step ends [time].
+    /// Time since the start, at which a step ends [time].
     Time(f64),
-    /// Call by the user of the simulation between two steps.
+    /// Call by the user of the simulation, between two steps.
     Outside,
 }
 

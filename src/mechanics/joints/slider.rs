@@ -1,4 +1,4 @@
-//! Sliding joints, as described by a scene.
+//! Sliding joints in a scene.
 
 use serde::{Deserialize, Serialize};
 
@@ -12,7 +12,7 @@ pub struct Slider {
     pub name: String,
     /// Slave: the sliding point.
     pub slave: Station,
-    /// Index of the master beam. For a slider on a track it is the master at the start.
+    /// Index of the master beam. A slider on a track has several masters; this is the first one.
     pub master: usize,
     /// Index of the track; `None` for a slider on a single beam.
     pub track: Option<usize>,
@@ -20,7 +20,7 @@ pub struct Slider {
     pub arc_length: f64,
     /// Sliding rule.
     pub rule: SlidingRule,
-    /// Behaviour at the ends of its master or track.
+    /// Behaviour at the ends of the master or track.
     pub ends: EndAction,
     /// Coefficient of restitution at the ends, from 0 to 1 [-].
     pub restitution: f64,
@@ -61,8 +61,8 @@ pub enum EndAction {
     Stop,
     /// The slider bounces with its coefficient of restitution. Momenta are conserved.
     Bounce,
-    /// A stop holds the slider at the end until the contact force becomes tensile. The rebound is determined by waves in the elastic bodies, which
-    /// the steps must resolve.
+    /// A stop holds the slider at the end until the contact force becomes tensile.
+    /// The rebound is determined by waves in the elastic bodies, which the steps must resolve.
     Contact,
     /// The slider is released from its master.
     Release,
@@ -78,9 +78,9 @@ impl EndAction {
 /// Treatment of velocities of the slave across the master at the start.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 pub enum StartVelocities {
-    /// The scene is rejected if there are such velocities.
+    /// The scene is rejected if the slave has a velocity across its master.
     #[default]
     Check,
-    /// Such velocities are removed by the smallest change of all velocities, in the norm of the kinetic energy.
+    /// Velocities across the master are removed by the smallest change of all velocities, in the norm of the kinetic energy.
     Project,
 }

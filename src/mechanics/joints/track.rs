@@ -2,14 +2,14 @@
 
 use serde::{Deserialize, Serialize};
 
-/// Beams that meet end to end. A slider passes from one beam to the next, on closed tracks any number of times.
+/// Beams that meet end to end. A slider passes from one beam to the next. On a closed track it may circulate any number of times.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Track {
     /// Name in messages.
     pub name: String,
     /// Beams in the order of the track; at least one.
     pub beams: Vec<TrackBeam>,
-    /// Behaviour after the last beam.
+    /// Behaviour of the track after the last beam.
     pub end: TrackEnd,
 }
 
@@ -48,7 +48,7 @@ impl Track {
 }
 
 impl TrackDirection {
-    /// Opposite direction.
+    /// Opposite direction along the beam.
     pub(crate) fn reversed(self) -> Self {
         match self {
             Self::Forward => Self::Backward,
@@ -56,8 +56,8 @@ impl TrackDirection {
         }
     }
 
-    /// Converts the arc length from the point where the track enters the beam to the arc length from the start of the beam, or the other way round
-    /// [length].
+    /// Converts an arc length along the track to an arc length along the beam, or vice versa [length].
+    /// The arc length along the track starts where the track enters the beam. The arc length along the beam starts at the start of the beam.
     pub fn along(self, length: f64, arc_length: f64) -> f64 {
         match self {
             Self::Forward => arc_length,
@@ -65,7 +65,7 @@ impl TrackDirection {
         }
     }
 
-    /// Sign of displacements towards the end of the beam for a positive displacement along the track [-].
+    /// Sign that converts a displacement along the track to a displacement towards the end of the beam [-].
     pub fn sign(self) -> f64 {
         match self {
             Self::Forward => 1.0,

@@ -1,27 +1,27 @@
-//! Order in which the unknowns of a band and the delayed unknowns of blocks are eliminated, and the resulting profile of the matrix.
+//! Elimination order of the unknowns of a band, including the delayed unknowns of blocks, and the resulting profile of the matrix.
 
 use super::block::{Block, MOST_DELAYED, UNTOUCHED};
 use super::{BlockLayout, reverse_cuthill_mckee};
 
-/// Largest ratio of the work of the elimination to the work for the same band without blocks. Up to this ratio, the order of the band is kept.
+/// Largest ratio of the elimination work to the work for the same band without blocks. Below this ratio, the order of the band is kept.
 const LARGEST_WORK: usize = 4;
 
-/// Order of the unknowns of a band that are not eliminated in blocks, including delayed unknowns, and the resulting profile of the matrix.
+/// Order of the unknowns that are not eliminated in blocks, including delayed unknowns, and the resulting profile of the matrix.
 ///
-/// The order depends only on the unknowns that the blocks touch. The delayed unknowns of a block follow the last unknown that the block touches,
-/// because there they have a pivot.
+/// The order depends only on the unknowns that the blocks touch.
+/// The delayed unknowns of a block follow the last unknown that the block touches. At this position in the order, the delayed unknowns have a pivot.
 #[derive(Debug, Clone)]
 pub(super) struct Arrangement {
     layout: BlockLayout,
-    /// Place of each unknown of the band in this order; `UNTOUCHED` if it is eliminated in a block.
+    /// Position of each unknown of the band in the order; `UNTOUCHED` if the unknown is eliminated in a block.
     pub(super) position: Vec<usize>,
-    /// For each unknown of the band, the end of the sequence of consecutive places to which its place belongs.
+    /// For each unknown of the band, the end of the sequence of consecutive positions that contains its position.
     pub(super) run_ends: Vec<usize>,
-    /// First place of the delayed unknowns of each block; `UNTOUCHED` if the block delays none.
+    /// First position of the delayed unknowns of each block; `UNTOUCHED` if the block delays no unknowns.
     pub(super) delayed: Vec<usize>,
     pub(super) ends: Vec<usize>,
     own_ends: Vec<usize>,
-    /// For each unknown in the order of elimination, the number of delayed unknowns that follow it.
+    /// For each unknown in the order of elimination, the number of delayed unknowns after it.
     delayed_after: Vec<usize>,
     /// Unknowns that the blocks touched when the order was determined.
     ordered_for: Vec<usize>,
@@ -51,7 +51,7 @@ impl Arrangement {
         self.ends.len()
     }
 
-    /// Updates the order if blocks touch other unknowns than before, and updates the profile.
+    /// Updates the profile. Updates also the order, if the blocks touch different unknowns than before.
     pub(super) fn fit(&mut self, blocks: &[Block]) {
         self.touched.clear();
         for block in blocks.iter().filter(|block| block.can_delay_unknowns()) {
@@ -84,7 +84,7 @@ impl Arrangement {
         of_band.enumerate().for_each(|(next, position)| *position = next);
     }
 
-    /// Replaces the order by one with a small bandwidth. It takes the couplings of unknowns by blocks into account.
+    /// Replaces the order by an order with a small bandwidth, which includes the couplings of unknowns by blocks.
     fn use_level_order(&mut self, blocks: &[Block]) {
         self.use_natural_order();
         let position = |&at: &usize| Some(self.position[at]).filter(|&place| place != UNTOUCHED);
@@ -101,8 +101,8 @@ impl Arrangement {
         }
     }
 
-    /// Numbers the unknowns and computes the profile. The delayed unknowns of a block follow the last unknown of the band that is coupled to the
-    /// block.
+    /// Numbers the unknowns and computes the profile.
+    /// The delayed unknowns of a block follow the last unknown of the band that is coupled to the block.
     fn number(&mut self, blocks: &[Block]) {
         let delaying = |block: &&Block| block.can_delay_unknowns() && !block.touched.is_empty();
         self.delayed_after.fill(0);
@@ -112,7 +112,7 @@ impl Arrangement {
         for block in blocks.iter().filter(delaying) {
             self.delayed_after[last(block, &self.position)] += MOST_DELAYED;
         }
-        // Replaces the number of delayed unknowns after each place by the place at which they start.
+        // Replaces the number of delayed unknowns after each position by the position of the first of them.
         let mut shift = 0;
         for (place, behind) in self.delayed_after.iter_mut().enumerate() {
             shift += std::mem::replace(behind, place + 1 + shift);
@@ -127,7 +127,7 @@ impl Arrangement {
                 size += MOST_DELAYED;
             }
         }
-        // Each place starts after the delayed unknowns that follow the previous place.
+        // The position of each unknown is shifted by the delayed unknowns before it.
         for position in self.position.iter_mut().filter(|position| **position != UNTOUCHED) {
             *position = position.checked_sub(1).map_or(0, |before| self.delayed_after[before]);
         }
@@ -159,7 +159,7 @@ impl Arrangement {
     }
 }
 
-/// Extends the profile at each coupled place to the last of these places.
+/// Extends the profile at each coupled position to the last of the coupled positions.
 fn couple(ends: &mut [usize], places: impl Iterator<Item = usize> + Clone) {
     let last = places.clone().max().unwrap_or(0);
     places.for_each(|place| ends[place] = ends[place].max(last));

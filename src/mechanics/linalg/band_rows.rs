@@ -1,14 +1,14 @@
-//! Views of rows of a banded matrix, to which entries are added. Views can be split for threads.
+//! Views of the rows of a banded matrix, for adding entries. Views can be split for threads.
 
 use std::ops::Range;
 
 use pulp::{Arch, Simd, WithSimd};
 
-/// Consecutive rows of a [`BandedMatrix`](super::BandedMatrix), to which entries are added.
+/// Consecutive rows of a [`BandedMatrix`](super::BandedMatrix), for adding entries.
 #[derive(Debug)]
 pub struct BandRows<'a> {
     pub(super) rows: Range<usize>,
-    /// Stored entries, row by row, starting with the first of these rows.
+    /// Stored entries, row by row, starting with the first row of the view.
     pub(super) entries: &'a mut [f64],
     pub(super) stride: usize,
     /// Index of the diagonal entry among the stored entries of a row.
@@ -16,7 +16,7 @@ pub struct BandRows<'a> {
     pub(super) half_bandwidth: usize,
 }
 
-/// Single row of a banded matrix, to which entries are added.
+/// Single row of a banded matrix, for adding entries.
 pub struct BandRow<'a> {
     entries: &'a mut [f64],
     row: usize,
@@ -44,7 +44,7 @@ impl BandRows<'_> {
         BandRows { rows: self.rows.clone(), entries: self.entries, ..*self }
     }
 
-    /// Splits the rows into the rows before `row` and the others.
+    /// Splits the view into the rows before `row` and the remaining rows.
     pub fn split_at(self, row: usize) -> (Self, Self) {
         let Self { rows, entries, stride, centre, half_bandwidth } = self;
         let (before, behind) = entries.split_at_mut((row - rows.start) * stride);
@@ -61,7 +61,7 @@ impl BandRows<'_> {
         (row - self.rows.start) * self.stride + column + self.centre - row
     }
 
-    /// Adds `value` to the entry at `(row, column)`, which must lie in the band and in these rows.
+    /// Adds `value` to the entry at `(row, column)`, which must lie in the band and in the view.
     #[inline]
     pub fn add(&mut self, row: usize, column: usize, value: f64) {
         let at = self.offset(row, column);
@@ -85,9 +85,9 @@ impl BandRows<'_> {
         }
     }
 
-    /// Adds a block of `width` by `width` values, given row by row. Its first row and column is `first`.
+    /// Adds a block of `width` by `width` values, given row by row. `first` is the first row and column of the block.
     pub(crate) fn add_block(&mut self, first: usize, width: usize, values: &[f64]) {
-        // Compile-time constants for the widths of spans of degree 1 to 3.
+        // The widths for spans of degree 1 to 3 are compile-time constants, for speed.
         match width {
             6 => self.add_fixed_block::<6>(first, values),
             9 => self.add_fixed_block::<9>(first, values),
@@ -105,7 +105,7 @@ impl BandRows<'_> {
         Arch::new().dispatch(AddBlock::<WIDTH> { entries: self.entries, at, stride, values });
     }
 
-    /// Adds values to a diagonal, starting at `row`. `offset` is its number of columns to the right of the main diagonal, or negative to the left.
+    /// Adds values to a diagonal, starting at `row`. `offset` is the number of columns from the main diagonal to this diagonal, negative to the left.
     #[inline]
     pub(crate) fn add_to_diagonal(&mut self, row: usize, offset: isize, values: &[f64]) {
         if !values.is_empty() {
@@ -116,8 +116,8 @@ impl BandRows<'_> {
     }
 }
 
-/// Addition of a block to rows with a fixed number of stored entries. The first row of the block starts at the stored entry `at`, and each further
-/// row one entry to the left of the previous row.
+/// Addition of a block to rows with a fixed number of stored entries.
+/// The first row of the block starts at the stored entry `at`. Each further row starts one entry to the left of the previous row.
 struct AddBlock<'a, const WIDTH: usize> {
     entries: &'a mut [f64],
     at: usize,

@@ -1,7 +1,7 @@
 //! Square banded matrix, and its LU factorisation with row exchanges.
 //!
-//! Rows are stored one after the other, with space for the additional entries that row exchanges cause. Elimination is then a sequence of short
-//! vector operations (Golub & Van Loan, Matrix Computations, 4th ed., section 4.3.5).
+//! Rows are stored one after the other, with space for the additional nonzero entries due to row exchanges.
+//! The elimination is then a sequence of short vector operations (Golub & Van Loan, Matrix Computations, 4th ed., section 4.3.5).
 
 use pulp::Arch;
 
@@ -10,7 +10,7 @@ use super::storage::{Factors, Storage};
 use super::substitution::{StripSubstitution, Substitution};
 use super::{BandRows, LinearError};
 
-/// Square matrix whose entries `(i, j)` are zero for `|i - j|` above the half-bandwidth.
+/// Square matrix whose entries `(i, j)` are zero if `|i - j|` exceeds the half-bandwidth.
 #[derive(Debug, Clone)]
 pub struct BandedMatrix {
     size: usize,
@@ -18,7 +18,7 @@ pub struct BandedMatrix {
     storage: Storage,
 }
 
-/// Factors `P A = L U` of a [`BandedMatrix`]. They replace its entries in memory.
+/// Factors `P A = L U` of a [`BandedMatrix`], stored in the memory of its entries.
 #[derive(Debug)]
 pub struct BandedLu<'a> {
     factors: Factors<'a>,
@@ -45,7 +45,7 @@ impl BandedMatrix {
         self.storage.clear();
     }
 
-    /// View of all rows, to which entries are added.
+    /// View of all rows, for adding entries.
     #[inline]
     pub(crate) fn rows_mut(&mut self) -> BandRows<'_> {
         let (stride, centre) = (self.storage.stride(), self.storage.centre());
@@ -83,12 +83,12 @@ impl BandedMatrix {
         &mut self.storage
     }
 
-    /// Sets row sizes from the diagonal entries. Row exchanges use them to compare rows of different units.
+    /// Computes row sizes from the diagonal entries. The pivot search uses them to compare rows of different units.
     pub(crate) fn weigh_rows(&mut self) {
         self.storage.weigh_rows();
     }
 
-    /// Sets the squared row sizes. Row exchanges use them to compare rows of different units.
+    /// Sets the squared row sizes. The pivot search uses them to compare rows of different units.
     pub(super) fn set_row_sizes(&mut self, sizes: impl Iterator<Item = f64>) {
         self.storage.sizes.iter_mut().zip(sizes).for_each(|(size, given)| *size = given);
     }
@@ -99,7 +99,12 @@ impl BandedMatrix {
     /// Fails if a column has no nonzero finite pivot. The entries are then lost.
     pub fn factorise(&mut self) -> Result<BandedLu<'_>, LinearError> {
         Arch::new().dispatch(Elimination(self.storage.rows_mut()))?;
-        Ok(BandedLu { factors: self.storage.factors() })
+        Ok(self.factors())
+    }
+
+    /// Factors that [`factorise`](Self::factorise) has computed.
+    pub(crate) fn factors(&self) -> BandedLu<'_> {
+        BandedLu { factors: self.storage.factors() }
     }
 }
 
@@ -109,9 +114,9 @@ impl BandedLu<'_> {
         Arch::new().dispatch(Substitution { factors: self.factors, x });
     }
 
-    /// Replaces `W` right-hand sides by their solutions. Their entries are interleaved.
+    /// Replaces `W` right-hand sides by their solutions. The entries of the right-hand sides are interleaved.
     ///
-    /// Rows before `first` must be zero.
+    /// The right-hand sides must be zero before row `first`.
     pub(crate) fn solve_strip<const W: usize>(&self, x: &mut [[f64; W]], first: usize) {
         Arch::new().dispatch(StripSubstitution { factors: self.factors, x, first });
     }
@@ -131,7 +136,7 @@ mod tests {
         #[test]
         fn the_banded_solution_is_the_dense_one(
             size in 1_usize..40, half_bandwidth in 0_usize..12, entries in prop::collection::vec(-1.0..1.0_f64, 2000),
-            // Dominance of the diagonal for which no, some or many rows are exchanged.
+            // Relative sizes of the diagonal for which no, some or many rows are exchanged.
             diagonal in prop::sample::select(vec![0.0, 0.5, 3.0, 30.0]),
         ) {
             let mut matrix = BandedMatrix::zeros(size, half_bandwidth);
@@ -209,8 +214,8 @@ mod tests {
             }
             let singular = |unknown| LinearError::Singular { unknown, size: 12 };
             assert_eq!(column.factorise().unwrap_err(), singular(zero));
-            // Row exchanges move the zero row down until only the last row follows it. The last row has only a diagonal entry there, so it is not
-            // exchanged.
+            // Row exchanges move the zero row down until only the last row follows it.
+            // In the column of the last exchange, the last row has only a diagonal entry, so it is not exchanged with the zero row.
             assert_eq!(row.factorise().unwrap_err(), singular(zero.max(10)));
         }
     }

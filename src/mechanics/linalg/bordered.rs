@@ -1,7 +1,8 @@
 //! Banded matrix with a border: additional columns and rows that may have entries anywhere.
 //!
-//! If the border has few unknowns, it is stored as dense columns, which do not change the band. If it consists of many blocks, each of which
-//! touches few unknowns of the band, the blocks are eliminated separately. The work is then proportional to the number of blocks.
+//! A border with few unknowns is stored as dense columns, which do not change the band.
+//! A border of many blocks, each of which touches few unknowns of the band, is eliminated block by block.
+//! The work of the block elimination is proportional to the number of blocks.
 
 use super::block::BLOCK;
 use super::full_border::FullLu;
@@ -10,14 +11,14 @@ use super::local_border::LocalLu;
 use super::two_ended::{TwoEnded, TwoEndedLu};
 use super::{BandedLu, BandedMatrix, BlockLayout, FullBorder, LinearError, LocalBorder};
 
-/// Square matrix that is banded except for its last rows and columns, which are the border.
+/// Square matrix that consists of a band and a border. The border comprises the last rows and columns.
 #[derive(Debug, Clone)]
 pub struct BorderedMatrix {
     band: BandedMatrix,
     border: Border,
-    /// Elimination of band and border together, used if the band alone may be singular.
+    /// Elimination of band and border together, for matrices whose band alone may be singular.
     joint_elimination: Option<JointElimination>,
-    /// Elimination from both ends, used if the band is long and has no border.
+    /// Elimination from both ends, for long bands without border.
     ends: Option<Box<TwoEnded>>,
 }
 
@@ -26,17 +27,17 @@ pub struct BorderedMatrix {
 pub struct BorderShape {
     /// Number of border rows and columns.
     pub width: usize,
-    /// Largest number of entries that the border rows have in the columns of the band.
+    /// Largest number of entries of the border rows in the columns of the band.
     pub row_entries: usize,
 }
 
-/// Unit of a border row or of a border unknown. Unknowns of the band are lengths, and its rows are forces.
+/// Unit of a border row or border unknown. In the band, unknowns are lengths and rows are forces.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub enum BorderUnit {
     /// Force.
     #[default]
     Force,
-    /// Any other unit. Multiplied by this number it becomes a length.
+    /// Unit other than force. The number converts it to a length.
     Length(f64),
 }
 
@@ -49,8 +50,8 @@ impl BorderUnit {
         }
     }
 
-    /// Factor that converts derivatives with respect to an unknown of this unit to derivatives with respect to a length. `stiffness` is a typical
-    /// stiffness in the band [force/length].
+    /// Factor that converts derivatives with respect to an unknown of this unit to derivatives with respect to a length.
+    /// The argument `stiffness` is a typical stiffness in the band [force/length].
     pub(super) fn column_factor(self, stiffness: f64) -> f64 {
         match self {
             Self::Force => stiffness,
@@ -68,7 +69,7 @@ pub enum Border {
     Local(Box<LocalBorder>),
 }
 
-/// Factors of a [`BorderedMatrix`]. They replace its entries in memory.
+/// Factors of a [`BorderedMatrix`], stored in the memory of its entries.
 #[derive(Debug)]
 pub struct BorderedLu<'a>(BorderFactors<'a>);
 
@@ -97,7 +98,7 @@ impl Border {
         }
     }
 
-    /// Adds `value` to the part `B`, at the given row of the band and column of the border.
+    /// Adds `value` to the submatrix `B`, at the given row of the band and column of the border.
     pub fn add_to_column(&mut self, row: usize, border_column: usize, value: f64) {
         match self {
             Self::Full(border) => border.add_to_column(row, border_column, value),
@@ -108,7 +109,7 @@ impl Border {
         }
     }
 
-    /// Adds `value` to the part `C`, at the given row of the border and column of the band.
+    /// Adds `value` to the submatrix `C`, at the given row of the border and column of the band.
     pub fn add_to_row(&mut self, border_row: usize, column: usize, value: f64) {
         match self {
             Self::Full(border) => border.add_to_row(border_row, column, value),
@@ -119,8 +120,9 @@ impl Border {
         }
     }
 
-    /// Adds the couplings of an unknown of the band with consecutive unknowns of the border, starting with `first`: entries in a row of `B` and in
-    /// a column of `C`. In a border of blocks, all these unknowns of the border must belong to the same block.
+    /// Adds the couplings of an unknown of the band with consecutive unknowns of the border, starting with `first`.
+    /// The couplings are entries in a row of `B` and in a column of `C`.
+    /// In a border of blocks, all border unknowns of one call must belong to the same block.
     pub(crate) fn add_couplings(
         &mut self,
         at: usize,
@@ -154,7 +156,7 @@ impl Border {
         }
     }
 
-    /// Sets the units of the row and of the unknown with a given index of the border. The choice of pivots depends on them.
+    /// Sets the units of the border row and the border unknown with the given index. The choice of pivots depends on the units.
     pub(crate) fn set_units(&mut self, at: usize, row: BorderUnit, unknown: BorderUnit) {
         match self {
             Self::Full(border) => border.set_units(at, row, unknown),
@@ -201,8 +203,8 @@ impl BorderedMatrix {
         }
     }
 
-    /// Returns the matrix with joint elimination of band and dense border, for bands that may be singular alone. The last `full` rows and columns
-    /// have entries everywhere and remain a border.
+    /// Returns the matrix with joint elimination of the band and a dense border, for bands that may be singular alone.
+    /// The last `full` rows and columns, which have entries everywhere, remain a border.
     pub(crate) fn with_joint_elimination(self, full: usize) -> Self {
         Self {
             joint_elimination: Some(JointElimination::new(self.size(), full)),
@@ -233,7 +235,7 @@ impl BorderedMatrix {
         &mut self.band
     }
 
-    /// Border, to which entries are added.
+    /// Mutable border, for adding entries.
     pub fn border_mut(&mut self) -> &mut Border {
         &mut self.border
     }
@@ -256,7 +258,7 @@ impl BorderedMatrix {
         }
     }
 
-    /// Replaces the entries by the factors. Without a border these are the factors of the band.
+    /// Replaces the entries by the factors. Without a border, these are the factors of the band.
     ///
     /// # Errors
     /// Fails if a column has no nonzero finite pivot. The entries are then lost.
@@ -368,7 +370,8 @@ mod tests {
         }
     }
 
-    /// Solution of a contact problem on a band of positions and angles, in other units of length and force. The result is converted back.
+    /// Solves a contact problem on a band of positions and angles in the given units of length and force.
+    /// The solution is converted back to the original units.
     fn in_units(length: f64, force: f64, mut matrix: BorderedMatrix, seed: f64) -> Vec<f64> {
         // Units of the rows and of the unknowns of the band.
         let of_band = [(force, length), (force, length), (force * length, 1.0)];

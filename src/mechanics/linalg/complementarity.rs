@@ -2,7 +2,7 @@
 
 use super::{BandedMatrix, LinearError};
 
-/// Condition on an unknown and the response that belongs to it.
+/// Condition on an unknown and its response.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Pairing {
     /// Equality: the response is zero, and the unknown may have any value.
@@ -11,18 +11,20 @@ pub enum Pairing {
     Complementary,
 }
 
-/// Number of exchanges of all violating pairs without progress, after which pairs are exchanged one by one.
+/// Number of block exchanges without progress, after which pairs are exchanged one by one.
 const MOST_BLOCK_EXCHANGES: usize = 3;
 
-/// Negative unknown or response that counts as zero, as a fraction of the largest one.
+/// Largest negative unknown or response that counts as zero, as a fraction of the largest value.
 const NOTHING: f64 = 1e-13;
 
-/// Solves a linear complementarity problem for the unknowns `z` with the responses `w = A z + q`: `w = 0` for equality pairs, `0 ≤ z ⟂ w ≥ 0` for
-/// complementary pairs.
+/// Solves a linear complementarity problem for the unknowns `z` with the responses `w = A z + q`.
+/// Equality pairs satisfy `w = 0`, complementary pairs `0 ≤ z ⟂ w ≥ 0`.
 ///
-/// `A` is given by its rows and need not be symmetric. The solution is unique if `A` is positive definite, or becomes so by elimination of the
-/// equality pairs. The method is block principal pivoting: all violating pairs are exchanged at once (Júdice & Pires 1994), so that the result does
-/// not depend on their order. If this does not make progress, pairs are exchanged one by one (Murty 1974).
+/// The matrix `A` is given by its rows and need not be symmetric.
+/// The solution is unique if `A` is positive definite, at least after the elimination of the equality pairs.
+/// The method is block principal pivoting: all violating pairs are exchanged at once (Júdice & Pires 1994).
+/// The result does not depend on the order of the pairs.
+/// If block pivoting does not make progress, pairs are exchanged one by one (Murty 1974).
 ///
 /// # Errors
 /// Fails if the submatrix of the nonzero unknowns is singular.
@@ -75,7 +77,7 @@ mod tests {
     use super::*;
     use proptest::prelude::*;
 
-    /// Positive definite matrix `B Bᵀ + 0.01`, where `B` contains the entries.
+    /// Positive definite matrix `B Bᵀ + 0.01`. The matrix `B` contains the given entries.
     fn definite(size: usize, entries: &[f64]) -> Vec<Vec<f64>> {
         let rows: Vec<&[f64]> = entries.chunks(size).collect();
         let product =
@@ -118,7 +120,7 @@ mod tests {
                     }
                 }
             }
-            // The same problem in reverse order.
+            // The same complementarity problem with its pairs in reverse order.
             let turned: Vec<Vec<f64>> = matrix.iter().rev().map(|row| row.iter().rev().copied().collect()).collect();
             let q: Vec<f64> = q.into_iter().rev().collect();
             let pairings: Vec<Pairing> = pairings.into_iter().rev().collect();

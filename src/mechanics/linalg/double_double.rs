@@ -1,15 +1,15 @@
 //! Double-double arithmetic.
 //!
-//! References: T. J. Dekker, Numer. Math. 18 (1971) 224–242; Y. Hida, X. S. Li & D. H. Bailey, Algorithms for quad-double precision floating point
-//! arithmetic, ARITH-15 (2001) 155–162. Products are split into two parts by fused multiply–add.
+//! References: T. J. Dekker, Numer. Math. 18 (1971) 224–242; Y. Hida, X. S. Li & D. H. Bailey, ARITH-15 (2001) 155–162.
+//! Products are split into two parts by fused multiply–add.
 //!
-//! IEEE 754 requires that fused multiply–add is rounded once. Results are therefore identical on every machine, whether it is computed in hardware
-//! or software.
+//! IEEE 754 requires that a fused multiply–add operation rounds once.
+//! The results are identical on every machine, both for hardware and software implementations of the operation.
 #![allow(clippy::disallowed_methods)]
 
 use pulp::Simd;
 
-/// Number of about 32 decimal digits: the unevaluated sum `high + low`.
+/// Number with about 32 decimal digits: the unevaluated sum `high + low`.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(super) struct DoubleDouble {
     pub(super) high: f64,
@@ -51,7 +51,7 @@ impl DoubleDouble {
     #[inline(always)]
     pub(super) fn inverse(self) -> Self {
         let guess = 1.0 / self.high;
-        // The remainder `1 - guess · self` is small and computed exactly.
+        // The remainder `1 - guess · self` is small and is computed exactly.
         let rest = (-guess).mul_add(self.low, (-guess).mul_add(self.high, 1.0));
         Self::renormalised(guess, guess * rest)
     }

@@ -1,11 +1,12 @@
 //! Gaussian elimination of a banded matrix by panels of columns.
 //!
-//! A panel of columns is eliminated without row exchanges if all multipliers are small. They depend only on the entries of the panel (threshold
-//! pivoting: Duff, Erisman & Reid, Direct Methods for Sparse Matrices, 2nd ed., section 5.2). The rows below are then updated once for the whole
-//! panel, without additional nonzero entries. Otherwise the columns of the panel are eliminated one by one with partial pivoting.
+//! A panel of columns is eliminated without row exchanges if all multipliers are small.
+//! The size of the multipliers depends only on the panel (threshold pivoting: Duff, Erisman & Reid, Direct Methods for Sparse Matrices, section 5.2).
+//! The rows below the panel are then updated once for the whole panel, without additional nonzero entries.
+//! If a multiplier is large, the columns of the panel are eliminated one by one with partial pivoting.
 //!
-//! In a matrix with a profile, rows and columns outside the profile are skipped. Row exchanges and additional nonzero entries stay inside the
-//! profile, because its ends do not decrease from row to row.
+//! In a matrix with a profile, entries outside the profile are skipped.
+//! Row exchanges and additional nonzero entries stay inside the profile, because the ends of its rows do not decrease from row to row.
 
 use pulp::{Simd, WithSimd};
 
@@ -15,23 +16,24 @@ use super::{LinearError, fixed_band};
 /// Number of values in a vector instruction.
 const LANES: usize = 4;
 
-/// Number of columns that are eliminated together. It equals the vector length, so that panels write and read aligned vectors. A read that overlaps
-/// two recently written vectors would stall the processor.
+/// Number of columns that are eliminated together. It equals the vector length, so that panels read and write aligned vectors.
+/// A read that overlaps two recently written vectors would stall the processor.
 pub(super) const PANEL: usize = LANES;
 
 /// Smallest half-bandwidth for which a row has space for a panel and whole vectors after it.
 pub(super) const SMALLEST_HALF_BANDWIDTH: usize = PANEL + LANES - 2;
 
-/// Square of the largest multiplier for which rows of equal norm are not exchanged.
+/// Square of the largest multiplier that is accepted without a row exchange, for rows of equal norm.
 const LARGEST_SQUARE: f64 = 64.0;
 
-/// Returns true if a multiplier is so small that no rows are exchanged. The squared sizes of the pivot row and of the eliminated row are given.
+/// Returns true if a multiplier is too small for a row exchange.
+/// Arguments: the multiplier, and the squared sizes of the pivot row and of the eliminated row.
 #[inline(always)]
 pub(super) fn is_small(multiplier: f64, pivot_row: f64, row: f64) -> bool {
     multiplier * multiplier * pivot_row <= LARGEST_SQUARE * row
 }
 
-/// Gaussian elimination with row exchanges. It replaces a banded matrix by its factors.
+/// Gaussian elimination with row exchanges. It replaces the entries of a banded matrix by its factors.
 pub(super) struct Elimination<'a>(pub(super) ActiveRows<'a>);
 
 impl WithSimd for Elimination<'_> {
@@ -39,7 +41,7 @@ impl WithSimd for Elimination<'_> {
 
     #[inline(always)]
     fn with_simd<S: Simd>(mut self, simd: S) -> Self::Output {
-        // Compile-time constants for the half-bandwidths of beams of degree 2 and 3. For degree 1 they would not save time.
+        // The half-bandwidths of beams of degree 2 and 3 are compile-time constants. For degree 1, constants would not save time.
         match self.0.reach {
             8 => eliminate(simd, &mut self.0, 8, eliminate_fixed::<S, 8, 8, 28>),
             11 => eliminate(simd, &mut self.0, 11, eliminate_fixed::<S, 11, 12, 37>),
@@ -54,9 +56,9 @@ impl WithSimd for Elimination<'_> {
     }
 }
 
-/// Elimination of a matrix whose profile is symmetric. For each index `i`, the profile contains the last row with an entry in column `i`, which is
-/// also the last column with an entry in row `i`. The values of the profile never decrease. The profile is longer than the matrix by one panel of
-/// rows.
+/// Elimination of a matrix whose profile is symmetric.
+/// For each index `i`, the profile contains the last row with an entry in column `i`. It is also the last column with an entry in row `i`.
+/// The values of the profile never decrease. The profile is longer than the matrix by one panel of rows.
 pub(super) struct ProfileElimination<'a>(pub(super) ActiveRows<'a>, pub(super) &'a [usize]);
 
 impl WithSimd for ProfileElimination<'_> {
@@ -79,8 +81,9 @@ fn eliminate_fixed<S: Simd, const REACH: usize, const WIDTH: usize, const STRIDE
     fixed_band::eliminate_panel::<S, REACH, WIDTH, STRIDE>(simd, &mut rows[first..], sizes)
 }
 
-/// Eliminates a band matrix of half-bandwidth `reach`. Panels without additional nonzero entries from earlier row exchanges are eliminated by
-/// `eliminate_plain`, all others by [`eliminate_panel`].
+/// Eliminates a band matrix of half-bandwidth `reach`.
+/// Panels that contain additional nonzero entries from earlier row exchanges are eliminated by [`eliminate_panel`].
+/// Panels without such entries are eliminated by `eliminate_plain`.
 #[inline(always)]
 fn eliminate<S: Simd>(
     simd: S,
@@ -88,7 +91,7 @@ fn eliminate<S: Simd>(
     reach: usize,
     eliminate_plain: impl Fn(S, &mut ActiveRows<'_>, usize) -> bool,
 ) -> Result<(), LinearError> {
-    // Last column in which the rows above have an entry.
+    // Last column in which the rows above the panel have an entry.
     let mut filled = 0;
     for first in (0..storage.columns).step_by(PANEL) {
         let next = first + PANEL;
@@ -126,8 +129,8 @@ fn eliminate_in_profile<S: Simd>(
         let next = first + PANEL;
         let below = ends[next - 1] + 1 - next;
         let width = filled.max(ends[next - 1]) + 1 - next;
-        // Columns after the last entry and rows below the last row are zero. The compile-time constants are the sizes for cubic beams, without and
-        // with a point that slides from one span to the next.
+        // Columns after the last entry and rows below the last row are zero.
+        // The compile-time constants are the sizes for cubic beams, with and without a point that slides from one span to the next.
         let is_eliminated = match below.max(width) {
             ..=9 if reach > 10 => eliminate_panel(simd, storage, first, [reach, 9], 12),
             ..=11 if reach > 10 => eliminate_panel(simd, storage, first, [reach, 11], 12),
@@ -152,7 +155,7 @@ fn eliminate_in_profile<S: Simd>(
 }
 
 pub(super) struct PanelFactors {
-    /// Entries of the factors in the panel: multipliers to the left of the diagonal, and the upper factor on and to the right of it.
+    /// Entries of the factors in the panel: multipliers to the left of the diagonal, and the upper factor on the diagonal and to the right of it.
     pub(super) factors: [[f64; PANEL]; PANEL],
     pub(super) inverses: [f64; PANEL],
     /// True if no multiplier is large and all entries are finite.
@@ -182,8 +185,8 @@ impl PanelFactors {
     }
 }
 
-/// Eliminates the columns of a panel from the rows below and the columns after it. Returns false without changing anything if rows should be
-/// exchanged. The first entry of the last argument is the half-bandwidth of the storage.
+/// Eliminates the columns of a panel from the rows below the panel and the columns after it.
+/// Returns false without any change if rows should be exchanged. The first entry of the last argument is the half-bandwidth of the storage.
 #[inline(always)]
 fn eliminate_panel<S: Simd>(
     simd: S,
@@ -251,7 +254,7 @@ pub(super) fn subtract<S: Simd, const COUNT: usize>(
     rows: [&[f64]; COUNT],
     from: &mut [f64],
 ) {
-    // This is a loop, because a closure that is not inlined would lose the vector instructions.
+    // A loop is used, because a closure that is not inlined would lose the vector instructions.
     let mut splat = [simd.splat_f64s(0.0); COUNT];
     let (mut heads, mut tails): ([&[S::f64s]; COUNT], [&[f64]; COUNT]) =
         ([&[]; COUNT], [&[]; COUNT]);
@@ -261,7 +264,7 @@ pub(super) fn subtract<S: Simd, const COUNT: usize>(
     }
     let (vectors, rest) = S::as_mut_simd_f64s(from);
     for (at, vector) in vectors.iter_mut().enumerate() {
-        // This copy is needed because the compiler cannot exclude that the target is one of the rows.
+        // The copy is needed, because the compiler cannot exclude that the target is one of the rows.
         let mut left = *vector;
         for (multiplier, row) in splat.iter().zip(&heads) {
             left = simd.sub_f64s(left, simd.mul_f64s(*multiplier, row[at]));
@@ -286,7 +289,7 @@ fn eliminate_column(
     let (stride, rows) = (3 * reach + PANEL, &mut *storage.rows);
     let last_row = end(column).min(size - 1);
     let diagonal = column * stride + reach + PANEL - 1;
-    // The entry in the same column one row below is stored `stride - 1` places later.
+    // The entry one row below in the same column is stored `stride - 1` elements later.
     let entry = |row: usize| rows[diagonal + (row - column) * (stride - 1)].abs();
     let relative = |row: usize| entry(row) / storage.sizes[row].sqrt();
     let (mut pivot_row, mut largest) = (column, relative(column));

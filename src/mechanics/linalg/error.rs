@@ -1,12 +1,12 @@
 //! Errors of linear systems.
 
-/// Linear system without a unique solution in floating-point arithmetic.
+/// Error for a linear system without a unique solution in floating-point arithmetic.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 pub enum LinearError {
-    /// Column without usable pivot. The matrix is singular or nearly singular.
+    /// Column without usable pivot: the matrix is singular or nearly singular.
     #[error("the matrix is singular: no pivot for unknown {unknown} of {size}")]
     Singular {
-        /// Index of the column, from 0.
+        /// Index of the column, counted from 0.
         unknown: usize,
         /// Number of rows.
         size: usize,
@@ -14,7 +14,7 @@ pub enum LinearError {
     /// Entry that is infinite or NaN.
     #[error("the matrix has an entry that is not a finite number, at unknown {unknown} of {size}")]
     NotFinite {
-        /// Index of the column, from 0.
+        /// Index of the column, counted from 0.
         unknown: usize,
         /// Number of rows.
         size: usize,
@@ -22,7 +22,7 @@ pub enum LinearError {
 }
 
 impl LinearError {
-    /// Index of the column in which the error occurred, from 0.
+    /// Index of the column in which the error occurred, counted from 0.
     pub fn unknown(self) -> usize {
         let (Self::Singular { unknown, .. } | Self::NotFinite { unknown, .. }) = self;
         unknown
@@ -35,7 +35,7 @@ impl LinearError {
         }
     }
 
-    /// Converts the error of a block of a matrix that starts after `rows` other rows.
+    /// Converts the column index of an error in a submatrix to an index in the whole matrix. `rows` is the number of rows before the submatrix.
     pub(super) fn offset_by_rows(self, rows: usize) -> Self {
         match self {
             Self::Singular { unknown, size } => {

@@ -1,17 +1,18 @@
-//! Elimination and substitution without row exchanges for a half-bandwidth that is a compile-time constant, as for common beams.
+//! Elimination and substitution without row exchanges. The half-bandwidth is a compile-time constant for common beams.
 //!
-//! Every entry is computed by the same operations in the same order as for half-bandwidths given at run time. The only difference is that all loop
-//! lengths are constants.
+//! Every entry is computed by the same operations in the same order as with a half-bandwidth given at run time.
+//! The only difference is that the lengths of all loops are constants.
 
 use pulp::Simd;
 
 use super::elimination::{PANEL, PanelFactors, is_small, subtract};
 
-/// Eliminates the columns of a panel from the rows below, if there are no additional nonzero entries from earlier row exchanges. Returns false
-/// without changing anything if rows should be exchanged.
+/// Eliminates the columns of a panel from the rows below, if there are no additional nonzero entries from earlier row exchanges.
+/// Returns false without any change if rows should be exchanged.
 ///
-/// `rows` contains the panel and the `REACH` rows below it, each with `STRIDE` stored entries. `sizes` contains their squared sizes. `WIDTH` is the
-/// half-bandwidth, rounded up to whole vectors.
+/// The argument `rows` contains the panel and the `REACH` rows below it, each with `STRIDE` stored entries.
+/// The argument `sizes` contains the squared sizes of the rows.
+/// The constant `WIDTH` is the half-bandwidth, rounded up to whole vectors.
 #[inline(always)]
 pub(super) fn eliminate_panel<
     S: Simd,
@@ -52,7 +53,8 @@ pub(super) fn eliminate_panel<
         let l1 = (head[1] - l0 * u01) * inverses[1];
         let l2 = (head[2] - l0 * u02 - l1 * u12) * inverses[2];
         let l3 = (head[3] - l0 * u03 - l1 * u13 - l2 * u23) * inverses[3];
-        // The values are written one by one because they are read one by one. A processor stalls if a vector is read that was written in parts.
+        // The values are written one by one, because they are read one by one.
+        // Reading a vector that was written in several pieces would stall the processor.
         (head[0], head[1], head[2], head[3]) = (l0, l1, l2, l3);
         let size = sizes_below[index];
         are_small &=

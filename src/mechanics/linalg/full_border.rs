@@ -1,24 +1,25 @@
-//! Dense border of a banded matrix. It is eliminated by means of the factors of the band.
+//! Dense border of a banded matrix, which is eliminated with the factors of the band.
 //!
 //! ```text
-//! [ A  B ] [x]   [f]        Z = A⁻¹ B      y = A⁻¹ f
-//! [ C  D ] [z] = [g]        (D - C Z) z = g - C y      x = y - Z z
+//! [ A  B ] [x]   [f]        solutions of the band: Z = A⁻¹ B      y = A⁻¹ f
+//! [ C  D ] [z] = [g]        system of the border: (D - C Z) z = g - C y      x = y - Z z
 //! ```
 //!
-//! The border may have entries anywhere without changing the width of the band (Govaerts & Pryce, Block elimination with one iterative refinement
-//! solves bordered linear systems accurately, BIT 30 (1990) 490–507). The caller decides whether the solution is refined.
+//! The border may have entries anywhere without changing the width of the band (Govaerts & Pryce, BIT 30 (1990) 490–507).
+//! The caller decides whether the solution is refined.
 
 use super::{BandedLu, BandedMatrix, BorderShape, BorderUnit, LinearError};
 use crate::elementary::square;
 
-/// Number of border columns that are stored and solved together. It is a compile-time constant, the number of unknowns of a sliding contact.
+/// Number of border columns that are stored and solved together. It equals the number of unknowns of a sliding contact.
 const STRIP: usize = 5;
 
-/// Weight of lengths in comparison with forces in the choice of pivots. Equations of forces, such as that of a frictionless contact, are preferred
-/// as long as this loses at most four digits. Then a zero force is exactly zero.
+/// Weight of length rows relative to force rows in the choice of pivots.
+/// Force rows, such as the equation of a frictionless contact, are preferred as long as the preference loses at most four digits.
+/// With the preference for force rows, a zero force is exactly zero.
 const LENGTHS: f64 = 1e-4;
 
-/// Some columns of the border part `B`. After the factorisation they contain columns of the solution `Z = A⁻¹ B`.
+/// Several columns of the border `B`. After the factorisation, they contain columns of the solution `Z = A⁻¹ B`.
 #[derive(Debug, Clone)]
 struct BorderStrip {
     rows: Vec<[f64; STRIP]>,
@@ -43,7 +44,7 @@ pub(super) struct FullLu<'a> {
     band: BandedLu<'a>,
     /// Columns of the matrix `Z`.
     solved: &'a [BorderStrip],
-    /// Entries of the part `C`.
+    /// Entries of the submatrix `C`.
     rows: &'a [(usize, usize, f64)],
     complement: BandedLu<'a>,
 }
@@ -101,8 +102,8 @@ impl FullBorder {
         self.units[at] = (row, unknown);
     }
 
-    /// Scales the rows of the matrix `D - C Z`. Rows of lengths are scaled by the largest compliance, so that they can be compared with rows of
-    /// forces.
+    /// Scales the rows of the matrix `D - C Z`.
+    /// Rows of lengths are scaled by the largest compliance, which makes them comparable with rows of forces.
     fn weigh_rows(&mut self) {
         let compliances = self.units.iter().enumerate().map(|(at, units)| match units {
             (BorderUnit::Length(_), BorderUnit::Force) => self.corner.get(at, at).abs(),
@@ -129,7 +130,8 @@ impl FullBorder {
         self.corner.get(border_row, border_column)
     }
 
-    /// All nonzero entries of the matrix of this border and a band, as row, column and value. Values for the same row and column must be added up.
+    /// All nonzero entries of the matrix that consists of a band and this border, as row, column and value.
+    /// Values for the same row and column must be added up.
     pub(super) fn entries_with(&self, band: &BandedMatrix) -> Vec<(usize, usize, f64)> {
         let (Self { width, strips, rows, corner, .. }, n) = (self, band.size());
         let reach = band.half_bandwidth();

@@ -1,8 +1,7 @@
-//! Elimination of a band together with its border. The band alone may be singular, for example in mechanisms that only contacts restrain.
+//! Joint elimination of a band and its border. The band alone may be singular, for example in mechanisms that only contacts restrain.
 //!
-//! Border rows with few entries are inserted into the band by reverse Cuthill–McKee ordering, and rows are exchanged as in any banded matrix. Rows
-//! and columns are scaled first, because they contain both forces and lengths (Ruiz, A scaling algorithm to equilibrate both rows and columns norms
-//! in matrices, RAL-TR-2001-034).
+//! Border rows with few entries are inserted into the band by reverse Cuthill–McKee ordering, and rows are exchanged as in any banded matrix.
+//! Rows and columns are scaled first, because they contain both forces and lengths (Ruiz, report RAL-TR-2001-034).
 
 use super::ordering::reverse_cuthill_mckee;
 use super::{BandedLu, BandedMatrix, LinearError};
@@ -11,15 +10,15 @@ const SCALINGS: usize = 4;
 
 type MatrixEntry = (usize, usize, f64);
 
-/// Square sparse matrix with its order of elimination, followed by dense rows and columns.
+/// Square sparse matrix with its order of elimination and a border of dense rows and columns.
 #[derive(Debug, Clone)]
 pub(super) struct JointElimination {
     size: usize,
     band: BandedMatrix,
-    /// Place of each sparse row in the band.
+    /// Position of each sparse row in the band.
     position: Vec<usize>,
     scales: Equilibration,
-    /// Dense columns. After the factorisation they are multiplied by the inverse of the band.
+    /// Dense columns. The factorisation multiplies them by the inverse of the band.
     columns: Vec<Vec<f64>>,
     /// Entries of the dense rows. Row numbers start at the first dense row.
     rows: Vec<MatrixEntry>,
@@ -60,7 +59,7 @@ impl JointElimination {
         }
     }
 
-    /// Factorises the matrix with these entries. Values for the same row and column are added up.
+    /// Factorises the matrix with the given entries. Values for the same row and column are added up.
     ///
     /// # Errors
     /// Fails if a column has no nonzero finite pivot.

@@ -7,7 +7,7 @@
 //! [ …             … ]
 //! ```
 //!
-//! The work is proportional to the number of blocks and unknowns. The blocks may touch other unknowns of the band in every factorisation.
+//! The work is proportional to the number of blocks and unknowns. In each factorisation, the blocks may touch different unknowns of the band.
 
 use std::sync::Arc;
 
@@ -24,7 +24,7 @@ const EXTRA_HALF_BANDWIDTH: usize = 16;
 /// Structure of the blocks of a border and of its band.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct BlockLayout {
-    /// For each block, the unknowns of the band that no other block couples with others. They are eliminated with the block.
+    /// For each block, the unknowns of the band that are coupled with others by this block only. They are eliminated with the block.
     pub own: Vec<Vec<usize>>,
     /// Groups of unknowns of the band that are coupled with each other.
     pub groups: Arc<[Vec<usize>]>,
@@ -32,14 +32,14 @@ pub struct BlockLayout {
     pub block_entries: usize,
 }
 
-/// Border of blocks of five unknowns, and the order in which the band is eliminated after them.
+/// Border of blocks of five unknowns, and the order in which the band is eliminated after the blocks.
 #[derive(Debug, Clone)]
 pub struct LocalBorder {
     blocks: Vec<Block>,
     arrangement: Arrangement,
     /// Band plus the Schur complements of the blocks, in the order of the arrangement.
     matrix: ProfileMatrix,
-    /// Buffer: place of each unknown of the band in a block. All entries are `UNTOUCHED` while the buffer is not used.
+    /// Buffer for the position of each unknown of the band in a block. All entries are `UNTOUCHED` while the buffer is unused.
     places: Vec<usize>,
     right: Vec<f64>,
     own: Vec<f64>,
@@ -103,7 +103,7 @@ impl LocalBorder {
         }
     }
 
-    /// Eliminates the blocks, then the band with their Schur complements.
+    /// Eliminates the blocks, then the band together with the Schur complements of the blocks.
     pub(super) fn factorise(&mut self, band: &BandedMatrix) -> Result<LocalLu<'_>, LinearError> {
         let size = band.size() + self.width();
         let Self { blocks, places, .. } = self;
@@ -168,7 +168,7 @@ fn add_schur_complement(
             }
         }
     }
-    // Places of delayed unknowns that are not used get a row of the identity matrix.
+    // Positions reserved for delayed unknowns that are not used get a row of the identity matrix.
     if delayed != UNTOUCHED {
         for place in delayed + count..delayed + super::block::MOST_DELAYED {
             matrix.set_row_size(place, 1.0);
@@ -234,7 +234,7 @@ mod tests {
     use nalgebra::{DMatrix, DVector};
     use proptest::prelude::*;
 
-    /// Unknowns that a block touches: the first of some consecutive ones, their number, and optionally one at another place.
+    /// Unknowns that a block touches, given by the first of several consecutive unknowns, their number, and an optional further unknown.
     type Touch = (usize, usize, Option<usize>);
 
     const OWN: usize = 2;
@@ -315,7 +315,7 @@ mod tests {
         let (size, own) = (300, [false; 30]);
         let (layout, all) = layout(size, 2, &own);
         let mut matrix = BorderedMatrix::with_blocks(all, 2, layout.clone());
-        // The blocks correspond to two beams of 150 unknowns that cross each other everywhere.
+        // The blocks correspond to two beams of 150 unknowns that cross each other at every block.
         let touches: Vec<Touch> =
             (0..30).map(|block| (5 * block, 3, Some(150 + 5 * block))).collect();
         let mut value = 0.3_f64;

@@ -1,5 +1,5 @@
-//! Matrices of a time step: banded storage, LU factorisation with row exchanges, a border for couplings across the band, and orders of unknowns
-//! with a small bandwidth. Matrices for vibrations: symmetric matrices, some of them with 32 digits.
+//! Matrices of a time step: banded storage, LU factorisation with row exchanges, borders for couplings across the band, and bandwidth reduction.
+//! Matrices for vibrations: symmetric matrices, some with 32 digits.
 
 mod arrangement;
 mod band_rows;

@@ -1,7 +1,7 @@
 //! Symmetric band matrix with about 32 digits, and its elimination.
 //!
-//! The stiffness of a slender beam is a sum `Bᵀ C B` of terms of very different magnitudes. For soft modes the large terms cancel. With 16 digits
-//! the remaining stiffness would be lost. With 32 digits the stiffness and the signs of the pivots of `L D Lᵀ` are accurate.
+//! The stiffness of a slender beam is a sum `Bᵀ C B` of terms with very different magnitudes. For soft modes the large terms cancel.
+//! With 16 digits the remaining stiffness would be lost. With 32 digits the stiffness and the signs of the pivots of `L D Lᵀ` are accurate.
 
 use pulp::{Arch, Simd, WithSimd};
 
@@ -19,7 +19,7 @@ pub struct PreciseBand {
     pub(super) low: Vec<f64>,
 }
 
-/// Number of additional zeros per row.
+/// Number of zeros stored after each row.
 pub(super) const MARGIN: usize = 3;
 
 impl PreciseBand {
@@ -48,7 +48,7 @@ impl PreciseBand {
         self.high[row * self.stride()]
     }
 
-    /// Adds `factor r rᵀ`. Entry `k` of `r` belongs to the unknown `unknowns[k]`. It is ignored if this number is not below the size.
+    /// Adds `factor r rᵀ`. Entry `k` of `r` belongs to the unknown `unknowns[k]`. Unknowns with a number not below the size are ignored.
     pub(crate) fn add_square(&mut self, unknowns: &[usize], factor: f64, r: &[f64]) {
         let is_consecutive = unknowns.windows(2).all(|pair| pair[1] == pair[0] + 1);
         if is_consecutive && unknowns.last().is_some_and(|last| *last < self.size) {
@@ -63,7 +63,7 @@ impl PreciseBand {
             if row < self.size && a != 0.0 {
                 let a = DoubleDouble::product(factor, a);
                 for (&column, &b) in unknowns.iter().zip(r) {
-                    // Each pair of different unknowns occurs twice. Only the one in the upper triangle is used.
+                    // Each pair of different unknowns occurs twice. Only the pair in the upper triangle is used.
                     if row <= column && column < self.size {
                         self.add_double_double(row, column, a.times(b));
                     }
@@ -72,7 +72,7 @@ impl PreciseBand {
         }
     }
 
-    /// Adds `p qᵀ + q pᵀ`. Entries `k` of `p` and `q` belong to the unknown `unknowns[k]`. They are ignored if this number is not below the size.
+    /// Adds `p qᵀ + q pᵀ`. Entry `k` of `p` and `q` belongs to the unknown `unknowns[k]`. Unknowns with a number not below the size are ignored.
     pub(crate) fn add_product(&mut self, unknowns: &[usize], p: &[f64], q: &[f64]) {
         for ((&row, &p_a), &q_a) in unknowns.iter().zip(p).zip(q) {
             for ((&column, &p_b), &q_b) in unknowns.iter().zip(p).zip(q) {

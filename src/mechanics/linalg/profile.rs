@@ -1,7 +1,7 @@
 //! Matrix with a profile, and its LU factorisation with row exchanges.
 //!
-//! The profile can be changed without allocating memory, so that couplings may change. Storage and elimination of rows are the same as those of a
-//! [`BandedMatrix`](super::BandedMatrix).
+//! The profile can be changed without allocating memory, because the couplings of unknowns may change.
+//! Storage and elimination of rows are the same as those of a [`BandedMatrix`](super::BandedMatrix).
 
 use pulp::Arch;
 
@@ -10,16 +10,16 @@ use super::elimination::{PANEL, ProfileElimination};
 use super::storage::{Factors, Storage};
 use super::substitution::ProfileSubstitution;
 
-/// Square matrix with a profile. For each index, the profile gives the last row with an entry in the column, which is also the last column with an
-/// entry in the row.
+/// Square matrix with a profile.
+/// For each index, the profile gives the last row with an entry in the column of this index. The profile is symmetric.
 #[derive(Debug, Clone)]
 pub(super) struct ProfileMatrix {
     storage: Storage,
-    /// Values of the profile. They never decrease from one index to the next. The list is longer than the matrix by one panel of rows.
+    /// Values of the profile, which never decrease from one index to the next. The list is longer than the matrix by one panel of rows.
     ends: Vec<usize>,
 }
 
-/// Factors `P A = L U` of a [`ProfileMatrix`]. They replace its entries in memory.
+/// Factors `P A = L U` of a [`ProfileMatrix`], stored in the memory of its entries.
 #[derive(Debug)]
 pub(super) struct ProfileLu<'a> {
     factors: Factors<'a>,
@@ -32,8 +32,8 @@ impl ProfileMatrix {
         Self { storage: Storage::zeros(size, half_bandwidth), ends }
     }
 
-    /// Sets the matrix to zero and changes its profile to the smallest nondecreasing one that covers `ends`. Entries within the half-bandwidth but
-    /// outside the profile must remain zero.
+    /// Sets the matrix to zero and changes its profile to the smallest nondecreasing profile that covers `ends`.
+    /// Entries within the half-bandwidth but outside the profile must remain zero.
     pub(super) fn remake(&mut self, ends: &[usize], half_bandwidth: usize) {
         self.ends.clear();
         let (mut furthest, mut reach) = (0, half_bandwidth);
@@ -61,7 +61,7 @@ impl ProfileMatrix {
         self.storage.rows[at..at + values.len()].copy_from_slice(values);
     }
 
-    /// Sets row sizes from the diagonal entries. Row exchanges use them to compare rows of different units.
+    /// Computes row sizes from the diagonal entries. The pivot search uses them to compare rows of different units.
     pub(super) fn weigh_rows(&mut self) {
         self.storage.weigh_rows();
     }
@@ -100,7 +100,7 @@ mod tests {
             diagonal in prop::sample::select(vec![0.0, 0.5, 3.0, 30.0]),
         ) {
             let mut matrix = ProfileMatrix::with_capacity(1, 0);
-            // The second solution has another profile.
+            // The second solution has a different profile.
             for shift in [0, 7] {
                 let size = reaches.len();
                 let ends: Vec<usize> =

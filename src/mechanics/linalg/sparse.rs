@@ -7,7 +7,7 @@ use super::strips::VectorStrip;
 /// Symmetric matrix in compressed row storage.
 #[derive(Debug, Clone)]
 pub struct SymmetricSparse {
-    /// Index of the first entry of each row, followed by the number of entries.
+    /// Index of the first entry of each row, followed by the total number of entries.
     starts: Vec<usize>,
     /// Columns of the entries, sorted in each row.
     columns: Vec<u32>,
@@ -16,7 +16,7 @@ pub struct SymmetricSparse {
 
 impl SymmetricSparse {
     /// Creates the matrix from entries (row, column, value) of both triangles, given in any order. Values for the same row and column are added up.
-    /// `give` is called twice, first to count the entries and then to store them.
+    /// The callback `give` is called twice, first to count the entries and then to store them.
     ///
     /// # Panics
     /// Panics if there are more than 2³² rows.
@@ -28,7 +28,7 @@ impl SymmetricSparse {
         let mut next = starts.clone();
         let (mut columns, mut values) = (vec![0_u32; starts[size]], vec![0.0; starts[size]]);
         give(&mut |row, column, value| {
-            // Entries are inserted in the order of columns. Most of them are given in this order.
+            // Entries are inserted in the order of columns. Most entries are already given in this order.
             let (first, mut at) = (starts[row], next[row]);
             while at > first && columns[at - 1] as usize > column {
                 (columns[at], values[at]) = (columns[at - 1], values[at - 1]);
@@ -67,7 +67,7 @@ impl SymmetricSparse {
         self.starts.len() - 1
     }
 
-    /// Entries of a row as column and value, sorted by column.
+    /// Entries of a row as pairs of column and value, sorted by column.
     pub fn row(&self, row: usize) -> impl Iterator<Item = (usize, f64)> {
         let entries = self.starts[row]..self.starts[row + 1];
         self.columns[entries.clone()]

@@ -7,22 +7,22 @@ use crate::elementary::square;
 
 /// Rows of a banded matrix, and data for the elimination.
 ///
-/// The rows are followed by identity rows, which complete the last panel, and by zero rows, which the elimination may access.
+/// The rows are followed by identity rows, which complete the last panel, and by zero rows, which the elimination may read.
 #[derive(Debug, Clone)]
 pub(super) struct Storage {
     pub(super) size: usize,
     /// Half-bandwidth `b`, at least `SMALLEST_HALF_BANDWIDTH`.
     pub(super) reach: usize,
-    /// Row `i` contains the columns `i - b - (PANEL - 1) ..= i + 2 b`. After factorisation it contains the multipliers to the left of the diagonal
-    /// and the inverse pivot on the diagonal.
+    /// Entries row by row. Row `i` contains the columns `i - b - (PANEL - 1) ..= i + 2 b`.
+    /// After the factorisation, a row contains the multipliers to the left of the diagonal and the inverse pivot on the diagonal.
     pub(super) rows: Vec<f64>,
     pub(super) pivots: Vec<usize>,
     /// For each row of the upper factor, the last column with an entry.
     pub(super) last_columns: Vec<usize>,
-    /// Multipliers of the rows below a panel. They are stored here until the panel is accepted.
+    /// Multipliers of the rows below a panel, stored until the panel is accepted.
     pub(super) multipliers: Vec<[f64; PANEL]>,
-    /// Squared sizes of the rows, which make rows with different units comparable in the choice of pivots. By default all sizes are equal. A row
-    /// exchange exchanges the sizes too.
+    /// Squared sizes of the rows. The choice of pivots uses them to compare rows with different units. By default all sizes are equal.
+    /// A row exchange also exchanges the row sizes.
     pub(super) sizes: Vec<f64>,
 }
 
@@ -31,8 +31,8 @@ pub(super) struct Storage {
 pub(super) struct ActiveRows<'a> {
     /// Number of rows, without the identity rows.
     pub(super) size: usize,
-    /// Number of columns to be eliminated: all columns, or a multiple of the panel width. If not all columns are eliminated, the rows that the last
-    /// column can reach are present too.
+    /// Number of columns to be eliminated: all columns, or a multiple of the panel width.
+    /// If only some columns are eliminated, the storage also contains all rows below that have entries in these columns.
     pub(super) columns: usize,
     pub(super) reach: usize,
     pub(super) rows: &'a mut [f64],
@@ -67,7 +67,7 @@ impl Storage {
         storage
     }
 
-    /// Sets the storage to zero and changes its size. Memory is allocated only if the size exceeds all earlier ones.
+    /// Sets the storage to zero and changes its size. Memory is allocated only if the size exceeds all earlier sizes.
     pub(super) fn remake(&mut self, size: usize, half_bandwidth: usize) {
         (self.size, self.reach) = (size, half_bandwidth.max(SMALLEST_HALF_BANDWIDTH));
         self.pivots.resize(size, 0);
@@ -114,8 +114,9 @@ impl Storage {
         }
     }
 
-    /// Sets the squared sizes of the rows to their diagonal entries, as if rows and columns were scaled to a unit diagonal. Rows of constraints
-    /// have no diagonal entry; their size is the largest scaled entry. The same applies to rows that are coupled only to constraints.
+    /// Sets the squared sizes of the rows to their diagonal entries, as if rows and columns were scaled to a unit diagonal.
+    /// Rows of constraints have no diagonal entry. Their size is the largest scaled entry.
+    /// Rows that are coupled only to constraints are treated like rows of constraints.
     pub(super) fn weigh_rows(&mut self) {
         let (stride, centre) = (self.stride(), self.centre());
         let Self { size, reach, rows, sizes, .. } = self;
@@ -144,7 +145,7 @@ impl Storage {
             if *size == 0.0 {
                 *size = largest(&mut coupled.map(by_constraint).filter(|size| size.is_finite()));
             }
-            // This applies to rows without entries.
+            // A row without entries has the size zero.
             if *size == 0.0 {
                 *size = 1.0;
             }

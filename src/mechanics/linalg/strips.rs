@@ -1,4 +1,4 @@
-//! Strips of four vectors, which vector instructions process together.
+//! Strips of four vectors that vector instructions process together.
 
 use pulp::{Arch, Simd, WithSimd};
 
@@ -8,7 +8,7 @@ pub const STRIP_WIDTH: usize = 4;
 /// Four interleaved vectors: the entries `i` of all four vectors are followed by the entries `i + 1`.
 pub type VectorStrip = [[f64; STRIP_WIDTH]];
 
-/// Matrix of four by four numbers, row by row, for products of two strips.
+/// Matrix of four by four numbers, stored row by row, for products of two strips.
 pub type Square4 = [[f64; STRIP_WIDTH]; STRIP_WIDTH];
 
 /// Products `Xᵀ Y` of two strips. Entry `(i, j)` is the product of vector `i` of `x` and vector `j` of `y`.
@@ -21,7 +21,7 @@ pub fn subtract_combination(x: &VectorStrip, by: &Square4, from: &mut VectorStri
     Arch::new().dispatch(LinearCombination { x, by, from });
 }
 
-/// Replaces the vectors of a strip by linear combinations of the same vectors: `X ← X G`.
+/// Replaces the vectors of a strip by linear combinations of these vectors: `X ← X G`.
 pub fn combine(x: &mut VectorStrip, by: &Square4) {
     Arch::new().dispatch(Replacement { x, by });
 }

@@ -1,6 +1,6 @@
 //! Substitution with the factors of a banded matrix.
 //!
-//! Each sum adds the most recently computed value last, so that the processor can evaluate the sums of several rows concurrently.
+//! Each sum adds the most recently computed value last. The processor can therefore evaluate the sums of several rows concurrently.
 
 use pulp::{Simd, WithSimd};
 
@@ -8,7 +8,7 @@ use super::elimination::PANEL;
 use super::fixed_band;
 use super::storage::Factors;
 
-/// Forward and backward substitution. They replace a right-hand side by the solution.
+/// Forward and backward substitution, which replace a right-hand side by the solution.
 pub(super) struct Substitution<'a> {
     pub(super) factors: Factors<'a>,
     pub(super) x: &'a mut [f64],
@@ -25,7 +25,7 @@ impl WithSimd for Substitution<'_> {
     }
 }
 
-/// Forward substitution with the eliminated columns. It also updates the right-hand side of the remaining rows.
+/// Forward substitution with the eliminated columns, which also updates the right-hand side of the remaining rows.
 pub(super) struct Forward<'a> {
     pub(super) factors: Factors<'a>,
     pub(super) x: &'a mut [f64],
@@ -37,7 +37,7 @@ impl WithSimd for Forward<'_> {
     #[inline(always)]
     fn with_simd<S: Simd>(self, _: S) {
         let Self { factors, x } = self;
-        // Compile-time constants for the half-bandwidths of beams of degree 1 to 3.
+        // The half-bandwidths of beams of degree 1 to 3 are compile-time constants, for speed.
         match factors.reach {
             6 => substitute_forward_fixed::<6, 22>(&factors, x),
             8 => substitute_forward_fixed::<8, 28>(&factors, x),
@@ -47,7 +47,7 @@ impl WithSimd for Forward<'_> {
     }
 }
 
-/// Backward substitution in the eliminated rows. The unknowns after them are known.
+/// Backward substitution in the eliminated rows. The unknowns of later rows are known.
 pub(super) struct Backward<'a> {
     pub(super) factors: Factors<'a>,
     pub(super) x: &'a mut [f64],
@@ -85,7 +85,7 @@ impl WithSimd for ProfileSubstitution<'_> {
     }
 }
 
-/// Substitution for `W` right-hand sides with interleaved entries. Rows before `first` must be zero.
+/// Substitution for `W` right-hand sides with interleaved entries. The right-hand sides must be zero before row `first`.
 pub(super) struct StripSubstitution<'a, const W: usize> {
     pub(super) factors: Factors<'a>,
     pub(super) x: &'a mut [[f64; W]],
@@ -101,7 +101,7 @@ impl<const W: usize> WithSimd for StripSubstitution<'_, W> {
     }
 }
 
-/// Forward substitution with factors of half-bandwidth `reach`. The multipliers of a column end at the row given by `end`.
+/// Forward substitution with factors of half-bandwidth `reach`. `end` gives the last row with a multiplier for each column.
 #[inline(always)]
 fn substitute_forward(
     factors: &Factors<'_>,

@@ -1,8 +1,9 @@
-//! `L D Lᵀ` factorisation of a symmetric band matrix. The elimination uses 32 digits, storage and substitution 16 digits.
+//! `L D Lᵀ` factorisation of a symmetric band matrix. The elimination uses 32 digits; storage and substitution use 16 digits.
 //!
-//! For a positive definite sum of terms of very different magnitudes, the pivots have very different magnitudes but the columns of `L` do not. `L`
-//! and `D` are rounded at the end. This changes each term by a relative amount only, which has the same effect as rounding the entries of `B`
-//! (theory, section 15).
+//! In a positive definite sum of terms of very different magnitudes, the pivots have very different magnitudes. The columns of `L` do not.
+//! The factors `L` and `D` are rounded to 16 digits at the end.
+//! Rounding `L` and `D` has the same effect as rounding the entries of `B`:
+//! each term of the sum changes by a small relative amount (theory, section 15).
 
 use pulp::{Arch, Simd, WithSimd};
 
@@ -14,11 +15,11 @@ use super::{LinearError, SymmetricSparse};
 /// Properties of a symmetric matrix, computed from the pivots of `L D Lᵀ` without row exchanges.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Pivots {
-    /// Number of negative pivots. It equals the number of negative eigenvalues (Sylvester's law of inertia; Golub & Van Loan, Matrix Computations,
-    /// 4th ed., section 4.4).
+    /// Number of negative pivots.
+    /// The number of negative pivots equals the number of negative eigenvalues (Sylvester's law of inertia; Golub & Van Loan, 4th ed., section 4.4).
     pub negative: usize,
-    /// Largest reduction of a diagonal entry in the elimination, as a multiple of the entry [-]. The rounding error of the matrix is multiplied by
-    /// this number. It is at most 1 for a positive definite matrix.
+    /// Largest reduction of a diagonal entry in the elimination, as a multiple of the entry [-].
+    /// The elimination multiplies the rounding error of the matrix by the growth factor, which is at most 1 for a positive definite matrix.
     pub growth: f64,
 }
 
@@ -45,7 +46,7 @@ impl SymmetricFactors {
         Ok(Self { size, reach, multipliers, inverse_pivots, pivots })
     }
 
-    /// Number of negative pivots, and growth of the elimination.
+    /// Number of negative pivots, and growth factor of the elimination.
     pub(crate) fn pivots(&self) -> Pivots {
         self.pivots
     }
@@ -55,7 +56,7 @@ impl SymmetricFactors {
         (&self.multipliers[column * self.reach..][..self.reach], self.inverse_pivots[column])
     }
 
-    /// Replaces four right-hand sides by their solutions. They must be followed in memory by as many zeros as the half-bandwidth.
+    /// Replaces four right-hand sides by their solutions. The right-hand sides must be followed in memory by as many zeros as the half-bandwidth.
     pub fn solve(&self, x: &mut VectorStrip) {
         assert!(x.len() >= self.size + self.reach, "a strip has a margin");
         Arch::new().dispatch(SymmetricSubstitution { factors: self, x });
@@ -64,7 +65,7 @@ impl SymmetricFactors {
 
 type Kept<'a> = (&'a mut [f64], &'a mut [f64]);
 
-/// Eliminates the symmetric matrix `A + σ M` column by column. If requested, columns and pivots are stored in `kept`.
+/// Eliminates the symmetric matrix `A + σ M` column by column. Columns and pivots are stored in `kept` if it is given.
 pub(super) fn eliminate(
     band: &PreciseBand,
     shift: f64,
@@ -86,7 +87,7 @@ impl WithSimd for SymmetricElimination<'_> {
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) -> Self::Output {
-        // Compile-time constants for the half-bandwidths of beams of degree 1 to 3.
+        // The half-bandwidths of beams of degree 1 to 3 are compile-time constants, for speed.
         match self.band.half_bandwidth {
             5 => self.run(simd, 5),
             8 => self.run(simd, 8),
@@ -104,7 +105,7 @@ impl SymmetricElimination<'_> {
     fn run<S: Simd>(self, simd: S, reach: usize) -> Result<Pivots, LinearError> {
         let Self { band, shift, other, mut kept } = self;
         let (size, stride) = (band.size, reach + 1 + MARGIN);
-        // Circular buffer of the rows that can change. The index of row `i` is `i` modulo their number.
+        // Circular buffer of the rows that can change. Row `i` is stored at the index `i` modulo the number of these rows.
         let rows = reach + 1;
         let (mut high, mut low) = (vec![0.0; rows * stride], vec![0.0; rows * stride]);
         // Initial value of each diagonal entry, and its total reduction.
@@ -226,7 +227,7 @@ fn substitute(factors: &SymmetricFactors, reach: usize, x: &mut VectorStrip) {
             *value = *value * inverse - (even + odd);
         }
     }
-    // Forward elimination has written entries after the last row. They are set to zero.
+    // The forward elimination has written entries after the last row, which are reset to zero.
     x[factors.size..].fill([0.0; 4]);
 }
 
@@ -292,7 +293,7 @@ mod tests {
         #[test]
         fn entries_of_unknowns_in_any_order_add_up(entries in prop::collection::vec(-1.0..1.0_f64, 8)) {
             let (mut band, mut dense) = (PreciseBand::zeros(5, 4), DMatrix::<f64>::zeros(5, 5));
-            // One unknown occurs twice, and one is outside the matrix.
+            // One unknown occurs twice, and one unknown is outside the matrix.
             let unknowns = [3, 1, 3, 7];
             let (p, q) = entries.split_at(4);
             band.add_square(&unknowns, 2.0, p);

@@ -1,8 +1,8 @@
 //! Elimination of a long band from both ends in two concurrent threads.
 //!
-//! The rows after the middle are reversed in memory (last row and last column first) and eliminated like the first rows. A small dense matrix
-//! remains in the middle (twisted or "burn at both ends" factorisation: Golub & Van Loan, Matrix Computations, 4th ed., section 4.3; van der Vorst,
-//! Parallel Computing 5 (1987) 45–54). With one thread, the same operations are made in the same order, so the bits are the same.
+//! The rows after the middle are stored in reverse (last row and last column first) and eliminated like the first rows.
+//! A small dense matrix remains in the middle ("burn at both ends" factorisation: Golub & Van Loan, 4th ed., section 4.3; van der Vorst 1987).
+//! With one thread, the same operations are executed in the same order, so the results are identical.
 
 use pulp::Arch;
 
@@ -23,7 +23,7 @@ pub(super) struct TwoEnded {
     multipliers: Vec<[f64; PANEL]>,
     middle: BandedMatrix,
     right: Vec<f64>,
-    /// Unknowns of the middle and after it, in reverse order.
+    /// Unknowns of the middle and after the middle, in reverse order.
     reversed: Vec<f64>,
 }
 
@@ -115,7 +115,8 @@ impl TwoEnded {
         let storage = band.storage_mut();
         let (stride, centre) = (storage.stride(), storage.centre());
         let (before, behind) = (cut.upper_rows(), size - cut.lower_rows());
-        // In a reversed row the diagonal is at another index. Zeros at the end of the row between both parts are not used by the elimination.
+        // The diagonal of a reversed row is stored at a different index.
+        // The elimination does not use the zeros at the end of the row between both parts.
         let shift = 2 * reach - centre;
         let (rows, lower) = storage.rows[..size * stride].split_at_mut(behind * stride - shift);
         let (pivots, lower_pivots) = storage.pivots.split_at_mut(behind);
@@ -262,7 +263,7 @@ mod tests {
         fn the_solution_from_both_ends_is_that_from_one_and_the_same_on_two_threads(
             size in 60_usize..200, half_bandwidth in prop::sample::select(vec![1_usize, 5, 6, 8, 11, 14]),
             entries in prop::collection::vec(-1.0..1.0_f64, 2000),
-            // Dominance of the diagonal for which no, some or many rows are exchanged.
+            // Relative sizes of the diagonal for which no, some or many rows are exchanged.
             diagonal in prop::sample::select(vec![0.0, 0.5, 3.0, 30.0]),
         ) {
             let mut matrix = BandedMatrix::zeros(size, half_bandwidth);

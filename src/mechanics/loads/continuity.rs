@@ -1,32 +1,34 @@
 //! Check that prescribed motions given by script functions are continuous.
 //!
-//! A function can be evaluated at single times only. To detect a jump at the start, it is evaluated at two small times. The ratio of its changes
-//! distinguishes jumps, functions such as `√t` with an infinite rate, and smooth functions. To detect a jump within a step, the differences of
-//! consecutive values are compared. If one difference exceeds the sum of all others, its interval is bisected thirty times, keeping the half with
-//! the larger difference each time. At a jump the difference remains; otherwise it tends to zero.
+//! A script function can be evaluated only at single times. To detect a jump at the start, it is evaluated at two small times.
+//! The ratio of its changes distinguishes jumps, functions such as `√t` with an infinite rate, and smooth functions.
+//! To detect a jump within a step, the differences of consecutive values are compared.
+//! If one of the differences exceeds the sum of all others, its interval is bisected thirty times.
+//! Each bisection keeps the half with the larger difference.
+//! If the function jumps, the remaining difference is constant; otherwise it tends to zero.
 
 use super::{LimitSide, LoadError, Schedule};
 use crate::elementary::whole_power;
 
-/// Difference that is significant, as a multiple of the rounding error of the values.
+/// Smallest difference that is significant, as a multiple of the rounding error of the values.
 const ROUNDINGS: f64 = 1e3;
 
-/// Exponents `i` of the two sampling times `8⁻ⁱ` close to the start.
+/// Exponents `i` of the two sampling times `8⁻ⁱ` shortly after the start.
 const CLOSE: [i32; 2] = [12, 13];
 
-/// Ratio of the two changes of the function from its start value to its values at these two times. Above this value, the function jumps. The ratio
-/// is 1 for a jump, 0.35 for `√t`, and 0.125 for smooth functions.
+/// Ratio of the changes of a function from the start to the two sampling times, above which the function jumps.
+/// The ratio of the two changes is 1 for a jump, 0.35 for `√t`, and 0.125 for smooth functions.
 const LEFT_OF_A_JUMP_AT_START: f64 = 0.7;
 const LEFT_OF_A_POWER_AT_START: f64 = 0.16;
 
-/// Number of bisections before a difference is recorded, and again after it.
+/// Number of bisections before a difference is recorded, and again after the record.
 const HALVINGS: usize = 15;
 
-/// Remaining fraction of the recorded difference above which the function jumps. It is 1 for a jump, at most 6e-3 for `√t`, and 3e-5 for smooth
-/// functions.
+/// Remaining fraction of the recorded difference, above which the function jumps.
+/// The remaining fraction is 1 for a jump, at most 6e-3 for `√t`, and 3e-5 for smooth functions.
 const LEFT_OF_A_JUMP: f64 = 0.5;
 
-/// Smallest ratio of the largest difference in a step to the sum of all others for which a jump is searched.
+/// Smallest ratio of the largest difference in a step to the sum of all other differences for which a jump is searched.
 const JUMP_RATIO: f64 = 1.05;
 
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -34,7 +36,7 @@ pub(super) struct Jump {
     pub(super) time: f64,
     pub(super) before: f64,
     pub(super) after: f64,
-    /// True for a jump, false for an infinite slope.
+    /// True for a jump, false for an infinite rate.
     pub(super) is_jump: bool,
 }
 
@@ -53,11 +55,11 @@ fn rounded(number: f64) -> f64 {
     format!("{number:.6e}").parse().unwrap_or(number)
 }
 
-/// Jump or infinite rate of a schedule just after t = 0. `None` if there is none, if the schedule has no script function, or if the values are too
-/// close to decide.
+/// Jump or infinite rate of a schedule just after t = 0.
+/// Returns `None` if the schedule is smooth, has no script function, or if the values are too close for a decision.
 ///
 /// # Errors
-/// Fails if the function fails or a value is not finite.
+/// Fails if the script function fails or a value is not finite.
 pub(super) fn jump_at_start(schedule: &Schedule) -> Result<Option<Jump>, LoadError> {
     if !may_jump(schedule) {
         return Ok(None);
@@ -73,10 +75,10 @@ pub(super) fn jump_at_start(schedule: &Schedule) -> Result<Option<Jump>, LoadErr
     Ok(is_steep.then_some(Jump { time: 0.0, before, after, is_jump: is_whole }))
 }
 
-/// Jump of a schedule within a step. `values` are its values at the given `times` of the step. `None` if they do not indicate a jump.
+/// Jump of a schedule within a step. `values` are the values of the schedule at the given `times` of the step. `None` if they do not indicate a jump.
 ///
 /// # Errors
-/// Fails if the function fails or a value is not finite.
+/// Fails if the script function fails or a value is not finite.
 pub(super) fn jump_between(
     schedule: &Schedule,
     times: &[f64],
@@ -105,7 +107,7 @@ pub(super) fn jump_between(
     Ok(jumps.then_some(Jump { time, before, after, is_jump: true }))
 }
 
-/// Bisects an interval several times, and keeps the half with the larger difference each time.
+/// Bisects an interval several times. Each bisection keeps the half with the larger difference.
 fn halve(schedule: &Schedule, ends: &mut [(f64, f64); 2]) -> Result<(), LoadError> {
     for _ in 0..HALVINGS {
         let [(t0, v0), (t1, v1)] = *ends;

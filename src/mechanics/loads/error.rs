@@ -15,7 +15,7 @@ impl FunctionError {
     }
 }
 
-/// Two errors with equal messages are treated as equal.
+/// Two function errors are equal if their messages are equal.
 impl PartialEq for FunctionError {
     fn eq(&self, other: &Self) -> bool {
         self.0.to_string() == other.0.to_string()
@@ -28,14 +28,14 @@ impl fmt::Display for FunctionError {
     }
 }
 
-/// Shows the wrapped error as its own.
+/// Forwards the message and the source of the wrapped error.
 impl Error for FunctionError {
     fn source(&self) -> Option<&(dyn Error + 'static)> {
         Some(&*self.0)
     }
 }
 
-/// Schedule that is invalid or has no value at some time.
+/// Error for a schedule that is invalid or has no value at some time.
 #[expect(missing_docs, reason = "the messages describe the variants and their fields")]
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum LoadError {
@@ -49,7 +49,7 @@ pub enum LoadError {
         "table: the time of row {row} ({time}) is smaller than the previous one ({before}); times must not decrease (repeat a time for a jump)"
     )]
     DecreasingTimes {
-        /// Index of the row, from 0.
+        /// Index of the row, counted from 0.
         row: usize,
         /// Time of the row [time].
         time: f64,
@@ -74,7 +74,7 @@ pub enum LoadError {
         /// Time of the infinite rate [time].
         time: f64,
     },
-    /// Function that failed.
+    /// Error of a script function.
     #[error(transparent)]
     Function(FunctionError),
     #[error("the schedule is {value} at t = {time}, but it must be finite")]

@@ -1,4 +1,4 @@
-//! Loads and their places.
+//! Loads and the stations or beams at which they act.
 
 use serde::{Deserialize, Serialize};
 
@@ -16,7 +16,7 @@ pub enum LoadFrame {
     Follower,
 }
 
-/// Type and place of a load.
+/// Type of a load, with its station or beam.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub enum LoadKind {
     /// Force at a station [force].
@@ -25,7 +25,7 @@ pub enum LoadKind {
         station: Station,
         /// Force at a schedule factor of 1 [force].
         force: Vec2,
-        /// Frame in which its direction is constant.
+        /// Frame in which the direction of the force is constant.
         frame: LoadFrame,
     },
     /// Moment at a station [force·length].
@@ -41,7 +41,7 @@ pub enum LoadKind {
         beam: usize,
         /// Force per initial length of the axis at a schedule factor of 1 [force/length].
         force: Vec2,
-        /// Frame in which its direction is constant.
+        /// Frame in which the direction of the force is constant.
         frame: LoadFrame,
     },
 }
@@ -61,10 +61,10 @@ impl LoadKind {
 pub struct Load {
     /// Name in messages.
     pub name: String,
-    /// Type and place.
+    /// Type of the load, with its station or beam.
     pub kind: LoadKind,
-    /// Factor as a function of time.
+    /// Load factor as a function of time.
     pub schedule: Schedule,
-    /// Name in the columns of histories, which then have a column with its work; `None` for loads without such columns.
+    /// Name in the columns of histories, which then contain the work of the load; `None` for loads without columns.
     pub title: Option<String>,
 }

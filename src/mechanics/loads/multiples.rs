@@ -1,10 +1,10 @@
-//! Multiples of a time that are exact decimal numbers where possible.
+//! Multiples of a time that are exact decimal numbers if possible.
 
-/// Relative difference at which a time counts as the inverse of a whole number.
+/// Largest relative difference for which a time counts as the inverse of a whole number.
 const WHOLE: f64 = 1e-15;
 
-/// `n` times a time [time]. If the time is the inverse of a whole number `m`, the result is the rounded quotient `n/m`. For example, `n/10` is the
-/// floating-point number nearest to the decimal number, whereas `n · 0.1` often is the next larger or smaller one.
+/// Returns `n` times a time [time]. If the time is the inverse of a whole number `m`, the result is the rounded quotient `n/m`.
+/// For example, `n/10` is the floating-point number nearest to the decimal number. The product `n · 0.1` is often a neighbour of this number.
 pub fn multiple(time: f64, n: u64) -> f64 {
     let rate = (1.0 / time).round();
     let is_whole = (rate * time - 1.0).abs() < WHOLE;

@@ -1,4 +1,4 @@
-//! Motion that is prescribed as a function of time: its increments and rates in a step.
+//! Prescribed motion as a function of time, with its increments and rates in a step.
 
 use serde::{Deserialize, Serialize};
 
@@ -41,26 +41,26 @@ pub struct MotionAtStart {
     pub acceleration: f64,
 }
 
-/// The number `cos(π/4)`. The ends of a step, its middle and `±INNER` are the extremes of the Chebyshev polynomial of degree four.
+/// The number `cos(π/4)`. The ends of a step, its middle and `±INNER` are the extrema of the Chebyshev polynomial of degree four.
 const INNER: f64 = std::f64::consts::FRAC_1_SQRT_2;
 
-/// Times in a step at which a displacement is evaluated, on [-1, 1].
+/// Times within a step at which a displacement is evaluated, scaled to [-1, 1].
 const NODES: [f64; 5] = [-1.0, -INNER, 0.0, INNER, 1.0];
 
-/// Weights of the values for the first derivative of the interpolation polynomial at the end of [-1, 1] (Trefethen, Spectral Methods in MATLAB,
-/// 2000, chapter 6).
+/// Weights of the values for the first derivative of the interpolation polynomial at the end of [-1, 1].
+/// Reference: Trefethen, Spectral Methods in MATLAB, 2000, chapter 6.
 const RATE_AT_END: [f64; 5] = [0.5, 2.0 / (-1.0 - INNER), 2.0, 2.0 / (INNER - 1.0), 5.5];
 
-/// Weights of the values for the second derivative at the end of [-1, 1].
+/// Weights of the values for the second derivative of the interpolation polynomial at the end of [-1, 1].
 const BENT_AT_END: [f64; 5] = [5.0, 12.0 * INNER - 20.0, 18.0, -12.0 * INNER - 20.0, 17.0];
 
-/// Jump of the rate at a declared break for which the motion counts as smooth, as a fraction of the rate.
+/// Largest jump of the rate at a declared break for which the motion counts as smooth, as a fraction of the rate.
 const SMOOTH: f64 = 1e-6;
 
 /// Largest rounding error of a rate, as a multiple of the rounding error of the values divided by the step length.
 const ROUNDINGS: f64 = 1e3;
 
-/// Ratio of consecutive time spans in the computation of initial derivatives. The first span is one unit of time.
+/// Ratio of consecutive time spans in the computation of initial derivatives. The first time span is one unit of time.
 const SHRINKS: f64 = 0.125;
 
 /// Number of time spans in the computation of initial derivatives.
@@ -74,7 +74,7 @@ impl PrescribedMotion {
         }
     }
 
-    /// Number of script function calls in [`over`](Self::over), excluding additional calls after a jump has been found.
+    /// Number of script function calls in [`over`](Self::over), without the additional calls after a jump.
     pub(crate) fn calls_in_step(&self) -> usize {
         let schedule = self.schedule();
         match self {
@@ -85,11 +85,12 @@ impl PrescribedMotion {
 
     /// Evaluates the motion between two times. `duration` is their difference, which may be negative [time].
     ///
-    /// A prescribed rate is integrated as described for [`Schedule::mean`]. The rate of a prescribed displacement is computed from five values
-    /// inside the step, by a polynomial of degree four. Values beyond kinks at the ends therefore do not affect it.
+    /// A prescribed rate is integrated by [`Schedule::mean`].
+    /// The rate of a prescribed displacement is computed from five values inside the step, by a polynomial of degree four.
+    /// If the function has kinks at the ends of the step, its values beyond the kinks do not affect the rate.
     ///
     /// # Errors
-    /// Fails if the function fails, a value is not finite, or a displacement jumps or has an infinite rate.
+    /// Fails if the script function fails, a value is not finite, or a displacement jumps or has an infinite rate.
     pub fn over(&self, start: f64, end: f64, duration: f64) -> Result<MotionInStep, LoadError> {
         match self {
             Self::Position(schedule) => {
@@ -126,7 +127,7 @@ impl PrescribedMotion {
                     &[start, 0.5 * (start + end), end],
                     &[first, middle, last],
                 )?;
-                // A jump of the rate within the step is a kink of the motion. In this case the rate at the end replaces the rate at the start.
+                // A jump of the rate within the step is a kink of the motion. The rate at the end then replaces the rate at the start.
                 let first_rate = jump.map_or(first, |_| last);
                 let rounding = ROUNDINGS * f64::EPSILON * size_of(&[first, middle, last]);
                 Ok(MotionInStep {
@@ -141,11 +142,11 @@ impl PrescribedMotion {
         }
     }
 
-    /// Jump of the rate at the start of a step [length/time, rad/time]; `before` is the rate at the end of the last step. It is computed at
-    /// declared breaks and for controllers. `None` if the rate is continuous.
+    /// Jump of the rate at the start of a step [length/time, rad/time]. `before` is the rate at the end of the last step.
+    /// The jump is computed at declared breaks and for controllers. `None` if the rate is continuous.
     ///
     /// # Errors
-    /// Fails if the function fails or a value is not finite.
+    /// Fails if the script function fails or a value is not finite.
     pub(crate) fn jump_of_rate(
         &self,
         start: f64,
@@ -170,7 +171,7 @@ impl PrescribedMotion {
     /// Rejects a motion whose displacement or prescribed rate jumps just after the start.
     ///
     /// # Errors
-    /// Fails if there is a jump, the function fails, or a value is not finite.
+    /// Fails if there is a jump, the script function fails, or a value is not finite.
     pub(crate) fn check_start(&self) -> Result<(), LoadError> {
         match jump_at_start(self.schedule())? {
             Some(jump) if matches!(self, Self::Position(_)) || jump.is_jump => Err(jump.refused()),
@@ -180,11 +181,11 @@ impl PrescribedMotion {
 
     /// Initial rate and acceleration of a motion that starts at a time.
     ///
-    /// The time scale of the function is unknown. Hence the derivatives of a displacement are computed over decreasing time spans. The result is
-    /// taken where two consecutive spans agree best.
+    /// The time scale of the function is unknown. Hence the derivatives of a displacement are computed over several decreasing time spans.
+    /// The result is that of the two consecutive time spans that agree best.
     ///
     /// # Errors
-    /// Fails if the function fails or a value is not finite just after the start.
+    /// Fails if the script function fails or a value is not finite just after the start.
     pub fn beginning(&self, time: f64) -> Result<MotionAtStart, LoadError> {
         let spans = (0..SPANS).scan(1.0, |span, _| Some(std::mem::replace(span, *span * SHRINKS)));
         match self {
@@ -209,7 +210,7 @@ impl PrescribedMotion {
                     let both = [&mut found.rate, &mut found.acceleration];
                     for (at, number) in both.into_iter().enumerate() {
                         let miss: f64 = now[at] - before[at];
-                        // If several spans agree equally well, the shortest one is used.
+                        // If several time spans agree equally well, the shortest span is used.
                         if miss.abs() <= least[at] {
                             (least[at], *number) = (miss.abs(), now[at]);
                         }
@@ -269,7 +270,7 @@ fn reversed(mut values: [f64; 5]) -> [f64; 5] {
     values
 }
 
-/// Weighted sum of the differences from the last value. It has less cancellation than the weighted sum of the values.
+/// Weighted sum of the differences from the last value. Its rounding error is smaller than that of the weighted sum of the values.
 fn sum(weights: &[f64; 5], values: &[f64; 5]) -> f64 {
     weights.iter().zip(values).map(|(weight, value)| weight * (value - values[4])).sum()
 }

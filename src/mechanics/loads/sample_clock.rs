@@ -1,23 +1,23 @@
-//! Times at which digital controllers sample and act.
+//! Times at which digital controllers sample and change their commands.
 
 use super::{LoadError, multiple};
 
-/// Clock of a digital controller. It samples at the times `n T`, `n = 0, 1, …`. The command of a sample acts from `n T + delay` until the next
-/// command starts to act.
+/// Clock of a digital controller, which samples at the times `n T`, `n = 0, 1, …`.
+/// The command of a sample acts from `n T + delay` until the next command starts to act.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SampleClock {
     period: f64,
     delay: f64,
 }
 
-/// Difference of two times that count as equal, as a fraction of the period.
+/// Largest difference of two times that count as equal, as a fraction of the period.
 const SAME: f64 = 1e-9;
 
 impl SampleClock {
     /// Creates a clock with a sampling period `T` and a dead time [time].
     ///
     /// # Errors
-    /// Fails if the period is not positive, the delay is negative, or either is not finite.
+    /// Fails if the period is not positive, the delay is negative, or one of them is not finite.
     pub fn new(period: f64, delay: f64) -> Result<Self, LoadError> {
         let wrong = |name, value, allowed| {
             Err(LoadError::Value { schedule: "controller", name, value, allowed })
@@ -46,13 +46,12 @@ impl SampleClock {
         multiple(self.period, number)
     }
 
-    /// Index of the last sample at or before a time. Times count as equal if they differ by less than `slack` [time]. `None` before the first
-    /// sample.
+    /// Index of the last sample at or before a time. Times count as equal if they differ by less than `slack` [time]. `None` before the first sample.
     fn last_by(&self, time: f64, slack: f64) -> Option<u64> {
         if time < -slack {
             return None;
         }
-        // Because of rounding, this may be the next or the previous sample.
+        // Because of rounding, this number may belong to the next or the previous sample.
         let number = ((time + slack).max(0.0) / self.period) as u64;
         if number > 0 && self.sample(number) > time + slack {
             return Some(number - 1);

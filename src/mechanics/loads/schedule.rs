@@ -18,7 +18,7 @@ use crate::elementary::{sin, whole_power};
 /// Function of time that the caller provides, for example a closure of a script.
 pub type ScheduleFunction = Rc<dyn Fn(f64) -> Result<f64, FunctionError>>;
 
-/// Side from which a limit in time is taken, for schedules that jump.
+/// Side from which the limit of a schedule is taken at a time. Schedules may jump.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum LimitSide {
     /// Limit from earlier times.
@@ -33,8 +33,8 @@ pub enum LimitSide {
 pub enum Schedule {
     /// Constant factor [-].
     Constant(f64),
-    /// Linear interpolation between (time, factor) points. The factor is constant before the first point and after the last. A time that occurs
-    /// twice is a jump.
+    /// Linear interpolation between (time, factor) points. The factor is constant before the first point and after the last point.
+    /// A time that occurs twice in the table is a jump.
     Table(Vec<(f64, f64)>),
     /// Factor `amplitude · sin(rate · t + phase)`.
     Sine {
@@ -45,23 +45,23 @@ pub enum Schedule {
         /// Phase at time zero [rad].
         phase: f64,
     },
-    /// Pulse `16/5 sin⁶(π t/duration)` for 0 < t < duration, otherwise 0. Its mean is one, and it has five continuous derivatives.
+    /// Pulse `16/5 sin⁶(π t/duration)` for 0 < t < duration, otherwise 0. Its mean is one, and five derivatives are continuous.
     SmoothPulse {
         /// Duration of the pulse [time].
         duration: f64,
     },
-    /// Any function of time, with declared breaks.
+    /// Function of time with declared breaks.
     Function {
         /// Function of time.
         function: ScheduleFunction,
         /// Times of jumps and kinks [time].
         breaks: Vec<f64>,
     },
-    /// Command of a controller that is sampled at every step. The caller sets the value at the start of the step. It is constant within the step.
+    /// Command of a controller that is sampled at every step. The caller sets its value at the start of the step. It is constant within the step.
     Sampled(Rc<Cell<f64>>),
-    /// Command of a digital controller. The caller sets the value when the command starts to act. It is constant until the next command.
+    /// Command of a digital controller. The caller sets its value when the command starts to act. It is constant until the next command.
     DigitalController {
-        /// Cell that contains the present value.
+        /// Cell that contains the present command.
         value: Rc<Cell<f64>>,
         /// Clock of the controller.
         clock: SampleClock,
@@ -144,7 +144,7 @@ impl Schedule {
         Ok(Self::Table(vec![(time, 1.0), (time, 0.0)]))
     }
 
-    /// Returns a schedule that is 0 before `from`, 1 after `to`, and linear between.
+    /// Returns a schedule that is 0 before `from`, 1 after `to`, and linear in between.
     ///
     /// # Errors
     /// Fails if the times are not finite, or `to` is not later than `from`.
@@ -162,7 +162,7 @@ impl Schedule {
         Ok(Self::Table(vec![(from, 0.0), (from, 1.0), (to, 1.0), (to, 0.0)]))
     }
 
-    /// Returns the schedule `16/5 sin⁶(π t/duration)` up to `duration` [time], then 0: a smooth pulse of unit mean.
+    /// Returns the schedule `16/5 sin⁶(π t/duration)` up to `duration` [time], then 0. It is a smooth pulse whose mean is one.
     ///
     /// # Errors
     /// Fails if the duration is not positive and finite.
@@ -216,7 +216,7 @@ impl Schedule {
         Ok(Self::Combined { operation, parts: Rc::new((a, b)), size })
     }
 
-    /// Number of script functions in the schedule. [`value`](Self::value) calls each of them once.
+    /// Number of script functions in the schedule. [`value`](Self::value) calls each script function once.
     pub fn functions(&self) -> usize {
         match self {
             Self::Function { .. } | Self::Sampled(_) | Self::DigitalController { .. } => 1,
@@ -249,10 +249,10 @@ impl Schedule {
         if let Self::Combined { size, .. } = self { *size } else { 1 }
     }
 
-    /// Factor [-] at a time. At a jump it is the limit from the given side.
+    /// Factor [-] at a time. At a jump, the limit from the given side is returned.
     ///
     /// # Errors
-    /// Fails if a function fails or the value is not finite.
+    /// Fails if a script function fails or the value is not finite.
     pub fn value(&self, time: f64, side: LimitSide) -> Result<f64, LoadError> {
         let value = match self {
             Self::Constant(factor) => *factor,

@@ -7,9 +7,9 @@ use crate::linalg::BorderedMatrix;
 pub struct ResidualNorms {
     /// Largest residual force, as a fraction of the scale of the forces [-].
     pub force: f64,
-    /// Largest difference between the strains of the section forces and the strains of the configuration [-].
+    /// Largest difference between the strains of the configuration and the strains that belong to the section forces [-].
     pub strain: f64,
-    /// Largest constraint violation, as a fraction of its scale [-].
+    /// Largest constraint violation, as a fraction of the scale of the constraint [-].
     pub constraint: f64,
 }
 
@@ -19,7 +19,7 @@ impl ResidualNorms {
         [self.force, self.strain, self.constraint].iter().all(|part| part.is_finite())
     }
 
-    /// Part whose norm is the largest, or NaN.
+    /// Part with the largest norm, or with a norm that is NaN.
     pub fn worst(&self) -> ResidualPart {
         let others =
             [(ResidualPart::Strain, self.strain), (ResidualPart::Constraint, self.constraint)];
@@ -29,7 +29,7 @@ impl ResidualNorms {
         others.into_iter().fold((ResidualPart::Force, self.force), worst).0
     }
 
-    /// Largest norm [-]; NaN if one is NaN.
+    /// Largest norm [-]; NaN if a norm is NaN.
     pub fn largest(&self) -> f64 {
         [self.strain, self.constraint].into_iter().fold(self.force, |largest, part| {
             if part > largest || part.is_nan() { part } else { largest }
@@ -48,25 +48,26 @@ pub enum ResidualPart {
     Constraint,
 }
 
-/// Nonlinear equations `R(u) = 0`. They may have internal unknowns at integration points.
+/// Nonlinear equations `R(u) = 0`, which may have internal unknowns at quadrature points.
 ///
-/// The internal unknowns (section forces) are condensed out. They enter the linear system through [`linearise`](Equations::linearise) and are
-/// updated by [`correct`](Equations::correct) (Magisano, Leonetti & Garcea 2017, "mixed integration point" Newton).
+/// The internal unknowns (section forces) are condensed out of the linear system.
+/// Method: "mixed integration point" Newton (Magisano, Leonetti & Garcea 2017).
+/// [`linearise`](Equations::linearise) condenses the internal unknowns, and [`correct`](Equations::correct) updates them.
 pub trait Equations {
-    /// Computes residual and tangent at `u`, with internal unknowns condensed out. Both are zero on entry.
+    /// Computes residual and tangent at `u`, with internal unknowns condensed out. Both must be zero on entry.
     fn linearise(&mut self, u: &[f64], residual: &mut [f64], tangent: &mut BorderedMatrix);
 
-    /// Prepares a correction with the factors of the last linearisation: condenses the internal unknowns out of the residual that the last call of
-    /// [`imbalance`](Equations::imbalance) computed.
+    /// Prepares a correction with the factors of the last linearisation.
+    /// Condenses the internal unknowns out of the residual that the last call of [`imbalance`](Equations::imbalance) has computed.
     fn condense(&mut self, residual: &mut [f64]);
 
-    /// Updates the internal unknowns after a correction of `u`, by means of the last linearisation.
+    /// Updates the internal unknowns after a correction of `u`, using the last linearisation.
     fn correct(&mut self, correction: &[f64]);
 
     /// Computes the residual at `u` with the present internal unknowns, and returns its norms.
     fn imbalance(&mut self, u: &[f64], residual: &mut [f64]) -> ResidualNorms;
 
-    /// Called before every iteration. Returns false to stop the solution.
+    /// Called before every iteration. If it returns false, the solution is stopped.
     fn goes_on(&mut self) -> bool {
         true
     }

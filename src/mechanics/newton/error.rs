@@ -3,7 +3,7 @@
 use super::ResidualNorms;
 use crate::linalg::LinearError;
 
-/// Failed solution by Newton's method.
+/// Error of a failed solution by Newton's method.
 #[expect(missing_docs, reason = "the messages describe the variants and their fields")]
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum NewtonError {
@@ -17,7 +17,7 @@ pub enum NewtonError {
         /// Residual norms after each iteration.
         history: Vec<ResidualNorms>,
     },
-    /// Tangent that could not be factorised.
+    /// The tangent could not be factorised.
     #[error("{source} (after {} Newton iterations)", history.len())]
     Linear {
         source: LinearError,
@@ -50,7 +50,7 @@ impl NewtonError {
 
 type NamedResidualPart = (&'static str, fn(&ResidualNorms) -> f64);
 
-/// Convergence history of one part of the residual, the largest one in the last iteration.
+/// Convergence history of the part of the residual that is largest in the last iteration.
 fn describe(history: &[ResidualNorms]) -> String {
     let last = history.last().copied().unwrap_or_default();
     let parts: [NamedResidualPart; 3] = [

@@ -1,4 +1,4 @@
-//! Newton's method for any equations that provide a residual and a tangent.
+//! Newton's method for equations that provide a residual and a tangent.
 
 mod equations;
 mod error;

@@ -1,4 +1,4 @@
-//! Newton's method. Every iteration factorises a new tangent. If this suffices, corrections reuse earlier factors.
+//! Newton's method. Every iteration factorises a new tangent. Between iterations, corrections reuse earlier factors if this is sufficient.
 
 use serde::{Deserialize, Serialize};
 
@@ -6,20 +6,21 @@ use super::{Equations, NewtonError, ResidualNorms};
 use crate::elementary::whole_power;
 use crate::linalg::{BorderShape, BorderedLu, BorderedMatrix};
 
-/// Residual norm below which earlier factors are reused as long as they reduce it.
+/// Residual norm below which earlier factors are reused, as long as they reduce the residual.
 const NEAR: f64 = 1e-4;
 
-/// Largest number of corrections with earlier factors that take less time than one iteration with new factors, which squares the residual.
+/// Largest number of corrections that take less time than one iteration.
+/// Corrections use earlier factors; an iteration with new factors squares the residual.
 const MOST_CORRECTIONS: i32 = 5;
 
 /// Largest number of corrections with the factors of similar equations. Each correction should gain several digits.
 const MOST_SHARED_CORRECTIONS: usize = 12;
 
-/// Residual norm at which a solution with the factors of similar equations is accepted [-]. It is a billionth of the residual change that a
-/// perturbation causes.
+/// Residual norm at which a solution with the factors of similar equations is accepted [-].
+/// The constant is a billionth of the residual change due to a perturbation.
 const FOLLOWED: f64 = 1e-14;
 
-/// Ratio of two successive residuals above which rounding prevents a further reduction.
+/// Ratio of two successive residuals, above which rounding prevents a further reduction.
 const STANDSTILL: f64 = 0.1;
 
 /// Convergence tolerances and iteration limit of Newton's method.
@@ -31,7 +32,7 @@ pub struct Tolerance {
     pub strain: f64,
     /// Tolerance of the relative constraint violation [-].
     pub constraint: f64,
-    /// Residual norm above which a converged solution is corrected once more with the last factors, down to rounding [-].
+    /// Residual norm above which a converged solution is corrected once more with the last factors, to reach rounding [-].
     pub polish: f64,
     /// Largest number of iterations.
     pub iterations: usize,
@@ -44,8 +45,8 @@ impl Default for Tolerance {
 }
 
 impl Tolerance {
-    /// Returns true if a further correction with the present factors is useful. `factor` is the reduction of the residual by the last correction,
-    /// `corrections` the number of corrections that are still allowed.
+    /// Returns true if a further correction with the present factors is useful.
+    /// The argument `factor` is the reduction of the residual by the last correction. The number of corrections still allowed is `corrections`.
     fn is_worth_correcting(
         &self,
         imbalance: &ResidualNorms,
@@ -69,16 +70,16 @@ impl Tolerance {
 /// Statistics of a solution, with its final residual norms.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct NewtonReport {
-    /// Number of iterations. Each has one factorisation.
+    /// Number of iterations. Each iteration has one factorisation.
     pub iterations: usize,
-    /// Number of corrections that reuse factors. Each takes about a third of the time of an iteration.
+    /// Number of corrections that reuse factors. A correction takes about a third of the time of an iteration.
     pub corrections: usize,
     /// Final residual norms.
     pub imbalance: ResidualNorms,
 }
 
 impl NewtonReport {
-    /// Combines the reports of two consecutive solutions: sum of the work, and residual norms of the second solution.
+    /// Combines the reports of two consecutive solutions: the sums of the work, and the residual norms of the second solution.
     pub fn then(self, next: Self) -> Self {
         Self {
             iterations: self.iterations + next.iterations,
@@ -88,13 +89,13 @@ impl NewtonReport {
     }
 }
 
-/// Newton's method with the memory that it needs. A solution allocates no memory unless it fails.
+/// Newton's method with preallocated memory. A solution allocates no memory unless it fails.
 #[derive(Debug, Clone)]
 pub struct Newton {
     tolerance: Tolerance,
     tangent: BorderedMatrix,
     correction: Vec<f64>,
-    /// Residual norms after each iteration and its corrections.
+    /// Residual norms after each iteration with its corrections.
     history: Vec<ResidualNorms>,
 }
 
@@ -109,7 +110,7 @@ impl Newton {
         Self::of(BorderedMatrix::zeros(unknowns, half_bandwidth, border), tolerance)
     }
 
-    /// Creates a solver with the given tangent. The type of its border determines how it is eliminated.
+    /// Creates a solver with the given tangent. The type of its border determines the method of elimination.
     pub fn of(tangent: BorderedMatrix, tolerance: Tolerance) -> Self {
         Self {
             correction: Vec::with_capacity(tangent.size()),
@@ -121,7 +122,7 @@ impl Newton {
 
     /// Iterates `u` until the equations are satisfied. Afterwards `residual` contains the last residual.
     ///
-    /// `residual` may be longer than the unknowns. Its additional entries are reactions, which are not required to be zero.
+    /// The vector `residual` may be longer than the unknowns. Its additional entries are reactions, which need not be zero.
     ///
     /// # Errors
     /// Fails if the iteration limit is reached, the tangent is singular, a number is not finite, or the equations stop the solution.
@@ -134,10 +135,10 @@ impl Newton {
         self.solve_and(equations, u, residual, |_, _| ())
     }
 
-    /// Solves the equations in the same way as [`solve`](Self::solve), and calls `hand_on` with the solution and the last factors.
+    /// Solves the equations like [`solve`](Self::solve), and calls `hand_on` with the solution and the last factors.
     ///
     /// # Errors
-    /// Errors of [`solve`](Self::solve). In this case `hand_on` is not called.
+    /// Fails in the same cases as [`solve`](Self::solve). After an error, `hand_on` is not called.
     pub(crate) fn solve_and(
         &mut self,
         equations: &mut impl Equations,
@@ -172,7 +173,7 @@ impl Newton {
                 factor = imbalance.largest() / before;
                 corrections += 1;
             }
-            // If the residual is not finite, there are no corrections, which might hide this error.
+            // If the residual is not finite, no corrections are made, because they might hide this error.
             self.history.push(imbalance);
             if !imbalance.is_finite() {
                 return Err(NewtonError::NotFinite { history: self.history.clone() });
@@ -186,11 +187,12 @@ impl Newton {
         Err(NewtonError::NotConverged { history: self.history.clone() })
     }
 
-    /// Solves the equations almost to rounding with the factors of similar equations. The iteration starts from the solution of these equations. If
-    /// it does not converge, it is continued by [`solve`](Self::solve).
+    /// Solves the equations almost to rounding with the factors of similar equations.
+    /// The iteration starts from the solution of the similar equations.
+    /// If the iteration with shared factors does not converge, it is continued by [`solve`](Self::solve).
     ///
     /// # Errors
-    /// Errors of [`solve`](Self::solve).
+    /// Fails in the same cases as [`solve`](Self::solve).
     pub(crate) fn solve_with_shared_factors(
         &mut self,
         equations: &mut impl Equations,
@@ -200,7 +202,7 @@ impl Newton {
     ) -> Result<NewtonReport, NewtonError> {
         self.tangent.clear();
         residual.fill(0.0);
-        // This call is needed for condensing out internal unknowns. Its tangent is not used.
+        // This call of `linearise` condenses out the internal unknowns. Its tangent is not used.
         equations.linearise(u, residual, &mut self.tangent);
         let mut before = f64::INFINITY;
         for corrections in 1..=MOST_SHARED_CORRECTIONS {
@@ -280,7 +282,7 @@ mod tests {
         assert!((u[0] - 2.0_f64.sqrt()).abs() < 1e-15 && (u[1] - 0.5_f64.sqrt()).abs() < 1e-15);
     }
 
-    /// Equation `x = 0` that reports the residual norms of a list.
+    /// Equation `x = 0` whose residual norms are taken from a list.
     struct SpoiltByCorrections {
         imbalances: std::vec::IntoIter<ResidualNorms>,
     }

@@ -1,4 +1,4 @@
-//! Selection of the step size by a tolerance.
+//! Step size selection by an error tolerance.
 
 use super::StepControl;
 use super::controller::{StepController, StepSizeState};
@@ -12,10 +12,10 @@ use crate::system::{Scene, System};
 /// Default smallest step, as a fraction of the first step.
 const SMALLEST: f64 = 1e-6;
 
-/// Default largest step, as a multiple of the first step. It bounds the steps of a scene without motion.
+/// Default largest step, as a multiple of the first step. It limits the steps of a scene without motion.
 const LARGEST: f64 = 1e6;
 
-/// Smallest step, as a multiple of the rounding error of the time.
+/// Smallest step, as a multiple of the rounding error of the present time.
 const ROUNDINGS: f64 = 64.0;
 
 /// Constant data of the step selection in a run.
@@ -26,7 +26,7 @@ pub(super) struct Adaptive {
     pub(super) tolerance: f64,
     /// Length scale of position errors [length].
     pub(super) length: f64,
-    /// Order of the method in the scene.
+    /// Order of accuracy of the method in this scene.
     pub(super) order: u32,
 }
 
@@ -82,7 +82,7 @@ impl Adaptive {
             (now + wish, false)
         };
         let interval = Interval::between(now, end);
-        // The duration of the interval has the rounding error of its end times, so it may be smaller than the requested size.
+        // The duration of the interval has the rounding error of its end times, so it may be smaller than the requested step size.
         let is_least = wish <= least || interval.duration() <= least;
         StepPlan { interval, is_cut, is_least }
     }

@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 use crate::geometry::Vec2;
 use crate::system::MasterLimit;
 
-/// Outcome of an arrival.
+/// Outcome of the arrival of a slider at an end of its master.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum ArrivalKind {
     /// The run ended.
@@ -36,7 +36,7 @@ pub struct Arrival {
 }
 
 impl ArrivalKind {
-    /// Word for the outcome in scripts, such as `bounced`.
+    /// Outcome in scripts, such as `bounced`.
     pub fn name(self) -> &'static str {
         match self {
             Self::Stopped => "stopped",
@@ -49,7 +49,7 @@ impl ArrivalKind {
 }
 
 impl Arrival {
-    /// Description such as `slider 'ring' bounced off the end of its beam at t = 1.5`. On tracks it contains the name of the beam.
+    /// Description such as `slider 'ring' bounced off the end of its beam at t = 1.5`. For sliders on tracks it contains the name of the beam.
     pub fn describe(&self, slider: &str, beam: Option<&str>) -> String {
         let end = self.limit.end.name();
         let beam = beam.map_or_else(|| "its beam".to_owned(), |name| format!("beam '{name}'"));

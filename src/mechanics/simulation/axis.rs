@@ -11,7 +11,7 @@ pub struct Axes<'a> {
     drawn: System,
 }
 
-/// Station of a beam, with the initial geometry of the axis there.
+/// Station of a beam, with the initial geometry of the axis at this station.
 #[derive(Debug, Clone)]
 pub struct AxisStation {
     values: BasisValues,
@@ -31,10 +31,10 @@ impl<'a> Axes<'a> {
         Ok(Self { scene, drawn: System::assemble(scene)? })
     }
 
-    /// Returns stations along each beam. Station `k` of a beam is the place with number `k · Outline::places_a_station(degree)` in its outline.
+    /// Returns stations along each beam. Station `k` of a beam is the point with number `k · Outline::places_a_station(degree)` of its outline.
     ///
     /// # Errors
-    /// Fails if a station lies outside its mesh (internal error).
+    /// Fails if a station lies outside its mesh, which would be an internal error.
     pub fn stations(&self) -> Result<Vec<Vec<AxisStation>>, SystemError> {
         let of_beam = |(beam, mesh): (usize, &crate::beams::Mesh)| {
             let every = Outline::places_a_station(mesh.basis().degree());
@@ -86,8 +86,8 @@ impl AxisStation {
         self.values.combine(1, points).norm() / self.drawn_slope.norm() - 1.0
     }
 
-    /// Change of the curvature of the axis per initial length, positive counter-clockwise [1/length]. It differs from the bending strain κ by the
-    /// derivative of the shear angle. NaN for elements of degree one.
+    /// Change of the curvature of the axis per initial length, positive counter-clockwise [1/length].
+    /// The change of the curvature differs from the bending strain κ by the derivative of the shear angle. It is NaN for elements of degree one.
     pub fn curvature(&self, points: &[Vec2]) -> f64 {
         match self.degree {
             ..=1 => f64::NAN,
@@ -113,7 +113,7 @@ mod tests {
     use crate::elementary::{cos, sin};
     use crate::geometry::{Basis, KnotVector, LagrangeBasis};
 
-    /// Control points of a basis. Each is placed by its abscissa on an axis of length 2.
+    /// Control points of a basis. Each control point is placed by its abscissa on an axis of length 2.
     fn along(basis: &Basis, place: impl Fn(f64) -> Vec2) -> Vec<Vec2> {
         basis.abscissae().into_iter().map(|xi| place(2.0 * xi)).collect()
     }

@@ -1,13 +1,12 @@
 //! PI controller of the step size.
 //!
-//! References: K. Gustafsson, Control theoretic techniques for stepsize selection in explicit Runge–Kutta methods, ACM Trans. Math. Softw. 17
-//! (1991) 533–554; E. Hairer & G. Wanner, Solving Ordinary Differential Equations II (1996), section IV.2.
+//! References: K. Gustafsson, ACM Trans. Math. Softw. 17 (1991); E. Hairer & G. Wanner, Solving Ordinary Differential Equations II, section IV.2.
 
 use serde::{Deserialize, Serialize};
 
 use crate::elementary::power;
 
-/// Ratio of the selected step to the longest step whose error would be allowed.
+/// Safety factor: ratio of the selected step size to the step size with the allowed error.
 const SAFETY: f64 = 0.9;
 
 const MOST_GROWTH: f64 = 5.0;
@@ -16,13 +15,13 @@ const LEAST_GROWTH: f64 = 0.2;
 
 const SECOND_REJECTION_FACTOR: f64 = 0.5;
 
-/// Exponent of the error of the last step in the formula of the PI controller.
+/// Exponent for the error of the last step in the formula of the PI controller.
 const NOW: f64 = 0.7;
 
-/// Exponent of the error of the step before the last in the formula of the PI controller.
+/// Exponent for the error of the second last step in the formula of the PI controller.
 const BEFORE: f64 = 0.4;
 
-/// Smallest error that the controller uses, as a fraction of the allowed error. Smaller errors are replaced by it.
+/// Smallest error that the controller uses, as a fraction of the allowed error. Smaller errors are replaced by this value.
 const LEAST_ERROR: f64 = 1e-4;
 
 /// Constant parameters of the step size controller: order of the error, first step size and bounds [time].
@@ -40,7 +39,7 @@ pub(super) struct StepController {
 pub(super) struct StepSizeState {
     /// Size of the next step if no event shortens it [time].
     pub(super) unconstrained_size: f64,
-    /// Error of the last step that no event shortened, as a fraction of the allowed error [-]; `None` if unknown.
+    /// Error of the last step that ended without an event, as a fraction of the allowed error [-]; `None` if unknown.
     pub(super) error: Option<f64>,
     /// Number of rejected or failed attempts at the next step.
     pub(super) tries: usize,
@@ -59,7 +58,7 @@ impl StepController {
         StepSizeState { unconstrained_size: self.first, error: None, tries: 0 }
     }
 
-    /// Returns true if a state read from a file is valid: step size within the bounds, plausible error and number of attempts.
+    /// Returns true if a controller state from a file is valid: step size within the bounds, plausible error and number of attempts.
     pub(super) fn allows(&self, state: &StepSizeState) -> bool {
         let is_error = state.error.is_none_or(|error| error >= LEAST_ERROR && error.is_finite());
         (self.smallest..=self.largest).contains(&state.unconstrained_size)
@@ -81,7 +80,7 @@ impl StepController {
             None => self.room(error),
             Some(last) => power(self.room(error), NOW) / power(self.room(last), BEFORE),
         };
-        // After a failed attempt the step size must not grow.
+        // After a failed attempt, the step size must not grow.
         let most = if state.tries > 0 { 1.0 } else { MOST_GROWTH };
         let wish = trial.duration * growth.clamp(LEAST_GROWTH, most);
         *state =
@@ -112,14 +111,14 @@ impl StepController {
         self.shorten(state, duration, SECOND_REJECTION_FACTOR);
     }
 
-    /// Factor by which a step with this error could have been longer, with a safety margin.
+    /// Factor by which a step with this error could have been longer, reduced by a safety margin.
     fn room(&self, error: f64) -> f64 {
         SAFETY * power(error, -1.0 / self.order)
     }
 
     fn shorten(&self, state: &mut StepSizeState, duration: f64, part: f64) {
         state.tries += 1;
-        // The end time of a step may exceed the largest number. The duration is then infinite, and the requested step size is used instead.
+        // The end time of a step may exceed the largest number. The duration is then infinite, and the requested step size is used.
         state.unconstrained_size = self.bounded(duration.min(state.unconstrained_size) * part);
     }
 
@@ -135,8 +134,8 @@ mod tests {
     const CONTROLLER: StepController =
         StepController { order: 3.0, first: 0.1, smallest: 1e-3, largest: 10.0 };
 
-    /// Sizes of the accepted steps up to t = 1. A step has the allowed error if its size is `right`, and its error is proportional to the third
-    /// power of the size.
+    /// Sizes of the accepted steps up to t = 1.
+    /// A step has the allowed error if its size is `right`. The error of a step is proportional to the third power of its size.
     fn sizes(first: f64, right: impl Fn(usize) -> f64) -> (Vec<f64>, usize) {
         let mut state = StepSizeState { unconstrained_size: first, ..CONTROLLER.start() };
         let (mut sizes, mut rejected) = (Vec::new(), 0);

@@ -1,13 +1,14 @@
-//! Crossings of sharp corners of spring laws. They contribute to the error estimate by step doubling.
+//! Crossings of sharp corners of spring laws, which contribute to the error estimate by step doubling.
 
 use crate::geometry::larger;
 use crate::system::{Along, Branch, System};
 
-/// Branches of spring laws with sharp corners at the start, middle and end of a step, for the whole step and for its two halves.
+/// Branches of spring laws with sharp corners during a step: at its start, middle and end. They are stored for the whole step and for its two halves.
 ///
-/// If a step ends just after contact with a stiff bumper has begun, the whole step and its halves give nearly equal positions even if their impact
-/// times differ. Their rates differ strongly, because the impact has reversed only some of them. Hence, if a spring changes its branch within a
-/// step, the difference of the rates times the step duration counts as an error.
+/// Suppose that a step ends shortly after contact with a stiff bumper has begun.
+/// The whole step and its halves then give nearly equal positions, even if their impact times differ.
+/// The rates after the impact differ strongly, because only some of the steps contain the reversal.
+/// Hence, if a spring changes its branch within a step, the difference of the rates times the step duration is added to the error.
 #[derive(Default)]
 pub(super) struct CornerCrossings {
     start: Vec<Branch>,
@@ -33,7 +34,7 @@ impl CornerCrossings {
         model.write_branches(&mut self.halves);
     }
 
-    /// Difference between a whole step of a duration [time] and its halves: of lengths as a fraction of `length` [-], of angles in rad.
+    /// Difference between a whole step of a duration [time] and its two halves. Lengths are divided by `length` [-], angles are in rad.
     pub(super) fn difference(&self, duration: f64, length: f64) -> f64 {
         let ends = self.whole.iter().zip(&self.halves);
         let all = self.start.iter().zip(&self.middle).zip(ends);

@@ -4,28 +4,28 @@ use super::{DerivativeError, StepSizeError};
 use crate::integrators::{MethodError, StepError};
 use crate::system::{SystemError, rounded};
 
-/// Run that could not start or continue. The history up to the last successful step is kept.
+/// Error of a run that cannot start or continue. The history up to the last successful step is kept.
 #[expect(missing_docs, reason = "the messages describe the variants and their fields")]
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum SimulationError {
-    /// Scene that cannot be built.
+    /// The scene cannot be built.
     #[error(transparent)]
     Model(#[from] SystemError),
-    /// Invalid integrator or parameter.
+    /// The integrator or its parameter is invalid.
     #[error(transparent)]
     Method(#[from] MethodError),
-    /// Invalid step size or tolerance.
+    /// The step size or the tolerance is invalid.
     #[error(transparent)]
     StepSize(#[from] StepSizeError),
-    /// Derivatives with respect to parameters that are not available.
+    /// Derivatives with respect to parameters are not available.
     #[error(transparent)]
     Derivative(#[from] DerivativeError),
-    /// Sensor of a mean force, recorded with a method that does not provide mean forces.
+    /// A sensor of a mean force is recorded with a method that does not provide mean forces.
     #[error(
         "'{sensor}' is a mean force over a step, which the method {method} does not provide; record the present force, or use energy_momentum"
     )]
     NoMeanForces { sensor: String, method: &'static str },
-    /// Slider with friction in a simulation with a method that does not support it.
+    /// A scene contains a slider with friction, which the method does not support.
     #[error(
         "slider '{slider}' has friction, which the method {method} does not support; use the method energy_momentum"
     )]
@@ -49,7 +49,7 @@ pub enum SimulationError {
         rest_position: f64,
         /// Value of the function [length, rad].
         function_value: f64,
-        /// Time at which the function has this value [time].
+        /// Time at which the function has the value `function_value` [time].
         time: f64,
     },
     #[error("the simulation is already at t = {now} and cannot run to t = {end}")]
@@ -70,7 +70,7 @@ pub enum SimulationError {
         /// Largest number of parts into which the step was divided.
         divisions: u64,
         source: Box<StepError>,
-        /// Extreme conditions before the step, appended to the message; may be empty.
+        /// Text about extreme conditions before the step, appended to the message; may be empty.
         conditions: String,
     },
     #[error(
@@ -99,7 +99,7 @@ pub enum SimulationError {
         /// Smallest allowed step [time].
         smallest: f64,
         source: Box<StepError>,
-        /// Extreme conditions before the step, appended to the message; may be empty.
+        /// Text about extreme conditions before the step, appended to the message; may be empty.
         conditions: String,
     },
     #[error(
@@ -107,7 +107,7 @@ pub enum SimulationError {
     )]
     EventLocation {
         slider: String,
-        /// Event in words, such as `reaches the end of its beam`.
+        /// Description of the event, such as `reaches the end of its beam`.
         event: String,
         /// End of the last successful step [time].
         time: f64,
@@ -115,10 +115,10 @@ pub enum SimulationError {
         dt: f64,
         /// Largest number of parts into which the step was divided.
         divisions: u64,
-        /// Extreme conditions before the step, appended to the message; may be empty.
+        /// Text about extreme conditions before the step, appended to the message; may be empty.
         conditions: String,
     },
-    /// Load without a finite value, or slider that is too fast for its sliding rule. Smaller steps do not help.
+    /// A load has no finite value, or a slider is too fast for its sliding rule. Smaller steps do not help.
     #[error("{source}")]
     Load { source: StepError },
     #[error("the run has ended: {ending}")]
@@ -175,7 +175,7 @@ pub enum SimulationError {
     },
 }
 
-/// Formats a step size with at most six digits.
+/// Formats a step size with at most six significant digits.
 fn step_size(dt: f64) -> String {
     let rounded: f64 = format!("{dt:.5e}").parse().unwrap_or(dt);
     format!("{rounded:e}")

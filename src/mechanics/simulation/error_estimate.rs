@@ -8,10 +8,10 @@ use crate::integrators::{Integrator, Interval, StepError};
 use crate::newton::NewtonReport;
 use crate::system::{Placement, System, SystemState};
 
-/// Takes two half steps, and compares them with a discarded whole step.
+/// Takes two half steps, and compares their result with that of a whole step, which is discarded.
 ///
-/// For a method of order `p`, the error of the half steps is `1/(2^p - 1)` times the difference (Richardson). The result of the half steps is not
-/// extrapolated. Extrapolation would be more accurate, but would lose the conservation properties of the method.
+/// For a method of order `p`, the error of the half steps is the difference times `1/(2^p - 1)` (Richardson).
+/// The result of the half steps is not extrapolated. Extrapolation would be more accurate, but would lose the conservation properties of the method.
 #[derive(Default)]
 pub(super) struct StepDoubling {
     start: SystemState,
@@ -28,26 +28,26 @@ pub(super) struct DoubledStep {
     /// Number of iterations and corrections of the half steps and the whole step together.
     pub(super) report: NewtonReport,
     pub(super) tried_step: TriedStep,
-    /// Error of positions and angles without the error of corner crossings, as a fraction of the allowed error [-].
+    /// Error of positions and angles, without the error of corner crossings, as a fraction of the allowed error [-].
     position_error: f64,
 }
 
 impl DoubledStep {
-    /// Returns the step with the error of positions only. It is used for the smallest step, where an unresolved impact must not cause a rejection.
+    /// Returns the step with the error of positions only. The smallest step uses it, because an unresolved impact must not cause a rejection.
     pub(super) fn judged_by_places(self) -> Self {
         let trial = TriedStep { error: self.position_error, ..self.tried_step };
         Self { tried_step: trial, ..self }
     }
 
-    /// Returns the step after its second half has been repeated. `report` contains the total work, `error` is an additional error as a fraction of
-    /// the allowed error.
+    /// Returns the step after its second half has been repeated.
+    /// The argument `report` contains the total work. The argument `error` is an additional error as a fraction of the allowed error.
     pub(super) fn resampled(self, report: NewtonReport, error: f64) -> Self {
         let trial = TriedStep { error: larger(self.tried_step.error, error), ..self.tried_step };
         Self { report, tried_step: trial, position_error: larger(self.position_error, error) }
     }
 }
 
-/// Step in which an attempt failed.
+/// Part of a step doubling in which the solver failed.
 pub(super) struct FailedStep {
     pub(super) source: StepError,
     pub(super) before: usize,
@@ -59,8 +59,8 @@ impl StepDoubling {
         Self { length, allowed, ..Self::default() }
     }
 
-    /// Takes a whole step, then two half steps over the same interval, and returns their error. If a buffer `between` is given, the state between
-    /// the half steps is stored in it.
+    /// Takes a whole step, then two half steps over the same interval, and returns their error.
+    /// If the buffer `between` is given, the state between the half steps is stored in it.
     pub(super) fn step(
         &mut self,
         integrator: &mut dyn Integrator,
@@ -93,8 +93,8 @@ impl StepDoubling {
         Ok(DoubledStep { report, tried_step: trial, position_error: of_places })
     }
 
-    /// Takes a step after earlier steps of the same call of [`step`](Self::step). If it fails, the model is restored to the start of the first of
-    /// these steps.
+    /// Takes one of the three steps of a call of [`step`](Self::step).
+    /// If the step fails, the model is restored to the start of the first of the three steps.
     pub(super) fn take_or_restore(
         &self,
         integrator: &mut dyn Integrator,

@@ -5,18 +5,19 @@ use crate::geometry::larger;
 use crate::integrators::Mechanism;
 use crate::system::{Scene, System, UnknownKind};
 
-/// First step of a scene without beams, as a fraction of the time in which it moves by its length scale.
+/// First step of a scene without beams, as a fraction of the time in which the scene moves by its length scale.
 const PART: f64 = 1e-3;
 
-/// Smallest distance `v²/g` that is used as a length scale, as a fraction of the largest distance of a body from the origin. `v` is the start speed
-/// and `g` the gravity.
+/// Smallest distance `v²/g` that serves as a length scale, as a fraction of the largest distance of a body from the origin.
+/// The symbol `v` is the start speed, and `g` is the gravity.
 const SHORTEST_WAY: f64 = 1e-3;
 
-/// Length scale of a scene: its [size](Scene::size). For isolated particles it is the distance `v²/g` in which gravity `g` generates the start
-/// speed `v`. If this distance is very short, it is the largest distance of a body from the origin.
+/// Length scale of a scene: the [size](Scene::size) of the scene.
+/// For isolated particles, the scale is the distance `v²/g`, in which gravity `g` generates the start speed `v`.
+/// If the distance `v²/g` is very short, the scale is the largest distance of a body from the origin.
 ///
-/// A scene may have none of these lengths, for example a particle that starts at the origin almost at rest. Then the length scale is 1 [length],
-/// and only in this case the steps depend on the unit of length.
+/// A scene may have no such length, for example a scene of a particle that starts at the origin almost at rest.
+/// The length scale of a scene without a length is 1 [length]. Only for such a scene, the steps depend on the unit of length.
 pub(super) fn length_of(scene: &Scene) -> f64 {
     let is_length = |length: &f64| *length > 0.0 && length.is_finite();
     let places = scene.particles.iter().map(|particle| particle.position);
@@ -48,8 +49,9 @@ pub(super) fn shortest_wave_time(scene: &Scene) -> Option<f64> {
 
 /// Initial size of variable steps [time].
 ///
-/// It is the [shortest wave time](shortest_wave_time). Without beams, it is a fraction of the time in which start velocities or weight displace a
-/// body by the length scale. Without start velocities and weight, the other forces are used. If nothing moves, the time scale is 1 [time].
+/// With beams, the first step is the [shortest wave time](shortest_wave_time).
+/// Without beams, the first step is a fraction of the time in which start velocities or weight displace a body by the length scale.
+/// Without start velocities and weight, the other forces determine the first step. If nothing moves, the time scale is 1 [time].
 pub(super) fn first_step(scene: &Scene, model: &mut System) -> f64 {
     if let Some(shortest) = shortest_wave_time(scene) {
         return shortest;

@@ -13,11 +13,11 @@ pub struct Sample {
     pub measures: Measures,
     /// Length of the step [time]; zero in the first row.
     pub dt: f64,
-    /// Newton iterations of the step. For variable steps it is the total of the whole step and its two halves.
+    /// Number of Newton iterations of the step. For variable steps, the iterations of the whole step and its two halves are added.
     pub newton_iterations: usize,
     /// Number of failed attempts at the step.
     pub retries: usize,
-    /// Energy that dampers returned in the backward part of the step [energy]. It is not stored in files.
+    /// Energy that dampers returned in the backward substep [energy]. It is not stored in files.
     #[serde(skip)]
     pub returned: f64,
 }
@@ -44,7 +44,7 @@ impl Invariant {
         ("gap", Self::Gap),
     ];
 
-    /// Value of the invariant in a row. A scalar is in the first component.
+    /// Value of the invariant in a row. The value of a scalar invariant is the first component.
     pub fn value(self, row: &Measures) -> Vec2 {
         match self {
             Self::Energy => Vec2::new(row.energy.total() - row.work + row.dissipated, 0.0),
@@ -70,7 +70,7 @@ impl Invariant {
 pub struct DriftScales {
     /// Mass of the whole scene [mass].
     pub mass: f64,
-    /// Length scale of the scene [length]. It is zero if there is none, for example for a single particle at the origin.
+    /// Length scale of the scene [length]; zero if the scene has no length scale, for example a single particle at the origin.
     pub length: f64,
     /// Rounding error of the strain energy [energy]. Energy drifts are divided by at least this value.
     pub rounding_energy: f64,
@@ -144,7 +144,7 @@ impl History {
         &self.samples
     }
 
-    /// Returns the rows between two times. Rows at these times are included.
+    /// Returns the rows between two times, including rows at these times.
     pub fn between(&self, from: f64, to: f64) -> Self {
         let steps = self.samples.iter().map(|row| row.dt).filter(|dt| *dt > 0.0);
         let slack = 1e-9 * steps.reduce(f64::min).unwrap_or(0.0);
@@ -158,7 +158,7 @@ impl History {
         inside
     }
 
-    /// Names and dimensions of the columns. The additional columns follow the standard ones.
+    /// Names and dimensions of the columns. The additional columns follow the standard columns.
     pub fn columns(&self) -> impl Iterator<Item = (&str, &'static str)> {
         let fixed = Self::COLUMNS.iter().map(|column| (column.name, column.dimension));
         let extra = self.extra_columns.iter().map(|column| (&*column.name, column.dimension));
@@ -180,10 +180,10 @@ impl History {
         Some(rows.map(|row| row[index]).collect())
     }
 
-    /// Values of a column, each averaged with the value of the previous row. The first two values are not averaged, because quantities of a step,
-    /// such as contact forces, have no value at the start.
+    /// Values of a column, each averaged with the value of the previous row.
+    /// The first two values are not averaged, because quantities of a step, such as contact forces, have no value at the start.
     ///
-    /// The average removes oscillations from step to step. It is the value in the middle of the step.
+    /// The average removes oscillations from step to step. It is the value of the quantity in the middle of the step.
     pub fn averaged(&self, name: &str) -> Option<Vec<f64>> {
         let mut column = self.column(name)?;
         for row in (1..column.len()).rev().filter(|row| self.samples[row - 1].dt > 0.0) {
@@ -192,11 +192,12 @@ impl History {
         Some(column)
     }
 
-    /// Difference of an invariant from its value in the first row, divided by a scale: the largest energy, momentum or angular momentum of all
-    /// rows. The gap is not divided.
+    /// Difference of an invariant from its value in the first row, divided by a scale.
+    /// The scale of a drift is the largest energy, momentum or angular momentum of all rows.
+    /// The gap of joints is not divided by a scale.
     ///
-    /// For bodies of zero momentum, the scale of momenta is at least `sqrt(2 m K)`, with the kinetic energy `K`, and at least the sum of the
-    /// magnitudes of all exchanged impulses.
+    /// If all bodies have zero momentum, the scale of momenta is at least `sqrt(2 m K)`, with the kinetic energy `K`.
+    /// The scale of momenta is also at least the sum of the magnitudes of all exchanged impulses.
     pub fn drifts(&self, invariant: Invariant) -> Vec<f64> {
         let Some(first) = self.samples.first().map(|row| row.measures) else { return Vec::new() };
         let scale = self.scale(invariant, &first);
@@ -236,8 +237,8 @@ impl History {
         }
     }
 
-    /// Largest increase of `E - W + D` above an earlier value, divided by the scale of [`drifts`](Self::drifts). NaN if an energy is NaN or there
-    /// are no rows.
+    /// Largest increase of `E - W + D` above an earlier value, divided by the scale of [`drifts`](Self::drifts).
+    /// The growth is NaN if an energy is NaN or there are no rows.
     pub fn energy_growth(&self) -> f64 {
         let Some(first) = self.samples.first().map(|row| row.measures) else { return f64::NAN };
         let mut least = f64::INFINITY;
@@ -252,7 +253,7 @@ impl History {
         }
     }
 
-    /// Largest of the [`drifts`](Self::drifts) of an invariant. NaN if one of them is NaN or there are no rows.
+    /// Largest of the [`drifts`](Self::drifts) of an invariant. The result is NaN if a drift is NaN or there are no rows.
     pub fn drift(&self, invariant: Invariant) -> f64 {
         if self.samples.is_empty() {
             return f64::NAN;

@@ -12,13 +12,13 @@ fn pieces(degree: usize) -> usize {
     if degree == 1 { 1 } else { POINTS_A_SPAN }
 }
 
-/// Places on a body from which it is drawn: points of a beam axis and its knots or nodes, or points of a rigid body.
+/// Points on a body that define its drawing: points of a beam axis and its knots or nodes, or points of a rigid body.
 #[derive(Debug, Clone)]
 pub struct Outline {
     line: Vec<BodyPoint>,
     marks: Vec<BodyPoint>,
-    /// Corners of the polygon of a rigid body. Their coordinates are along and to the left of the line from the centre to one of the points of the
-    /// body, in units of the length of this line.
+    /// Corners of the polygon of a rigid body, in the frame of a line from the centre to a point of the body.
+    /// The coordinates of the corners are along the line and to its left, in units of its length.
     corners: Vec<Vec2>,
 }
 
@@ -33,12 +33,12 @@ pub struct Configuration {
     pub bodies: Vec<Vec<Vec2>>,
     /// Positions of the knots or nodes of all beams [length].
     pub marks: Vec<Vec2>,
-    /// Positions of the particles, then of the centres of rigid bodies [length].
+    /// Positions of the particles, followed by the centres of rigid bodies [length].
     pub particles: Vec<Vec2>,
 }
 
 impl Outline {
-    /// Creates the outlines of the beams of a scene on their meshes, then of rigid bodies with points off the centre.
+    /// Creates the outlines of the beams of a scene on their meshes, followed by the outlines of rigid bodies with points off the centre.
     ///
     /// # Errors
     /// Fails if an axis has a point without a tangent.
@@ -63,8 +63,8 @@ impl Outline {
         scene.beams.iter().zip(meshes).enumerate().map(of_beam).chain(bodies).collect()
     }
 
-    /// For a body with one point, the line starts at the centre and ends at the point. With two points it passes through the centre; with more
-    /// points it is a polygon around the centre.
+    /// For a body with one point, the drawn line starts at the centre and ends at the point.
+    /// With two points, the drawn line passes through the centre. With more points, it is a polygon around the centre.
     fn of_rigid_body(index: usize, body: &RigidBodyDefinition) -> Self {
         if !body.outline.is_empty() {
             return Self::polygon(index, body);
@@ -97,8 +97,8 @@ impl Outline {
         Self { line: line.into(), marks: Vec::new(), corners }
     }
 
-    /// Corners of the closed polygon of a rigid body. Their coordinates are along and to the left of the line between the two places of
-    /// [`line`](Self::line), in units of the length of this line.
+    /// Corners of the closed polygon of a rigid body, in the frame of the line between the two points of [`line`](Self::line).
+    /// The coordinates of the corners are along the line and to its left, in units of its length.
     pub fn corners(&self) -> &[Vec2] {
         &self.corners
     }
@@ -127,7 +127,7 @@ impl Outline {
         breaks.windows(2).flat_map(within).chain(breaks.last().copied()).collect()
     }
 
-    /// Number of places of the outline per station of the axis. There are two stations per span, or one for straight spans.
+    /// Number of outline points per station of the axis. There are two stations per span, or one per straight span.
     pub fn places_a_station(degree: usize) -> usize {
         pieces(degree).div_ceil(2)
     }
@@ -137,12 +137,12 @@ impl Outline {
         pieces(degree) / Self::places_a_station(degree) - 1
     }
 
-    /// Places of the centre line, from start to end.
+    /// Points of the drawn line, from start to end.
     pub fn line(&self) -> &[BodyPoint] {
         &self.line
     }
 
-    /// Places of knots or nodes.
+    /// Points at the knots or nodes.
     pub fn marks(&self) -> &[BodyPoint] {
         &self.marks
     }

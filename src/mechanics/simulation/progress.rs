@@ -12,14 +12,14 @@ use crate::newton::NewtonReport;
 /// Solver statistics of a run.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct WorkCounts {
-    /// Number of successful steps. Two half steps that are compared with a whole step count as one.
+    /// Number of successful steps. Two half steps that are compared with a whole step count as one step.
     pub steps: usize,
-    /// Newton iterations of successful steps, each with a new factorisation. For variable steps they include those of the whole step and its two
-    /// halves.
+    /// Number of Newton iterations of successful steps. Each iteration has a new factorisation.
+    /// For variable steps, the iterations of the whole step and its two halves are included.
     pub newton_iterations: usize,
-    /// Corrections of successful steps that reuse earlier factors of the matrix.
+    /// Number of corrections in successful steps. Corrections reuse earlier factors of the matrix.
     pub corrections: usize,
-    /// Largest number of Newton iterations in one step. For variable steps it is the total of the whole step and its two halves.
+    /// Largest number of Newton iterations in one step. For variable steps, the iterations of the whole step and its two halves are added.
     pub newton_max: usize,
     /// Number of factorisations, including those of failed attempts.
     pub factorisations: usize,
@@ -29,7 +29,7 @@ pub struct WorkCounts {
     pub rejected: usize,
     /// Number of attempted steps in the search for arrivals of sliders.
     pub arrival_tries: usize,
-    /// Wall-clock time spent in steps. It is not stored in files, so that files of equal runs are equal.
+    /// Wall-clock time spent in steps. It is not stored in files, so that equal runs write equal files.
     #[serde(skip)]
     pub wall: Duration,
 }
@@ -40,7 +40,7 @@ pub(super) struct StepTaken {
     pub(super) dt: f64,
     pub(super) newton_iterations: usize,
     pub(super) retries: usize,
-    /// Energy that dampers returned in the backward part of the last step [energy].
+    /// Energy that dampers returned in the backward substep of the last step [energy].
     pub(super) returned: f64,
 }
 

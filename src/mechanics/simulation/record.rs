@@ -14,7 +14,7 @@ pub(super) struct RunRecord {
     pub(super) history: History,
     pub(super) trajectory: Trajectory,
     pub(super) recording: Recording,
-    /// Number of permanent rows of the history. One further row may describe the present state.
+    /// Number of permanent rows of the history. An additional temporary row may describe the present state.
     pub(super) permanent_rows: usize,
     /// Sensors of the columns after the standard ones.
     pub(super) sensors: Vec<Sensor>,
@@ -49,7 +49,7 @@ impl RunRecord {
         Ok(record)
     }
 
-    /// Locates the sensors again after a release, or after a rewind to a time before a release.
+    /// Locates the sensors again, after a release or after a rewind to a time before a release.
     ///
     /// # Errors
     /// Fails if a sensor can no longer be located.
@@ -73,7 +73,7 @@ impl RunRecord {
         self.permanent_rows = self.history.samples().len();
     }
 
-    /// Adds a temporary row for the present state, unless this state has a row already.
+    /// Adds a temporary row for the present state, unless the history has a row for this state already.
     pub(super) fn append_present(&mut self, model: &mut System, last_step: StepTaken) {
         let last = self.history.samples().last().map(|row| row.measures.time);
         if last != Some(model.time()) {
@@ -97,7 +97,7 @@ impl RunRecord {
     }
 }
 
-/// Rejects duplicate column names. They may occur because a recorded quantity can have the name of a column of the scene.
+/// Rejects duplicate column names. A recorded quantity may have the same name as a column of the scene.
 fn check_names(columns: &[ExtraColumn]) -> Result<(), SystemError> {
     let mut names: HashSet<&str> = FIXED.iter().map(|column| column.name).collect();
     match columns.iter().find(|column| !names.insert(&column.name)) {
@@ -117,7 +117,7 @@ fn scales(scene: &Scene, model: &System) -> DriftScales {
     let distances = model.control_points().flatten().map(|point| point.norm());
     DriftScales {
         mass: model.total_mass(),
-        // The scale is the radius of gyration of the longest beam or, if larger, a distance from the origin.
+        // The scale is the radius of gyration of the longest beam or, if larger, the distance of a body from the origin.
         length: distances.fold(longest / 12_f64.sqrt(), |length, distance| {
             if distance > 10.0 * longest { length.max(distance) } else { length }
         }),

@@ -4,14 +4,14 @@ use std::num::NonZeroUsize;
 
 use serde::{Deserialize, Serialize};
 
-/// Rule that selects the states to be recorded. The start, the ends of runs and the arrivals of sliders are always recorded.
+/// Rule that selects the recorded states. The start, the ends of runs and the arrivals of sliders are always recorded.
 ///
-/// Energies and sensors are evaluated for recorded states only. In addition, the present state has a temporary row.
+/// Energies and sensors are evaluated only for recorded states. In addition, the present state has a temporary row.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Recording {
     /// Every n-th step is recorded.
     Every(NonZeroUsize),
-    /// No other states are recorded.
+    /// Only the start, the ends of runs and arrivals are recorded.
     Nothing,
 }
 

@@ -7,6 +7,6 @@ use serde::{Deserialize, Serialize};
 pub struct ReleaseEvent {
     /// Index of the release in the scene.
     pub release: usize,
-    /// Time of the release [time]. It is the end of one step and the start of the next.
+    /// Time of the release [time], which is the end of one step and the start of the next step.
     pub time: f64,
 }

@@ -1,4 +1,4 @@
-//! Error of variable steps that arises because controllers are sampled only at the start of a step.
+//! Error of variable steps due to controllers that are sampled only at the start of a step.
 
 use super::adaptive::StepPlan;
 use super::error_estimate::{DoubledStep, FailedStep, StepDoubling};
@@ -7,16 +7,18 @@ use crate::geometry::larger;
 use crate::integrators::{Integrator, Interval};
 use crate::system::{Drive, Placement, Scene, System, SystemState};
 
-/// Allowed distance between the two results of the second half step. Its unit is the length scale multiplied by a power of the tolerance. With this
-/// value, the error that accumulates in the time scale of a motion was measured to be about half the tolerance (theory.md, section 13.1).
+/// Allowed distance between the two results of the second half step. Its unit is the length scale times a power of the tolerance.
+/// With this value of the constant, the error that accumulates in the time scale of a motion is about half the tolerance (theory.md, section 13.1).
 const SHARE: f64 = 4.0;
 
 /// Error estimate for steps in which controllers are sampled at the start of each half.
 ///
-/// First, the whole step and its halves use the controller values at the start, which gives the error of the method. Then the run pauses in the
-/// middle of the step, the controllers are sampled, and the second half is repeated. A sampled force is late by half a step on average. This
-/// changes positions by the third power of the step size in one step, and by the first power in a run. For a sampled rate the change in one step is
-/// of second power. The difference between the two results of the second half may therefore be of the same power of the tolerance.
+/// First, the whole step and its halves use the controller values at the start of the step. Their difference is the error of the method.
+/// After the error of the method is known, the run pauses in the middle of the step, the controllers are sampled, and the second half is repeated.
+/// A sampled force is late by half a step on average.
+/// The delay of the force changes positions by the third power of the step size in one step, and by the first power over a run.
+/// A sampled rate changes positions by the second power of the step size in one step.
+/// The allowed difference between both results of the second half step has the same power of the tolerance as the error due to the delay.
 pub(super) struct Resampling {
     /// Power of the step size in the difference of positions in one step [-].
     order: i32,
@@ -73,8 +75,8 @@ impl Resampling {
         self.half_step = Some(HalfStep { plan, doubled });
     }
 
-    /// Repeats the second half of a paused step with new controller values. The error of the step is the larger one of the error of the method and
-    /// the error of sampling.
+    /// Repeats the second half of a paused step with new controller values.
+    /// The error of the step is the larger of two errors: that of the method and that of sampling.
     pub(super) fn resume(
         &mut self,
         doubling: &mut StepDoubling,

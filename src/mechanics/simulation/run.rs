@@ -1,4 +1,4 @@
-//! Time loop. Steps end on a grid; a step that fails is halved and repeated.
+//! Time loop. Steps end on a time grid. A failed step is halved and repeated.
 
 mod adapting;
 mod back;
@@ -82,11 +82,11 @@ impl Simulation {
         Self::start_while(scene, settings, &mut || true)
     }
 
-    /// Builds a scene and starts the simulation, with a way to stop the assembly. `goes_on` is called repeatedly during the assembly; if it returns
-    /// false, the start ends with an error.
+    /// Builds a scene and starts the simulation. The caller can stop the assembly.
+    /// The callback `goes_on` is called repeatedly during the assembly. If it returns false, the start fails.
     ///
     /// # Errors
-    /// Errors of [`start`](Self::start), or an error if the assembly is stopped.
+    /// Fails in the same cases as [`start`](Self::start), or if the assembly is stopped.
     pub fn start_while(
         scene: Scene,
         settings: SimulationSettings,
@@ -96,8 +96,8 @@ impl Simulation {
         Self::of(scene, model, settings)
     }
 
-    /// Starts a simulation from an equilibrium with zero velocities, at t = 0. If the equilibrium includes prescribed positions, the simulation
-    /// starts at the time of the equilibrium.
+    /// Starts a simulation from an equilibrium with zero velocities, at t = 0.
+    /// If the equilibrium includes prescribed positions, the simulation starts at the time for which the equilibrium was computed.
     ///
     /// # Errors
     /// Fails if the step size or a method parameter is out of range, or if the position of a drive in the equilibrium differs from its function.
@@ -172,7 +172,7 @@ impl Simulation {
         })
     }
 
-    /// Sets the largest number of threads for large scenes. The default is the number of cores. Results do not depend on it.
+    /// Sets the largest number of threads for large scenes. The default is the number of cores. The number does not affect results.
     pub fn use_threads(&mut self, most: usize) {
         self.model.divide(most);
     }
@@ -227,7 +227,7 @@ impl Simulation {
         self.clock.grid.has_reached(self.time(), time)
     }
 
-    /// Difference of two times below which they count as equal [time].
+    /// Largest difference of two times that count as equal [time].
     pub fn slack(&self) -> f64 {
         self.clock.grid.slack(self.time())
     }
@@ -280,9 +280,9 @@ impl Simulation {
         }
     }
 
-    /// Advances the time without solving equations (dry run). The history gets the rows that a motionless scene would have.
+    /// Advances the time without solving equations (dry run). The history receives the rows of a motionless scene.
     ///
-    /// Dry runs check scripts. If there are very many steps, only the first and the last are recorded.
+    /// Dry runs are used to check scripts. If there are very many steps, only the first and the last step are recorded.
     ///
     /// # Errors
     /// Fails if `end` is in the past or not finite, or the monitor stops the run.
@@ -293,7 +293,7 @@ impl Simulation {
     ) -> Result<(), SimulationError> {
         self.check_end(end)?;
         self.clock.goal = end;
-        // Dry runs of the perturbed simulations are done separately below, because they add rows to their own histories.
+        // Dry runs of the perturbed simulations follow below, because they add rows to separate histories.
         let mut beside = self.stepper.sensitivities.take();
         let pretended = self.dry_run_alone_to(end, monitor);
         if let Some(sensitivities) = &mut beside {

@@ -15,12 +15,12 @@ use crate::integrators::{
 use crate::newton::NewtonReport;
 use crate::system::{Scene, System, SystemState};
 
-/// Scenes at a parameter plus and minus a perturbation.
+/// Two scenes for a perturbed parameter: at the parameter plus and minus a perturbation.
 #[derive(Debug, Clone)]
 pub struct Variation {
     /// Name of the parameter.
     pub name: String,
-    /// Perturbation in the units of the parameter.
+    /// Perturbation in the unit of the parameter.
     pub distance: f64,
     /// Scenes at the parameter plus and minus the perturbation.
     pub scenes: [Scene; 2],
@@ -38,15 +38,16 @@ pub enum PerturbedSide {
 /// Solver statistics of the derivatives of a run.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct DerivativeCounts {
-    /// Number of linear solutions with the factors of the main run.
+    /// Number of linear systems solved with the factors of the main run.
     pub solves: usize,
-    /// Number of additional factorisations, needed where the factors of the main run were not accurate enough.
+    /// Number of additional factorisations, needed if the factors of the main run were not accurate enough.
     pub factorisations: usize,
 }
 
-/// Derivatives of a run with respect to parameters. The state `s₁` after a step satisfies `R(s₁; s₀, p) = 0`, with the state `s₀` before the step
-/// and the parameter `p`. Hence the derivative `s₁'` solves `∂R/∂s₁ s₁' = -∂R/∂s₀ s₀' - ∂R/∂p` with the factorised matrix of the step. The
-/// right-hand side is computed from the difference of two residuals, at `p ± δ` and from the states `s₀ ± δ s₀'`.
+/// Derivatives of a run with respect to parameters.
+/// The state `s₁` after a step satisfies `R(s₁; s₀, p) = 0`, with the state `s₀` before the step and the parameter `p`.
+/// Hence the derivative `s₁'` solves `∂R/∂s₁ s₁' = -∂R/∂s₀ s₀' - ∂R/∂p` with the factorised matrix of the step.
+/// The right-hand side is computed from the difference of two residuals, at `p ± δ` and from the states `s₀ ± δ s₀'`.
 pub(super) struct Sensitivities {
     stepper: SharedFactorStepper,
     parameters: Vec<PerturbedRuns>,
@@ -60,7 +61,7 @@ impl Sensitivities {
     /// Creates the derivatives of a run at its start.
     ///
     /// # Errors
-    /// Fails if the method has no derivatives, or if a perturbed scene cannot be built or has another structure.
+    /// Fails if the method has no derivatives, or if a perturbed scene cannot be built or has a different structure.
     pub(super) fn new(
         run: &mut Simulation,
         variations: Vec<Variation>,
@@ -94,7 +95,7 @@ impl Sensitivities {
     /// Takes a step of the main run and of its perturbed runs.
     ///
     /// # Errors
-    /// Errors of the step of the main run.
+    /// Fails if the step of the main run fails.
     pub(super) fn step(
         &mut self,
         model: &mut System,
@@ -136,8 +137,9 @@ impl Sensitivities {
         }
     }
 
-    /// Applies a release of the main run to the perturbed runs. Positions and rates are continuous, and the time of the release does not depend on
-    /// parameters. Hence the derivatives of the state are not changed by the release, except for their numbering.
+    /// Applies a release of the main run to the perturbed runs.
+    /// Positions and rates are continuous, and the time of the release does not depend on parameters.
+    /// Hence a release does not change the derivatives of the state, except their numbering.
     ///
     /// # Errors
     /// Fails if a perturbed scene cannot be built again, although it was built before.
@@ -174,7 +176,7 @@ impl Sensitivities {
 
     pub(super) fn dry_run_to(&mut self, end: f64) {
         self.each(|twin| {
-            // Errors are ignored here, because the main run has and reports the same errors.
+            // Errors are ignored, because the main run has and reports the same errors.
             let _: Result<(), SimulationError> = twin.dry_run_to(end, &mut NoMonitor);
         });
     }
@@ -189,7 +191,7 @@ impl Sensitivities {
         }
     }
 
-    /// Stops the computation of derivatives. If it has been stopped before, the earlier reason is kept.
+    /// Stops the computation of derivatives. If it has already been stopped, the earlier reason is kept.
     pub(super) fn disable(&mut self, reason: DerivativeError) {
         let _: &mut DerivativeError = self.end_reason.get_or_insert(reason);
     }

@@ -9,7 +9,7 @@ use super::step_retry::StepRetry;
 use super::{ReleaseEvent, WorkCounts};
 use crate::system::SystemState;
 
-/// State of a simulation from which it can be continued bit for bit.
+/// State of a simulation from which the run can be continued bit for bit.
 #[derive(Debug, Clone)]
 pub(super) struct Snapshot {
     pub(super) state: SystemState,
@@ -38,7 +38,7 @@ impl Snapshot {
     }
 }
 
-/// Snapshots of a simulation: the first one, and as many recent ones as the memory limit allows.
+/// Snapshots of a simulation: the first snapshot, and as many recent snapshots as the memory limit allows.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Snapshots {
     /// Memory limit [bytes].
@@ -91,7 +91,7 @@ impl Snapshots {
         self.all().count()
     }
 
-    /// First step from which on the snapshots of all steps up to `now` are stored.
+    /// First step such that the snapshots of all steps from it up to `now` are stored.
     pub(super) fn unbroken_from(&self, now: usize) -> Option<usize> {
         let first = self.first.as_ref()?.steps();
         let oldest = self.recent.front().map_or(now, Snapshot::steps);
@@ -107,7 +107,7 @@ impl Snapshots {
         self.recent.get(at)
     }
 
-    /// Last snapshot at or before a time, in a run of `now` steps. `None` if snapshots between it and the time may have been discarded.
+    /// Last snapshot at or before a time, in a run of `now` steps. `None` if snapshots between this snapshot and the time may have been discarded.
     pub(super) fn last_until(&self, time: f64, now: usize) -> Option<&Snapshot> {
         let unbroken = self.unbroken_from(now)?;
         let last = self.all().take_while(|snapshot| snapshot.time <= time).last()?;
@@ -119,8 +119,8 @@ impl Snapshots {
         self.recent.truncate(self.recent.partition_point(|snapshot| snapshot.steps() <= steps));
     }
 
-    /// Returns a buffer for the state of the next snapshot. If the memory limit is reached, the oldest snapshot gives its buffer. `None` if
-    /// snapshots are disabled.
+    /// Returns a buffer for the state of the next snapshot. If the memory limit is reached, the buffer of the oldest snapshot is reused.
+    /// Returns `None` if snapshots are disabled.
     pub(super) fn blank(&mut self) -> Option<SystemState> {
         let first = self.first.as_ref().filter(|_| self.most > 0)?;
         let is_full = self.recent.len() >= self.most;

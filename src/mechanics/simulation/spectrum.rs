@@ -1,16 +1,16 @@
 //! Frequency spectrum of a column over time.
 //!
-//! The mean is subtracted, the rows are weighted with a Blackman–Harris window function (F. J. Harris, Proc. IEEE 66 (1978) 51-83: side lobes of
-//! -92 dB), and zeros are appended. A parabola through the logarithms of the three values around each maximum gives its frequency and amplitude.
-//! The Fourier transform is computed by the algorithm of Cooley and Tukey (1965) with the sines of this crate, so that results are identical on all
-//! machines.
+//! The mean is subtracted, the rows are weighted with a Blackman–Harris window (F. J. Harris 1978: side lobes of -92 dB), and zeros are appended.
+//! A parabola through the logarithms of the three values around each maximum gives the frequency and amplitude of the maximum.
+//! The Fourier transform is computed by the algorithm of Cooley and Tukey (1965).
+//! The transform uses the sines of this crate, so that results are identical on all machines.
 
 use std::f64::consts::TAU;
 
 use super::TimeSeries;
 use crate::elementary::{cos, exp, ln, sin_cos};
 
-/// Difference of two row spacings below which the rows are evenly spaced, as a fraction of the spacing.
+/// Largest relative difference of two row spacings that count as equal.
 const EVEN: f64 = 1e-6;
 
 /// Smallest number of rows to which the window function is applied.
@@ -19,14 +19,14 @@ const FEWEST: usize = 16;
 /// Smallest ratio of the length with appended zeros to the original length.
 const PADDING: usize = 4;
 
-/// Height of a maximum that may be a side lobe of the window function, as a fraction of the largest maximum.
+/// Largest height of a maximum that may be a side lobe of the window function, as a fraction of the largest maximum.
 const SIDE_LOBES: f64 = 5e-5;
 
 /// Coefficients of the Blackman–Harris window function.
 const WINDOW: [f64; 4] = [0.35875, -0.48829, 0.14128, -0.01168];
 
-/// Half width of the main lobe of the window function. Its unit is the frequency with one period over all rows. Lower frequencies cannot be
-/// distinguished from the mean.
+/// Half width of the main lobe of the window function. Its unit is the frequency with one period over all rows.
+/// Frequencies below the half width cannot be distinguished from the mean.
 const LOBE: f64 = 4.0;
 
 /// Vibration found in a column.
@@ -34,7 +34,7 @@ const LOBE: f64 = 4.0;
 pub struct SpectrumPeak {
     /// Frequency [1/time].
     pub frequency: f64,
-    /// Half the peak-to-peak value, in the dimension of the column.
+    /// Half the peak-to-peak value, in the unit of the column.
     pub amplitude: f64,
 }
 
@@ -60,8 +60,8 @@ fn six_digits(number: f64) -> f64 {
 impl TimeSeries {
     /// Strongest vibrations of the column, at most `most`, in decreasing order of amplitude.
     ///
-    /// Two vibrations are not separated if their numbers of periods over all rows differ by less than about four. Vibrations with fewer than about
-    /// four periods are not detected.
+    /// Two vibrations are not separated if their numbers of periods over all rows differ by less than about four.
+    /// Vibrations with fewer than about four periods are not detected.
     ///
     /// # Errors
     /// Fails if there are too few or unevenly spaced rows, or a value is NaN.

@@ -2,12 +2,12 @@
 //!
 //! Columns are interpolated linearly between rows. Integrals are exact for this interpolation.
 
-/// Quantity over time, with nondecreasing times.
+/// Time series of a quantity, with nondecreasing times.
 #[derive(Debug, Clone, PartialEq)]
 pub struct TimeSeries {
     /// Times [time].
     pub times: Vec<f64>,
-    /// Values, as many as times.
+    /// Values, one for each time.
     pub values: Vec<f64>,
 }
 
@@ -60,8 +60,9 @@ impl TimeSeries {
         pairs.map(|(times, values)| (times[1] - times[0], values[0], values[1]))
     }
 
-    /// Time derivative at every row: slope of the parabola through the row and its neighbours (second order also for uneven spacing), one-sided at
-    /// the ends. A jump consists of two rows of equal time, and each of them uses the difference quotient on its own side.
+    /// Time derivative at every row: the slope of the parabola through the row and its neighbours. It is of second order also for uneven spacing.
+    /// At the ends of the column, the difference quotient is one-sided.
+    /// A jump consists of two rows of equal time. Each of the two rows uses the difference quotient on its side of the jump.
     pub fn derivative(&self) -> Vec<f64> {
         let count = self.values.len();
         let slope = |a: usize, b: usize| {
@@ -96,7 +97,7 @@ impl TimeSeries {
     /// Times at which the column crosses a level in either direction. A value that touches the level is not a crossing.
     pub fn crossings(&self, level: f64) -> Vec<f64> {
         let mut found = Vec::new();
-        // Sign of the last value that differs from the level, and the time since which all values equal the level.
+        // Sign of the last value that differs from the level, and the time since which the value equals the level.
         let (mut side, mut on_level) = (0.0, None);
         let mut before: Option<(f64, f64)> = None;
         for (&time, &value) in self.times.iter().zip(&self.values) {

@@ -4,10 +4,10 @@ use crate::integrators::Interval;
 
 const MOST_HALVINGS: u32 = 12;
 
-/// Number of parts of a step if all of them have the smallest size.
+/// Number of parts of a step if all parts have the smallest size.
 const PARTS: u64 = 1 << MOST_HALVINGS;
 
-/// Step that may be partially completed. It is divided into parts, which are halved after a failure and become longer again after a success.
+/// Step that may be partially completed. Its parts are halved after a failure and doubled after a success.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct StepRetry {
     pub(super) whole: Interval,
@@ -54,7 +54,7 @@ impl StepRetry {
         PARTS >> self.halvings
     }
 
-    /// Number of parts into which the step is divided at present.
+    /// Number of parts into which the step is presently divided.
     pub(super) fn divisions(&self) -> u64 {
         1 << self.halvings
     }
@@ -81,7 +81,7 @@ impl StepRetry {
         }
     }
 
-    /// Halves the size of the next part. Returns false if it has the smallest size already.
+    /// Halves the size of the next part. Returns false if the part has the smallest size already.
     pub(super) fn fail(&mut self) -> bool {
         self.retries += 1;
         let can_be_halved = self.halvings < MOST_HALVINGS;

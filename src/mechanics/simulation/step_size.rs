@@ -16,11 +16,11 @@ pub enum StepSize {
 /// Tolerance and bounds of variable steps.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct StepControl {
-    /// Allowed error that accumulates while the scene moves by about its own length. For positions it is a fraction of this length, for angles in
-    /// rad [-].
+    /// Allowed error that accumulates while the scene moves by about its own length.
+    /// The error of a position is a fraction of the length of the scene. The error of an angle is in rad [-].
     ///
-    /// In one step of a method of order `p`, the allowed error is the tolerance to the power `(p + 1)/p`. Hence the step size is proportional to
-    /// the tolerance to the power `1/p`, and the accumulated error to the tolerance.
+    /// In one step of a method of order `p`, the allowed error is the tolerance to the power `(p + 1)/p`.
+    /// Hence the step size is proportional to the tolerance to the power `1/p`, and the accumulated error is proportional to the tolerance.
     pub tolerance: f64,
     /// Size of the first step, and of the first step after a jump of a load [time]. The default is derived from the scene.
     pub first: Option<f64>,
@@ -30,7 +30,7 @@ pub struct StepControl {
     pub largest: Option<f64>,
 }
 
-/// Invalid step size, tolerance or bound.
+/// Error for an invalid step size, tolerance or bound.
 #[expect(missing_docs, reason = "the messages describe the variants and their fields")]
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum StepSizeError {
@@ -82,7 +82,7 @@ impl From<StepControl> for StepSize {
 }
 
 impl StepSize {
-    /// Checks the numbers of the step size.
+    /// Checks all values of the step size.
     ///
     /// # Errors
     /// Fails if a number is out of range.
@@ -117,13 +117,13 @@ impl fmt::Display for StepControl {
 }
 
 impl StepControl {
-    /// Smallest tolerance of variable steps [-]. Rounding errors of positions prevent smaller ones.
+    /// Smallest tolerance of variable steps [-]. Rounding errors of positions prevent smaller tolerances.
     pub const LEAST_TOLERANCE: f64 = 1e-9;
 
-    /// Largest tolerance of variable steps [-]. For larger errors the error estimate is not valid.
+    /// Largest tolerance of variable steps [-]. The error estimate is not valid for larger errors.
     pub const MOST_TOLERANCE: f64 = 0.1;
 
-    /// Returns variable steps with a tolerance [-] and default bounds.
+    /// Returns variable steps with the given tolerance [-] and default bounds.
     pub fn to(tolerance: f64) -> Self {
         Self { tolerance, first: None, smallest: None, largest: None }
     }

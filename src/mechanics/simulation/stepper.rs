@@ -19,7 +19,7 @@ impl Stepper {
     /// Takes one step over an interval, and computes its derivatives if they are enabled.
     ///
     /// # Errors
-    /// Errors of the step of the run.
+    /// Fails if the step of the run fails.
     pub(super) fn step(
         &mut self,
         model: &mut System,

@@ -2,22 +2,23 @@
 
 use crate::loads::{SampleClock, multiple};
 
-/// Difference of two times below which they are equal, as a fraction of the step.
+/// Largest difference of two times that count as equal, as a fraction of the step.
 const SAME: f64 = 1e-9;
 
-/// Difference of two times below which they are equal, as a multiple of their rounding error.
+/// Largest difference of two times that count as equal, as a multiple of their rounding error.
 const ROUNDINGS: f64 = 4.0;
 
 /// Largest index of a grid point.
 const MOST_POINTS: u64 = 1 << 60;
 
-/// Times at which steps end: `t_n = t_0 + n dt`, and additional times called cuts. Cuts are the jumps and kinks of schedules, and the samples and
-/// actions of digital controllers. The grid times are not accumulated. With variable steps there are only cuts.
+/// Times at which steps end: `t_n = t_0 + n dt`, and additional times called cuts.
+/// Cuts are the jumps and kinks of schedules, and the times at which digital controllers sample and act.
+/// With variable steps, the grid consists of cuts only.
 #[derive(Debug, Clone, Default)]
 pub struct TimeGrid {
     start: f64,
     dt: f64,
-    /// Difference of two times below which they are equal, unless their rounding error is larger.
+    /// Largest difference of two times that count as equal, unless their rounding error is larger.
     slack: f64,
     /// Cuts in increasing order.
     cuts: Vec<f64>,
@@ -32,12 +33,12 @@ impl TimeGrid {
         Self { start, dt, slack, cuts: Vec::new(), clocks: Vec::new(), passed: 0 }.with_cuts(cuts)
     }
 
-    /// Creates a grid without regular times, for variable steps: steps must end at the `cuts` only. `first` is the size of the first step [time].
+    /// Creates a grid without regular times, for variable steps: steps must end only at the `cuts`. `first` is the size of the first step [time].
     pub(crate) fn of_cuts(start: f64, first: f64, cuts: Vec<f64>) -> Self {
         Self { dt: f64::INFINITY, ..Self::new(start, first, cuts) }
     }
 
-    /// Adds cuts at the times at which digital controllers take samples and act.
+    /// Adds cuts at the times at which digital controllers sample and act.
     pub(crate) fn with_beats(self, beats: impl Iterator<Item = SampleClock>) -> Self {
         Self { clocks: beats.collect(), ..self }
     }
@@ -59,7 +60,7 @@ impl TimeGrid {
         self.dt
     }
 
-    /// Difference below which times close to a given time count as equal [time].
+    /// Largest difference from a given time for which times count as equal [time].
     pub fn slack(&self, time: f64) -> f64 {
         self.slack.max(ROUNDINGS * f64::EPSILON * time.abs())
     }
@@ -77,7 +78,7 @@ impl TimeGrid {
         self.start + multiple(self.dt, n)
     }
 
-    /// Adds a cut, unless there is one at this time.
+    /// Adds a cut, unless there is already a cut at this time.
     pub fn cut_at(&mut self, time: f64) {
         let same = self.slack(time);
         if self.cuts.iter().all(|cut| (cut - time).abs() > same) {
@@ -91,13 +92,13 @@ impl TimeGrid {
         let cut = self.cuts[self.cuts.partition_point(|cut| self.has_reached(now, *cut))..].first();
         let slack = self.slack(now);
         let beat = self.clocks.iter().map(|beat| beat.next(now, slack)).min_by(f64::total_cmp);
-        // Of equal times the last one is used. Cuts are last, because a schedule must be evaluated exactly at the time of its jump.
+        // If times are equal, the last one is used. Cuts are last, because a schedule must be evaluated exactly at the time of its jump.
         [Some(limit), beat, cut.copied()].into_iter().flatten().fold(grid, |end, candidate| {
             if candidate > now && self.has_reached(end, candidate) { candidate } else { end }
         })
     }
 
-    /// Number of grid times that have been passed.
+    /// Number of grid times that have passed.
     pub fn passed(&self) -> u64 {
         self.passed
     }
@@ -107,20 +108,20 @@ impl TimeGrid {
         self.passed = passed;
     }
 
-    /// Replaces the cuts. Those up to `now` count as passed.
+    /// Replaces the cuts. Cuts up to `now` count as passed.
     pub fn lay(&mut self, cuts: &[f64], now: f64) {
         *self = std::mem::take(self).with_cuts(cuts.to_vec());
         self.passed = 0;
         self.mark_reached(now);
     }
 
-    /// Records that a time is reached, so that the next search starts there.
+    /// Records that a time is reached. The next search for an end time starts there.
     pub(crate) fn mark_reached(&mut self, now: f64) {
         self.passed = self.points_up_to(now);
     }
 
     fn points_up_to(&self, now: f64) -> u64 {
-        // The search starts close to the result, at a smaller index.
+        // The search starts at an index slightly below the result.
         let near = (((now - self.start) / self.dt) as u64).saturating_sub(2).min(MOST_POINTS);
         let mut passed = self.passed.max(near);
         while passed < MOST_POINTS && self.has_reached(now, self.point(passed + 1)) {

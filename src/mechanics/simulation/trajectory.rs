@@ -1,9 +1,9 @@
 //! Recorded control points at many times.
 
-/// Largest number of stored values. If more are stored, every second configuration is discarded.
+/// Largest number of stored values. Beyond this number, every second configuration is discarded.
 const MOST_NUMBERS: usize = 32 << 20;
 
-/// Trajectory of a run: control points of all bodies [length] at some of its times.
+/// Trajectory of a run: control points of all bodies [length] at some times of the run.
 #[derive(Debug, Clone)]
 pub struct Trajectory {
     stride: usize,
@@ -26,7 +26,7 @@ impl Trajectory {
         self.numbers.reserve(room * self.stride);
     }
 
-    /// Receives a configuration, and stores it if it is not among the discarded ones.
+    /// Receives a configuration, and stores it unless it belongs to the discarded configurations.
     pub fn push(&mut self, time: f64, numbers: impl Iterator<Item = f64>) {
         if self.offered.is_multiple_of(self.every) {
             self.times.push(time);
@@ -50,8 +50,9 @@ impl Trajectory {
         self.every *= 2;
     }
 
-    /// Restores the trajectory as it was after `offered` configurations had been passed to it. Configurations that have been discarded since then
-    /// are not restored. When the run is repeated from there, the content becomes the same as without the return.
+    /// Restores the trajectory to the time when it had received `offered` configurations.
+    /// Configurations that have been discarded since then are not restored.
+    /// If the run is repeated after the restoration, the trajectory becomes the same as in the original run.
     pub fn truncate(&mut self, offered: usize) {
         self.offered = offered;
         let kept = offered.div_ceil(self.every);

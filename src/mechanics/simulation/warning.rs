@@ -6,22 +6,22 @@ use std::fmt;
 use super::StepControl;
 use crate::system::{MotionCurvature, OutsideLaw, RESOLVED_IMPACT, ShortBounce, UnsampledChange};
 
-/// Largest rotation of a section in a step without a warning: ten steps per revolution [rad].
+/// Largest rotation of a section in a step without a warning [rad]. It corresponds to ten steps per revolution.
 pub(super) const LARGEST_ROTATION: f64 = 0.1 * TAU;
 
 /// Largest number of spans of its master that a slider may pass in a step without a warning [-].
 pub(super) const MOST_SPANS: f64 = 1.0;
 
-/// Growth of the severity of a warning for which the warning is repeated.
+/// Factor by which the severity of a warning must increase before the warning is repeated.
 const REPEAT_FACTOR: f64 = 2.0;
 
-/// Factor by which steps must be shorter if a bounce lasted at most three steps.
+/// Factor by which the step size should be reduced if a bounce lasted at most three steps.
 const BOUNCE: f64 = 5.0;
 
-/// Number of steps per period that needs no warning.
+/// Smallest number of steps per period for which no warning is given.
 const RESOLVED_STEPS_PER_PERIOD: f64 = 20.0;
 
-/// Cause of rate changes within a step, other than vibration.
+/// Cause of rate changes within a step that is not a vibration.
 #[derive(Debug, Clone, PartialEq)]
 pub enum RateChangeCause {
     /// Name of a damper, a damped material, or a drag element.
@@ -61,7 +61,7 @@ pub enum Warning {
         /// Name of a method that would damp the vibration; `None` if the method is in use or would have no effect.
         damping: Option<&'static str>,
     },
-    /// Unresolved vibration of a damped beam with little kinetic energy in comparison with other bodies.
+    /// Unresolved vibration of a damped beam that has little kinetic energy in comparison with other bodies.
     Beam {
         /// Name of the beam.
         beam: String,
@@ -79,7 +79,7 @@ pub enum Warning {
         /// Length of the longest recent step [time].
         longest: f64,
     },
-    /// Large number of adaptive steps. They are much shorter than the motion of the whole scene needs, or the method is of first order.
+    /// Large number of adaptive steps. The steps are much shorter than the motion of the whole scene requires, or the method is of first order.
     ManySteps {
         /// Number of steps so far.
         steps: usize,
@@ -91,7 +91,7 @@ pub enum Warning {
         method: Option<&'static str>,
         /// Time in which the scene moves by its own length [time].
         travel_time: f64,
-        /// Ratio of the step size that the motion of the whole scene needs to the mean step size [-].
+        /// Ratio of the step size that resolves the motion of the whole scene to the mean step size [-].
         times: f64,
     },
     /// Large rotation of sections in a step.
@@ -110,29 +110,29 @@ pub enum Warning {
         /// Largest number of spans passed in a step [-].
         spans: f64,
     },
-    /// Slider on a master with a kink that moves almost as fast as the shear waves of the master.
+    /// Slider on a master with a kink. The slider moves almost as fast as the shear waves of the master.
     WaveSpeed {
         /// Name of the slider.
         slider: String,
         /// Largest recorded speed along the master [length/time].
         speed: f64,
-        /// Speed up to which the kink follows the contact force [length/time].
+        /// Largest speed for which the kink follows the contact force [length/time].
         limit: f64,
     },
-    /// Energy drift with a method that claims to conserve energy.
+    /// Energy drift with a method that conserves energy.
     Drift {
         /// Largest change of the energy minus the work of loads, as a fraction of the largest energy [-].
         drift: f64,
-        /// Name and stiffness of the stiffest spring, if any.
+        /// Name and stiffness of the stiffest spring; `None` without springs.
         stiffest: Option<(String, f64)>,
     },
-    /// Step in which dampers returned more energy in the backward part than they dissipated in the whole step.
+    /// Step in which dampers returned more energy in the backward substep than they dissipated in the whole step.
     EnergyGain {
         /// Time at the end of the step [time].
         time: f64,
         /// Length of the step [time].
         dt: f64,
-        /// Energy returned in the backward part of the step [energy].
+        /// Energy returned in the backward substep [energy].
         returned: f64,
         /// Energy dissipated in the whole step [energy]; negative if the energy of the motion grew.
         dissipated: f64,
@@ -141,10 +141,10 @@ pub enum Warning {
     Bend {
         /// Name of the drive.
         drive: String,
-        /// Time of the step with the kink, and the rates before and after it.
+        /// Time of the step with the kink, and the rates before and after the kink.
         curvature: MotionCurvature,
     },
-    /// Script function of time that changes within a step faster than the step resolves.
+    /// Script function of time that changes too fast for the step size.
     Schedule {
         /// Description of the load or drive.
         owner: String,
@@ -153,11 +153,11 @@ pub enum Warning {
         /// Step with the largest difference between two quadrature rules for the mean.
         change: UnsampledChange,
     },
-    /// Spring or damper outside the range of its law.
+    /// Spring or damper beyond the range of its law.
     Range {
-        /// Description of the law, including the object that has it.
+        /// Description of the law, including its spring or damper.
         law: String,
-        /// Range of the law, and the value farthest outside.
+        /// Range of the law, and the value farthest outside the range.
         outside: OutsideLaw,
     },
     /// Spring with a contact that lasted too few steps.
@@ -196,7 +196,7 @@ impl Warning {
             Self::Drift { drift, .. } => *drift,
             Self::EnergyGain { returned, dissipated: taken, .. } => returned - taken,
             Self::Bend { curvature: bend, .. } => bend.size(),
-            // A warning of these types is given only once.
+            // Warnings of the types `Schedule` and `Range` are given only once.
             Self::Schedule { .. } | Self::Range { .. } => 1.0,
             Self::Contact { bounce, .. } => bounce.force,
         }
@@ -222,7 +222,7 @@ impl Warning {
         }
     }
 
-    /// Returns true if no warning of this type for this object is in `reported`, or if this one is sufficiently more severe.
+    /// Returns true if `reported` contains no warning of this type for this object, or if this warning is sufficiently more severe.
     pub fn is_new_or_worse(&self, reported: &[Self]) -> bool {
         !reported.iter().any(|other| {
             std::mem::discriminant(other) == std::mem::discriminant(self)

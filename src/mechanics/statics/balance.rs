@@ -1,4 +1,4 @@
-//! Equations of equilibrium, for a given load factor or for a given distance along the path of equilibria.
+//! Equations of equilibrium, either for a given load factor or for a given distance along the path of equilibria.
 
 use crate::geometry::larger;
 use crate::integrators::{Forces, Inertia, Mechanism};
@@ -11,7 +11,7 @@ pub(super) struct Balance<'a> {
     pub(super) model: &'a mut System,
     /// Length that converts moments to forces, for loads that consist of moments only.
     pub(super) length: f64,
-    /// Returns false to stop the solution.
+    /// Function that returns false to stop the solution.
     pub(super) goes_on: &'a mut dyn FnMut() -> bool,
 }
 
@@ -26,15 +26,15 @@ impl Balance<'_> {
             UnknownKind::Rotation => larger(most, r.abs() / self.length),
             UnknownKind::Force => most,
         });
-        // There is no scale if all forces are zero.
+        // If all forces are zero, the residual has no scale.
         let force = if largest == 0.0 { 0.0 } else { largest / scale };
         let constraint = self.model.violation_at_rest(forces, scale);
         ResidualNorms { force, strain: strain_mismatch, constraint }
     }
 }
 
-/// Equations `F(u) - λ P(u) + σ M u = 0` for a given load factor `λ`. For `σ = 0` they are the equations of equilibrium. Otherwise they describe a
-/// pseudo-transient step with a viscous damping proportional to the mass.
+/// Equations `F(u) - λ P(u) + σ M u = 0` for a given load factor `λ`. For `σ = 0` they are the equations of equilibrium.
+/// For `σ > 0` the equations describe a pseudo-transient step with a viscous damping proportional to the mass.
 pub(super) struct UnderLoad<'a> {
     pub(super) balance: Balance<'a>,
     pub(super) factor: f64,
@@ -81,11 +81,11 @@ impl Equations for UnderLoad<'_> {
     }
 }
 
-/// Equations `F(u) - λ P(u) = 0` and `t·u = Δs`. The load factor `λ` is the last unknown. The second equation, which describes a plane, determines
-/// it.
+/// Equations `F(u) - λ P(u) = 0` and `t·u = Δs`. The load factor `λ` is the last unknown.
+/// The equation `t·u = Δs` describes a plane. It determines the load factor.
 pub(super) struct AlongPath<'a, 'b> {
     pub(super) balance: &'a mut Balance<'b>,
-    /// Normal `t` of the plane in the metric of the path. Contact unknowns, which follow the degrees of freedom, have no weight in it.
+    /// Normal `t` of the plane in the metric of the path. Contact unknowns follow the degrees of freedom and have zero weight.
     pub(super) normal: &'a [f64],
     /// Distance `Δs` of the plane from the last equilibrium, in the metric of the path.
     pub(super) distance: f64,

@@ -1,4 +1,4 @@
-//! Sequences of equilibria, each of which is found from the previous one.
+//! Continuation: a sequence of equilibria, each of which is found from the previous equilibrium.
 
 use super::balance::{Balance, UnderLoad};
 use super::error::StepFailure;
@@ -13,35 +13,34 @@ use crate::linalg::{BorderShape, BorderedMatrix};
 use crate::newton::Newton;
 use crate::system::{MasterEnd, Scene, System, UnknownKind};
 
-/// Largest number of times that a step is halved because it does not reach an equilibrium.
+/// Largest number of halvings of a step that does not reach an equilibrium.
 const MOST_HALVINGS: u32 = 8;
 
-/// Largest distance between two consecutive equilibria, as a multiple of the step length. Equilibria that are farther apart may lie on different
-/// parts of the path.
+/// Largest distance between two consecutive equilibria, as a multiple of the step length.
+/// Equilibria that are farther apart may lie on different parts of the path.
 const FAR: f64 = 2.0;
 
-/// Displacement per load increment above which the structure has snapped through, as a multiple of the displacement per load increment in the last
-/// step.
+/// Ratio of the displacements per load increment in two consecutive steps, above which the structure has snapped through.
 const SNAP_THROUGH_RATIO: f64 = 4.0;
 
-/// Smallest displacement with which a displacement is compared to detect snap-through, as a fraction of the size of the scene.
+/// Smallest reference displacement for the detection of snap-through, as a fraction of the size of the scene.
 const NEARBY: f64 = 1e-3;
 
-/// Number of iterations per step at which the step size control aims.
+/// Number of iterations per step that the step size control tries to reach.
 const WANTED_ITERATIONS: f64 = 4.0;
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum InitialSupport {
     Itself,
-    /// Only the loads restrain some degrees of freedom. The value is their number.
+    /// Only the loads restrain some degrees of freedom. The value is the number of these degrees of freedom.
     Loads(usize),
 }
 
 pub(super) struct Continuation<'s> {
     pub(super) scene: &'s Scene,
     length: f64,
-    /// Weights of squared displacements and rotations in the distance between two equilibria. Displacements are divided by a length, and the sum is
-    /// an average over the control points.
+    /// Weights of squared displacements and rotations in the distance between two equilibria.
+    /// Displacements are divided by a length, and the sum is averaged over the control points.
     metric: Vec<f64>,
     loading: Loading,
     pub(super) model: System,
@@ -60,8 +59,9 @@ struct PathDirection {
 }
 
 impl PathDirection {
-    /// Returns true if the next step continues in this direction. Otherwise the step may have led to another branch of the path, for example near
-    /// the buckling load of a straight column. Smaller steps are then needed.
+    /// Returns true if the next step has nearly the same direction as this step.
+    /// If the directions differ, the next step may have reached another branch of the path, for example near the buckling load of a straight column.
+    /// Smaller steps are needed if the next step has reached another branch.
     fn is_aligned_with(&self, next: &Self, metric: &[f64]) -> bool {
         let ways = metric.iter().zip(&self.movements).zip(&next.movements);
         let along: f64 = ways.map(|((weight, before), now)| weight * before * now).sum();
@@ -100,7 +100,7 @@ impl<'s> Continuation<'s> {
         let Loading { factor, steps, .. } = self.loading;
         self.begin(factor * (1.0 / steps as f64), hold)?;
         for step in 2..=steps {
-            // In the last step this is exactly the requested load factor.
+            // In the last step, the factor is exactly the requested load factor.
             self.solve_for_factor(factor * (step as f64 / steps as f64), MOST_HALVINGS)?;
         }
         Ok(())
@@ -125,13 +125,13 @@ impl<'s> Continuation<'s> {
         let Loading { factor: goal, steps, .. } = self.loading;
         self.begin(goal / steps as f64, hold)?;
         if hold != InitialSupport::Itself && steps > 1 {
-            // If only loads restrain the scene, the path starts from this equilibrium.
+            // If only loads restrain the scene, the path starts from the equilibrium under a small load.
             self.solve_for_factor(goal * (2.0 / steps as f64), MOST_HALVINGS)?;
         }
         let mut trial = PathStep::new(&self.model, &self.loading);
         let mut distance = norm(&self.metric, &self.unknowns).min(arc.longest);
         if distance == 0.0 {
-            // If loads act on supports only, the displacement is zero and there is no path.
+            // If the loads act on supports only, the displacement is zero and there is no path.
             return self.solve_for_factor(goal, MOST_HALVINGS);
         }
         while self.path.load_factor() != goal && self.path.points().len() < arc.points {
@@ -141,7 +141,7 @@ impl<'s> Continuation<'s> {
         Ok(())
     }
 
-    /// Takes a step of a distance along the path, or a fraction of it. Returns the distance of the next step.
+    /// Takes a step of the given distance along the path, or of a fraction of this distance. Returns the distance of the next step.
     fn advance(&mut self, trial: &mut PathStep, mut distance: f64) -> Result<f64, StaticsError> {
         let (from, goal) = (self.path.load_factor(), self.loading.factor);
         let mut miss = StepFailure::FarSolution;
@@ -179,8 +179,9 @@ impl<'s> Continuation<'s> {
         Err(self.path_lost_error(miss))
     }
 
-    /// Distance from the last point to the turning point of the load factor. It is returned if the path crosses the requested load factor before
-    /// the turning point and again after it, because the first crossing is the solution.
+    /// Distance from the last point to the turning point of the load factor.
+    /// The distance is returned if the path crosses the requested load factor before the turning point and again after it.
+    /// The first crossing of the requested load factor is the solution.
     fn distance_to_turning_point(&self, goal: f64, factor: f64, distance: f64) -> Option<f64> {
         let [.., before, last] = self.path.points() else { return None };
         let factors = [before.load_factor, last.load_factor, factor];
@@ -189,7 +190,7 @@ impl<'s> Continuation<'s> {
         is_beyond.then_some(vertex.distance - last.distance)
     }
 
-    /// Solves for a load factor. The step is halved if no equilibrium is found or the equilibrium does not continue the path.
+    /// Solves for a load factor. The step is halved if no equilibrium is found, or if the equilibrium does not continue the path.
     fn solve_for_factor(&mut self, factor: f64, halvings: u32) -> Result<(), StaticsError> {
         self.query_monitor()?;
         let from = self.path.load_factor();
@@ -211,8 +212,8 @@ impl<'s> Continuation<'s> {
         self.solve_for_factor(factor, halvings - 1)
     }
 
-    /// Returns true if the last point continues the path, or if the step cannot be halved further. With arc-length control the path may turn and
-    /// become unstable.
+    /// Returns true if the last point continues the path, or if the step cannot be halved again.
+    /// With arc-length control, the path may turn and become unstable.
     fn is_continuation(&mut self, halvings: u32) -> bool {
         if self.loading.control != Control::Load {
             return true;
@@ -241,7 +242,7 @@ impl<'s> Continuation<'s> {
         }
     }
 
-    /// Solves for an equilibrium near the last one, for a load factor. Returns the number of iterations.
+    /// Solves for an equilibrium near the last equilibrium, for a given load factor. Returns the number of iterations.
     fn find(&mut self, factor: f64) -> Result<usize, StepFailure> {
         let found = match self.balance_from(factor, 0.0) {
             Ok(_) if self.distance_moved() > self.farthest(factor) => Err(StepFailure::FarSolution),
@@ -257,10 +258,10 @@ impl<'s> Continuation<'s> {
         norm(&self.metric, &self.unknowns)
     }
 
-    /// Solves for a fraction of the loads, starting from the present configuration. If `rate` is positive, there is viscous damping with this rate
-    /// [1/time²]. Returns the number of iterations.
+    /// Solves for a fraction of the loads, starting from the present configuration.
+    /// A positive `rate` adds viscous damping with this rate [1/time²]. Returns the number of iterations.
     ///
-    /// The solution is repeated whenever a stop starts to hold a slider or releases it.
+    /// The solution is repeated whenever a stop begins or ceases to hold a slider.
     pub(super) fn balance_from(&mut self, factor: f64, rate: f64) -> Result<usize, StepFailure> {
         let (reached, mut iterations) = (self.path.load_factor(), 0);
         for _ in 0..=self.scene.most_settlings() {
@@ -279,8 +280,8 @@ impl<'s> Continuation<'s> {
         Err(StepFailure::FarSolution)
     }
 
-    /// Largest acceleration of a mass due to the unbalanced forces in the last configuration, divided by the size of the scene [1/time²]. If no
-    /// force is unbalanced, the result is 1, because the dynamic relaxation may then start with any rate.
+    /// Largest acceleration of a mass due to the unbalanced forces in the last configuration [1/time²]. It is divided by the size of the scene.
+    /// If no force is unbalanced, the result is 1. Dynamic relaxation may then start with any rate.
     pub(super) fn acceleration_by_size(&mut self, factor: f64) -> f64 {
         self.model.predict_unchanged(&mut self.unknowns);
         self.model.begin_movement();
@@ -305,8 +306,9 @@ impl<'s> Continuation<'s> {
         }
     }
 
-    /// Largest allowed distance of the next equilibrium. With load control it is computed from the last displacement per load increment, with
-    /// arc-length control from the longest step.
+    /// Largest allowed distance of the next equilibrium.
+    /// With load control, the largest distance follows from the last displacement per load increment.
+    /// With arc-length control, the largest distance follows from the longest step.
     fn farthest(&self, factor: f64) -> f64 {
         let [.., before, last] = self.path.points() else { return f64::INFINITY };
         match self.loading.control {
@@ -352,7 +354,7 @@ impl<'s> Continuation<'s> {
     }
 }
 
-/// Holds sliders that move beyond stops, and frees sliders with tensile stop forces. Returns true if the state of a slider has changed.
+/// Holds sliders that move beyond stops, and releases sliders whose stop force is tensile. Returns true if the state of a slider has changed.
 pub(super) fn update_stop_contacts(
     model: &mut System,
     scene: &Scene,

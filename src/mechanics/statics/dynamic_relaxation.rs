@@ -1,4 +1,4 @@
-//! Dynamic relaxation, which finds equilibria of scenes that only loads restrain.
+//! Dynamic relaxation. It finds equilibria of scenes that are restrained only by loads.
 
 use super::StaticsError;
 use super::continuation::Continuation;
@@ -10,7 +10,7 @@ const FAR: f64 = 0.15;
 /// Displacement in a pass below which Newton's method is tried without viscous damping, as a fraction of the size of the scene.
 const NEAR: f64 = 1e-2;
 
-/// Displacement in a pass below which the configuration counts as stationary even if it is unstable, as a fraction of the size of the scene.
+/// Displacement in a pass below which even an unstable configuration counts as stationary, as a fraction of the size of the scene.
 const STATIONARY: f64 = 1e-13;
 
 /// Factor by which the damping rate is multiplied after a pass with a small displacement.
@@ -24,18 +24,18 @@ const MOST_FIRST_PASSES: usize = 60;
 
 const MOST_PASSES: usize = 400;
 
-/// Sum of the displacements of all passes above which the motion counts as endless, as a multiple of the size of the scene.
+/// Sum of the displacements of all passes, above which the motion counts as endless, as a multiple of the size of the scene.
 const ENDLESS_MOVEMENT: f64 = 30.0;
 
-/// Largest number of passes in which a slider leaves its master. With more of them the slider counts as leaving it.
+/// Largest number of passes in which a slider may cross the end of its master. After more passes, the slider counts as having left its master.
 const MOST_LEAVES: usize = 12;
 
 impl Continuation<'_> {
-    /// Finds an equilibrium under a fraction of the loads: the one that the unloaded scene approaches with viscous damping. The method repeats
-    /// steps `σ M u + F(u) - λ P = 0` with a decreasing rate `σ` (pseudo-transient continuation; Kelley & Keyes, SIAM J. Numer. Anal. 35 (1998)
-    /// 508–523). `movements` is the number of degrees of freedom without restraint in the initial configuration.
+    /// Finds an equilibrium under a fraction of the loads. The unloaded scene approaches it under viscous damping.
+    /// The method repeats steps `σ M u + F(u) - λ P = 0` with a decreasing rate `σ` (pseudo-transient continuation; Kelley & Keyes 1998).
+    /// The argument `movements` is the number of degrees of freedom without restraint in the initial configuration.
     ///
-    /// `K + σ M` is positive definite at the start of every pass, so every pass reduces the potential energy.
+    /// The matrix `K + σ M` is positive definite at the start of every pass, so every pass reduces the potential energy.
     pub(super) fn find_equilibrium(
         &mut self,
         factor: f64,
@@ -91,7 +91,7 @@ impl Continuation<'_> {
         Err(StaticsError::Unrestrained { scene, movements, reason })
     }
 
-    /// Rate [1/time²] for which the first pass reduces the energy and displaces the scene by a small distance.
+    /// Damping rate [1/time²] for which the first pass reduces the energy and displaces the scene by a small distance.
     fn first_rate(&mut self, factor: f64) -> Result<f64, StaticsError> {
         let bending = self.model.slowest_bending();
         let mut rate = bending.unwrap_or_else(|| self.acceleration_by_size(factor) / NEAR);
@@ -129,7 +129,7 @@ mod tests {
         }
     }
 
-    /// Chain of particles and springs between two points of the ground. `units` are the units of length and time.
+    /// Chain of particles and springs between two points on the ground. `units` are the units of length and time.
     fn chain(count: usize, units: (f64, f64)) -> Scene {
         let mut scene = Scene::new("chain");
         let at = |index: usize| Vec2::new(index as f64 * units.0, 0.0);

@@ -11,7 +11,7 @@ use crate::loads::PrescribedMotion;
 use crate::system::{Drive, Element, Scene, SectionSample, System, SystemError};
 use crate::vibration::{Modes, VibrationError, loose_movements};
 
-/// Sum of forces that counts as zero, as a fraction of the sum of their magnitudes.
+/// Largest sum of forces that counts as zero, as a fraction of the sum of their magnitudes.
 const ROUNDING: f64 = 1e-12;
 
 /// Stability of an equilibrium.
@@ -19,9 +19,9 @@ const ROUNDING: f64 = 1e-12;
 pub enum Stability {
     /// Every small disturbance stays small.
     Stable,
-    /// Some small disturbance grows.
+    /// At least one small disturbance grows.
     Unstable,
-    /// Not determined, because stiffnesses differ so much that rounding hides the smallest ones.
+    /// Not determined, because the stiffnesses differ so much that rounding hides the smallest stiffnesses.
     BelowRounding,
     /// Not determined, because a follower load has no potential.
     Follower,
@@ -38,7 +38,7 @@ pub struct Equilibrium {
 }
 
 impl Equilibrium {
-    /// Finds the equilibrium of a scene. `goes_on` is called with the load factor of the last equilibrium before every step and every iteration.
+    /// Finds the equilibrium of a scene. Before every step and every iteration, `goes_on` is called with the load factor of the last equilibrium.
     ///
     /// # Errors
     /// Fails if the scene cannot be built, a load has no value, no load acts, no equilibrium is found, or the search is stopped.
@@ -60,10 +60,10 @@ impl Equilibrium {
         Ok(Self { scene, loading, model, path })
     }
 
-    /// Dry run for the check of scripts. The initial configuration takes the place of the equilibrium.
+    /// Dry run for the check of scripts. The initial configuration replaces the equilibrium.
     ///
     /// # Errors
-    /// Errors of [`find`](Self::find) that occur before the solution.
+    /// Fails in the cases of [`find`](Self::find) that occur before the solution.
     pub fn dry_run(scene: Scene, loading: Loading) -> Result<Self, StaticsError> {
         let goes_on = &mut |_| true;
         let model = prepare(&scene, &loading, goes_on)?;
@@ -88,7 +88,7 @@ impl Equilibrium {
         &self.model
     }
 
-    /// Path of equilibria that leads to this one.
+    /// Path of equilibria that leads to this equilibrium.
     pub fn path(&self) -> &EquilibriumPath {
         &self.path
     }
@@ -106,7 +106,7 @@ impl Equilibrium {
         Ok(self.path.points().iter().map(at).collect())
     }
 
-    /// Reaction of the supports at a place: force [force] and moment [force·length]. `None` without a support there.
+    /// Reaction of the supports at a point: force [force] and moment [force·length]. `None` without a support at the point.
     pub fn reaction(&mut self, place: &BodyPoint) -> Option<(Vec2, f64)> {
         let mut forces = vec![0.0; self.model.degrees_of_freedom()];
         let contacts = self.model.constraint_shape().width;
@@ -120,7 +120,7 @@ impl Equilibrium {
     /// Section forces and strains at a station.
     ///
     /// # Errors
-    /// Fails if the station lies outside its beam or on a particle.
+    /// Fails if the station lies outside its beam, or if it belongs to a particle.
     pub fn section_forces(&self, station: &Station) -> Result<SectionForces, SystemError> {
         let at = self.model.cross_section(&self.scene, station)?;
         Ok(self.model.section_forces(&at))
@@ -134,7 +134,7 @@ impl Equilibrium {
         self.model.section_forces_along(&self.scene, beam)
     }
 
-    /// Stability, determined from the signs of the pivots of the stiffness. If these are uncertain, the lowest mode decides.
+    /// Stability, determined from the signs of the pivots of the stiffness. If the signs are uncertain, the lowest mode decides.
     pub fn stability(&self, goes_on: &mut dyn FnMut() -> bool) -> Stability {
         if self.model.follower().is_some() {
             return Stability::Follower;
@@ -162,8 +162,9 @@ impl Equilibrium {
     }
 }
 
-/// The scene with equal axial, shear and bending stiffnesses of the beams and similar masses. Degrees of freedom without restraint have zero
-/// stiffness in it, and rounding errors of other stiffnesses are small enough to detect this.
+/// Returns the scene with equal axial, shear and bending stiffnesses of the beams and similar masses.
+/// In the scene with equal stiffnesses, degrees of freedom without restraint have zero stiffness.
+/// With similar stiffnesses, rounding errors are so small that zero stiffness can be recognised.
 fn of_equal_stiffness(scene: &Scene) -> Scene {
     let mut equal = scene.clone();
     for beam in &mut equal.beams {
@@ -211,7 +212,7 @@ fn check_needs_no_time(scene: &Scene) -> Result<(), StaticsError> {
     }
 }
 
-/// Model at its start, with the loads at the time of the loading.
+/// Model in its initial state, with the loads at the time of the loading.
 fn prepare(
     scene: &Scene,
     loading: &Loading,

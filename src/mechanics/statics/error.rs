@@ -1,4 +1,4 @@
-//! Errors in the search for equilibria.
+//! Errors of the search for equilibria.
 
 use std::fmt;
 
@@ -6,12 +6,12 @@ use crate::loads::LoadError;
 use crate::newton::NewtonError;
 use crate::system::{SystemError, rounded};
 
-/// Part of a drive or load that depends on time and cannot be used in statics.
+/// Time-dependent property of a drive or load that cannot be used in statics.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum InTime {
     /// Prescribed rate of a drive.
     Speed,
-    /// Controller, which reacts to its sensors in the course of time.
+    /// Controller, which reacts to its sensors over time.
     Controller,
 }
 
@@ -24,11 +24,11 @@ impl fmt::Display for InTime {
     }
 }
 
-/// Failed search for an equilibrium.
+/// Error of a failed search for an equilibrium.
 #[expect(missing_docs, reason = "the messages describe the variants and their fields")]
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum StaticsError {
-    /// Scene that cannot be built.
+    /// The scene cannot be built.
     #[error(transparent)]
     Model(#[from] SystemError),
     #[error("load '{load}': {source}")]
@@ -38,7 +38,7 @@ pub enum StaticsError {
         /// Time of the loading [time].
         time: f64,
     },
-    /// Path of given length for a scene that has only initial strains, which do not depend on the load factor.
+    /// A path of given length was requested, but the scene has only initial strains, which do not depend on the load factor.
     #[error("no load acts at t = {time}: only prestress acts, and arc-length control needs a load")]
     NoScaledLoad {
         /// Time of the loading [time].

@@ -6,7 +6,7 @@ use crate::newton::Tolerance;
 /// Smallest number of points of a path: the unloaded configuration, and two equilibria that define a direction.
 pub(super) const LEAST_PATH: usize = 3;
 
-/// Loads, which are increased from zero to a load factor, and the steps in which this is done.
+/// Loading of a scene: the loads are increased from zero to a load factor in several steps.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Loading {
     /// Time at which the schedules of loads are evaluated [time]. If a schedule jumps, its value after the jump is used.
@@ -33,12 +33,12 @@ pub enum Control {
 
 /// Arc-length control along the path of equilibria.
 ///
-/// References: E. Riks, An incremental approach to the solution of snapping and buckling problems, Int. J. Solids Struct. 15 (1979) 529–551, with
-/// the normal plane of Keller (1977). The step size is controlled as in Crisfield, Comput. Struct. 13 (1981) 55–62.
+/// References: E. Riks, Int. J. Solids Struct. 15 (1979) 529–551, with the normal plane of Keller (1977).
+/// The step size is controlled as in Crisfield, Comput. Struct. 13 (1981) 55–62.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ArcLength {
-    /// Longest step [-, rad]. It is the root mean square of the displacements of all control points, divided by the longest beam, and of their
-    /// rotations.
+    /// Longest distance between consecutive equilibria [-, rad].
+    /// The distance is a root mean square over all control points: of displacements divided by the longest beam, and of rotations.
     pub longest: f64,
     /// Largest number of points of the path.
     pub points: usize,

@@ -1,4 +1,4 @@
-//! Equilibrium of a scene under its loads. It is found by load steps, or along the path of equilibria through limit points.
+//! Equilibrium of a scene under its loads, found by load steps, or along the path of equilibria through limit points.
 
 mod balance;
 mod continuation;

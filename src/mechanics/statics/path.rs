@@ -9,10 +9,10 @@ pub struct PathPoint {
     pub load_factor: f64,
     /// Strain energy [energy].
     pub strain_energy: f64,
-    /// Distance from the previous point [-, rad]. It is the root mean square of the displacements of all control points, divided by the longest
-    /// beam, and of their rotations.
+    /// Distance from the previous equilibrium [-, rad].
+    /// The distance is a root mean square over all control points: of displacements divided by the longest beam, and of rotations.
     pub distance: f64,
-    /// Number of Newton iterations from the previous point to this one.
+    /// Number of Newton iterations between the previous point and this point.
     pub iterations: usize,
     /// State of the model at this point.
     pub state: SystemState,
@@ -33,7 +33,7 @@ impl EquilibriumPath {
         self.points.pop();
     }
 
-    /// Appends a point with the same configuration, for a dry run.
+    /// Appends a point with the configuration of the last point, for a dry run.
     pub(super) fn append_dry_point(&mut self, load_factor: f64) {
         let last = self.points.last().cloned();
         self.points.extend(last.map(|point| PathPoint { load_factor, ..point }));
@@ -49,10 +49,9 @@ impl EquilibriumPath {
         self.points.last().map_or(0.0, |point| point.load_factor)
     }
 
-    /// Limit points: load factors at which the load factor along the path has an extremum [-]. They are computed from parabolas through three
-    /// points.
+    /// Limit points: extrema of the load factor along the path [-]. They are computed from parabolas through three points.
     ///
-    /// A structure whose load increases beyond a limit point snaps through.
+    /// If the load increases beyond a limit point, the structure snaps through.
     pub fn limit_points(&self) -> Vec<f64> {
         let turn = |three: &[PathPoint]| {
             let factors = [0, 1, 2].map(|at: usize| three[at].load_factor);

@@ -28,7 +28,7 @@ impl PathStep {
         }
     }
 
-    /// Sets the direction of the path to that of the last displacement.
+    /// Sets the direction of the path to the direction of the last displacement.
     pub(super) fn set_direction(&mut self, metric: &[f64], last: &[f64]) {
         let inverse = 1.0 / norm(metric, last);
         for ((normal, weight), u) in self.normal.iter_mut().zip(metric).zip(last) {
@@ -36,8 +36,8 @@ impl PathStep {
         }
     }
 
-    /// Solves for an equilibrium at a given distance. The iteration starts from zero displacement, so that the first iteration follows the tangent
-    /// of the path.
+    /// Solves for an equilibrium at the given distance from the last equilibrium.
+    /// The iteration starts from zero displacement, so that the first iteration follows the tangent of the path.
     pub(super) fn find(
         &mut self,
         mut balance: Balance<'_>,

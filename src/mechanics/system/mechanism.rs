@@ -42,7 +42,7 @@ use super::sliders::{MasterLimit, SliderContact, SliderEvent, Sliders};
 use super::state::{MotionState, Resolution, StepMeasures, Unknowns};
 use crate::loads::LoadError;
 
-/// Mechanism of a scene, assembled with its state of motion, to be advanced by an integrator.
+/// Mechanism of a scene with its state of motion, which an integrator advances.
 pub struct System {
     bodies: Bodies,
     elements: Elements,
@@ -54,6 +54,8 @@ pub struct System {
     exchanged: ExchangeLedger,
     step: StepMeasures,
     saved_state: SystemState,
+    /// `None` until a step with friction begins.
+    inertia_solver: Option<Box<friction::InertiaSolver>>,
 }
 
 impl System {
@@ -78,6 +80,7 @@ impl System {
             exchanged: ExchangeLedger::default(),
             step: StepMeasures::new(degrees_of_freedom),
             saved_state: SystemState::default(),
+            inertia_solver: None,
         }
     }
 
@@ -86,7 +89,7 @@ impl System {
         self.exchanged.total = WorkAndImpulse::default();
         let inertia = self.diagonal_of_inertia();
         self.motion.begin(inertia);
-        // If there is only one body, its resolution is the resolution of the whole mechanism. Therefore it is not measured separately.
+        // The resolution of a single body is that of the whole mechanism, so it is not measured separately.
         let bodies = &self.bodies;
         let damped = self.elements.resistances().filter_map(InternalForce::damped_beam);
         let apart = damped.filter(|_| bodies.len() > 1);
@@ -136,18 +139,17 @@ impl System {
         self.motion.time
     }
 
-    /// Energy that dampers returned in the last step, for methods in which a step contains backward substeps; otherwise zero [energy].
+    /// Energy that dampers returned in the last step [energy]. It is zero for methods without backward substeps.
     pub fn returned(&self) -> f64 {
         self.step.returned
     }
 
-    /// Measures of how well the steps so far resolve the motion.
+    /// Measures of the temporal resolution of the motion in the steps so far.
     pub fn resolution(&self) -> &Resolution {
         self.motion.resolution()
     }
 
-    /// Measures of how well the steps resolve the motion of each beam with material damping, with the index of the beam; empty if the scene has
-    /// only one body.
+    /// Measures of the temporal resolution of each beam with material damping, with the index of the beam. Empty if the scene has only one body.
     pub(crate) fn resolution_by_beam(&self) -> impl Iterator<Item = (usize, &Resolution)> {
         self.motion.watched().iter().map(|one| (one.body, one.resolution()))
     }
@@ -175,13 +177,13 @@ impl System {
     /// Evaluates the loads and prescribed positions of a static solution just after a time.
     ///
     /// # Errors
-    /// Returns the name of the element without a finite value, and the reason.
+    /// Returns the name of an element without a finite value, and the reason.
     pub(crate) fn evaluate_loads_at(&mut self, time: f64) -> Result<(), (String, LoadError)> {
         self.supports.prescribed_mut().evaluate_after(time)?;
         self.elements.evaluate_after(time)
     }
 
-    /// Makes the next step end at an event of a slider; `None` for a regular step.
+    /// Sets the event of a slider at which the next step must end; `None` for a regular step.
     pub(crate) fn set_target(&mut self, event: Option<SliderEvent>) {
         self.sliders.set_target(event);
     }
@@ -200,8 +202,8 @@ impl System {
         self.motion.accelerations.mark_unknown();
     }
 
-    /// Returns true if the present velocity of a slider at a limit is directed beyond the limit. The velocity of a slider that has just left a stop
-    /// is zero, and its sign due to rounding decides nothing.
+    /// Returns true if the present velocity of a slider at a limit is directed beyond the limit.
+    /// The velocity of a slider that has just left a stop is zero within rounding, so its sign has no meaning.
     pub(crate) fn leads_beyond(&self, limit: MasterLimit) -> bool {
         let slider = &self.sliders[limit.slider];
         let rate = slider.rate(&self.bodies, &self.motion.rates);

@@ -1,4 +1,4 @@
-//! Scenes, and their assembly into mechanisms that integrators can advance.
+//! Scenes, and their assembly into mechanisms for integrators.
 
 mod assembly;
 mod bodies;

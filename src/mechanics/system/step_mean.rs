@@ -1,23 +1,23 @@
-//! Means of forces over a step.
+//! Mean forces over a step.
 
 use std::ops::{Add, Mul};
 
-/// Mean of a force over a step, from its means over successive substeps, which may run backwards in time.
+/// Mean force over a step, computed from mean forces over successive substeps. Substeps may run backwards in time.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct StepMean<T> {
-    /// Mean over the last step; before the first one the present force.
+    /// Mean over the last step. Before the first step, it is the present force.
     pub value: T,
     /// Duration of the substeps since the end of the last step [time].
     pub covered: f64,
 }
 
 impl<T: Copy + Add<Output = T> + Mul<f64, Output = T>> StepMean<T> {
-    /// Mean over a step of zero length.
+    /// Mean force over a step of zero length.
     pub fn at_start(value: T) -> Self {
         Self { value, covered: 0.0 }
     }
 
-    /// Adds the mean over a substep.
+    /// Adds the mean force over a substep.
     pub fn add(&mut self, force: T, duration: f64) {
         if self.covered == 0.0 {
             *self = Self { value: force, covered: duration };
@@ -28,7 +28,7 @@ impl<T: Copy + Add<Output = T> + Mul<f64, Output = T>> StepMean<T> {
         self.value = self.value * (1.0 - share) + force * share;
     }
 
-    /// Ends the step. Later substeps belong to the next one.
+    /// Ends the step. Later substeps belong to the next step.
     pub fn end_step(&mut self) {
         self.covered = 0.0;
     }

@@ -6,14 +6,14 @@ use std::sync::{Mutex, PoisonError};
 
 use super::pool::{keep_polling, notify_workers, pool};
 
-/// Number of times that a thread polls for the end of a task before it sleeps. They take about 50 µs, as long as sleeping and waking.
+/// Number of times that a thread polls for the end of a task before it sleeps. The polls take about 50 µs, as long as sleeping and waking.
 const MOST_POLLS: usize = 2000;
 
-/// Runs all tasks concurrently: the first task on this thread, each other task on a thread of the pool. Tasks that no thread of the pool has
-/// started also run on this thread.
+/// Runs all tasks concurrently: the first task on this thread, and the other tasks on threads of the pool.
+/// Tasks that have not been started by the pool also run on this thread.
 ///
-/// Returns when every task is completed. Each call allocates a few hundred bytes, so the function is suitable for tasks that take much longer than
-/// this.
+/// Returns when every task is completed.
+/// Each call allocates a few hundred bytes. The function is suitable for tasks that take much longer than this allocation.
 pub fn run_concurrently<T: Send>(tasks: impl IntoIterator<Item = T>, work: impl Fn(T) + Sync) {
     let mut tasks = tasks.into_iter();
     let first = tasks.next();
@@ -49,7 +49,7 @@ pub fn run_concurrently<T: Send>(tasks: impl IntoIterator<Item = T>, work: impl 
     });
 }
 
-/// Runs two different operations. They run concurrently if there are two threads.
+/// Runs two operations. They run concurrently if there are two threads.
 pub fn both(threads: usize, one: impl FnOnce() + Send, other: impl FnOnce() + Send) {
     if threads < 2 {
         one();

@@ -7,15 +7,15 @@ use std::time::{Duration, Instant};
 
 use rayon_core::{ThreadPool, ThreadPoolBuilder};
 
-/// Time for which an idle thread polls for new tasks before it sleeps. The tasks of a step follow each other immediately, and waking a thread takes
-/// as long as many of these tasks.
+/// Time during which an idle thread polls for new tasks before it sleeps.
+/// The tasks of a step follow each other immediately. Waking a thread takes as long as many of these tasks.
 const POLLING_TIME: Duration = Duration::from_micros(300);
 
 /// Number of times that tasks were distributed to the pool.
 static HANDED_OUT: AtomicUsize = AtomicUsize::new(0);
 
-/// Pool with one thread for each additional core. It is created when it is first used. `None` if there is only one core, or if the system provides
-/// no threads.
+/// Pool with one thread for each additional processor core. The pool is created at its first use.
+/// Returns `None` if there is only one core, or if the system provides no threads.
 pub(super) fn pool() -> Option<&'static ThreadPool> {
     static POOL: OnceLock<Option<ThreadPool>> = OnceLock::new();
     let start = || {

@@ -1,7 +1,8 @@
 //! Damped vibrations `(λ² M + λ D + K) x = 0` of a small model, computed in the basis of all its undamped modes.
 //!
-//! With the undamped mode shapes `Φ`, normalised to `φᵀ M φ = 1`, the problem becomes `λ² + λ B Bᵀ + Ω² = 0`. The matrix `B = Φᵀ √d g` has a column
-//! for each damped rate `g·ẋ` with the damping coefficient `d`. No mode is omitted, and the squared frequencies `Ω²` are as accurate as the modes.
+//! With the undamped mode shapes `Φ`, normalised to `φᵀ M φ = 1`, the problem becomes `λ² + λ B Bᵀ + Ω² = 0`.
+//! The matrix `B = Φᵀ √d g` has a column for each damped rate `g·ẋ` with the damping coefficient `d`.
+//! No mode is omitted, and the squared frequencies `Ω²` are as accurate as the modes.
 
 use nalgebra::{Complex, DMatrix};
 
@@ -14,8 +15,8 @@ use crate::geometry::larger;
 use crate::integrators::Mechanism;
 use crate::system::{System, UnknownKind};
 
-/// Size of `Re λ` or `Im λ` that counts as zero, as a fraction of the largest undamped frequency. Even slow overdamped relaxation is far above this
-/// limit.
+/// Magnitude of `Re λ` or `Im λ` that counts as zero, as a fraction of the largest undamped frequency.
+/// Even slow overdamped vibrations decay at rates far above this limit.
 const NOTHING: f64 = 1e-40;
 
 /// Damped natural vibration, which decays as `exp(-δ t)`. It has a frequency unless it is overdamped.
@@ -28,7 +29,7 @@ pub struct DampedMode {
 }
 
 impl DampedMode {
-    /// Damping ratio `δ/|λ|` [-]: one for an overdamped vibration, zero for `λ = 0`.
+    /// Damping ratio `δ/|λ|` [-]. It is one for an overdamped vibration, and zero for `λ = 0`.
     pub fn damping_ratio(&self) -> f64 {
         match hypot(self.decay_rate, self.angular_frequency) {
             0.0 => 0.0,
@@ -36,12 +37,12 @@ impl DampedMode {
         }
     }
 
-    /// Damped vibrations about the present configuration, which is treated as an equilibrium. They are in the order of `|λ|`, one for each
-    /// conjugate pair and one for each real `λ`.
+    /// Damped vibrations about the present configuration, which is treated as an equilibrium.
+    /// The vibrations are in the order of `|λ|`. There is one for each conjugate pair and one for each real `λ`.
     ///
     /// # Errors
-    /// Fails if the model is too large, a part of it has no inertia, or there are too few vibrations. Also fails with the errors of
-    /// [`Modes::of`](super::Modes::of), because undamped modes are computed first.
+    /// Fails if the model is too large, a degree of freedom has no inertia, or there are too few vibrations.
+    /// Also fails in the same cases as [`Modes::of`](super::Modes::of), because undamped modes are computed first.
     pub fn of(
         model: &System,
         count: usize,

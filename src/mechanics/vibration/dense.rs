@@ -1,8 +1,8 @@
-//! Computation of all modes of a small scene at once.
+//! Computation of all modes of a small scene in one pass.
 //!
-//! Let `K + σ M = L D Lᵀ` and `M = H Hᵀ`. The squared singular values of `G = D^-½ L⁻¹ H` are `μ = 1/(ω² + σ)`. The rows of `G` become smaller in
-//! the order of the pivots, and rotations of columns preserve the relative accuracy of each row. One-sided Jacobi rotations therefore compute all
-//! singular values, large and small, to almost full accuracy (J. Demmel & K. Veselić, SIAM J. Matrix Anal. Appl. 13 (1992) 1204–1245).
+//! Let `K + σ M = L D Lᵀ` and `M = H Hᵀ`. The squared singular values of `G = D^-½ L⁻¹ H` are `μ = 1/(ω² + σ)`.
+//! The rows of `G` become smaller in the order of the pivots. Rotations of columns preserve the relative accuracy of each row.
+//! One-sided Jacobi rotations compute large and small singular values to almost full accuracy (J. Demmel & K. Veselić 1992).
 
 use nalgebra::DMatrix;
 
@@ -13,17 +13,17 @@ use super::pencil::Pencil;
 use crate::elementary::hypot;
 use crate::linalg::{STRIP_WIDTH, SymmetricFactors};
 
-/// Scalar product of two columns that count as orthogonal, as a fraction of the product of their lengths.
+/// Scalar product of two columns below which they count as orthogonal, as a fraction of the product of their lengths.
 const ORTHOGONAL: f64 = 1e-15;
 
-/// Largest number of passes over all pairs of columns; about twelve are usual.
+/// Largest number of passes over all pairs of columns. About twelve passes are usual.
 const MOST_SWEEPS: usize = 60;
 
-/// Remainder of a diagonal entry of the inertia that is due to rounding, as a fraction of the entry.
+/// Largest remainder of a diagonal entry of the inertia that is due to rounding, as a fraction of the entry.
 const WITHOUT_INERTIA: f64 = 1e-13;
 
-/// Computes all pairs of an eigenvalue `μ` and a shape `φ` of a small scene with inertia, in decreasing order of `μ`. For degrees of freedom
-/// without inertia, `μ = 0`.
+/// Computes all pairs of an eigenvalue `μ` and a shape `φ` of a small scene with inertia, in decreasing order of `μ`.
+/// For degrees of freedom without inertia, `μ = 0`.
 ///
 /// # Errors
 /// Fails if the search is stopped.
@@ -72,8 +72,8 @@ pub(super) fn all_pairs(
     Ok(Pairs { values: order.iter().map(|at| values[*at]).collect(), strips })
 }
 
-/// Makes the shapes of higher modes orthogonal to those of lower modes, and normalises all to `φᵀ M φ = 1`. Rounding errors of a shape may have
-/// little strain energy but much inertia.
+/// Orthogonalises the shapes of higher modes with respect to lower modes, and normalises all shapes to `φᵀ M φ = 1`.
+/// Rounding errors of a shape may have little strain energy but much kinetic energy.
 fn orthogonalise(pencil: &Pencil, shapes: &mut DMatrix<f64>) {
     let size = pencil.size();
     let mut momenta = vec![0.0; size];
@@ -134,7 +134,7 @@ pub(super) fn rotate(
     let square = |column: &[f64]| column.iter().map(|entry| entry * entry).sum::<f64>();
     let mut sizes = Vec::new();
     for _ in 0..MOST_SWEEPS {
-        // The lengths are computed again in each pass, because their updates accumulate rounding errors.
+        // The lengths are computed again in each pass, because updated lengths would accumulate rounding errors.
         sizes = columns.as_slice().chunks_exact(rows).map(square).collect();
         let mut is_turned = false;
         for first in 0..count {

@@ -1,8 +1,9 @@
-//! Stiffness of a configuration in factored form. It consists of the derivatives of strains with respect to displacements, and of stiffnesses of
-//! the strains.
+//! Stiffness of a configuration in factored form.
+//! The factored form consists of the derivatives of strains with respect to displacements, and of the stiffnesses of the strains.
 //!
-//! Section forces `n = k s` are unknowns in addition to the displacements `x`. The stiffness `k` multiplies only the mismatch `m = B x - n/k` of a
-//! strain `s = B x`. Hence the rounding errors of residuals are relative to section forces and not to stiffnesses.
+//! Section forces `n = k s` are unknowns in addition to the displacements `x`.
+//! The stiffness `k` multiplies only the residual `m = B x - n/k` of a strain `s = B x`.
+//! Hence the rounding errors of force residuals are proportional to section forces, not to stiffnesses.
 
 use pulp::{Arch, Simd, WithSimd};
 
@@ -17,7 +18,7 @@ pub(super) type FourVectors = [f64; STRIP_WIDTH];
 #[derive(Debug, Clone, Default)]
 pub(super) struct Elastic {
     spans: Vec<StrainRows>,
-    /// Unknown that belongs to each component of each span. For a supported component it is the number of unknowns.
+    /// Unknown that belongs to each component of each span. For supported components, the entry is the number of unknowns.
     unknowns: Vec<u32>,
     /// Rows of each span: first its strains, then its pairs `p` and `q` of the geometric stiffness.
     rows: Vec<f64>,
@@ -37,7 +38,7 @@ pub(super) struct Shapes {
     pub(super) movements: Vec<FourVectors>,
     /// Section forces `n`, one entry per strain.
     forces: Vec<FourVectors>,
-    /// Mismatches `m`, one entry per strain.
+    /// Strain residuals `m`, one entry per strain.
     mismatches: Vec<FourVectors>,
     /// Internal forces `Bᵀ (n + k m) + K_g x` of each shape, with the geometric stiffness `K_g` [force, force·length].
     pub(super) internal_forces: Vec<FourVectors>,
@@ -54,14 +55,14 @@ impl Shapes {
 
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Energies {
-    /// Twice the energy of each shape, `Σ n²/k + xᵀ K_g x`.
+    /// Twice the energy of each shape: `Σ n²/k + xᵀ K_g x`.
     pub(super) double_energy: FourVectors,
     /// Twice the energy of the last correction, for each shape.
     pub(super) correction: FourVectors,
 }
 
 impl Elastic {
-    /// Adds the rows of a span. Only components that belong to the `size` unknowns of the scene are used.
+    /// Adds the rows of a span. Components that do not belong to the `size` unknowns of the scene are ignored.
     pub(super) fn add(&mut self, size: usize, degrees: &[usize], span: &SpanStiffness) {
         let (strains, twists) = (span.stiffness.len(), span.rounding_fractions.len());
         self.spans.push(StrainRows { width: degrees.len(), strains, twists });
@@ -95,21 +96,23 @@ impl Elastic {
 
     /// Sets four mode shapes to the given displacements, with the section forces of their strains. Returns their energies.
     pub(super) fn begin(&self, movements: &VectorStrip, shapes: &mut Shapes) -> Energies {
-        // A shape of zeros is corrected by the full displacements.
+        // A mode shape that is zero becomes equal to the displacements by this correction.
         shapes.movements.fill([0.0; STRIP_WIDTH]);
         shapes.forces.fill([0.0; STRIP_WIDTH]);
         shapes.mismatches.fill([0.0; STRIP_WIDTH]);
         self.correct(shapes, movements)
     }
 
-    /// Corrects four shapes by the displacements `δ`: `x ← x + δ` and, for the section forces with the stiffness `k` and the mismatch `m`, `n ← n +
-    /// k (m + B δ)`. Returns the energies of the shapes.
+    /// Corrects four shapes by the displacements `δ`: `x ← x + δ`.
+    /// The section forces become `n ← n + k (m + B δ)`, with the stiffness `k` and the strain residual `m`.
+    /// Returns the energies of the shapes.
     pub(super) fn correct(&self, shapes: &mut Shapes, by: &VectorStrip) -> Energies {
         Arch::new().dispatch(ShapeCorrection { elastic: self, shapes, by })
     }
 
-    /// Returns the rounding error of twice the energy for given displacements `x`. It consists of `Σ k (ε Σ |B| |x|)²`, with the stiffnesses `k`
-    /// and the machine precision `ε`, and the rounding error of section forces in `xᵀ K_g x`.
+    /// Rounding error of twice the energy for given displacements `x`.
+    /// The error is `Σ k (ε Σ |B| |x|)²` plus the rounding error of section forces in `xᵀ K_g x`.
+    /// The stiffnesses are `k`, and the machine precision is `ε`.
     pub(super) fn rounding_of(&self, movements: &VectorStrip) -> FourVectors {
         Arch::new().dispatch(Rounding { elastic: self, movements })
     }
@@ -192,7 +195,7 @@ impl WithSimd for ShapeCorrection<'_> {
         }
         shapes.internal_forces.fill([0.0; STRIP_WIDTH]);
         let mut energies = Energies::default();
-        // Compile-time constants for the widths of spans of degree 1 to 3.
+        // The widths for spans of degree 1 to 3 are compile-time constants, for speed.
         elastic.each_span(|span| match span.unknowns.len() {
             6 => correct_span::<6>(elastic, &span, shapes, by, &mut energies),
             9 => correct_span::<9>(elastic, &span, shapes, by, &mut energies),

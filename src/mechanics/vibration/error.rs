@@ -7,7 +7,7 @@ fn range(available: usize) -> String {
     }
 }
 
-/// Failed computation of modes.
+/// Error of a failed computation of modes.
 #[expect(missing_docs, reason = "the messages describe the variants and their fields")]
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum VibrationError {
@@ -33,7 +33,7 @@ pub enum VibrationError {
         "the damped modes were not found: damping and stiffness differ too much in magnitude; use a coarser mesh or less damping, replace very strong dampers by joints or supports, or use damping_ratios of undamped modes (first order in the damping)"
     )]
     Damping,
-    /// Modes whose stiffness is so small that it is lost in rounding.
+    /// The stiffness of some modes is so small that it is lost in rounding.
     #[error(
         "mode {modes} (from 0) is inaccurate because of rounding: its residual is {residual:.1e}, but at most 1e-6 is allowed; request at most {modes} modes, use a coarser mesh, or reduce the largest stiffness or increase the smallest inertia"
     )]
@@ -47,7 +47,7 @@ pub enum VibrationError {
         "modes may be missing below those that were found, because of rounding; use a coarser mesh, or reduce the largest stiffness or increase the smallest inertia"
     )]
     Uncounted,
-    /// Forces of the present configuration, which cannot be determined.
+    /// The forces of the present configuration cannot be determined.
     #[error("{0}")]
     NoForces(String),
     #[error("interrupted during the search for modes")]

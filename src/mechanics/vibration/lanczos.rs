@@ -1,8 +1,7 @@
 //! Lowest modes, computed by the block Lanczos method with shift and inversion.
 //!
-//! References: Ericsson & Ruhe, Math. Comp. 35 (1980) 1251–1268; R. G. Grimes, J. G. Lewis & H. D. Simon, SIAM J. Matrix Anal. Appl. 15 (1994)
-//! 228–272; K. Wu & H. D. Simon, SIAM J. Matrix Anal. Appl. 22 (2000) 602–616 (thick restarts). All vectors are orthogonal with respect to the
-//! inertia.
+//! References: Ericsson & Ruhe 1980; Grimes, Lewis & Simon 1994; Wu & Simon, SIAM J. Matrix Anal. Appl. 22 (2000) 602–616 (thick restarts).
+//! All vectors are orthogonal with respect to the inertia.
 
 use nalgebra::{DMatrix, DVector, SymmetricEigen};
 
@@ -14,17 +13,16 @@ use crate::linalg::{
     STRIP_WIDTH, Square4, SymmetricFactors, combine, products, subtract_combination,
 };
 
-/// Residual of a converged pair, as a fraction of the inverted stiffness. The error of its eigenvalue is of the order of the squared residual.
+/// Residual of a converged pair, as a fraction of the inverted stiffness. The error of the eigenvalue is of the order of the squared residual.
 const SETTLED: f64 = 1e-8;
 
-/// Ratio of the lengths of a vector after and before orthogonalisation, below which the vector consists of rounding errors.
+/// Ratio of the lengths of a vector after and before orthogonalisation, below which the result consists of rounding errors.
 const ROUNDING_REDUCTION: f64 = 1e-11;
 
-/// Ratio of the lengths of a vector after and before orthogonalisation, below which it is orthogonalised a second time.
+/// Ratio of the lengths of a vector after and before orthogonalisation, below which the vector is orthogonalised again.
 const SHRUNK: f64 = 1e-4;
 
-/// Component of a vector in the basis that remains after orthogonalisation, as a fraction of its length. Above this value it is orthogonalised
-/// again.
+/// Component in the basis that remains after orthogonalisation, as a fraction of the length. Above this value, the vector is orthogonalised again.
 const TRACE: f64 = 1e-8;
 
 /// Tolerance of the scalar products of basis vectors.
@@ -32,7 +30,7 @@ const ORTHONORMAL: f64 = 1e-14;
 
 const MOST_RESTARTS: usize = 60;
 
-/// Pairs `(μ, φ)` with `M φ = μ (K + σ M) φ` and `φᵀ M φ = 1`, in decreasing order of `μ`.
+/// Pairs `(μ, φ)` of eigenvalue and shape with `M φ = μ (K + σ M) φ` and `φᵀ M φ = 1`, in decreasing order of `μ`.
 pub(super) struct Pairs {
     pub(super) values: Vec<f64>,
     /// Vectors `φ` of the pairs, four per strip.
@@ -43,7 +41,7 @@ pub(super) struct Lanczos<'a> {
     pencil: &'a Pencil,
     factors: &'a SymmetricFactors,
     basis: Vec<Vec<FourVectors>>,
-    /// Projection `Vᵀ M A⁻¹ M V` of the problem to the basis `V`.
+    /// Projection `Vᵀ M A⁻¹ M V` of the problem onto the basis `V`.
     projected: DMatrix<f64>,
     /// Next block of vectors. The next fields contain the product of this block with the inertia, and its coupling to the previous block.
     next: Vec<FourVectors>,
@@ -87,7 +85,7 @@ impl<'a> Lanczos<'a> {
     ) -> Result<Pairs, VibrationError> {
         let most = Self::width(count);
         for _ in 0..MOST_RESTARTS {
-            // Eigenvalues are computed only at some steps, because their cost increases with the third power of their number.
+            // Eigenvalues are computed only in some steps, because the cost increases with the third power of their number.
             let mut look = count + 1;
             loop {
                 if !goes_on() {
@@ -112,8 +110,8 @@ impl<'a> Lanczos<'a> {
         Err(VibrationError::NotConverged { restarts: MOST_RESTARTS })
     }
 
-    /// Continues the search with the pairs found so far and new random vectors. This is needed because the multiplicity of an eigenvalue may exceed
-    /// the number of vectors in a block.
+    /// Continues the search with the pairs found so far and new random vectors.
+    /// Random vectors are needed, because the multiplicity of an eigenvalue may exceed the number of vectors in a block.
     pub(super) fn continue_with_random(&mut self, found: Pairs) {
         self.projected = DMatrix::from_diagonal(&DVector::from_vec(found.values));
         self.basis = found.strips;
@@ -135,7 +133,7 @@ impl<'a> Lanczos<'a> {
         self.coupling = orthonormalise(&mut image, &mut momenta);
         let left = (0..STRIP_WIDTH).map(|at| self.coupling[at][at]).fold(f64::INFINITY, f64::min);
         if left < SHRUNK * size {
-            // The remainder is small in comparison with the removed part, and still contains a part of it because of rounding.
+            // The remainder is small in comparison with the removed components. Because of rounding, it still contains a fraction of them.
             let again = self.project(&mut image, None);
             self.pencil.inertia.times(&image, &mut momenta);
             let turn = orthonormalise(&mut image, &mut momenta);
@@ -155,8 +153,8 @@ impl<'a> Lanczos<'a> {
         (self.next, self.next_momenta) = (image, momenta);
     }
 
-    /// Removes the components in the basis from a block. If `columns` is given, they are added to these columns of the projection. Returns the
-    /// largest component.
+    /// Removes the components in the basis from a block. If `columns` is given, adds the components to these columns of the projection.
+    /// Returns the largest removed component.
     fn project(&mut self, image: &mut [FourVectors], columns: Option<usize>) -> f64 {
         self.pencil.inertia.times(image, &mut self.momenta);
         let mut largest = 0.0_f64;
@@ -209,7 +207,7 @@ impl<'a> Lanczos<'a> {
         self.coupling = Square4::default();
     }
 
-    /// Random vectors, multiplied by the inverted stiffness and the inertia so that they have no components without inertia.
+    /// Random vectors, multiplied by the inverted stiffness and the inertia so that all their components have inertia.
     fn scattered(&mut self) -> Vec<FourVectors> {
         let size = self.pencil.size();
         let mut block = self.pencil.zeros();
@@ -275,14 +273,15 @@ impl<'a> Lanczos<'a> {
     }
 }
 
-/// Makes vectors orthonormal with respect to the inertia. `momenta` are their products with the inertia. Returns the upper triangular matrix that
-/// expresses the old vectors by the new ones. Vectors that consist of rounding errors become zero, with a zero diagonal entry.
+/// Makes vectors orthonormal with respect to the inertia. `momenta` are their products with the inertia.
+/// Returns the upper triangular matrix that expresses the old vectors by the new vectors.
+/// Vectors that consist of rounding errors become zero, with a zero diagonal entry.
 fn orthonormalise(block: &mut [FourVectors], momenta: &mut [FourVectors]) -> Square4 {
     let mut triangle = Square4::default();
     (0..STRIP_WIDTH).for_each(|at| triangle[at][at] = 1.0);
     let mut sizes = None;
-    // The second pass removes the errors of the first pass, which increase with its condition number. For almost parallel vectors a third pass is
-    // needed.
+    // The second pass removes the errors of the first pass, which increase with the condition number of the block.
+    // Almost parallel vectors need a third pass.
     for pass in 0..3 {
         let gram = products(block, momenta);
         let sizes = sizes.get_or_insert_with(|| std::array::from_fn(|at| gram[at][at]));
@@ -309,8 +308,8 @@ fn product(a: &Square4, b: &Square4) -> Square4 {
     })
 }
 
-/// Cholesky factor `R` with `Rᵀ R = G`, and its inverse. Rows and columns that are due to rounding are set to zero. They are recognised by
-/// comparison with the initial sizes.
+/// Cholesky factor `R` with `Rᵀ R = G`, and its inverse. Rows and columns that consist of rounding errors are set to zero.
+/// A row consists of rounding errors if its size is very small in comparison with the initial size.
 fn cholesky(gram: &Square4, sizes: &FourVectors) -> (Square4, Square4) {
     let (mut upper, mut inverse) = (Square4::default(), Square4::default());
     for j in 0..STRIP_WIDTH {

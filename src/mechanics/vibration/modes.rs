@@ -16,14 +16,15 @@ const UNRESTRAINED: f64 = 1e-10;
 /// Natural mode of small vibration.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Mode {
-    /// Square `ω²` of the angular frequency [1/time²]. It is zero for an unrestrained motion, or if it is smaller than its rounding error. It is
-    /// negative if the configuration is unstable.
+    /// Squared angular frequency `ω²` [1/time²]. It is zero for an unrestrained motion, or if it is below its rounding error.
+    /// The squared frequency is negative if the configuration is unstable.
     pub square: f64,
-    /// Rounding error of the square `ω²` [1/time²].
+    /// Rounding error of the squared frequency `ω²` [1/time²].
     pub rounding: f64,
-    /// Measure of the accuracy of the mode [-]: energy of the next correction of the shape and its section forces, as a fraction of the energy of
-    /// the shape. The relative error of `ω² + σ`, where `σ` is about the square of the lowest bending frequency, is at most this residual. It is
-    /// also at most the square of the residual, divided by the relative distance to the next mode.
+    /// Residual [-], a measure of the accuracy of the mode.
+    /// The residual is the energy of the next correction of the shape and its section forces, as a fraction of the energy of the shape.
+    /// The residual is an upper bound of the relative error of `ω² + σ`, where `σ` is about the square of the lowest bending frequency.
+    /// A second bound is the square of the residual, divided by the relative distance to the next mode.
     pub residual: f64,
     /// Mode shape: values of the unknowns, normalised to `φᵀ M φ = 1` [length, rad over the square root of a mass].
     pub shape: Vec<f64>,
@@ -50,7 +51,7 @@ impl Mode {
         self.square == 0.0
     }
 
-    /// Growth rate of a disturbance, if the configuration is unstable in this mode [1/time]; zero otherwise.
+    /// Growth rate of a disturbance if the configuration is unstable in this mode [1/time]; zero otherwise.
     pub fn growth_rate(&self) -> f64 {
         (-self.square).max(0.0).sqrt()
     }
@@ -61,7 +62,7 @@ impl Mode {
 pub struct Modes {
     modes: Vec<Mode>,
     meshes: Vec<Mesh>,
-    /// Control points of all bodies. The following field contains the mode shapes as displacements of these points.
+    /// Control points of all bodies. The next field contains the mode shapes as displacements of these points.
     points: Vec<Vec<Vec2>>,
     displacements: Vec<Vec<Vec<Vec2>>>,
     /// Decay rate `½ φᵀ D φ` of each mode [1/time].
@@ -69,8 +70,8 @@ pub struct Modes {
 }
 
 impl Modes {
-    /// Computes the modes of a model in its present configuration, which is treated as an equilibrium. `goes_on` is called repeatedly; if it
-    /// returns false, the search stops.
+    /// Computes the modes of a model in its present configuration, which is treated as an equilibrium.
+    /// The callback `goes_on` is called repeatedly. If it returns false, the search stops.
     ///
     /// # Errors
     /// Fails if there are too few modes, a load is a follower load, or the search is stopped.
@@ -105,7 +106,7 @@ impl Modes {
     /// Approximate peak memory of the search for `count` modes [bytes].
     pub fn memory(model: &System, count: usize) -> u64 {
         let unknowns = model.unknown_kinds().len();
-        // Larger numbers are rejected by the search, so their memory need not be estimated.
+        // The search rejects larger numbers, so their memory need not be estimated.
         let numbers = numbers(unknowns, count.min(unknowns));
         (numbers * size_of::<f64>() + Pencil::memory(model)) as u64
     }
@@ -115,13 +116,14 @@ impl Modes {
         &self.modes
     }
 
-    /// Decay rates `½ φᵀ D φ` [1/time]. They are exact if damping does not couple modes, for example if the material has one relaxation time for
-    /// all strains. Otherwise they are accurate to first order in the damping.
+    /// Decay rates `½ φᵀ D φ` [1/time].
+    /// The rates are exact if damping does not couple modes, for example if the material has one relaxation time for all strains.
+    /// If damping couples modes, the rates are accurate to first order in the damping.
     pub fn decay_rates(&self) -> &[f64] {
         &self.decay_rates
     }
 
-    /// Damping ratio of each mode: decay rate divided by angular frequency [-]; zero if the mode does not vibrate.
+    /// Damping ratio of each mode [-]: the decay rate divided by the angular frequency. Zero if the mode does not vibrate.
     pub fn damping_ratios(&self) -> impl Iterator<Item = f64> {
         self.modes.iter().zip(&self.decay_rates).map(|(mode, decay)| match mode.square > 0.0 {
             true => decay / mode.angular_frequency(),
@@ -154,7 +156,7 @@ impl Modes {
         side(|at| at.x).max(side(|at| at.y))
     }
 
-    /// Configuration that is displaced by a mode. `amplitude` is the largest displacement of a control point [length].
+    /// Configuration displaced by a mode. `amplitude` is the largest displacement of a control point [length].
     pub fn displaced(&self, mode: usize, amplitude: f64) -> Vec<Vec<Vec2>> {
         let largest = self.largest(mode);
         if largest == 0.0 {
@@ -167,7 +169,7 @@ impl Modes {
         self.points.iter().zip(&self.displacements[mode]).map(moved).collect()
     }
 
-    /// Displacement of a place in a mode, as a multiple of the largest displacement of a control point [-].
+    /// Displacement of a point in a mode, as a multiple of the largest displacement of a control point [-].
     pub fn displacement(&self, mode: usize, place: &BodyPoint) -> Vec2 {
         match self.largest(mode) {
             0.0 => Vec2::zeros(),
@@ -181,8 +183,8 @@ impl Modes {
     }
 }
 
-/// Number of degrees of freedom that are unrestrained in the present configuration without loads. For scenes without sliders that are too large for
-/// this computation the result is 0.
+/// Number of degrees of freedom that are unrestrained in the present configuration without loads.
+/// The result is 0 for scenes without sliders that are too large for the computation.
 pub fn loose_movements(model: &System) -> usize {
     if !is_small(model.unknowns()) && model.slider_names().next().is_none() {
         return 0;

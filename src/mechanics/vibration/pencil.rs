@@ -7,7 +7,7 @@ use crate::elementary::square;
 use crate::linalg::{LinearError, PreciseBand, STRIP_WIDTH, SymmetricFactors, SymmetricSparse};
 use crate::system::{StaticOrder, System, add_resistance};
 
-/// Largest accepted growth of an elimination. With a larger growth, more than half of the 32 digits are lost.
+/// Largest accepted growth factor of an elimination. With a larger factor, more than half of the 32 digits are lost.
 const MOST_GROWTH: f64 = 1e12;
 
 /// Eigenvalue problem `K φ = ω² M φ` with the stiffness and the inertia of a model.
@@ -16,14 +16,14 @@ pub(super) struct Pencil {
     pub(super) inertia: SymmetricSparse,
     pub(super) elastic: Elastic,
     pub(super) order: StaticOrder,
-    /// Estimate of a squared frequency [1/time²]. With beams, it is that of the lowest bending mode. Without beams, it is that of the lowest
-    /// vibration of a chain of the softest springs.
+    /// Estimate of the squared frequency of the lowest bending mode, for scenes with beams [1/time²].
+    /// For scenes without beams, it is the squared frequency of the lowest vibration of a chain of the softest springs.
     pub(super) scale: f64,
     /// Number of degrees of freedom with mass, which is the number of modes with a finite frequency.
     pub(super) finite: usize,
 }
 
-/// Squared frequencies of a span [1/time²]. Each is computed for a single strain, with the diagonal of the inertia.
+/// Squared frequencies of a span [1/time²]. Each frequency is computed for a single strain with the diagonal of the inertia.
 fn squared_frequencies(
     inertia: &[f64],
     degrees: &[usize],
@@ -56,7 +56,7 @@ impl Pencil {
                 slowest = squared_frequencies(&masses, degrees, span).fold(slowest, f64::min);
             }
         });
-        // Without stiffness all frequencies are zero, and any scale may be used.
+        // Without stiffness, all frequencies are zero and any scale may be used.
         let of_springs = || Some(slowest / size as f64).filter(|scale| scale.is_finite());
         let scale = bending.or_else(of_springs).unwrap_or(1.0);
         let own: Vec<f64> = (0..size)
@@ -80,8 +80,7 @@ impl Pencil {
     pub(super) fn memory(model: &System) -> usize {
         let order = model.static_order();
         let (size, reach) = (order.count(), order.half_bandwidth() + 1);
-        // The terms are: the stiffness in double-double arithmetic, its factors, the inertia while its entries are sorted, and about two strains
-        // per degree of freedom.
+        // The memory is that of the double-double stiffness, its factors, the inertia during sorting, and about two strains per degree of freedom.
         size * reach * 8 * size_of::<f64>() + Elastic::memory(2 * size, reach)
     }
 
@@ -103,8 +102,8 @@ impl Pencil {
         (factors.pivots().negative == 0).then_some(factors)
     }
 
-    /// Number of modes with `ω²` below the value `square`; `None` if the elimination is not reliable. By Sylvester's law of inertia, it is the
-    /// number of negative eigenvalues of `K - σ M`, where `σ` is this value.
+    /// Number of modes whose squared frequency is below `square`; `None` if the elimination is not reliable.
+    /// The count is the number of negative eigenvalues of `K - σ M`, with `σ` equal to `square` (Sylvester's law of inertia).
     pub(super) fn modes_below(&self, square: f64) -> Option<usize> {
         match self.stiffness.pivots(-square, &self.inertia) {
             Ok(pivots) if pivots.growth <= MOST_GROWTH => Some(pivots.negative),

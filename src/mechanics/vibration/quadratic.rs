@@ -1,10 +1,11 @@
-//! Quadratic eigenvalue problem `λ² + λ B Bᵀ + Ω² = 0` of damped vibrations. Its eigenvalues are computed in increasing order of magnitude, over a
-//! large range of magnitudes.
+//! Quadratic eigenvalue problem `λ² + λ B Bᵀ + Ω² = 0` of damped vibrations.
+//! The eigenvalues are computed in increasing order of magnitude, over a large range of magnitudes.
 //!
-//! The damping may have any strength. A dashpot that acts almost as a support relaxes 10¹² times as slowly as the beam vibrates. With material
-//! damping, the fastest vibrations of a fine mesh decay 10¹⁴ times as fast as the slowest. A single matrix would give accurate values only for the
-//! largest eigenvalues. Therefore several problems are solved with increasing positive real shifts ([`Resolvent`]). Each of them gives the
-//! eigenvalues up to about 10⁶ times the shift.
+//! The damping may have any strength. A dashpot that acts almost as a support relaxes 10¹² times more slowly than the beam vibrates.
+//! With material damping, the fastest vibrations of a fine mesh decay 10¹⁴ times as fast as the slowest.
+//! A single matrix would give accurate values only for the largest eigenvalues.
+//! Therefore several problems with increasing positive real shifts are solved ([`Resolvent`]).
+//! Each problem gives the eigenvalues up to about 10⁶ times its shift.
 
 use nalgebra::{Complex, DMatrix};
 
@@ -13,13 +14,13 @@ use super::resolvent::Resolvent;
 use crate::elementary::hypot;
 use crate::geometry::larger;
 
-/// Largest `|λ|` of an accurate eigenvalue, as a multiple of the shift.
+/// Largest magnitude of an accurate eigenvalue, as a multiple of the shift.
 const LARGEST_RATIO: f64 = 1e6;
 
-/// Largest `|λ|` of the next eigenvalue that is still accepted, as a multiple of the shift.
+/// Largest magnitude of the next eigenvalue that is still accepted, as a multiple of the shift.
 const FARTHEST: f64 = 1e12;
 
-/// Displacement of an unrestrained mode at a damper that is due to rounding, as a fraction of the largest displacement of all modes at this damper.
+/// Displacement of an unrestrained mode at a damper that is due to rounding. Its unit is the largest displacement of all modes at the damper.
 const ROUNDING: f64 = 1e-13;
 
 pub(super) type ComplexNumber = Complex<f64>;
@@ -28,11 +29,11 @@ pub(super) fn size(at: ComplexNumber) -> f64 {
     hypot(at.re, at.im)
 }
 
-/// Problem of damped vibrations in the basis of the undamped modes.
+/// Damped vibration problem in the basis of the undamped modes.
 pub(super) struct Quadratic {
-    /// Squared frequencies of the undamped modes, the diagonal of `Ω²` [1/time²].
+    /// Squared frequencies of the undamped modes [1/time²], which are the diagonal of `Ω²`.
     pub(super) squares: Vec<f64>,
-    /// Matrix `B`: a row for each mode, and a column for each damped rate. It may have fewer columns if `B Bᵀ` is the same [1/time^½].
+    /// Matrix `B` with a row for each mode and a column for each damped rate [1/time^½]. It may have fewer columns for the same `B Bᵀ`.
     pub(super) dampers: DMatrix<f64>,
 }
 
@@ -44,8 +45,8 @@ impl Quadratic {
             free.filter(|(rate, _)| rate.abs() <= least).for_each(|(rate, _)| *rate = 0.0);
         }
         if dampers.ncols() > dampers.nrows() {
-            // The factorisation `Bᵀ = Q R` has a rounding error that is small in comparison with each single row, however small the row is. This is
-            // needed because nearly undamped modes depend on the squares of small rows.
+            // The factorisation `Bᵀ = Q R` has a rounding error that is small in comparison with every single row, even a small one.
+            // Accurate small rows are needed, because nearly undamped modes depend on their squares.
             dampers = dampers.transpose().qr().r().transpose();
         }
         Self { squares, dampers }
@@ -60,7 +61,7 @@ impl Quadratic {
         self.squares[mode] == 0.0 && self.damping(mode) == 0.0
     }
 
-    /// The `count` eigenvalues of smallest magnitude [1/time]. Of each conjugate pair, the one with positive imaginary part is returned.
+    /// The `count` eigenvalues of smallest magnitude [1/time]. The eigenvalue with positive imaginary part represents a conjugate pair.
     ///
     /// # Errors
     /// Fails if there are fewer eigenvalues, or if the search does not converge.
@@ -107,8 +108,8 @@ impl Quadratic {
             .collect())
     }
 
-    /// First shift of the search [1/time]. It is not far above the magnitude of any eigenvalue. If displacements are scaled by `Ω`, restrained
-    /// modes satisfy `ẏ = A y` with `|A⁻¹| ≤ |Ω⁻¹ B|² + |Ω⁻¹|`.
+    /// First shift of the search [1/time]. It is at most slightly above the magnitude of the smallest eigenvalue.
+    /// If displacements are scaled by `Ω`, restrained modes satisfy `ẏ = A y` with `|A⁻¹| ≤ |Ω⁻¹ B|² + |Ω⁻¹|`.
     fn slowest_shift(&self) -> f64 {
         let modes = || self.squares.iter().enumerate();
         let held = modes().filter(|(_, square)| **square != 0.0);

@@ -1,5 +1,5 @@
-//! Verification of pairs of eigenvalue and shape. Each pair is corrected with its section forces as additional unknowns. The size of the last
-//! correction is its residual.
+//! Verification of pairs of eigenvalue and shape. Each pair is corrected with its section forces as additional unknowns.
+//! The residual of a pair is the size of its last correction.
 
 use super::VibrationError;
 use super::elastic::{FourVectors, Shapes};
@@ -7,31 +7,32 @@ use super::lanczos::Pairs;
 use super::pencil::Pencil;
 use crate::linalg::{STRIP_WIDTH, SymmetricFactors, products, subtract_combination};
 
-/// Residual for which `ω²` is accurate to all digits, because the error is of the order of the squared residual.
+/// Residual for which `ω²` is accurate to all digits. The error of `ω²` is of the order of the squared residual.
 const SMALL: f64 = 1e-8;
 
 const MOST_CORRECTIONS: usize = 8;
 
-/// Ratio of two successive residuals above which further corrections have no effect.
+/// Ratio of two successive residuals, above which further corrections have no effect.
 const FALLING: f64 = 0.3;
 
-/// Ratio of the largest to the smallest eigenvalue `μ` above which each pair is refined separately.
+/// Ratio of the largest to the smallest eigenvalue `μ`, above which each pair is refined separately.
 const WIDE: f64 = 1e7;
 
 pub(super) struct RefinedPair {
     pub(super) square: f64,
     /// Upper bound of the relative error of `ω² + σ` [-]. The rounding error of the pair itself is not included.
     pub(super) residual: f64,
-    /// Rounding error of `ω²` that is caused by the rounding of displacements [1/time²].
+    /// Rounding error of `ω²` due to the rounding of displacements [1/time²].
     pub(super) rounding: f64,
     pub(super) shape: Vec<f64>,
 }
 
 /// Corrects the first `count` pairs of a search.
 ///
-/// A pair `(x, n)` consists of displacements and section forces; `ω²` is computed from its energies. For the residual force `r = ω² M x - Bᵀ (n + k
-/// m) - K_g x` the correction is `δ = A⁻¹ r`, so that `x` becomes `(ω² + σ) A⁻¹ M x`. Components of other pairs are removed from `δ` and included
-/// in the residual. Otherwise the inverted stiffness would amplify small components of low pairs in high pairs.
+/// A pair `(x, n)` consists of displacements and section forces. Its energies determine `ω²`.
+/// For the residual force `r = ω² M x - Bᵀ (n + k m) - K_g x` the correction is `δ = A⁻¹ r`, so that `x` becomes `(ω² + σ) A⁻¹ M x`.
+/// Components of other pairs are removed from the correction `δ` and included in the residual.
+/// If components of other pairs were not removed, the inverted stiffness would amplify small components of low pairs in high pairs.
 ///
 /// # Errors
 /// Fails if the refinement is stopped.
@@ -49,7 +50,7 @@ pub(super) fn refine(
     })
 }
 
-/// Computes the residuals of the first `count` pairs of a complete set. A complete set needs no corrections.
+/// Computes the residuals of the first `count` pairs of a complete set, whose pairs need no corrections.
 ///
 /// # Errors
 /// Fails if the assessment is stopped.
@@ -200,10 +201,10 @@ impl OtherPairs<'_> {
         self.is_certain(shapes, &squares, &residuals)
     }
 
-    /// Removes the components of all pairs from residual forces. Returns the contribution of these components to the residuals, as a fraction of
-    /// `ω² + σ`.
+    /// Removes the components of all pairs from residual forces.
+    /// Returns the contribution of the removed components to the residuals, as a fraction of `ω² + σ`.
     ///
-    /// Components of lower pairs contribute by their magnitude only, because the inverted stiffness would overestimate them.
+    /// For components of lower pairs, only their magnitude is added, because the inverted stiffness would overestimate their contribution.
     fn remove_other_pairs(
         &self,
         imbalance: &mut [FourVectors],
@@ -222,7 +223,7 @@ impl OtherPairs<'_> {
         left
     }
 
-    /// Returns true if `ω² + σ` differs so much between the highest and the lowest pair that a common solution would mix their rounding errors.
+    /// Returns true if `ω² + σ` differs strongly between the highest and the lowest pair. A common solution would mix their rounding errors.
     fn is_wide(&self) -> bool {
         let count = self.values.len().min(STRIP_WIDTH * self.strips.len());
         self.values[0] > WIDE * self.values[count - 1]
@@ -237,7 +238,7 @@ impl OtherPairs<'_> {
     }
 }
 
-/// Converts inertia forces `r` to residual forces, by subtracting the internal forces of the shape: `r ← ω² r - Bᵀ (n + k m) - K_g x`.
+/// Converts inertia forces `r` to residual forces by subtracting the internal forces of the shape: `r ← ω² r - Bᵀ (n + k m) - K_g x`.
 fn subtract_restoring(r: &mut [FourVectors], squares: &FourVectors, shapes: &Shapes) {
     for (r, resisting) in r.iter_mut().zip(&shapes.internal_forces) {
         for ((r, resisting), square) in r.iter_mut().zip(resisting).zip(squares) {
@@ -252,7 +253,7 @@ fn squares_of(energies: &FourVectors, kinetic: &FourVectors) -> FourVectors {
     )
 }
 
-/// Factors by which shapes are multiplied to normalise `xᵀ M x` to 1.
+/// Factors that normalise the shapes to `xᵀ M x = 1`.
 fn scale_of(kinetic: &FourVectors) -> FourVectors {
     kinetic.map(|kinetic| if kinetic > 0.0 { 1.0 / kinetic.sqrt() } else { 0.0 })
 }

@@ -1,18 +1,19 @@
-//! Damped vibrations with a shift: eigenvalues of `λ² + λ B Bᵀ + Ω²` that are near the shift.
+//! Damped vibrations with a shift: eigenvalues of `λ² + λ B Bᵀ + Ω²` near the shift.
 //!
-//! With `y = (Ω x, ẋ)` the equation of motion is `ẏ = A y`, where `A = [0 Ω; -Ω -B Bᵀ]` is dissipative. Hence `|(A - σ)⁻¹| ≤ 1/σ` for any `σ > 0`
-//! and damping of any strength (Lumer & Phillips, Pacific J. Math. 11 (1961) 679–698). Let `e = (σ² + Ω²)^-½`, `w = Ω e` and `t = σ e` be diagonal
-//! matrices, so that `w² + t² = 1`. Then the matrix
+//! With `y = (Ω x, ẋ)` the equation of motion is `ẏ = A y`, where `A = [0 Ω; -Ω -B Bᵀ]` is dissipative.
+//! Hence `|(A - σ)⁻¹| ≤ 1/σ` for any `σ > 0` and damping of any strength (Lumer & Phillips, Pacific J. Math. 11 (1961) 679–698).
+//! Let `e = (σ² + Ω²)^-½`, `w = Ω e` and `t = σ e` be diagonal matrices, so that `w² + t² = 1`. The shifted inverse is:
 //!
 //! ```text
 //! σ (A - σ)⁻¹ = [ -(t² + w P w)   -w (1 - P) t ]        P = G (1 + Gᵀ G)⁻¹ Gᵀ,   G = √σ e B
 //!               [  t (1 - P) w    -t (1 - P) t ]
 //! ```
 //!
-//! has no large entry, because a dashpot of any strength acts as a projection `P`. With the singular vectors `U` and singular values `s` of `G`, `P
-//! = U s²/(1 + s²) Uᵀ`. One-sided rotations compute them accurately over all magnitudes. The eigenvalues `θ` of the matrix give `λ = σ (1 + 1/θ)`.
-//! Each reported `λ` is corrected by inverse iteration with the Rayleigh quotient of the quadratic problem. The unknowns of this iteration include
-//! the forces of strong dashpots, divided by their damping (F. Tisseur & K. Meerbergen, SIAM Review 43 (2001) 235–286, sections 2 and 3.4).
+//! No entry of the shifted inverse is large, because a dashpot of any strength acts as a projection `P`.
+//! The projection is `P = U s²/(1 + s²) Uᵀ`, with the singular vectors `U` and singular values `s` of `G`.
+//! One-sided rotations compute `U` and `s` accurately over all magnitudes. The eigenvalues `θ` of the matrix give `λ = σ (1 + 1/θ)`.
+//! Each reported `λ` is corrected by inverse iteration with the Rayleigh quotient of the quadratic problem.
+//! The forces of strong dashpots, divided by their damping, are unknowns of the iteration (Tisseur & Meerbergen 2001, sections 2 and 3.4).
 
 use nalgebra::{DMatrix, DVector, Schur};
 
@@ -21,37 +22,36 @@ use super::dense::rotate;
 use super::quadratic::{ComplexNumber, Quadratic, size};
 use crate::elementary::square;
 
-/// Largest number of QR iterations of the Schur decomposition per eigenvalue `θ`; a few are usual.
+/// Largest number of QR iterations per eigenvalue `θ` in the Schur decomposition. A few iterations are usual.
 const MOST_SWEEPS: usize = 40;
 
-/// Relative size of the subdiagonal entries that the Schur decomposition treats as zero. If it does not converge, the next larger value is used.
+/// Relative sizes of subdiagonal entries that the Schur decomposition treats as zero. If it does not converge, the next larger value is used.
 const DECOUPLED: [f64; 3] = [f64::EPSILON, 1e-14, 1e-12];
 
 /// Number of corrections of each reported `λ`.
 const CORRECTIONS: usize = 4;
 
-/// Relative change of `λ` above which a correction is rejected, because it has changed to another eigenvalue.
+/// Relative change of `λ` above which a correction is rejected, because it leads to another eigenvalue.
 const FAR: f64 = 1e-4;
 
-/// Relative change of `λ` close to the shift above which a correction is rejected if it is much larger than rounding. Such a change indicates
-/// several eigenvalues close to each other, whose shapes are mixed.
+/// Relative change of `λ` near the shift above which a correction is rejected if the change is much larger than rounding.
+/// A larger change indicates several close eigenvalues whose shapes are mixed.
 const NEAR: f64 = 1e-10;
 const ROUNDING_CHANGE: f64 = 1e-12;
 
-/// Distance of the shift of the inverse iteration from `λ`, as a fraction of `λ`. At this distance the matrix is not singular.
+/// Distance between the shift of the inverse iteration and `λ`, as a fraction of `λ`. At this distance, the matrix is not singular.
 const BESIDE: f64 = 1e-8;
 
-/// Damping `s²` above which the force of a dashpot is an unknown. As a matrix entry, such a damping would reduce the accuracy of weakly damped
-/// modes.
+/// Damping `s²` above which the force of a dashpot is an unknown. As a matrix entry, it would reduce the accuracy of weakly damped modes.
 const STRONG: f64 = 1e4;
 
 pub(super) struct Resolvent {
     /// Shift `σ` [1/time].
     pub(super) shift: f64,
-    /// Scales `w = |ω|/√(σ² + ω²)` and `t = σ/√(σ² + ω²)` of each mode, and the sign of its `ω²` [-].
+    /// Scales `w = |ω|/√(σ² + ω²)` and `t = σ/√(σ² + ω²)` of each mode, and the sign of `ω²` [-].
     scales: Vec<(f64, f64, f64)>,
-    /// Modes whose displacements are variables. These are the restrained modes. The next field contains the modes whose velocities are variables:
-    /// all modes that are restrained or damped.
+    /// Modes whose displacements are variables: all restrained modes.
+    /// The next field contains the modes whose velocities are variables: all modes that are restrained or damped.
     places: Vec<usize>,
     velocities: Vec<usize>,
     /// Singular vectors `U`, one column for each squared singular value `s²`.
@@ -91,7 +91,7 @@ impl Resolvent {
         Ok(Self { shift, scales, places, velocities, directions, damping })
     }
 
-    /// All eigenvalues in the form `λ/σ`, in increasing order of magnitude. Those near the shift are accurate.
+    /// All eigenvalues in the form `λ/σ`, in increasing order of magnitude. The eigenvalues near the shift are accurate.
     ///
     /// # Errors
     /// Fails if the search does not converge.
@@ -101,8 +101,9 @@ impl Resolvent {
         if count == 0 {
             return Ok(Vec::new());
         }
-        // The Schur decomposition compares subdiagonal entries with the diagonal. Next to eigenvalues near zero it may not converge, although these
-        // eigenvalues are not needed. In this case all eigenvalues are shifted away from zero by the largest magnitude.
+        // The Schur decomposition compares subdiagonal entries with the diagonal.
+        // The decomposition may not converge near eigenvalues close to zero, although these eigenvalues are not needed.
+        // If the decomposition fails, all eigenvalues are shifted away from zero by the largest magnitude.
         let search = |part: f64, moved: f64| {
             let mut matrix = matrix.clone();
             (0..count).for_each(|at| matrix[(at, at)] -= moved);
@@ -162,7 +163,7 @@ impl Resolvent {
         let strong: Vec<usize> =
             (0..self.damping.len()).filter(|at| self.damping[*at] > STRONG).collect();
         let mut at = start;
-        // The computed eigenvalue is proportional to `1/(λ - σ)`. The rounding error of `λ` follows from this.
+        // The computed eigenvalue is proportional to `1/(λ - σ)`. This determines the rounding error of `λ`.
         let rounding = ROUNDING_CHANGE * square(size(start - complex(1.0))) / size(start);
         let trusted = (NEAR + rounding).min(FAR) * size(start);
         let unknowns = modes + strong.len();
@@ -200,12 +201,12 @@ impl Resolvent {
             let mut damped =
                 moving.iter().zip(resisted.iter()).map(|(a, b)| a * b).sum::<ComplexNumber>();
             for (force, damper) in (modes..).zip(&strong) {
-                // The rate is computed from the force, which avoids cancellation.
+                // The rate is computed from the force to avoid cancellation.
                 let rate = next[force] / (beside * self.damping[*damper]);
                 damped += rate * rate * self.damping[*damper];
             }
             let root = root(damped * damped - inertia * stiffness * 4.0);
-            // The larger of both values has no cancellation, and the smaller one follows from it.
+            // The larger of both values has no cancellation. The smaller value follows from it.
             let [sum, difference] = [damped + root, damped - root];
             let sum = if size(sum) > size(difference) { sum } else { difference };
             let nearest = [-sum / (inertia * 2.0), -stiffness * 2.0 / sum];

@@ -1,4 +1,4 @@
-//! Search for the lowest modes: choice of a shift, computation of pairs, and a count of eigenvalues which verifies that no mode is missing.
+//! Search for the lowest modes: choice of a shift, computation of pairs, and a count of eigenvalues, which verifies that no mode is missing.
 
 use super::VibrationError;
 use super::dense::all_pairs;
@@ -8,29 +8,29 @@ use super::pencil::Pencil;
 use super::refinement::{RefinedPair, assess, refine};
 use crate::linalg::{STRIP_WIDTH, SymmetricFactors};
 
-/// Number of unknowns up to which all modes are computed at once.
+/// Largest number of unknowns for which all modes are computed together.
 const SMALL: usize = 240;
 
-/// Number of unknowns up to which all modes are computed at once if more than a quarter of them is requested.
+/// Largest number of unknowns for which all modes are computed together if more than a quarter of them is requested.
 const MEDIUM: usize = 2000;
 
-/// Number of matrices of the size of the stiffness that are in memory at the same time if all modes are computed.
+/// Peak memory for the computation of all modes, as a multiple of the memory of a dense stiffness matrix.
 const DENSE_COPIES: usize = 5;
 
-/// Largest number of times that the shift is increased by a factor of a hundred, for unstable configurations.
+/// Largest number of times that the shift is multiplied by a hundred, for unstable configurations.
 const MOST_SHIFTS: usize = 14;
 
-/// Residual above which a pair is not accepted.
+/// Residual above which a pair is rejected.
 const LARGEST_RESIDUAL: f64 = 1e-6;
 
-/// Relative difference of the values `ω² + σ` of two modes below which the modes count as equal in the check for missing modes.
+/// Relative difference of `ω² + σ` for two modes that count as equal in the check for missing modes.
 const EQUAL: f64 = 1e-6;
 
-/// Multiple of the rounding error of `ω²` below which `ω²` counts as zero.
+/// Multiple of the rounding error of `ω²`, below which `ω²` counts as zero.
 const ROUNDING: f64 = 64.0;
 
-/// Size of `ω²` below which it counts as zero, as a fraction of the shift. The computed shapes of rigid motions have such small values of `ω²`,
-/// because rounding adds components of other shapes to them.
+/// Magnitude of `ω²` that counts as zero, as a fraction of the shift.
+/// The limit is above the values of `ω²` that computed shapes of rigid motions have because of rounding.
 const HIDDEN: f64 = 1e-14;
 
 /// Largest ratio of the shift to the lowest nonzero `ω²`.
@@ -76,7 +76,7 @@ pub(super) fn lowest(
         None => found,
         Some((shift, factors)) => match with_shift(pencil, shift, &factors, count, goes_on) {
             Err(VibrationError::Interrupted) => return Err(VibrationError::Interrupted),
-            // If the search with a better shift fails, the result with the first shift is used. Its residuals show how accurate it is.
+            // If the search with a better shift fails, the result with the first shift is used. Its residuals show its accuracy.
             Err(_) => found,
             Ok(finer) => finer,
         },
@@ -131,7 +131,7 @@ fn counted_pairs(
     let mut wanted = count;
     loop {
         let pairs = search.find_pairs(wanted, goes_on)?;
-        // Pairs with the same eigenvalue as the last requested pair may be missing. All pairs below it must have been found.
+        // Pairs with the same eigenvalue as the last requested pair may be missing. All pairs with smaller frequencies must have been found.
         let below = 1.0 / pairs.values[count - 1] * (1.0 - EQUAL) - shift;
         let found = pairs.values.iter().filter(|value| 1.0 / *value - shift < below).count();
         match pencil.modes_below(below) {

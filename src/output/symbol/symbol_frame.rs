@@ -11,19 +11,20 @@ use crate::output::marker::Marker;
 
 const LINE: f64 = 1.5;
 const THIN: f64 = 1.0;
-/// Half width of a support. The height of its triangle and the length of its hatching follow [pixels].
+/// Half width of a support [pixels]. The next constants are the height of its triangle and the length of its hatching.
 const SUPPORT: f64 = 11.0;
 const TRIANGLE: f64 = 12.0;
 const HATCH: f64 = 5.0;
 const JOINT: f64 = 4.0;
 const SLIDER: f64 = 6.5;
-/// Length of an arrow. The lengths of an arrow of a distributed load and of an arrow head, and the distance of the tip from the loaded point,
-/// follow [pixels].
+/// Length of an arrow [pixels].
+/// The next constants are the lengths of an arrow of a distributed load and of an arrow head, and the distance of the tip from the loaded point.
 const ARROW: f64 = 34.0;
 const SHORT: f64 = 18.0;
 const HEAD: f64 = 8.0;
 const APART: f64 = 4.0;
-/// Radius of a roller. The radius of a motor, the half width of a carriage, and the length of the heads of their arrows follow [pixels].
+/// Radius of a roller [pixels].
+/// The next constants are the radius of a motor, the half width of a carriage, and the length of the heads of their arrows.
 const ROLLER: f64 = 2.0;
 const MOTOR: f64 = 11.0;
 const CARRIAGE: f64 = 6.5;
@@ -106,7 +107,7 @@ impl SymbolFrame<'_> {
     }
 
     fn hinge(&mut self) {
-        // This symbol is always drawn upright.
+        // The symbol is always drawn upright.
         self.ahead = (0.0, -1.0);
         self.triangle();
         self.ground_behind(TRIANGLE);
@@ -188,7 +189,7 @@ impl SymbolFrame<'_> {
 
     fn turn(&mut self) {
         let side = if self.ahead.0 < 0.0 { -1.0 } else { 1.0 };
-        // Angles from below the point, around it to its upper side. They are mirrored for a clockwise moment.
+        // Angles from below the point, around the point to its upper side. They are mirrored for a clockwise moment.
         let angle = |index: f64| -2.0 + 4.4 * index / 24.0;
         let around =
             |angle: f64| (self.at.0 + side * TURN * cos(angle), self.at.1 - TURN * sin(angle));

@@ -17,7 +17,7 @@ const HUES: [u8; 6] = [36, 33, 35, 32, 34, 31];
 /// Placeholder after a character that is two columns wide.
 const WIDE_PLACEHOLDER: char = '\0';
 
-/// Characters in lines and columns. Characters that are written outside the grid are ignored.
+/// Characters in lines and columns. Characters outside the grid are ignored.
 #[derive(Clone, Debug)]
 pub struct CharacterGrid {
     style: TerminalStyle,
@@ -38,14 +38,14 @@ impl CharacterGrid {
         }
     }
 
-    /// Writes a text to the right, starting at a position. It uses the character set of the style.
+    /// Writes a text to the right, starting at the given position. The text is converted to the character set of the style.
     pub fn write(&mut self, column: usize, row: usize, text: &str, ink: TerminalColour) {
         let mut column = column;
         for letter in self.style.glyphs.typeset(text).chars() {
             match columns_of(letter) {
                 // A cell contains one character, so combining accents are omitted.
                 0 => continue,
-                // A wide character must have both of its columns.
+                // A wide character is written only if both of its columns are free.
                 wide if column + wide > self.style.width => return,
                 wide => {
                     self.put(column, row, letter, ink);

@@ -10,17 +10,17 @@ use crate::output::width::columns;
 
 /// Distance between ticks on the horizontal axis [characters] and on the vertical axis [lines].
 const TICK_EVERY: (usize, usize) = (9, 4);
-/// Size of the smallest plot that has axes and a legend [characters].
+/// Size of the smallest plot with axes and a legend [characters].
 const LEAST: (usize, usize) = (8, 3);
 const MOST_ROWS: usize = 3;
 const BETWEEN: usize = 3;
-/// Distance between the letters that identify a curve if the terminal has no colours [characters].
+/// Distance between the letters that identify a curve on a terminal without colours [characters].
 const LETTER_SPACING: usize = 16;
 
 impl LineChart {
-    /// Text of the chart for a terminal. It is at most as wide and as high as `style` allows.
+    /// Text of the chart for a terminal. The text is at most as wide and as high as `style` allows.
     ///
-    /// Without colours, several curves are distinguished by letters. In Braille they are placed on the curves; in ASCII they replace the dots.
+    /// Without colours, letters distinguish several curves. In Braille they are placed on the curves; in ASCII they replace the dots.
     pub fn text(&self, style: &TerminalStyle) -> String {
         let layout = Layout::new(self, style);
         let mut sheet = CharacterGrid::new(style);
@@ -187,7 +187,7 @@ impl Layout {
         let mut dots = Dots::new(self.columns, self.rows);
         let (right, bottom) = dots.last();
         for index in series {
-            // Axes move infinite values to their ends, but a curve must have a gap there.
+            // Axes move infinite values to their ends. A curve must have a gap at such values.
             let seen = |&(a, b): &(f64, f64)| match a.is_finite() && b.is_finite() {
                 true => (x.place(a) * right, (1.0 - y.place(b)) * bottom),
                 false => (f64::NAN, f64::NAN),
@@ -328,7 +328,7 @@ mod tests {
         assert!(LineChart::new("").text(&PLAIN).contains("no data"));
     }
 
-    /// Number of visible characters in a line. Colour sequences do not count.
+    /// Number of visible characters in a line, without colour sequences.
     pub fn seen(line: &str) -> usize {
         let mut inside = false;
         let visible = line.chars().filter(|&letter| {

@@ -1,5 +1,5 @@
-//! Raster of dots for curves in a terminal. Each character has two by four dots. They are approximately square, because characters are about twice
-//! as high as wide.
+//! Raster of dots for curves in a terminal. Each character has two by four dots.
+//! The dots are approximately square, because characters are about twice as high as wide.
 
 use super::Glyphs;
 use super::character_grid::TerminalColour;
@@ -9,7 +9,7 @@ use crate::output::curve::pieces;
 pub const ACROSS: usize = 2;
 pub const DOWN: usize = 4;
 
-/// Bit of each dot in the code of its Braille character, for the first and the second column from the top.
+/// Bit of each dot in the code of its Braille character, for both columns from top to bottom.
 const BITS: [[u8; DOWN]; ACROSS] = [[0x01, 0x02, 0x04, 0x40], [0x08, 0x10, 0x20, 0x80]];
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -33,14 +33,14 @@ impl Dots {
         Self { columns, rows, cells: vec![(0, TerminalColour::Plain); columns * rows] }
     }
 
-    /// Coordinates of the last dot of the raster. They start at zero.
+    /// Coordinates of the last dot of the raster. The first dot has the coordinates zero.
     pub fn last(&self) -> Point {
         let last = |dots: usize| dots.saturating_sub(1) as f64;
         (last(ACROSS * self.columns), last(DOWN * self.rows))
     }
 
-    /// Draws a curve through points. Coordinates are in dots, starting at the upper left dot. Points that are not finite leave a gap. Parts outside
-    /// the raster are not drawn.
+    /// Draws a curve through points. Coordinates are in dots, starting at the upper left dot. Points that are not finite leave a gap.
+    /// Parts of the curve outside the raster are not drawn.
     pub fn curve(
         &mut self,
         points: impl IntoIterator<Item = Point>,
@@ -74,7 +74,7 @@ impl Dots {
         }
     }
 
-    /// Characters that have dots, with column, row, dots and colour.
+    /// Characters with dots, as column, row, dots and colour.
     pub fn drawn(&self) -> impl Iterator<Item = (usize, usize, u8, TerminalColour)> {
         let of_cell = |(at, (mask, ink)): (usize, &(u8, TerminalColour))| {
             (*mask != 0).then(|| (at % self.columns, at / self.columns, *mask, *ink))
@@ -83,11 +83,11 @@ impl Dots {
     }
 }
 
-/// Dots on the straight line between two dots, without the first one (Bresenham 1965).
+/// Dots on the straight line between two dots, without the first dot (Bresenham 1965).
 fn line_dots(from: (i64, i64), to: (i64, i64)) -> impl Iterator<Item = (i64, i64)> {
     let (dx, dy) = (to.0 - from.0, to.1 - from.1);
     let steps = dx.abs().max(dy.abs());
-    // Integer division with rounding. Halves are rounded away from the start point of the line.
+    // Integer division with rounding. Halves are rounded away from the start of the line.
     let part = move |whole: i64, step: i64| {
         (2 * whole.abs() * step + steps) / (2 * steps).max(1) * whole.signum()
     };

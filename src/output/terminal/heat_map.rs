@@ -1,4 +1,4 @@
-//! Heat maps as text. Each cell of the table starts with a block character, which is darker for larger numbers.
+//! Heat maps as text. Each cell of the table starts with a block character. Larger numbers have darker characters.
 
 use super::character_grid::{CharacterGrid, TerminalColour};
 use super::{Glyphs, TerminalStyle};

@@ -14,9 +14,9 @@ pub enum PictureMark {
     Particle,
     Slider,
     Joint,
-    /// A support that fixes the position.
+    /// Support that fixes the position.
     Hinge,
-    /// A support that fixes position and angle.
+    /// Support that fixes position and angle.
     Clamp,
 }
 
@@ -34,9 +34,9 @@ impl PictureMark {
     }
 }
 
-/// Sizes that count as zero: as a fraction of the coordinates, and as a length.
+/// Sizes that count as zero, as a fraction of the coordinates and as a length.
 const ROUNDING: (f64, f64) = (1e-10, 1e-290);
-/// Smallest size of a picture that has a frame, in columns and lines.
+/// Smallest size of a picture with a frame, in columns and lines.
 const LEAST: (usize, usize) = (12, 5);
 /// Number of empty dots between the drawing and its frame.
 const MARGIN: f64 = 2.0;
@@ -74,7 +74,7 @@ impl ConfigurationPicture {
         self
     }
 
-    /// Adds a beam in a reference configuration. It is dotted, and dimmer if there are colours.
+    /// Adds a beam in a reference configuration. The beam is dotted, and dimmer on terminals with colours.
     pub fn reference_beam(mut self, points: Vec<Point>) -> Self {
         self.reference_beams.push(points);
         self
@@ -91,7 +91,7 @@ impl ConfigurationPicture {
         self
     }
 
-    /// Text of the picture for a terminal. It is at most as wide and as high as `style` allows. If the drawing is flat, it has fewer lines.
+    /// Text of the picture for a terminal. The text is at most as wide and as high as `style` allows. A flat drawing has fewer lines.
     pub fn text(&self, style: &TerminalStyle) -> String {
         let has_frame = style.width >= LEAST.0 && style.height >= LEAST.1;
         let border = usize::from(has_frame);
@@ -190,7 +190,7 @@ impl ConfigurationPicture {
         self.write_into(sheet, style, last_row, &edges, &self.signs(style));
     }
 
-    /// Writes two texts into a line of the frame. The second text is written only if the first keeps its whole width or at least half of the line.
+    /// Writes two texts into a line of the frame. The second text is omitted unless the first keeps its whole width or at least half of the line.
     fn write_into(
         &self,
         sheet: &mut CharacterGrid,
@@ -239,7 +239,7 @@ impl PlaneWindow {
         let ends = |middle: f64, dots: f64| {
             [-1.0, 1.0].map(|side| {
                 let end = middle + side * 0.5 * dots * self.dot;
-                // A value close to zero is due to rounding.
+                // A value close to zero is attributed to rounding.
                 if end.abs() < 1e-9 * dots * self.dot { 0.0 } else { end }
             })
         };

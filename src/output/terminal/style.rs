@@ -35,7 +35,7 @@ pub struct TerminalStyle {
 }
 
 impl TerminalStyle {
-    /// The same style with another size, in characters and lines.
+    /// Style with another size, in characters and lines.
     #[must_use]
     pub fn sized(self, width: usize, height: usize) -> Self {
         Self { width, height, ..self }

@@ -3,11 +3,11 @@
 use crate::output::canvas::Point;
 use crate::output::symbol::Symbol;
 
-/// Linear combination of points in a frame, for example of control points.
+/// Linear combination of the points of a frame, for example of control points.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct PointCombination {
     pub first: usize,
-    /// Weights of the points, starting with the point `first`.
+    /// Weights of consecutive points, starting with the point `first`.
     pub weights: Vec<f64>,
 }
 
@@ -28,7 +28,7 @@ pub struct BeamShape {
     pub line: Vec<PointCombination>,
     /// Knots or nodes of the beam, as indices in `line`.
     pub marks: Vec<usize>,
-    /// Places at which fields have values, as increasing indices in `line`.
+    /// Positions of field values, as increasing indices in `line`.
     pub stations: Vec<usize>,
 }
 
@@ -43,10 +43,10 @@ pub struct BodyShape {
     pub name: String,
     pub centre: PointCombination,
     pub points: Vec<(String, PointCombination)>,
-    /// Outline of the body. It is closed if it ends at its start, otherwise it is a line. It is empty for a body without points.
+    /// Outline of the body. It is closed if it ends at its start, otherwise it is a line. Empty for a body without points.
     pub outline: Vec<PointCombination>,
-    /// Corners of the polygon of the body, if it has one. In this case `outline` is the line from the centre to one of its points. The coordinates
-    /// of the corners are along this line and to its left, in units of its length. The last corner repeats the first.
+    /// Corners of the polygon of the body, if any. For such a body, `outline` is the line from the centre to a point of the body.
+    /// The coordinates of a corner are along the line and to its left, in units of the length of the line. The last corner repeats the first.
     pub corners: Vec<(f64, f64)>,
 }
 
@@ -58,7 +58,7 @@ pub struct SymbolMark {
     pub at: PointCombination,
     /// Direction of the symbol [rad].
     pub angle: f64,
-    /// Time at which the symbol disappears, because a slider has left its beam or a joint has been released; `None` if it remains.
+    /// Time at which the symbol disappears, because a slider leaves its beam or a joint is released; `None` if it remains.
     pub until: Option<f64>,
 }
 
@@ -73,14 +73,14 @@ pub struct SpringShape {
     pub symbol: Symbol,
     pub name: String,
     pub anchors: Vec<SpringEnd>,
-    /// Time at which the element is released; `None` if it is not released.
+    /// Time of the release of the element; `None` if it is not released.
     pub until: Option<f64>,
 }
 
 /// Load as a function of time.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Arrow {
-    /// Symbol of the load. For a moment only the first component of the value is used, positive counter-clockwise.
+    /// Symbol of the load. For a moment, only the first component of the value is used, positive counter-clockwise.
     pub symbol: Symbol,
     pub name: String,
     pub at: PointCombination,
@@ -99,10 +99,10 @@ pub struct Trail {
 #[derive(Clone, Debug, PartialEq)]
 pub struct ColourField {
     pub name: String,
-    /// Unit or dimension of the field. It is empty for a pure number.
+    /// Unit or dimension of the field; empty for a pure number.
     pub unit: String,
-    /// Values in each frame, at the stations of the first beam, then of the next beam, and so on. Places whose values are not finite are not
-    /// coloured.
+    /// Values in each frame, at the stations of the first beam, then of the next beam, and so on.
+    /// Positions with values that are not finite are not coloured.
     pub values: Vec<Vec<f64>>,
 }
 
@@ -110,7 +110,7 @@ pub struct ColourField {
 #[derive(Clone, Debug, PartialEq)]
 pub struct TimeCurve {
     pub name: String,
-    /// Unit or dimension of the column. Columns with the same unit are in the same plot.
+    /// Unit or dimension of the column. Columns with the same unit share a plot.
     pub unit: String,
     pub values: Vec<f64>,
 }

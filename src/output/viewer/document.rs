@@ -28,7 +28,7 @@ const PROGRAMS: [&str; 9] = [
     include_str!("page/controls.js"),
 ];
 
-/// Number of steps between the smallest and the largest value of a field. It is sufficient, because a screen shows fewer shades.
+/// Number of steps between the smallest and the largest value of a field. A screen shows fewer shades.
 const SHADES: u16 = 255;
 /// Number of steps between the smallest and the largest value of a load.
 const LOAD_STEPS: u16 = 4095;
@@ -58,7 +58,7 @@ impl Viewer {
             })
             .collect();
         let data = json!({ "title": self.title, "hues": hues, "films": films });
-        // Within a script element, the data could only be ended by a `<`.
+        // Within a script element, only the character `<` could end the data.
         let data = data.to_string().replace('<', "\\u003c");
         let title = escaped(&self.title);
         Ok(filled(
@@ -167,7 +167,7 @@ fn packed_beam(beam: &BeamShape, shapes: &mut Vec<Value>) -> Value {
     json!({ "name": beam.name, "first": first, "shape": shape })
 }
 
-/// Packs a place as its weights and the index of its first point, counted from `from`.
+/// Packs a point as its weights and the index of its first control point, counted from `from`.
 fn place(place: &PointCombination, from: usize) -> Value {
     let rounded = |weight: &f64| (weight * WEIGHT_PARTS).round() / WEIGHT_PARTS;
     let weights: Vec<f64> = place.weights.iter().map(rounded).collect();

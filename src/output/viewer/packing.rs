@@ -9,7 +9,7 @@ use serde_json::{Value, json};
 use crate::output::OutputError;
 use crate::output::base64::base64;
 
-/// Code for values that are not finite. All other codes are smaller.
+/// Code for values that are not finite. Codes of finite values are smaller.
 const MISSING: u16 = u16::MAX;
 /// Largest number of rounding steps. The rounding error is at most half a step.
 pub const FINEST: u16 = MISSING - 1;
@@ -19,7 +19,7 @@ pub const FINEST: u16 = MISSING - 1;
 pub struct Quantisation {
     /// Number for code 0.
     pub origin: f64,
-    /// Difference between the numbers of consecutive codes. It is zero if all numbers are equal.
+    /// Difference between the numbers of consecutive codes; zero if all numbers are equal.
     pub step: f64,
 }
 
@@ -32,7 +32,7 @@ impl Quantisation {
                 (a.min(number), b.max(number))
             });
         match least <= greatest {
-            // The numbers are halved first, so that the difference of any two of them is finite.
+            // The numbers are halved first, so that the difference of any two numbers is finite.
             true => Self {
                 origin: least,
                 step: (greatest / 2.0 - least / 2.0) / f64::from(steps) * 2.0,
@@ -64,7 +64,7 @@ pub fn pack(
     let codes: Vec<Vec<u16>> = (0..numbers)
         .map(|number| (0..frames).map(|frame| scale.code(value(number, frame))).collect())
         .collect();
-    // Second differences are smaller for smooth motions, first differences for others. The shorter result is used.
+    // Second differences are smaller for smooth motions, first differences for other motions. The shorter result is used.
     let cost = |order: u32| -> u64 {
         let all = codes.iter().flat_map(|series| differences(series, order));
         all.map(|difference| u64::from(u16::BITS - difference.leading_zeros())).sum()

@@ -1,9 +1,10 @@
-//! Selection of the rows of a long history that are needed for a chart. Extreme values are kept.
+//! Selection of the rows of a long history for a chart. Extreme values are kept.
 
 const MOST_ROWS: usize = 3000;
 
-/// Returns the indices of the rows that are kept. Many rows are divided into pieces; of each piece, the first row and the rows with the extreme
-/// values of every column are kept. The last row is always kept.
+/// Indices of the rows that are kept.
+/// Many rows are divided into pieces. Of each piece, the first row and the rows with the extreme values of every column are kept.
+/// The last row of the history is always kept.
 pub fn rows_to_keep(rows: usize, columns: &[&[f64]]) -> Vec<usize> {
     if rows <= MOST_ROWS {
         return (0..rows).collect();

@@ -81,7 +81,7 @@ pub fn invariants(shell: &mut Shell, _: &str) -> CommandOutcome {
     shell.show_latest_result("invariants()")
 }
 
-/// Shows the estimated errors of the last simulation: those of all quantities in a table, or those of the named columns in a chart.
+/// Shows the estimated errors of the last simulation: a table of all quantities, or a chart of the named columns.
 pub fn error_estimate(shell: &mut Shell, operand: &str) -> CommandOutcome {
     let words = operand.split([',', ' ']).map(|name| name.trim_matches('"').to_owned());
     let columns: Vec<String> = words.filter(|name| !name.is_empty()).collect();
@@ -129,7 +129,7 @@ pub fn error_estimate(shell: &mut Shell, operand: &str) -> CommandOutcome {
 
 pub fn view(shell: &mut Shell, operand: &str) -> CommandOutcome {
     let file = if operand.is_empty() { "view.html" } else { operand.trim_matches('"') };
-    // Quotes and backslashes would end the string literal below, and no file name needs them.
+    // Quotes and backslashes are removed, because they would end the string literal below. File names do not need them.
     let name: String = file.chars().filter(|letter| !matches!(letter, '"' | '\\')).collect();
     let outcome = shell.call_latest(&format!("write_viewer(\"{name}\")"));
     if outcome == CommandOutcome::Success {

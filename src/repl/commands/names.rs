@@ -13,7 +13,7 @@ use crate::script::presentation::present::present;
 
 const DIGITS: usize = 6;
 
-/// Help for a name of the session: a text that is shown unchanged, and a help page.
+/// Help for a name of the session, as a text and a help page. The text is shown unchanged.
 pub struct NameInfo {
     pub shown: Option<String>,
     pub page: HelpPage,
@@ -51,7 +51,7 @@ pub fn known(shell: &mut Shell, name: &str) -> Option<NameInfo> {
     (!page.parts.is_empty()).then(|| NameInfo { shown: text_of(shell, name), page })
 }
 
-/// Source text of a function of the session. Its doc comments are left out, because the help shows them separately.
+/// Source text of a function of the session, without its doc comments, which the help shows separately.
 fn text_of(shell: &Shell, name: &str) -> Option<String> {
     let text = shell.session().record().definition(name)?;
     let lines = text.lines().skip_while(|line| line.trim_start().starts_with("///"));

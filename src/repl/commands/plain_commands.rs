@@ -2,8 +2,8 @@
 
 use super::{Command, HELP, QUIT};
 
-/// Command and operand of an input without a colon, such as `quit`, `exit()`, `help`, `help sine` or `sim?`; `None` for other inputs. The name of a
-/// variable, for which `is_variable` returns true, is not a command.
+/// Command and operand of an input without a colon, such as `quit`, `exit()`, `help`, `help sine` or `sim?`; `None` for other inputs.
+/// Inputs that are variable names are not commands. The callback `is_variable` returns true for such names.
 pub fn meant(text: &str, is_variable: impl Fn(&str) -> bool) -> Option<(&'static Command, &str)> {
     let text = text.trim_end_matches(';').trim_end();
     let asked = text.trim_end_matches('?').trim_end();

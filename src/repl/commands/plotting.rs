@@ -50,7 +50,7 @@ pub fn plot(shell: &mut Shell, operand: &str) -> CommandOutcome {
     }
 }
 
-/// Splits an operand into the curves and the map of options after them. A comma between them is optional.
+/// Splits an operand into the curves and the map of options at its end. A comma between them is optional.
 fn with_options(operand: &str) -> (&str, Option<&str>) {
     let mut depth = 0;
     for token in scan(operand) {
@@ -106,7 +106,7 @@ fn column_summaries(history: &History, columns: &[String]) -> Result<String, Scr
     Ok(columns.iter().map(line).collect::<Result<Vec<_>, _>>()?.join("\n"))
 }
 
-/// Interprets a part of the operand. Column names may be quoted. Words without quotes are columns unless they can have another meaning.
+/// Interprets a part of the operand. Column names may be quoted. Unquoted words are columns unless they have another meaning.
 fn read(shell: &Shell, part: &str) -> PlotPart {
     let words: Vec<String> =
         part.split_whitespace().map(|word| word.trim_matches('"').to_owned()).collect();
@@ -115,7 +115,7 @@ fn read(shell: &Shell, part: &str) -> PlotPart {
         shell.session().variables().contains(name)
             || shell.session().catalog().constants().any(|constant| constant == name.as_str())
     };
-    // Without a simulation, only the columns that every history has are known.
+    // Without a simulation, only the standard columns of every history are known.
     let is_column = |name: &String| match &latest {
         Some(latest) => name == "drift" || latest.simulation().history().dimension(name).is_some(),
         None => History::COLUMNS.iter().any(|column| column.name == name) && !is_known(name),
@@ -205,7 +205,7 @@ fn columns(shell: &mut Shell, names: &[String]) -> PlotData {
     Ok((curves, None))
 }
 
-/// Evaluates an expression at the present time. If the value is a single point of a curve, the expression is evaluated at all earlier states too.
+/// Evaluates an expression at the present time. If the value is a single point of a curve, the expression is also evaluated at all earlier states.
 fn expression(shell: &mut Shell, text: &str) -> PlotData {
     let subject = match subject(shell, text) {
         Ok(subject) => subject,
@@ -307,7 +307,7 @@ fn mentions<'s>(shell: &'s Shell, text: &str) -> impl Iterator<Item = Simulation
     named.into_iter()
 }
 
-/// Simulation to which an expression refers: the one that it names, or the one used last.
+/// Simulation of an expression: the simulation that it names, or the last used simulation.
 fn subject(shell: &Shell, text: &str) -> Result<Option<SimulationHandle>, Diagnostic> {
     let mut named = mentions(shell, text);
     match (named.next(), named.next()) {

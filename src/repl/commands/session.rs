@@ -14,7 +14,7 @@ pub fn save(shell: &mut Shell, operand: &str) -> CommandOutcome {
         return shell.report_error(&message.with_hint("write :save FILE.rhai"));
     }
     let path = Path::new(operand);
-    // A file is not overwritten if this session did not write it, or if it has been edited since.
+    // A file is not overwritten if it was written by another program or edited since it was written.
     if !shell.may_write(path) {
         let message = format!("'{operand}' exists and was not written by this session");
         return shell.report_error(&Diagnostic::general(message).with_hint("choose another name"));

@@ -1,10 +1,10 @@
-//! Commands that advance or rewind the simulation used last.
+//! Commands that advance or rewind the last used simulation.
 
 use crate::repl::shell::{CommandOutcome, Shell};
 use crate::script::diagnose::Diagnostic;
 use crate::script::messages::numbers::format_number;
 
-/// Upper limit of numbers of steps. Integers below it are exact as floats.
+/// Upper limit for numbers of steps. Integers below it are exact as floats.
 const MOST_STEPS: f64 = 9e15;
 
 pub fn step(shell: &mut Shell, operand: &str) -> CommandOutcome {

@@ -1,4 +1,4 @@
-//! Table of the commands, from which inputs are dispatched and help and completion are generated.
+//! Table of the commands, for the dispatch of inputs, help and completion.
 
 use super::{help, inspection, plotting, session, stepping, timing};
 use crate::repl::editor::surroundings::CommandOperand;
@@ -11,12 +11,12 @@ pub struct Command {
     /// Name of the command, including the colon.
     pub name: &'static str,
     pub operand: CommandOperand,
-    /// Operand in the form that the help shows; empty if there is none.
+    /// Operand as shown in the help; empty without an operand.
     pub placeholder: &'static str,
     pub summary: &'static str,
     /// Further help text; may be empty.
     pub doc: &'static str,
-    /// Function that executes the command. Its argument is the text after the name.
+    /// Function that executes the command. Its argument is the text after the command name.
     pub body: fn(&mut Shell, &str) -> CommandOutcome,
 }
 
@@ -181,10 +181,10 @@ impl Command {
     }
 }
 
-/// Finds the command with this name or with this unambiguous beginning of a name. It includes the colon.
+/// Finds the command with this name or unambiguous beginning of a name. The name includes the colon.
 ///
 /// # Errors
-/// Fails if no command, or more than one command, has a name that begins like this.
+/// Fails if no command or several commands have a name with this beginning.
 pub fn find(name: &str) -> Result<&'static Command, Diagnostic> {
     if let Some(exact) = COMMANDS.iter().find(|command| command.name == name) {
         return Ok(exact);

@@ -16,7 +16,7 @@ use super::highlight::{SessionNames, highlight};
 use super::hints::{self, Hint};
 use crate::output::{Colours, columns, cut, padded};
 
-/// Largest number of candidates that are listed with their summaries, one per line.
+/// Largest number of candidates for a list with summaries, one candidate per line.
 const SHORT_LIST: usize = 12;
 
 pub struct Assistant {
@@ -25,7 +25,7 @@ pub struct Assistant {
     prompt_width: usize,
     colours: Colours,
     from_history: HistoryHinter,
-    /// True while the completed line is drawn for the last time. Hints are not shown then.
+    /// True while the completed line is drawn for the last time, without hints.
     is_final: Cell<bool>,
 }
 
@@ -61,7 +61,7 @@ impl Assistant {
 
 impl Helper for Assistant {}
 
-/// Completion candidate in the form that rustyline requires.
+/// Completion candidate in the form required by rustyline.
 pub struct Listed {
     display: String,
     replacement: String,
@@ -131,7 +131,7 @@ impl Hinter for Assistant {
     }
 }
 
-/// Hint with the rest of a history entry. Only its first line is shown, so that the height of the input does not change.
+/// Hint with the rest of a history entry. Only the first line is shown, so that the height of the input does not change.
 fn remembered(rest: String) -> Hint {
     let shown = match rest.split_once('\n') {
         Some((first, _)) => format!("{first} …"),

@@ -19,8 +19,8 @@ impl Candidate {
         Self { display: word.to_owned(), replacement: word.to_owned(), summary: summary.to_owned() }
     }
 
-    /// Candidate for a function, shown with its arguments in parentheses such as `(from, to)`. Accepting it inserts the opening parenthesis. If
-    /// there are no arguments, both parentheses are inserted.
+    /// Candidate for a function, displayed with its arguments in parentheses such as `(from, to)`. Accepting it inserts the opening parenthesis.
+    /// For a function without arguments, both parentheses are inserted.
     pub fn call(name: &str, arguments: &str, summary: &str) -> Self {
         let brackets = if arguments == "()" { "()" } else { "(" };
         Self {
@@ -71,7 +71,7 @@ impl Candidate {
     }
 }
 
-/// Parameters of a function as arguments in parentheses. Optional ones are in brackets.
+/// Parameters of a function in parentheses. Optional parameters are in brackets.
 pub fn arguments(parameters: &[Parameter]) -> String {
     let names = parameters.iter().map(|parameter| match parameter.is_required() {
         true => parameter.name.to_owned(),
@@ -80,8 +80,8 @@ pub fn arguments(parameters: &[Parameter]) -> String {
     format!("({})", names.collect::<Vec<_>>().join(", "))
 }
 
-/// Candidates that match `typed`, sorted and without duplicates. These are the candidates that begin with it. If there are none, these are the
-/// candidates that begin with it in other case, or contain its letters in the same order.
+/// Candidates that match `typed`, sorted and without duplicates. These are the candidates that begin with `typed`.
+/// If no candidate begins with `typed`, candidates that contain the letters of `typed` in the same order, in upper or lower case, are returned.
 pub fn fitting(typed: &str, candidates: impl IntoIterator<Item = Candidate>) -> Vec<Candidate> {
     let mut all: Vec<Candidate> = candidates.into_iter().collect();
     all.sort_by_key(|candidate| (candidate.name().to_lowercase(), candidate.clone()));

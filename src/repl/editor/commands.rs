@@ -5,7 +5,7 @@ use super::completion::complete;
 use super::paths::{FileFilter, complete_path};
 use super::surroundings::{CommandOperand, CommandWord, CompletionContext};
 
-/// Candidates at the end of `text`, which is a command or a help request. The number is the start of the text that they replace.
+/// Completion candidates for `text`, which is a command or a help request. The number is the start of the replaced text.
 pub fn complete_command(text: &str, surroundings: &CompletionContext) -> (usize, Vec<Candidate>) {
     let begin = text.len() - text.trim_start().len();
     let command = &text[begin..];
@@ -37,7 +37,7 @@ pub fn complete_command(text: &str, surroundings: &CompletionContext) -> (usize,
             let columns = fitting(&operand[last..], columns);
             let (offset, found) = complete(operand, operand.len(), surroundings);
             match columns.is_empty() {
-                // Only columns and variables are suggested. Functions would be too many.
+                // Only columns and variables are suggested, because there are too many functions.
                 false => {
                     let variables = surroundings.variables.iter();
                     let variables = variables.map(|known| Candidate::word(&known.name, ""));
@@ -63,8 +63,8 @@ fn options_at(operand: &str) -> Option<usize> {
     (at == 0 || operand[..at].ends_with([' ', ','])).then_some(at)
 }
 
-/// Completes an operand that is a map of options as if it were an argument of the unfinished call `call`. Any other operand is completed as an
-/// expression.
+/// Completes an operand that is a map of options like an argument of the unfinished call `call`.
+/// Operands of other commands are completed like expressions.
 fn in_call(
     call: &str,
     operand: &str,

@@ -1,4 +1,4 @@
-//! Detection whether an input is complete.
+//! Test for completeness of an input.
 
 use crate::script::source::scanner::{Bracket, Token, TokenKind, scan};
 
@@ -7,13 +7,13 @@ use crate::script::source::scanner::{Bracket, Token, TokenKind, scan};
 pub enum Completeness {
     /// The input can be evaluated, or its evaluation reports an error.
     Complete,
-    /// The input is incomplete. The value is the number of levels by which the next line is indented.
+    /// The input is incomplete. The value is the indentation level of the next line.
     Open(usize),
 }
 
 use Completeness::{Complete, Open};
 
-/// Number of empty lines at the end of an input after which it counts as complete.
+/// Number of empty lines at the end of an input after which the input counts as complete.
 const EMPTY_LINES: usize = 2;
 
 /// Determines whether `text` typed at a prompt is complete. Commands, and inputs that end with two empty lines, are always complete.
@@ -31,10 +31,10 @@ pub fn is_command(text: &str) -> bool {
     text.trim_start().starts_with([':', '?'])
 }
 
-/// Determines whether `text` from a file or a pipe is complete. Empty lines have no meaning in it.
+/// Determines whether `text` from a file or a pipe is complete. Empty lines have no effect.
 ///
-/// A wrong closing bracket or a string literal that is not closed cannot be corrected by further lines. Such an input counts as complete, so that
-/// its error is reported.
+/// A wrong closing bracket or an unclosed string literal cannot be corrected by further lines.
+/// An input that cannot be corrected counts as complete, so that its error is reported.
 pub fn completeness_of_script(text: &str) -> Completeness {
     let tokens = scan(text);
     // A doc comment must be followed by a function.
@@ -92,7 +92,7 @@ struct InputReader<'t> {
     line: usize,
     /// True if the last token requires a continuation.
     is_incomplete: bool,
-    /// True if the last token ends a value. A bar after it is then an operator.
+    /// True if the last token ends a value. A bar after a value is an operator.
     is_value: bool,
     /// True within a string literal or comment, where no indentation must be added.
     is_literal: bool,
@@ -150,7 +150,7 @@ impl<'t> InputReader<'t> {
         ParseOutcome::Incomplete
     }
 
-    /// Handles a string literal that is not closed on its line. It continues on the next line only after a backslash.
+    /// Handles a string literal that is not closed on its line. The literal continues on the next line only after a backslash.
     fn read_open_text(&mut self, written: &str) -> ParseOutcome {
         let backslashes = written.len() - written.trim_end_matches('\\').len();
         ParseOutcome::Final(if backslashes % 2 == 1 { Open(0) } else { Complete })
@@ -194,10 +194,10 @@ impl<'t> InputReader<'t> {
             || self.level.is_between_bars
             || self.level.keyword.is_some();
         if self.level.bracket.is_none() {
-            // After `fn f()` or `try { }`, the next line is not indented. After an incomplete expression it is.
+            // After `fn f()` or `try { }`, the next line is not indented. After an incomplete expression, it is indented.
             return if waits { Open(usize::from(self.is_incomplete)) } else { Complete };
         }
-        // Brackets that were opened on the same line indent the next line by one level together.
+        // All brackets opened on one line together indent the next line by one level.
         let levels = self.outer.iter().skip(1).chain(std::iter::once(&self.level));
         let mut lines: Vec<usize> = levels.map(|level| level.line).collect();
         lines.dedup();

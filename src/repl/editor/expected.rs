@@ -9,17 +9,17 @@ use crate::script::bindings::parameter::Parameter;
 use crate::script::bindings::table::{CallSyntax, FunctionBinding};
 use crate::script::source::scanner::Bracket;
 
-/// Brackets that are open at the cursor, from which the expected parameters are determined.
+/// Open brackets at the cursor. They determine the expected parameters.
 pub struct Expected<'a, 't> {
     types: Types<'a, 't>,
     levels: Vec<OpenBracket<'t>>,
 }
 
-/// Function that is called, and the number of its parameters before the dot.
+/// Called function, with the number of its parameters before the dot.
 #[derive(Clone, Copy)]
 pub struct ActiveCall {
     pub row: &'static FunctionBinding,
-    /// Number of parameters before the dot. It is one for a function that is called like a method.
+    /// Number of parameters before the dot: one for a function that is called like a method, otherwise zero.
     pub before_dot: usize,
 }
 
@@ -37,7 +37,7 @@ impl<'a, 't> Expected<'a, 't> {
         self.levels.len().checked_sub(1).map_or_else(Vec::new, |depth| self.at(depth))
     }
 
-    /// Keys of an option map, if its bracket is the innermost one at the cursor; otherwise empty.
+    /// Keys of an option map if its bracket is the innermost bracket at the cursor; otherwise empty.
     pub fn keys(&self) -> Vec<&'static Parameter> {
         match self.levels.len().checked_sub(2) {
             Some(outer) if self.levels[outer + 1].bracket == Bracket::Map => keys(&self.at(outer)),
@@ -45,7 +45,7 @@ impl<'a, 't> Expected<'a, 't> {
         }
     }
 
-    /// Keys of the options of a library function with their descriptions, if their bracket is the innermost one at the cursor.
+    /// Keys of the options of a library function with their descriptions, if their bracket is the innermost bracket at the cursor.
     pub fn library_keys(&self) -> &'a [(String, String)] {
         let [.., call, map] = self.levels.as_slice() else { return &[] };
         if map.bracket != Bracket::Map || call.bracket != Bracket::Round {
@@ -60,7 +60,7 @@ impl<'a, 't> Expected<'a, 't> {
         of.map(|function| function.keys.as_slice()).unwrap_or_default()
     }
 
-    /// Innermost call whose arguments contain the cursor. Arrays, maps and parentheses between them are skipped.
+    /// Innermost call whose arguments contain the cursor. Arrays, maps and parentheses around the cursor are skipped.
     pub fn call(&self) -> Option<(OpenBracket<'t>, CalleeName<'t>)> {
         let transparent = |level: &&OpenBracket| {
             matches!(level.bracket, Bracket::Round | Bracket::Square | Bracket::Map)

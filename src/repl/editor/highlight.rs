@@ -7,7 +7,7 @@ use crate::script::presentation::highlight::{self, HighlightStyle, UNMATCHED, dr
 
 const COMMAND: HighlightStyle = HighlightStyle("1");
 
-/// Names of a session and their colours. The object is created once per prompt.
+/// Names of a session with their colours. The object is created once per prompt.
 pub struct SessionNames {
     language: highlight::Vocabulary,
     context: CompletionContext,
@@ -36,7 +36,7 @@ impl SessionNames {
     }
 }
 
-/// Text with colours. A bracket at the cursor and its partner are emphasised.
+/// Text with colours. A bracket at the cursor and its matching bracket are emphasised.
 pub fn highlight(text: &str, cursor: Option<usize>, vocabulary: &SessionNames) -> String {
     match is_command(text) && !text.contains('\x1b') {
         true => highlight_command(text, cursor, vocabulary),

@@ -12,7 +12,7 @@ use crate::script::bindings::parameter::{Parameter, Presence};
 use crate::script::messages::numbers::format_number;
 use crate::script::source::scanner::{Bracket, TokenKind};
 
-/// A hint after the cursor.
+/// Hint after the cursor.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Hint {
     /// Text of the hint.
@@ -33,8 +33,8 @@ impl Hint {
     }
 }
 
-/// Hint for the cursor at `position`, which must be the end of `line`. It is the rest of the only name that matches, the signature of the call
-/// around the cursor, or the keys of its options.
+/// Hint for the cursor at `position`, which must be the end of `line`.
+/// The hint is the rest of the only matching name, the signature of the call around the cursor, or the keys of its options.
 pub fn hint(line: &str, position: usize, surroundings: &CompletionContext) -> Option<Hint> {
     if position != line.len() || line.trim().is_empty() {
         return None;

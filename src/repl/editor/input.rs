@@ -1,8 +1,8 @@
-//! Tokens of an input before the cursor, and its open brackets.
+//! Tokens of an input before the cursor, and the open brackets of the input.
 
 use crate::script::source::scanner::{Bracket, Token, TokenKind, pair, scan};
 
-/// Largest number of open brackets that are searched. Brackets further outside have no influence at the cursor.
+/// Largest number of open brackets in the search. Brackets further outside have no influence at the cursor.
 const MOST_LEVELS: usize = 64;
 
 pub struct Input<'t> {
@@ -11,9 +11,9 @@ pub struct Input<'t> {
     pub tokens: Vec<Token>,
     /// Token that ends at the cursor, including spaces and comments.
     pub last: Option<Token>,
-    /// For each bracket token the index of its partner.
+    /// Index of the matching bracket for each bracket token.
     partners: Vec<Option<usize>>,
-    /// Token indices of the brackets that are open at the cursor, the innermost one last.
+    /// Token indices of the brackets that are open at the cursor. The innermost bracket is last.
     open: Vec<usize>,
 }
 
@@ -54,7 +54,7 @@ impl<'t> Input<'t> {
         self.tokens.get(index).map(|token| token.kind)
     }
 
-    /// Token index of the partner of a bracket.
+    /// Token index of the bracket that matches a bracket.
     pub fn partner(&self, index: usize) -> Option<usize> {
         self.partners.get(index).copied().flatten()
     }
@@ -63,7 +63,7 @@ impl<'t> Input<'t> {
         matches!(self.written(index), "." | "?.")
     }
 
-    /// Name that is being written at the cursor, and its start [bytes]. Between names it is empty.
+    /// Name at the cursor that is being typed, and its start [bytes]; empty between names.
     pub fn name(&self) -> (usize, &'t str) {
         match self.last {
             Some(token) if token.kind == TokenKind::Word => (token.start, token.of(self.text)),
@@ -75,7 +75,7 @@ impl<'t> Input<'t> {
         self.tokens.len() - usize::from(!self.name().1.is_empty())
     }
 
-    /// Brackets that are open at the cursor, from the outside to the inside. If there are many, only the innermost ones are returned.
+    /// Brackets that are open at the cursor, from the outside to the inside. If there are many, only the innermost brackets are returned.
     pub fn levels(&self) -> Vec<OpenBracket<'t>> {
         let first = self.open.len().saturating_sub(MOST_LEVELS);
         self.open[first..].iter().map(|opener| self.level(*opener)).collect()
@@ -106,7 +106,7 @@ impl<'t> Input<'t> {
         level
     }
 
-    /// Function whose arguments the bracket at token `opener` opens; `None` if it is not the bracket of a call.
+    /// Function whose arguments begin at the bracket token `opener`; `None` if the bracket does not belong to a call.
     pub fn callee(&self, opener: usize) -> Option<CalleeName<'t>> {
         let at = opener.checked_sub(1)?;
         let is_call = self.kind(opener) == Some(TokenKind::Open(Bracket::Round))

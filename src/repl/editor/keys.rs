@@ -12,7 +12,7 @@ use rustyline::{
 use super::completeness::{Completeness, completeness};
 use super::completion::INDENTATION;
 
-/// Entries of the history. The key bindings that search the history share them.
+/// Entries of the history, shared by the key bindings that search the history.
 pub type Entries = Arc<Mutex<HashSet<String>>>;
 
 pub fn bind<H: Helper, I: History>(editor: &mut Editor<H, I>, entries: &Entries) {
@@ -79,10 +79,10 @@ fn is_indentation(line: &str, at: usize) -> bool {
         && here.is_some_and(|here| is_blank(here) && here.len() % INDENTATION.len() == 0)
 }
 
-/// Returns true if an arrow key searches the history for entries that begin like the line. This is the case if there is text before the cursor.
+/// Returns true if an arrow key searches the history for entries that begin with the text before the cursor. An empty text is not searched.
 ///
-/// There are two exceptions. If the line is an entry of the history and the cursor is at its end, the arrow key selects the next entry. In an input
-/// of several lines, the arrow key moves the cursor.
+/// First exception: if the line is a history entry with the cursor at its end, the arrow key selects the next entry.
+/// Second exception: in an input of several lines, the arrow key moves the cursor.
 fn searches(line: &str, at: usize, is_entry: bool) -> bool {
     let is_fetched = is_entry && at == line.len();
     at > 0 && !line.contains('\n') && !is_fetched

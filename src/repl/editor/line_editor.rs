@@ -41,7 +41,7 @@ impl Keys {
 pub struct EditorOptions {
     pub keys: Keys,
     pub colours: Colours,
-    /// File with the history of earlier sessions; `None` to store no history.
+    /// File with the history of earlier sessions; `None` if no history is stored.
     pub history: Option<PathBuf>,
 }
 
@@ -76,8 +76,8 @@ pub struct Editor {
 }
 
 impl Editor {
-    /// Creates a line editor on this terminal. If the history file cannot be read, it is not used, and [`Self::take_history_problem`] returns the
-    /// reason.
+    /// Creates a line editor on this terminal.
+    /// If the history file cannot be read, it is ignored, and [`Self::take_history_problem`] returns the reason.
     ///
     /// # Errors
     /// Fails if the terminal cannot be used.
@@ -131,7 +131,7 @@ impl Editor {
         Some((usize::from(columns), usize::from(lines)))
     }
 
-    /// Problem with the history file; `None` if there is none. It is returned only once.
+    /// Problem with the history file; `None` without a problem. The problem is returned only once.
     pub fn take_history_problem(&mut self) -> Option<String> {
         self.history_problem.take()
     }
@@ -153,7 +153,7 @@ impl Editor {
         }
     }
 
-    /// Adds an entry to the history and writes it to the file immediately. Nothing is lost if the session is killed.
+    /// Adds an entry to the history and writes it to the file immediately, so that nothing is lost if the session is killed.
     fn add_to_history(&mut self, line: &str) {
         if !history::should_store(line) || !self.lines.add_history_entry(line).unwrap_or(false) {
             return;

@@ -7,8 +7,9 @@ use crate::script::bindings::returns::ValueKind;
 use crate::script::bindings::table::{CallSyntax, FunctionBinding};
 use crate::script::source::scanner::is_name;
 
-/// Members of a value as candidates. If the type of the value is unknown, these are the members of all types that match, provided that something
-/// has been typed. If the value is a map in a variable, these are its keys.
+/// Members of a value as completion candidates.
+/// If the type of the value is unknown, matching members of all types are returned, provided that something has been typed.
+/// If the value is a map in a variable, the keys of the map are returned.
 pub fn members(
     of: Option<ValueKind>,
     variable: Option<&Variable>,
@@ -99,7 +100,7 @@ mod tests {
         for of in ["array", "text", "map"] {
             for (known, _) in surroundings().catalog.built_in_members(of) {
                 let name = known.name();
-                // Properties are listed as `get name`. Members that all values have are defined by the engine.
+                // Properties are listed as `get name`. The engine defines members of values of any type.
                 let is_known = has(&format!("{name}(")) || has(&format!("get {name}("));
                 assert!(is_known || known.is_of("beam"), "{of}.{name}");
             }

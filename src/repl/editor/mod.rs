@@ -1,7 +1,7 @@
 //! Line editing at the prompt: detection of complete inputs, completion, hints, colours and history.
 //!
-//! Code that depends on the language has no side effects. It uses the tokens of [`scanner`](crate::script::source::scanner). [`line_editor`]
-//! configures rustyline for the terminal.
+//! Code that depends on the language has no side effects. It uses the tokens of [`scanner`](crate::script::source::scanner).
+//! [`line_editor`] configures rustyline for the terminal.
 
 mod assistant;
 pub(crate) mod candidates;

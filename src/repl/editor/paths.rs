@@ -10,12 +10,12 @@ use crate::script::library::MODULES;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum FileFilter {
     Any,
-    /// Scripts, whose names are shown without extension.
+    /// Script files, whose names are shown without extension.
     Modules,
 }
 
-/// Files and folders in `folder` that match `typed`, and the start of the last component of the path in `typed`. Hidden files match only if this
-/// component starts with a dot.
+/// Files and folders in `folder` that match `typed`, and the start of the last path component in `typed`.
+/// Hidden files match only if the last component of `typed` starts with a dot.
 pub fn complete_path(typed: &str, folder: &Path, files: FileFilter) -> (usize, Vec<Candidate>) {
     let start = typed.rfind('/').map_or(0, |slash| slash + 1);
     let (parent, name) = typed.split_at(start);

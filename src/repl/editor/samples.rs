@@ -1,4 +1,4 @@
-//! Session for tests of the editor: a script of the flying spaghetti that is not complete.
+//! Session for tests of the editor: an incomplete script of the flying spaghetti problem.
 
 use super::surroundings::{
     CommandOperand, CommandWord, CompletionContext, ImportedModule, ScriptFunction, Variable,

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use crate::script::bindings::catalog::Catalog;
 
-/// Names of a session for completion and hints. They are collected before each prompt. The values of variables are not stored.
+/// Names of a session for completion and hints, collected before each prompt. The values of variables are not stored.
 #[derive(Clone)]
 pub struct CompletionContext {
     /// Catalog of the language.
@@ -19,7 +19,7 @@ pub struct CompletionContext {
     pub commands: Vec<CommandWord>,
     /// History columns of the last simulation.
     pub columns: Vec<String>,
-    /// Folder to which relative file names refer.
+    /// Base folder for relative file names.
     pub folder: PathBuf,
 }
 
@@ -50,7 +50,7 @@ pub struct ScriptFunction {
 /// Module that the session has imported.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ImportedModule {
-    /// Name of the module that is written before `::`.
+    /// Name of the module in scripts, before `::`.
     pub alias: String,
     /// Functions of the module.
     pub functions: Vec<ScriptFunction>,
@@ -59,7 +59,7 @@ pub struct ImportedModule {
 /// Command of the prompt.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CommandWord {
-    /// Command in its written form with its colon, such as `:step`.
+    /// Command as it is typed, with its colon, such as `:step`.
     pub name: &'static str,
     /// One-line summary.
     pub summary: &'static str,
@@ -72,19 +72,19 @@ pub struct CommandWord {
 pub enum CommandOperand {
     /// No operand.
     Nothing,
-    /// A name of the language.
+    /// Name of the language.
     Name,
-    /// A file name.
+    /// File name.
     File,
-    /// An expression.
+    /// Expression.
     Expression,
-    /// Columns of the history, or expressions that give curves.
+    /// Columns of the history, or expressions that define curves.
     Curves,
-    /// A number.
+    /// Number.
     Number,
-    /// One of these words.
+    /// One of the given words.
     OneOf(&'static [&'static str]),
-    /// An expression or a map of options. A map is completed as if it were the next argument of the contained unfinished call.
+    /// Expression or map of options. A map is completed like the next argument of the given unfinished call.
     OptionsOf(&'static str),
 }
 

@@ -1,13 +1,13 @@
-//! Type-ahead: keys that are typed during an evaluation are kept for the next prompt.
+//! Type-ahead: keys typed during an evaluation are kept for the next prompt.
 //!
-//! Between two prompts, a terminal in line mode would process keys such as Ctrl-D or Ctrl-R itself. Therefore the terminal is in raw input mode
-//! during the whole session. Ctrl-C and Ctrl-Z keep their meaning.
+//! Between two prompts, a terminal in line mode would process keys such as Ctrl-D or Ctrl-R itself.
+//! Therefore the terminal is in raw input mode during the whole session. Ctrl-C and Ctrl-Z keep their meaning.
 
-/// Guard that keeps the terminal in raw input mode. It restores the mode when it is dropped.
+/// Guard that keeps the terminal in raw input mode. Dropping the guard restores the original mode.
 pub struct TypedAhead(());
 
 impl TypedAhead {
-    /// Sets the raw input mode. If this fails, the terminal is unchanged.
+    /// Sets the raw input mode. If setting the mode fails, the terminal is unchanged.
     pub fn set_mode() -> Self {
         terminal::set_raw_mode();
         Self(())
@@ -36,7 +36,7 @@ impl Drop for TypedAhead {
     }
 }
 
-/// Restores the mode of the terminal. Code that ends the process without dropping guards must call it.
+/// Restores the original mode of the terminal. Code that ends the process without dropping guards must call this function.
 pub fn restore() {
     terminal::restore();
 }
@@ -55,7 +55,7 @@ mod terminal {
     pub fn set_raw_mode() {
         let Ok(original) = tcgetattr(stdin()) else { return };
         let mut held = original.clone();
-        // Without echo, keys that wait are shown only once, at the prompt that reads them.
+        // Without echo, waiting keys are shown only once, at the prompt that reads them.
         held.local_flags -= LocalFlags::ICANON | LocalFlags::IEXTEN | LocalFlags::ECHO;
         held.control_chars[SpecialCharacterIndices::VMIN as usize] = 1;
         held.control_chars[SpecialCharacterIndices::VTIME as usize] = 0;
@@ -64,11 +64,11 @@ mod terminal {
         }
     }
 
-    /// Restores the mode of the terminal. Returns true if it had been changed.
+    /// Restores the original mode of the terminal. Returns true if the mode had been changed.
     pub fn restore() -> bool {
         let original = AS_IT_WAS.lock().unwrap_or_else(PoisonError::into_inner).take();
         if let Some(original) = &original {
-            // An error means that the terminal has been closed.
+            // An error means that the terminal has been closed, so it is ignored.
             let _ = tcsetattr(stdin(), SetArg::TCSANOW, original);
         }
         original.is_some()
@@ -77,7 +77,7 @@ mod terminal {
 
 #[cfg(not(unix))]
 mod terminal {
-    //! On this system keys are events, so that no key is lost.
+    //! On this system, keys are events, so no key is lost.
 
     pub fn set_raw_mode() {}
 

@@ -1,4 +1,4 @@
-//! Types of values before a dot. They are derived from the text without evaluation.
+//! Types of values before a dot, derived from the text without evaluation.
 
 use super::input::Input;
 use super::surroundings::CompletionContext;
@@ -139,7 +139,7 @@ impl<'t> Types<'_, 't> {
         }
     }
 
-    /// Type of the value in the last statement `let name = value;` before the token `at`; `None` if there is no such statement.
+    /// Type of the value in the last statement `let name = value;` before the token `at`; `None` without such a statement.
     fn declared(&self, name: &str, at: usize, depth: usize) -> Option<Option<ValueKind>> {
         let input = self.input;
         let is_declared = |place: &usize| {

@@ -10,13 +10,13 @@ pub enum Pressed {
 }
 
 pub trait Keyboard {
-    /// Waits for the next key. `was_interrupted` is asked for Ctrl-C while waiting.
+    /// Waits for the next key. While waiting, `was_interrupted` is called periodically to detect Ctrl-C.
     ///
     /// # Errors
     /// Fails if the terminal fails.
     fn read(&mut self, was_interrupted: &dyn Fn() -> bool) -> io::Result<Pressed>;
 
-    /// Bytes that the terminal sends after the escape character of a key; may be empty.
+    /// Bytes that follow the escape character of a key; may be empty.
     ///
     /// # Errors
     /// Fails if the terminal fails.
@@ -63,7 +63,7 @@ mod of_system {
         }
     }
 
-    /// Reads a byte without the buffer of the standard library. The buffer would keep keys that belong to the prompt.
+    /// Reads a byte without the buffer of the standard library, because the buffer would keep keys that belong to the prompt.
     fn next() -> io::Result<Pressed> {
         let mut byte = [0];
         match read(stdin(), &mut byte) {
@@ -92,7 +92,7 @@ mod of_system {
                     Pressed::Byte(byte) => rest.push(byte),
                     _ => break,
                 }
-                // A letter or a tilde ends an escape sequence unless it is the first byte.
+                // A letter or a tilde ends an escape sequence, unless it is the first byte.
                 let is_end = rest.len() > 1
                     && rest.last().is_some_and(|last| last.is_ascii_alphabetic() || *last == b'~');
                 if is_end {
@@ -106,7 +106,7 @@ mod of_system {
 
 #[cfg(not(unix))]
 mod of_system {
-    //! This system does not support reading single keys. Texts are printed without pages unless a pager program is set.
+    //! On this system, single keys cannot be read. Texts are printed without pages unless a pager program is set.
 
     use std::io;
 

@@ -1,4 +1,4 @@
-//! Built-in pager, which moves forward and backward and searches.
+//! Built-in pager with movement in both directions and search.
 
 use std::io::{self, Write};
 use std::ops::Range;
@@ -202,7 +202,7 @@ mod tests {
 
     use super::*;
 
-    /// Keys that are given in advance. The character `^` stands for Ctrl-C.
+    /// Predefined keys for tests. The character `^` stands for Ctrl-C.
     struct Decided(VecDeque<u8>);
 
     impl Keyboard for Decided {

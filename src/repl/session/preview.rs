@@ -40,10 +40,10 @@ impl Session {
         }
     }
 
-    /// Evaluates an expression repeatedly. The text is parsed once. Variables are restored before each evaluation.
+    /// Evaluates an expression repeatedly. The text is parsed once, and variables are restored before each evaluation.
     ///
     /// # Errors
-    /// Returns the reply to the first evaluation that failed.
+    /// Returns the reply to the first failed evaluation.
     pub fn evaluate_repeatedly(
         &mut self,
         text: &str,

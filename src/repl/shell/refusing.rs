@@ -1,4 +1,4 @@
-//! Errors of native code that commands call.
+//! Errors of native code called by commands.
 
 use rhai::EvalAltResult;
 
@@ -9,7 +9,7 @@ use crate::script::messages::error::ScriptError;
 use crate::script::messages::stop::Stop;
 
 impl Shell {
-    /// Reports an error that does not come from a script.
+    /// Reports an error of native code, which has no position in a script.
     pub fn report_native_error(&mut self, error: ScriptError) -> CommandOutcome {
         match error {
             ScriptError::Failure(failure) => {

@@ -1,4 +1,4 @@
-//! Watched expressions, whose values are shown after every step.
+//! Watched expressions. Their values are shown after every step.
 
 use super::{CommandOutcome, Shell};
 use crate::output::significant;

@@ -14,7 +14,7 @@ use crate::system::refusal_of_name;
 
 /// Converts `value` to the form that native functions read: numbers become `f64`, points [`Vec2`], and option maps [`Options`].
 ///
-/// `owner` is the function or option map, which messages name.
+/// The argument `owner` is the function or option map that messages name.
 pub fn accept(
     engine: &Engine,
     owner: &str,
@@ -30,7 +30,7 @@ pub fn accept(
     }
 }
 
-/// Converts `value` for a parameter that a script has described. `wanted` describes the allowed values for messages.
+/// Converts `value` for a parameter described by a script. `wanted` describes the allowed values for messages.
 pub fn accept_described(
     engine: &Engine,
     owner: &str,
@@ -42,8 +42,8 @@ pub fn accept_described(
         .map_err(|refused| refusal(engine, owner, name, kind, wanted, &refused))
 }
 
-/// Result of a conversion. An outer error is reported unchanged. An inner error returns the value, for which the general error message is then
-/// created.
+/// Result of a conversion. An outer error is reported unchanged.
+/// An inner error contains the value, for which the general error message is created.
 type Conversion = Result<Result<Dynamic, Dynamic>, ScriptError>;
 
 fn convert(engine: &Engine, owner: &str, kind: &Kind, value: Dynamic) -> Conversion {
@@ -91,7 +91,7 @@ fn convert(engine: &Engine, owner: &str, kind: &Kind, value: Dynamic) -> Convers
     Ok(accepted.ok_or(value))
 }
 
-/// Checks a name that tables show and users type.
+/// Checks a name that appears in tables and that users type.
 pub fn readable(owner: &str, name: &str) -> Result<String, ScriptError> {
     match refusal_of_name(name) {
         None => Ok(name.to_owned()),
@@ -157,7 +157,7 @@ fn is_infinite_or_nan(value: &Dynamic) -> bool {
     as_number(value).is_some_and(|x| !x.is_finite())
 }
 
-/// Sets the position of an error to the argument `number`, unless it is already the position of a key.
+/// Sets the position of an error to the argument `number`, unless the error already has the position of a key.
 pub fn at_argument(error: ScriptError, number: usize) -> ScriptError {
     match error {
         ScriptError::Failure(failure) if failure.place == CallPart::Call => {

@@ -8,7 +8,7 @@ use super::parameter::Parameter;
 use crate::geometry::Vec2;
 use crate::script::messages::error::ScriptError;
 
-/// Checked arguments of a call. An omitted argument has its default, if there is one.
+/// Checked arguments of a call. An omitted argument has its default, if it has one.
 #[derive(Clone)]
 pub struct Arguments {
     parameters: &'static [Parameter],
@@ -61,10 +61,10 @@ impl Arguments {
         self.find(name)?.clone().into_immutable_string().map_err(|held| wrong_type_read(name, held))
     }
 
-    /// Value of the argument as a text; `None` if it is omitted.
+    /// Value of the argument as a text; `None` if the argument is omitted.
     ///
     /// # Errors
-    /// Fails if it is not a text. The type of the parameter should exclude this.
+    /// Fails if the argument is not a text. The type of the parameter should exclude other values.
     pub fn optional_text(&self, name: &str) -> Result<Option<String>, ScriptError> {
         self.has(name).then(|| self.text(name).map(String::from)).transpose()
     }
@@ -98,7 +98,7 @@ impl Arguments {
         self.get(name)
     }
 
-    /// Value of the argument as a map of options. If it is omitted, all keys have their defaults.
+    /// Value of the argument as a map of options. If the argument is omitted, all keys have their defaults.
     pub fn options_or_defaults(&self, name: &str) -> Result<Options, ScriptError> {
         match self.parameters.iter().find(|parameter| parameter.name == name) {
             Some(Parameter { kind: Kind::Options(keys), .. }) if !self.has(name) => {
@@ -113,7 +113,7 @@ impl Arguments {
         self.find(name)?.clone().try_cast().ok_or_else(|| wrong_type_read(name, "another type"))
     }
 
-    /// Value of the argument as a native type; `None` if it is omitted or of another type.
+    /// Value of the argument as a native type; `None` if the argument is omitted or has another type.
     pub fn get_if<T: Clone + 'static>(&self, name: &str) -> Option<T> {
         self.find(name).ok()?.clone().try_cast()
     }

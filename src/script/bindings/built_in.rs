@@ -1,4 +1,4 @@
-//! Functions of Rhai that are part of the language. They are documented in the same form as bindings, but the engine registers them.
+//! Functions of Rhai that belong to the language. They are documented like bindings, but registered by the engine.
 
 use super::returns::Returns;
 
@@ -38,16 +38,16 @@ pub struct FunctionForm {
     pub ending: NameSuffix,
 }
 
-/// Text after the name of a function.
+/// Text after the name of a function in its notation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum NameSuffix {
     Property,
     Arguments,
-    /// Arguments, of which the last may be repeated.
+    /// Arguments. The last argument may be repeated.
     Repeated,
 }
 
-/// Creates the entry of a function of Rhai. [`BuiltIn::returns`] adds its return value.
+/// Creates the entry of a function of Rhai. The return value is added by [`BuiltIn::returns`].
 pub const fn built_in(
     forms: &'static [&'static str],
     summary: &'static str,
@@ -108,7 +108,7 @@ impl FunctionForm {
         self.receiver.is_some_and(|kind| kind_includes(kind, type_name))
     }
 
-    /// List of the arguments, with optional ones in brackets.
+    /// List of the arguments. Optional arguments are in brackets.
     pub fn listed(&self) -> Vec<String> {
         let inside = self.arguments.trim_matches(['(', ')']).split(", ");
         inside.filter(|name| !name.is_empty()).map(str::to_owned).collect()

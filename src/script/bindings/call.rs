@@ -1,4 +1,4 @@
-//! Native call in progress: its arguments by name, its receiver, its context, and calls of script functions.
+//! Native call in progress: named arguments, receiver, context, and calls of script functions.
 
 use std::ops::Deref;
 
@@ -25,7 +25,7 @@ pub struct Call<'c, 'r> {
     arguments: Arguments,
 }
 
-/// The arguments can be read directly from the call, for example `call.number("dt")`.
+/// Arguments can be read directly from the call, for example `call.number("dt")`.
 impl Deref for Call<'_, '_> {
     type Target = Arguments;
 
@@ -45,7 +45,7 @@ impl<'c, 'r> Call<'c, 'r> {
         Self { row, context, native, receiver, arguments }
     }
 
-    /// State shared by the calls of a run: output folder, mode, checks, progress.
+    /// State shared by all calls of a run: output folder, mode, checks, progress.
     pub fn context(&self) -> &'c Context {
         self.context
     }
@@ -75,7 +75,7 @@ impl<'c, 'r> Call<'c, 'r> {
         Ok(())
     }
 
-    /// Script line of the call, from 1. If the standard library made the call, it is the script line that called the library.
+    /// Script line of the call, counted from 1. For a call by the standard library, it is the script line that called the library.
     pub fn line(&self) -> usize {
         let entered = Sources::of(self.native.engine())
             .entered_at(self.native.global_runtime_state().source());
@@ -102,12 +102,12 @@ impl<'c, 'r> Call<'c, 'r> {
         definition_of(self.native, function)
     }
 
-    /// Syntax tree with only this script function; empty if it is not a function of the running file.
+    /// Syntax tree that contains only this script function; empty if it is not a function of the running file.
     pub fn body(&self, function: &FnPtr) -> AST {
         body_of(self.native, function)
     }
 
-    /// Script function with this name and this number of parameters, including captured variables. It has no captured values.
+    /// Script function with this name and number of parameters, including captured variables. The values of captured variables are missing.
     pub fn function_named(&self, name: &str, parameters: usize) -> Option<FnPtr> {
         let libraries = &self.native.global_runtime_state().lib;
         let found = libraries.iter().find_map(|of| of.get_script_fn(name, parameters).cloned());
@@ -119,7 +119,7 @@ impl<'c, 'r> Call<'c, 'r> {
         self.native.engine()
     }
 
-    /// Rejects a script function that takes another number of arguments. `shape` shows the required form.
+    /// Rejects a script function with a wrong number of arguments. `shape` shows the required form.
     pub fn expect_arguments(
         &self,
         function: &FnPtr,
@@ -149,7 +149,7 @@ impl<'c, 'r> Call<'c, 'r> {
         self.context.proceed()
     }
 
-    /// Converts `value` for a parameter of a script function. `wanted` is the type and the description of allowed values.
+    /// Converts `value` for a parameter of a script function. `wanted` contains the type and the description of allowed values.
     pub fn accept(
         &self,
         owner: &str,
@@ -201,7 +201,7 @@ fn definition_of(native: &NativeCallContext, function: &FnPtr) -> Option<Shared<
     libraries.iter().find_map(defined)
 }
 
-/// Script function with this name and this number of parameters, including captured variables. With `None` the number is arbitrary.
+/// Script function with this name and number of parameters, including captured variables. `None` stands for any number of parameters.
 pub(super) fn defined(
     native: &NativeCallContext,
     name: &str,
@@ -222,18 +222,18 @@ fn body_of(native: &NativeCallContext, function: &FnPtr) -> AST {
     body_named(native, function.fn_name(), parameters)
 }
 
-/// Syntax tree with only the script function of this name and number of parameters, including captured variables. It is empty if there is none.
+/// Syntax tree that contains only the script function with this name and number of parameters, including captured variables. Empty if there is none.
 pub(super) fn body_named(native: &NativeCallContext, name: &str, parameters: usize) -> AST {
     let libraries = &native.global_runtime_state().lib;
     let has = |library: &&Shared<Module>| library.get_script_fn(name, parameters).is_some();
     let library = libraries.iter().find(has).map(|found| AST::new_from_module(found.clone()));
     let mut body = library.unwrap_or_default();
-    // When Rhai clones a syntax tree with a filter, it keeps all functions. Therefore they are removed here.
+    // A clone of a syntax tree with a filter keeps all functions. Therefore the other functions are removed.
     body.retain_functions(|_, _, own, count| own == name && count == parameters);
     body
 }
 
-/// Closure that this call expression creates, without captured values, and the variables that it captures.
+/// Closure created by this call expression, without captured values, and the captured variables.
 pub fn written_within(call: &FnCallExpr) -> Option<(FnPtr, &[Expr])> {
     match call.args.as_slice() {
         [Expr::DynamicConstant(function, _), captured @ ..] if call.name == CAPTURE => {
@@ -243,5 +243,5 @@ pub fn written_within(call: &FnCallExpr) -> Option<(FnPtr, &[Expr])> {
     }
 }
 
-/// Function that Rhai calls to capture variables.
+/// Rhai function that captures variables.
 const CAPTURE: &str = "curry";

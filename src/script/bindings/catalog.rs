@@ -1,4 +1,4 @@
-//! Catalog of the language. It contains all tables, in which messages, help and completion search names.
+//! Catalog of the language: all tables, in which messages, help and completion search names.
 
 use super::built_in::{BuiltIn, BuiltInTable, FunctionForm};
 use super::builtins;
@@ -66,7 +66,7 @@ impl Catalog {
         ValueKind::plain(name).or_else(|| self.type_named(name).map(ValueKind::Object))
     }
 
-    /// Methods and properties that Rhai provides for a type, with their first notation.
+    /// Methods and properties that Rhai provides for a type, with the first notation of each.
     pub fn built_in_members<'a>(
         &self,
         of: &'a str,
@@ -79,17 +79,17 @@ impl Catalog {
         self.tables().flat_map(|table| table.constants).map(|constant| constant.name)
     }
 
-    /// Tables of functions taken from Rhai, in the order of the reference.
+    /// Tables of Rhai functions, in the order of the reference.
     pub fn built_in_tables(&self) -> impl Iterator<Item = &'static BuiltInTable> + use<> {
         self.built_ins.iter().copied()
     }
 
-    /// Functions taken from Rhai.
+    /// Functions of Rhai.
     pub fn built_ins(&self) -> impl Iterator<Item = &'static BuiltIn> + use<> {
         self.built_in_tables().flat_map(|table| table.rows)
     }
 
-    /// Functions taken from Rhai with this name.
+    /// Functions of Rhai with this name.
     pub fn built_ins_named<'a>(
         &self,
         name: &'a str,

@@ -1,20 +1,20 @@
-//! Option maps with alternative sets of keys, of which exactly one is given. For example, a section is given by stiffness and inertia, or by a
-//! material and a shape.
+//! Option maps with alternative sets of keys. Exactly one of the sets must be given.
+//! For example, a section is given by stiffness and inertia, or by a material and a shape.
 
 use super::options::Options;
 use crate::script::messages::error::{CallPart, ScriptError};
 use crate::script::messages::nouns::with_article;
 
-/// Alternative sets of keys of an option map. Each set has a meaning for the code that reads the map.
+/// Alternative sets of keys of an option map. The code that reads the map assigns a meaning to each set.
 pub struct KeySets<T: 'static> {
     pub description: &'static str,
     /// Keys that are allowed with every set.
     pub always_allowed: &'static [&'static str],
-    /// Sets of keys. If several sets have as many given keys, the first one applies.
+    /// Sets of keys. If several sets have the same number of given keys, the first set applies.
     pub sets: &'static [KeySet<T>],
 }
 
-/// Keys that must be given together.
+/// Set of keys that must be given together.
 pub struct KeySet<T> {
     /// Meaning for the code that reads the map.
     pub meaning: T,
@@ -22,7 +22,7 @@ pub struct KeySet<T> {
     pub description: &'static str,
     /// Keys of the set, in the order in which missing keys are reported.
     pub keys: &'static [&'static str],
-    /// Key and text value by which this set is selected; `None` if it is selected by its keys only.
+    /// Key and text value that select this set; `None` if only its keys select it.
     pub chosen_by: Option<(&'static str, &'static str)>,
 }
 
@@ -48,8 +48,8 @@ impl<T: Copy> KeySets<T> {
         }
     }
 
-    /// Returns the set that is selected by a text. If no text selects a set, returns the set of which most keys are given, or the first of several
-    /// such sets.
+    /// Returns the set that is selected by a text.
+    /// If no text selects a set, returns the set with the largest number of given keys. The first of several such sets is returned.
     fn meant(&self, options: &Options) -> Option<&'static KeySet<T>> {
         let is_chosen = |set: &&KeySet<T>| {
             let chosen = set.chosen_by.map(|(key, text)| (options.text(key), text));

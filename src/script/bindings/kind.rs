@@ -19,7 +19,7 @@ pub trait Scripted: Clone + 'static {
     /// Printed form of the value.
     fn show(&self) -> String;
 
-    /// Summary of the value: at most about twelve labels with values.
+    /// Summary of the value: at most about twelve labelled values.
     fn details(&self) -> Details {
         Details::new()
     }
@@ -29,12 +29,12 @@ pub trait Scripted: Clone + 'static {
         None
     }
 
-    /// Set of the parameters on which the value or its scene depends; `None` if it depends on none.
+    /// Set of the parameters on which the value or its scene depends; `None` if there is no dependence.
     fn parameter_set(&self) -> Option<Rc<ParameterSet>> {
         None
     }
 
-    /// Reason why the value is in use; `None` if it is not. A value is in use while a native call that runs a script function works on it.
+    /// Reason why the value is in use; `None` if it is not in use. A value is in use during a native call that runs a script function.
     fn is_busy(&self) -> Option<String> {
         None
     }
@@ -43,7 +43,7 @@ pub trait Scripted: Clone + 'static {
 /// Summary of a script value: labels and values, which are shown as aligned lines.
 pub type Details = Vec<(String, String)>;
 
-/// [`Scripted`] type as a value, so that tables can contain it.
+/// Descriptor of a [`Scripted`] type, for use in tables.
 #[derive(Clone, Copy)]
 pub struct Type {
     name: &'static str,
@@ -101,7 +101,7 @@ impl Type {
         (self.details)(value)
     }
 
-    /// Function that returns the reason why a value of this type is in use, or `None`.
+    /// Function that returns the reason why a value of this type is in use; `None` if it is not in use.
     pub fn busy(&self) -> fn(&Dynamic) -> Option<String> {
         self.busy
     }
@@ -125,35 +125,35 @@ fn register<T: Scripted>(engine: &mut Engine) {
 /// Type of the value of a parameter.
 #[derive(Clone, Copy)]
 pub enum Kind {
-    /// A number; integers are accepted.
+    /// Number; integers are accepted.
     Number(NumberRange),
     /// Any number, including infinity and NaN; integers stay integers.
     Numeric,
-    /// An integer; a number without a fractional part, such as `3.0`, is accepted.
+    /// Integer; a number without a fractional part, such as `3.0`, is accepted.
     Integer(NumberRange),
-    /// A text.
+    /// Text.
     Text,
-    /// A text that is a name: tables can show it and users can type it.
+    /// Text that is a name. Tables can show the name, and users can type it.
     Name,
-    /// One of these texts.
+    /// One of the given texts.
     Choice(&'static [&'static str]),
-    /// `true` or `false`.
+    /// The value `true` or `false`.
     Boolean,
-    /// A vector or an array `[x, y]`.
+    /// Vector or array `[x, y]`.
     Point,
-    /// An array of anything.
+    /// Array of values of any type.
     Array,
-    /// An array of finite numbers.
+    /// Array of finite numbers.
     Numbers,
-    /// An array of points.
+    /// Array of points.
     Points,
-    /// A function or closure.
+    /// Function or closure.
     Function,
-    /// A map of options with these keys.
+    /// Map of options with the given keys.
     Options(&'static [Parameter]),
-    /// A value of this native type.
+    /// Value of the given native type.
     Object(Type),
-    /// A value of one of these types. They are tried in order.
+    /// Value of one of the given types, which are tried in order.
     Either(&'static [Kind]),
     /// Any value.
     Any,
@@ -168,7 +168,7 @@ pub enum NumberRange {
     Positive,
     /// Zero or greater.
     NonNegative,
-    /// From the first to the second number, inclusive.
+    /// Range from the first to the second number, including both.
     Between(f64, f64),
     /// All numbers, including infinity and NaN.
     Unlimited,

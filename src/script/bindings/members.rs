@@ -1,5 +1,5 @@
-//! Methods and properties of values that depend on parameters. They are evaluated in each variant, for the section, curve, vector or number of this
-//! variant.
+//! Methods and properties of values that depend on parameters.
+//! Methods and properties are evaluated in each variant, for the section, curve, vector or number of the variant.
 
 use std::collections::BTreeMap;
 
@@ -40,7 +40,7 @@ impl Use {
 
 /// Registers the methods and properties of all types for values that have variants.
 pub fn install(engine: &mut Engine, catalog: &Catalog, context: &Context) {
-    // For each name and form of call, this map contains the methods of the types, and the function of this name, which accepts any type.
+    // The map contains, for each name and form of call, the methods of all types. It also contains the function of this name, which accepts any type.
     let mut members: BTreeMap<(&'static str, Use), Vec<RegisteredFunction>> = BTreeMap::new();
     for table in catalog.tables() {
         for row in table.rows {

@@ -1,4 +1,4 @@
-//! Typed option maps. One declaration gives the keys, types, units and defaults, and the fields for the values.
+//! Typed option maps. One declaration defines the keys with types, units and defaults, and the fields for the values.
 
 use rhai::{Array, Dynamic, FnPtr};
 
@@ -7,7 +7,7 @@ use super::parameter::Parameter;
 use crate::integrators::Method;
 use crate::script::messages::error::ScriptError;
 
-/// Types that can be read from the value of a key.
+/// Type that can be read from the value of a key.
 pub trait FromOption: Sized {
     /// Reads the value of a key. An omitted key has its default value.
     ///
@@ -62,7 +62,7 @@ held_as_they_are!(FnPtr, Array, Vec<f64>, Method);
 
 /// Declares a struct whose fields are the keys of an option map, in the form `field: Type = parameter`. The parameter contains the help text.
 ///
-/// The keys are in `KEYS`, in the order of the fields. The function `of` reads the struct from checked options.
+/// The constant `KEYS` contains the keys in the order of the fields. The function `of` reads the struct from checked options.
 macro_rules! option_set {
     (
         $(#[$about:meta])*
@@ -99,7 +99,7 @@ macro_rules! option_set {
 
 pub(in crate::script) use option_set;
 
-/// Combines two sets of keys to one set of `N` keys.
+/// Combines two sets of keys to a set of `N` keys.
 pub const fn both<const N: usize>(
     first: &'static [Parameter],
     second: &'static [Parameter],

@@ -1,4 +1,4 @@
-//! Option maps: maps with known keys, each with type, unit, default and range. A misspelt key is an error.
+//! Option maps: maps with known keys. Each key has a type, unit, default and range. A misspelt key is an error.
 
 use std::ops::Deref;
 
@@ -10,7 +10,7 @@ use super::parameter::Parameter;
 use crate::script::messages::error::{CallPart, ScriptError};
 use crate::script::messages::suggest::nearest;
 
-/// Option map whose keys and values have been checked. It is read like arguments, for example `options.number("EA")`.
+/// Option map with checked keys and values. It is read like arguments, for example `options.number("EA")`.
 #[derive(Clone)]
 pub struct Options {
     arguments: Arguments,
@@ -29,7 +29,7 @@ impl Options {
         Self { arguments: Arguments::new(keys, Vec::new()) }
     }
 
-    /// Checks `map` against `keys`. `owner` is the function or option map, which messages name.
+    /// Checks `map` against `keys`. `owner` is the function or option map that messages name.
     pub fn read(
         engine: &Engine,
         owner: &str,
@@ -116,7 +116,7 @@ fn list(keys: &[Parameter]) -> String {
     names.collect::<Vec<_>>().join(", ")
 }
 
-/// Sets the position of an error to the key, unless it is already the position of a key of a nested map.
+/// Sets the position of an error to the key, unless the error already has the position of a key in a nested map.
 fn at_key(error: ScriptError, key: &str) -> ScriptError {
     match error {
         ScriptError::Failure(failure) if failure.place == CallPart::Call => {

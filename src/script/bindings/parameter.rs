@@ -17,7 +17,7 @@ pub struct Parameter {
     pub doc: &'static str,
     /// Requirement and default.
     pub presence: Presence,
-    /// Key of the same map that must be given too; may be empty.
+    /// Key of the same map that must also be given; may be empty.
     pub required_key: &'static str,
 }
 
@@ -38,82 +38,82 @@ pub enum Presence {
     Boolean(bool),
 }
 
-/// Parameter that is a number. It must be finite unless [`Parameter::allow_non_finite`] is called.
+/// Number parameter. The number must be finite unless [`Parameter::allow_non_finite`] is called.
 pub const fn number(name: &'static str) -> Parameter {
     Parameter::new(name, Kind::Number(NumberRange::Finite))
 }
 
-/// Parameter that is any number. Integers are not converted.
+/// Parameter that may be any number. Integers are not converted.
 pub const fn numeric(name: &'static str) -> Parameter {
     Parameter::new(name, Kind::Numeric)
 }
 
-/// Parameter that is an integer.
+/// Integer parameter.
 pub const fn integer(name: &'static str) -> Parameter {
     Parameter::new(name, Kind::Integer(NumberRange::Finite))
 }
 
-/// Parameter that is a text.
+/// Text parameter.
 pub const fn text(name: &'static str) -> Parameter {
     Parameter::new(name, Kind::Text)
 }
 
-/// Parameter that is a name, which tables show.
+/// Name parameter. The name is shown in tables.
 pub const fn name(name: &'static str) -> Parameter {
     Parameter::new(name, Kind::Name)
 }
 
-/// Parameter that is one of several texts.
+/// Parameter with one of several texts.
 pub const fn choice(name: &'static str, allowed: &'static [&'static str]) -> Parameter {
     Parameter::new(name, Kind::Choice(allowed))
 }
 
-/// Parameter that is `true` or `false`.
+/// Boolean parameter.
 pub const fn boolean(name: &'static str) -> Parameter {
     Parameter::new(name, Kind::Boolean)
 }
 
-/// Parameter that is a point or vector, given as a vector or an array `[x, y]`.
+/// Point or vector parameter, given as a vector or an array `[x, y]`.
 pub const fn point(name: &'static str) -> Parameter {
     Parameter::new(name, Kind::Point)
 }
 
-/// Parameter that is an array of anything.
+/// Array parameter with values of any type.
 pub const fn array(name: &'static str) -> Parameter {
     Parameter::new(name, Kind::Array)
 }
 
-/// Parameter that is an array of numbers.
+/// Parameter for an array of numbers.
 pub const fn numbers(name: &'static str) -> Parameter {
     Parameter::new(name, Kind::Numbers)
 }
 
-/// Parameter that is an array of points.
+/// Parameter for an array of points.
 pub const fn points(name: &'static str) -> Parameter {
     Parameter::new(name, Kind::Points)
 }
 
-/// Parameter that is a function or closure.
+/// Parameter for a function or closure.
 pub const fn callback(name: &'static str) -> Parameter {
     Parameter::new(name, Kind::Function)
 }
 
-/// Parameter that is a map of options with these keys.
+/// Parameter for a map of options with the given keys.
 pub const fn options(name: &'static str, keys: &'static [Parameter]) -> Parameter {
     Parameter::new(name, Kind::Options(keys))
 }
 
-/// Parameter that is a value of a native type.
+/// Parameter for a value of a native type.
 pub const fn object(name: &'static str, of: Type) -> Parameter {
     Parameter::new(name, Kind::Object(of))
 }
 
-/// Parameter that is a value of one of several types. They are tried in order.
+/// Parameter for a value of one of several types, which are tried in order.
 pub const fn either(name: &'static str, kinds: &'static [Kind]) -> Parameter {
     Parameter::new(name, Kind::Either(kinds))
 }
 
-/// Parameter that is any value.
+/// Parameter for any value.
 pub const fn of_any_type(name: &'static str) -> Parameter {
     Parameter::new(name, Kind::Any)
 }
@@ -133,12 +133,12 @@ impl Parameter {
         self.within(NumberRange::NonNegative)
     }
 
-    /// Restricts the number to the range from `least` to `most`, ends included.
+    /// Restricts the number to the range from `least` to `most`, including both.
     pub const fn between(self, least: f64, most: f64) -> Self {
         self.within(NumberRange::Between(least, most))
     }
 
-    /// Allows infinity and NaN. This is used for functions that handle such numbers.
+    /// Allows infinity and NaN, for functions that handle such numbers.
     pub const fn allow_non_finite(self) -> Self {
         self.within(NumberRange::Unlimited)
     }
@@ -176,7 +176,7 @@ impl Parameter {
         self
     }
 
-    /// Requires that another key of the same map is given too.
+    /// Requires another key of the same map.
     pub const fn requires_key(mut self, other: &'static str) -> Self {
         self.required_key = other;
         self

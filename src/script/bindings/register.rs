@@ -1,4 +1,4 @@
-//! Registration of bindings in the engine. Every call is made through `perform`, which counts, converts and checks the arguments.
+//! Registration of bindings in the engine. Every call passes through `perform`, which counts, converts and checks the arguments.
 
 use std::any::TypeId;
 
@@ -72,7 +72,7 @@ pub(super) fn with_receiver(of: Type, count: usize) -> Vec<TypeId> {
     std::iter::once(of.id()).chain(std::iter::repeat_n(TypeId::of::<Dynamic>(), count)).collect()
 }
 
-/// Exact argument types of a function that takes only numbers. It then takes precedence over a function of Rhai with the same name.
+/// Exact argument types of a function with only number parameters. With exact types it takes precedence over a function of Rhai with the same name.
 fn numbers_only(parameters: &[Parameter]) -> Vec<Vec<TypeId>> {
     let numeric = |parameter: &Parameter| matches!(parameter.kind, Kind::Number(_) | Kind::Numeric);
     match parameters.iter().all(numeric) {
@@ -81,7 +81,7 @@ fn numbers_only(parameters: &[Parameter]) -> Vec<Vec<TypeId>> {
     }
 }
 
-/// All combinations of exact operand types of an operator. Combinations of built-in types are left to the engine.
+/// All combinations of exact operand types of an operator. The engine handles combinations of built-in types.
 fn operand_types(operands: &[Parameter]) -> Vec<Vec<TypeId>> {
     let built_in = [
         TypeId::of::<f64>(),
@@ -153,7 +153,7 @@ fn add(engine: &mut Engine, name: String, types: Vec<TypeId>, binding: Registere
 /// Calls a binding with its arguments and, for a method or property, its receiver.
 ///
 /// # Errors
-/// Errors of the binding, or errors of invalid arguments.
+/// Fails if the binding fails, or if an argument is invalid.
 pub(super) fn perform(
     binding: &RegisteredFunction,
     native: &NativeCallContext,
@@ -179,7 +179,7 @@ fn called(
         (Some(_), [receiver, given @ ..]) => (Some(&mut **receiver), given),
         (_, given) => (None, given),
     };
-    // The values are cloned, because the first one may be a variable of the script.
+    // The values are cloned, because the first value may be a variable of the script.
     let given = given.iter().map(|value| (**value).clone().flatten());
     if !ParameterSet::is_any() {
         return make(binding, native, receiver, given);
@@ -224,7 +224,7 @@ pub const CONTROLLER_HINT: &str = "a load is a function of time; for a load that
     variable that is set between steps: let u = 0.0; scene.force(station, [1, 0], |t| u); then \
     u = … before each sim.step()";
 
-/// Rejects values that are in use by the native call that runs this script function. Arrays are searched.
+/// Rejects values that are in use by the native call that runs this script function. The check includes elements of arrays.
 fn refuse_busy(
     row: &FunctionBinding,
     context: &Context,

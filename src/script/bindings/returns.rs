@@ -11,18 +11,18 @@ pub enum ValueKind {
     Any,
     Number,
     Integer,
-    /// `true` or `false`.
+    /// The value `true` or `false`.
     Boolean,
     Text,
     Character,
     Function,
-    /// A time of the clock.
+    /// Time of the clock.
     Timestamp,
     Range,
     Map,
     Array(&'static ValueKind),
     Object(Type),
-    /// A value of one of these types, the most likely one first.
+    /// Value of one of the given types. The most likely type comes first.
     OneOf(&'static [ValueKind]),
 }
 
@@ -104,7 +104,7 @@ impl fmt::Display for ValueKind {
 #[derive(Clone, Copy)]
 pub struct Returns {
     pub kind: ValueKind,
-    /// Dimension, such as `force`. It is `-` for a dimensionless number, and empty for a type without dimension.
+    /// Dimension, such as `force`; `-` for a dimensionless number; empty for a type without dimension.
     unit: &'static str,
     /// Description that replaces the description of the type; may be empty.
     description: &'static str,
@@ -117,7 +117,7 @@ impl Returns {
     pub const ANYTHING: Self = Self::of(ValueKind::Any);
     pub const NUMBER: Self = Self::of(ValueKind::Number);
     pub const INTEGER: Self = Self::of(ValueKind::Integer);
-    /// `true` or `false`.
+    /// The value `true` or `false`.
     pub const BOOLEAN: Self = Self::of(ValueKind::Boolean);
     pub const TEXT: Self = Self::of(ValueKind::Text);
     pub const CHARACTER: Self = Self::of(ValueKind::Character);
@@ -140,7 +140,7 @@ impl Returns {
         Self::of(ValueKind::Array(element))
     }
 
-    /// A value of one of several types, the most likely one first.
+    /// Value of one of several types. The most likely type comes first.
     pub const fn one_of(kinds: &'static [ValueKind]) -> Self {
         Self::of(ValueKind::OneOf(kinds))
     }

@@ -1,5 +1,5 @@
-//! Source files of script functions, and script lines from which the library is called. The engine does not know the file when native code calls
-//! closures of modules, and it provides the lines of calls only in errors.
+//! Source files of script functions, and script lines that call the library.
+//! The engine does not know the file when native code calls closures of modules. It provides the lines of calls only in errors.
 
 use std::cell::{Cell, RefCell};
 use std::collections::{BTreeMap, HashMap, HashSet};
@@ -11,12 +11,12 @@ use super::catalog::Catalog;
 use crate::script::messages::stop::Stop;
 use crate::script::source::syntax::TokenReader;
 
-/// Prefix of the names of library modules. Files in the folder of a script never have such a name.
+/// Prefix of the names of library modules. Files in the folder of a script never have names with this prefix.
 pub const FOLDER: &str = "std/";
 
-/// Source files of all script functions and closures that an engine has compiled, and the script line that called the standard library.
+/// Source files of all script functions and closures compiled by an engine, and the script line that called the standard library.
 ///
-/// The engine stores this object as its default tag.
+/// The engine stores the source files as its default tag.
 #[derive(Clone, Default)]
 pub struct Sources {
     functions: Rc<RefCell<HashMap<String, HashSet<String>>>>,
@@ -26,7 +26,7 @@ pub struct Sources {
     reader: TokenReader,
 }
 
-/// Guard that marks a call into the library as long as it exists.
+/// Guard that marks a call into the library during its lifetime.
 pub struct LibraryCallGuard {
     line: Rc<Cell<Option<usize>>>,
     before: Option<usize>,
@@ -61,7 +61,7 @@ impl Sources {
         self.reader.begin();
     }
 
-    /// Calls `work`, in which parsing cannot be stopped. It is used for texts that have been parsed before.
+    /// Calls `work` while parsing cannot be stopped. Used for texts that have been parsed before.
     pub fn undisturbed<T>(&self, work: impl FnOnce() -> T) -> T {
         self.reader.undisturbed(work)
     }
@@ -91,7 +91,7 @@ impl Sources {
         }
     }
 
-    /// File that contains the function `name`. It is `claimed` if this file contains the function, and `None` for native functions.
+    /// File of the function `name`: `claimed` if this file contains the function, and `None` for native functions.
     pub fn find(&self, name: &str, claimed: &str) -> Option<String> {
         let known = self.functions.borrow();
         if known.is_empty() {
@@ -104,8 +104,8 @@ impl Sources {
         }
     }
 
-    /// Marks a call into the library from a line of the file `caller`, until the guard is dropped. Within nested library calls, the outermost line
-    /// is kept.
+    /// Marks a call into the library from a line of the file `caller`, until the guard is dropped.
+    /// Within nested library calls, the outermost line is kept.
     pub fn enter_library(&self, caller: Option<&str>, line: Option<usize>) -> LibraryCallGuard {
         let before = self.line.get();
         if !is_library(caller) {
@@ -114,7 +114,7 @@ impl Sources {
         LibraryCallGuard { line: self.line.clone(), before }
     }
 
-    /// Script line from which the library was called; `None` if the running code does not belong to the library.
+    /// Script line that called the library; `None` if the running code does not belong to the library.
     pub fn entered_at(&self, running: Option<&str>) -> Option<usize> {
         self.line.get().filter(|_| is_library(running))
     }

@@ -1,4 +1,4 @@
-//! Script functions that are stored for later calls.
+//! Script functions stored for later calls.
 
 use rhai::{Dynamic, EvalAltResult, FnPtr, GlobalRuntimeState, NativeCallContext, Position};
 
@@ -6,10 +6,10 @@ use crate::script::messages::error::BUG;
 use crate::script::messages::numbers::{as_number, describe};
 use crate::script::state::context::Context;
 
-/// Script function with its environment, which are the functions, imports and constants of its file.
+/// Script function with its environment: the functions, imports and constants of its file.
 ///
-/// A function pointer of Rhai 1.27 contains only a name and captured values. The reference to the engine is weak, because the engine indirectly
-/// owns this function through the scenes of the script.
+/// A function pointer of Rhai 1.27 contains only a name and captured values.
+/// The reference to the engine is weak, because the engine indirectly owns this function through the scenes of the script.
 pub struct StoredFunction {
     function: FnPtr,
     surroundings: GlobalRuntimeState,
@@ -28,10 +28,10 @@ impl StoredFunction {
         Self { function, surroundings, context: context.clone(), role }
     }
 
-    /// Calls the function. Call depth and position of errors are those of the native call that is running.
+    /// Calls the function. The call depth and error position are those of the running native call.
     ///
     /// # Errors
-    /// Errors of the script, or an error if the run was stopped.
+    /// Fails if the script fails, or if the run was stopped.
     pub fn call(&self, arguments: impl AsMut<[Dynamic]>) -> Result<Dynamic, Box<EvalAltResult>> {
         self.context.proceed().map_err(|error| error.into_engine(Position::NONE))?;
         let Some(engine) = self.context.engine() else {

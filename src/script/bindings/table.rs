@@ -1,8 +1,8 @@
 //! Table that declares a domain of the language. It contains one binding for each name that scripts can use.
 //!
-//! Registration, argument checks, error messages with suggestions, help, definition files and the language reference are all derived from these
-//! bindings. To add a domain, write `pub const TABLE: BindingTable` in a new file of [`packages`](crate::script::packages) and add it to the list
-//! in this module.
+//! Registration, argument checks, error messages with suggestions, help, definition files and the language reference are derived from these bindings.
+//! To add a domain, write `pub const TABLE: BindingTable` in a new file of [`packages`](crate::script::packages).
+//! Add the table to the list in that module.
 
 use rhai::Dynamic;
 
@@ -13,7 +13,7 @@ use super::parameter_variants::NonsmoothCheck;
 use super::returns::Returns;
 use crate::script::messages::error::ScriptError;
 
-/// Native function of a binding. Its arguments are counted, converted and range-checked before it is called.
+/// Native function of a binding. Its arguments are counted, converted and range-checked before the call.
 pub type NativeFunction = fn(&mut Call<'_, '_>) -> Result<Dynamic, ScriptError>;
 
 /// Table of all types, constants and functions of a domain.
@@ -42,16 +42,16 @@ pub struct Constant {
     pub summary: &'static str,
 }
 
-/// Notation in which a binding is called.
+/// Notation of a call.
 #[derive(Clone, Copy)]
 pub enum CallSyntax {
-    /// `name(a, b)`, or with the same meaning `a.name(b)`.
+    /// Function call `name(a, b)`, or with the same meaning `a.name(b)`.
     Function,
-    /// `receiver.name(a, b)`, where the receiver has this type.
+    /// Method call `receiver.name(a, b)`. The receiver has this type.
     Method(Type),
-    /// `receiver.name`, and if there is a setter `receiver.name = value`.
+    /// Property `receiver.name` of this type. With a setter, also `receiver.name = value`.
     Property(Type),
-    /// `a + b`.
+    /// Operator, as in `a + b`.
     Operator,
 }
 
@@ -77,7 +77,7 @@ pub struct FunctionBinding {
     pub name: &'static str,
     /// Notation.
     pub form: CallSyntax,
-    /// Parameters; optional ones come last.
+    /// Parameters. Optional parameters come last.
     pub parameters: &'static [Parameter],
     /// Return value.
     pub returns: Returns,
@@ -130,7 +130,7 @@ pub const fn property(of: Type, name: &'static str, body: NativeFunction) -> Fun
     FunctionBinding::new(name, CallSyntax::Property(of), &[], body)
 }
 
-/// Binding of an operator on two values. At least one of them must have a native type.
+/// Binding of an operator on two values. At least one of the values must have a native type.
 pub const fn operator(
     symbol: &'static str,
     operands: &'static [Parameter],

@@ -5,8 +5,7 @@ use rhai::{Array, Dynamic, FnPtr, Map};
 use super::kind::{Kind, NumberRange};
 use crate::script::messages::numbers::{as_number, format_number};
 
-/// Hint for a `value` that was given for a parameter of type `kind`; `None` if the mistake is not a known one. `given` is the type name of the
-/// value.
+/// Hint for a `value` of a wrong type for a parameter of type `kind`; `None` if the mistake is unknown. `given` is the type name of the value.
 pub fn hint(kind: &Kind, value: &Dynamic, given: &str) -> Option<String> {
     match kind {
         Kind::Number(_) if is_infinite_or_nan(value) => {
@@ -49,7 +48,7 @@ pub fn hint(kind: &Kind, value: &Dynamic, given: &str) -> Option<String> {
             })
         }
         Kind::Object(of) => of_object(of.name(), value, given).map(str::to_owned),
-        // A number outside the range does not have a wrong type.
+        // A number outside its range does not have a wrong type.
         Kind::Either(kinds) if as_number(value).is_some() && kinds.iter().any(is_number) => {
             kinds.iter().filter(|kind| is_number(kind)).find_map(|kind| hint(kind, value, given))
         }

@@ -276,7 +276,7 @@ impl UnknownName<'_> {
         self.catalog.built_ins().filter(move |known| known.is_of(of)).map(BuiltIn::name)
     }
 
-    /// Text before the dot at this position; empty unless it is a name, a number or an expression in parentheses.
+    /// Text before the dot at this position; empty unless the text is a name, a number or an expression in parentheses.
     fn before_dot(&self, at: Position) -> &str {
         let (Some(line), Some(column)) = (at.line(), at.position()) else { return "…" };
         let before = self.program.text[..self.program.offset(line, column)].trim_end();
@@ -302,7 +302,7 @@ fn forms(built_ins: &[&BuiltIn]) -> String {
     forms.join(" or ")
 }
 
-/// Hint that a library module has a function of this name; `None` if no module has one.
+/// Hint that a library module has a function of this name; `None` if no module has such a function.
 pub fn of_library(name: &str) -> Option<String> {
     let mut found = pages().iter().filter_map(|page| Some((page, page.named(name)?)));
     let (page, function) = found.next()?;

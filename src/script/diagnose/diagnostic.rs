@@ -1,4 +1,4 @@
-//! Error in the form that is shown to the user: message, hint, location, and call trace.
+//! Error as shown to the user: message, hint, location, and call trace.
 
 use std::fmt;
 use std::sync::Arc;
@@ -7,7 +7,7 @@ use super::render::Colours;
 use crate::script::messages::brief::brief;
 use crate::script::source::program::{Program, Unreadable};
 
-/// Error in the form that is shown to the user.
+/// Error as shown to the user.
 #[derive(Clone, Debug)]
 pub struct Diagnostic {
     /// Error message.
@@ -16,7 +16,7 @@ pub struct Diagnostic {
     pub hint: Option<String>,
     /// Location in a script; `None` if there is none.
     pub location: Option<Location>,
-    /// Calls of script functions that led to the error, the innermost call first.
+    /// Calls of script functions that led to the error. The innermost call comes first.
     pub trace: Vec<CallFrame>,
     /// Origin of the error.
     pub blame: Blame,
@@ -25,9 +25,9 @@ pub struct Diagnostic {
 /// Origin of an error.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Blame {
-    /// An error in the script or its use.
+    /// Error in the script or its use.
     User,
-    /// An internal error of the program.
+    /// Internal error of the program.
     Program,
 }
 
@@ -36,9 +36,9 @@ pub enum Blame {
 pub struct Location {
     /// Script.
     pub program: Arc<Program>,
-    /// Line, from 1.
+    /// Line, counted from 1.
     pub line: usize,
-    /// First column, in characters from 1.
+    /// First column in characters, counted from 1.
     pub column: usize,
     /// Length in characters.
     pub length: usize,
@@ -58,13 +58,13 @@ pub struct CallFrame {
 /// Function that was called in a frame of the trace.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Callee {
-    /// A named function.
+    /// Named function.
     Function(String),
-    /// A closure.
+    /// Closure.
     Closure,
-    /// An imported file.
+    /// Imported file.
     File(String),
-    /// No call: the frame shows the line of the standard library at which the error occurred.
+    /// No call. The frame shows the line of the standard library at which the error occurred.
     Library,
 }
 
@@ -97,7 +97,7 @@ impl Diagnostic {
         self
     }
 
-    /// Message and location in one line, for tables.
+    /// Message and location on one line, for tables.
     pub fn line(&self) -> String {
         let message = self.message.split_whitespace().collect::<Vec<_>>().join(" ");
         match self.location.as_ref().filter(|at| !at.program.name.is_empty()) {

@@ -1,4 +1,4 @@
-//! Errors of values: wrong type, index out of range, too large.
+//! Errors of values, for example a wrong type, an index out of range, or a value that is too large.
 
 use crate::script::messages::nouns::{type_word, with_article};
 

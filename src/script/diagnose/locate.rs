@@ -1,4 +1,4 @@
-//! Locations to be underlined, computed from positions that the engine reports.
+//! Computation of underlined locations from positions reported by the engine.
 
 use std::sync::Arc;
 
@@ -24,7 +24,7 @@ pub fn text_before(program: &Program, position: Position) -> &str {
     &program.text[..end]
 }
 
-/// Location of the end of `text`, which is a prefix of the script. It is used for errors about missing tokens.
+/// Location of the end of `text`, which is a prefix of the script. Used for errors about missing tokens.
 pub fn end_of(program: &Program, text: &str) -> Location {
     let text = text.trim_end();
     let line = text.lines().count().max(1);
@@ -32,7 +32,7 @@ pub fn end_of(program: &Program, text: &str) -> Location {
     location(program, line, column, 1)
 }
 
-/// Location of the part of a call to which an error refers. If this part cannot be found, it is the name of the function.
+/// Location of the part of a call to which an error refers. If this part is not found, the location of the function name is returned.
 pub fn part_of_call(
     program: &Program,
     catalog: &Catalog,
@@ -116,8 +116,8 @@ fn argument(program: &Program, call: &[Lexeme], number: usize) -> Option<Locatio
     None
 }
 
-/// Returns the location of an argument from `start` to the separator at `end`, without trailing blanks. If the argument has several lines, the
-/// location is only its first token.
+/// Location of an argument from `start` to the separator at `end`, without trailing blanks.
+/// If the argument has several lines, the location of its first token is returned.
 fn span(program: &Program, start: Position, end: Position) -> Option<Location> {
     let (line, column) = (start.line()?, start.position()?);
     if end.line()? != line {

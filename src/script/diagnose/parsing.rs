@@ -1,4 +1,4 @@
-//! Syntax errors in plain language.
+//! Messages for syntax errors in plain language.
 
 use rhai::{Engine, LexError, ParseErrorType};
 

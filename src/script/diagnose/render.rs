@@ -12,12 +12,12 @@ pub use crate::output::Colours;
 use crate::output::{columns, printable};
 
 impl Diagnostic {
-    /// Text of the error. It ends with a newline.
+    /// Text of the error with a final newline.
     pub fn render(&self, colours: Colours) -> String {
         self.render_within(colours, usize::MAX)
     }
 
-    /// Text of the error with the hint wrapped at `width` columns. Otherwise a terminal would break the hint within words.
+    /// Text of the error with the hint wrapped at `width` columns. Without wrapping, a terminal would break the hint within words.
     pub fn render_within(&self, colours: Colours, width: usize) -> String {
         let drawing = match self.blame {
             Blame::User => Drawing::error(),
@@ -60,11 +60,11 @@ impl Diagnostic {
     }
 }
 
-/// Largest length of a line that is shown [characters]. For longer lines the location is described instead.
+/// Largest length of a displayed source line [characters]. For longer lines, the location is described instead.
 const LONGEST_DRAWN: usize = 1000;
 const LONGEST_EXCERPT: usize = 60;
 
-/// Number of columns before the hint, which are `  = help: `.
+/// Number of columns before the hint, that is, the length of `  = help: `.
 const BESIDE_HINT: usize = 10;
 
 const NARROWEST: usize = 30;
@@ -138,7 +138,7 @@ impl Location {
         format!("at {}:{}:{}, in a long line: {there} …", self.program.name, self.line, self.column)
     }
 
-    /// Byte range of the location in a text that has as many characters as the script but may have more bytes.
+    /// Byte range of the location in another text with the same number of characters as the script.
     fn bytes_in(&self, text: &str) -> Range<usize> {
         let bytes = self.bytes();
         let characters = |end: usize| self.program.text[..end].chars().count();

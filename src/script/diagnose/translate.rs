@@ -1,4 +1,4 @@
-//! Translation of errors of the engine to the form that is shown to the user.
+//! Translation of engine errors to the form shown to the user.
 
 use std::path::Path;
 
@@ -23,7 +23,7 @@ use crate::script::messages::suggest::nearest;
 use crate::script::source::outline::ScriptOutline;
 use crate::script::source::program::Program;
 
-/// Translator of errors of the engine.
+/// Translator of engine errors.
 pub struct Explainer<'a> {
     /// Script that was run.
     pub program: &'a Program,
@@ -45,7 +45,7 @@ struct Unwrapped<'e> {
 
 type Diagnosis = (String, Option<String>);
 
-/// Returns true if the run was stopped from outside and not by a limit. The error may be nested in calls.
+/// Returns true if the run was stopped from outside, not by a limit. The error may be nested in calls.
 pub fn is_interrupt(error: &EvalAltResult) -> bool {
     match error.unwrap_inner() {
         EvalAltResult::ErrorTerminated(stop, _) => {
@@ -55,7 +55,7 @@ pub fn is_interrupt(error: &EvalAltResult) -> bool {
     }
 }
 
-/// Returns true if a dry run ended because the script waits for a result that only a real run computes.
+/// Returns true if a dry run ended because the script waits for a result of a real run.
 pub fn is_waiting(error: &EvalAltResult) -> bool {
     match error.unwrap_inner() {
         EvalAltResult::ErrorTerminated(stop, _) => matches!(Stop::of_token(stop), Stop::Waiting),
@@ -67,7 +67,7 @@ const PLAIN: &str =
     "value_of(x) is the number without its derivatives; int(x) and round(x) are whole numbers";
 
 impl Explainer<'_> {
-    /// Translates `error` to the form that is shown to the user.
+    /// Translates `error` to the form shown to the user.
     pub fn explain(&self, error: &EvalAltResult) -> Diagnostic {
         let Unwrapped { inner, program, mut trace, called_at, library_called_at } =
             self.unwrap(error);
@@ -104,7 +104,7 @@ impl Explainer<'_> {
                 EvalAltResult::ErrorRuntime(payload, _) => payload.read_lock::<Failure>(),
                 _ => None,
             };
-            // If the library passes an option on, the key of the option occurs in the user's call too. Positions of arguments, however, may differ.
+            // If the library passes an option on, the user's call also contains the key of the option. Positions of arguments may differ.
             let place = match place.map(|failure| failure.place.clone()) {
                 Some(CallPart::Key(key)) => CallPart::Key(key),
                 _ => CallPart::Call,
@@ -334,7 +334,7 @@ fn source(program: &Program, named: &str) -> Program {
     if let Some(Ok(module)) = library::find(named) {
         return module.program();
     }
-    // If the file does not exist any more, the error is reported without source lines.
+    // If the file no longer exists, the error is reported without source lines.
     Program::load(Path::new(named)).unwrap_or_else(|_| Program {
         name: named.into(),
         text: "".into(),

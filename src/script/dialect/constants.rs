@@ -9,14 +9,14 @@ use crate::script::bindings::catalog::Catalog;
 
 /// Makes the constants of `catalog` visible in scripts.
 ///
-/// The constants are provided by a variable resolver, because closures capture variables only and would not see constants of a module.
+/// The constants are provided by a variable resolver, because closures capture only variables and would not see constants of a module.
 #[expect(deprecated, reason = "so marked as it may change; the version of Rhai is fixed")]
 pub fn install(engine: &mut Engine, catalog: &Catalog) {
     let all = catalog.tables().flat_map(|table| table.constants);
     let values: HashMap<&str, Dynamic> =
         all.map(|constant| (constant.name, constant.value.into())).collect();
     engine.on_var(move |name, place, context| {
-        // Index of a variable that the parser has found, counted backwards from the last variable.
+        // Index of a variable found by the parser, counted backwards from the last variable.
         let own = match place.checked_sub(1) {
             Some(place) => context.scope().iter_raw().nth(place).map(|(_, _, value)| value),
             None => context.scope().get(name),

@@ -32,7 +32,7 @@ impl OnNumbers {
     }
 }
 
-/// Registers the operators under the names that they have in the language.
+/// Registers the operators under their names in the language.
 pub fn install(engine: &mut Engine) {
     let arithmetic: [(String, OnNumbers); 5] = [
         ("+".into(), OnNumbers::smooth(|x, y| x + y)),
@@ -61,7 +61,7 @@ pub fn install(engine: &mut Engine) {
     engine.register_raw_fn("+", varied, |_, operands| -> EngineResult<Dynamic> {
         Ok(operands[0].clone())
     });
-    // The values of all variants are floats already.
+    // The values of all variants are already floats.
     engine.register_fn("to_float", |number: VariantValue| number);
     for name in ["to_int", "sign", "is_zero", "is_even", "is_odd"] {
         engine.register_raw_fn(name, varied, move |context: NativeCallContext, operands| {

@@ -1,5 +1,6 @@
-//! Methods of arrays and maps that call a function. They differ from the methods of Rhai in two points: a result that is not a boolean is an error
-//! instead of false, and `for_each` passes the element and not the index to its function.
+//! Methods of arrays and maps that call a function.
+//! Two differences from the methods of Rhai: a result that is not a boolean is an error instead of false.
+//! The method `for_each` passes the element instead of the index to its function.
 
 use std::any::TypeId;
 use std::cell::Cell;
@@ -9,7 +10,7 @@ use rhai::{Array, Dynamic, Engine, EvalAltResult, FnPtr, INT, Map, NativeCallCon
 use crate::script::messages::error::{EngineResult, ScriptError};
 use crate::script::messages::numbers::describe;
 
-/// Registers the methods of arrays and maps that call a function for each element. They have the same names as in Rhai.
+/// Registers the methods of arrays and maps that call a function for each element. Their names are those of Rhai.
 pub fn install(engine: &mut Engine) {
     install_searches(engine);
     install_sieves(engine);
@@ -156,7 +157,7 @@ fn array_and_test(values: &[&mut Dynamic]) -> EngineResult<(Array, FnPtr)> {
 }
 
 fn function_of(values: &[&mut Dynamic]) -> EngineResult<FnPtr> {
-    // The engine calls the registered functions only with an array or map that is followed by a function.
+    // The engine calls the registered functions only with an array or map followed by a function.
     let function = values.get(1).and_then(|function| (**function).clone().try_cast::<FnPtr>());
     function.ok_or_else(|| {
         ScriptError::internal_error("a test is no function").into_engine(Position::NONE)
@@ -167,7 +168,7 @@ fn function_of(values: &[&mut Dynamic]) -> EngineResult<FnPtr> {
 enum CallbackArguments {
     Element,
     ElementAndIndex,
-    /// The function takes no argument. The element is `this` in it.
+    /// The function has no parameter. It reads the element from `this`.
     ElementAsThis,
 }
 
@@ -182,7 +183,7 @@ impl<'a> ElementCallback<'a> {
         Self { native, function, given: Cell::new(None) }
     }
 
-    /// Calls the function for an element. The first call determines how many arguments the function takes.
+    /// Calls the function for an element. The first call determines the number of arguments of the function.
     fn call_function(&self, index: usize, element: &mut Dynamic) -> EngineResult<Dynamic> {
         if let Some(given) = self.given.get() {
             return self.call(given, index, element);

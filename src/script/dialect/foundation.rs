@@ -1,8 +1,8 @@
-//! Packages of Rhai that are part of the language, and functions of Rhai that are not.
+//! Packages of Rhai that belong to the language, and functions of Rhai that are rejected.
 //!
-//! The language does not contain byte arrays, bit fields, reflection, tags, `take` and the JSON parser of Rhai, nor `sleep`, which cannot be
-//! interrupted. Users may expect functions that Rhai does not have or defines in a surprising way. A call of such a function is an error with a
-//! suggestion.
+//! The language does not contain byte arrays, bit fields, reflection, tags, `take` and the JSON parser of Rhai.
+//! The language does not contain `sleep` either, because it cannot be interrupted.
+//! Users may expect functions that Rhai lacks or defines in a surprising way. A call of such a function is an error with a suggestion.
 
 use std::any::TypeId;
 
@@ -20,23 +20,23 @@ rhai::def_package! {
         BasicMathPackage, BasicStringPackage, BasicTimePackage, LogicPackage, MoreStringPackage {}
 }
 
-/// Fixed seed of the hashes in Rhai. The names of closures (`anon$…`), which scripts can print, contain such hashes. Without a fixed seed they
-/// would differ from process to process.
+/// Fixed seed of the hashes in Rhai. The names of closures (`anon$…`), which scripts can print, contain such hashes.
+/// Without a fixed seed, the names of closures would differ from process to process.
 const SEED: [u64; 4] =
     [0x7769_7468_7920_0001, 0x7769_7468_7920_0002, 0x7769_7468_7920_0003, 0x7769_7468_7920_0004];
 
 const TEXTS_SHARED: usize = 256;
 
-/// Function of Rhai that is not available in the language.
+/// Function that is not available in the language.
 pub struct Refused {
     pub name: &'static str,
-    /// Numbers of arguments with which the function can be called.
+    /// Possible numbers of arguments of the function.
     pub counts: &'static [usize],
     pub reason: &'static str,
     pub instead: &'static str,
 }
 
-/// All functions of Rhai that are not available in the language.
+/// All functions that are not available in the language.
 pub const REFUSED: &[Refused] = &[
     Refused {
         name: "exit",
@@ -97,12 +97,12 @@ pub const REFUSED: &[Refused] = &[
 
 /// Creates an engine with the selected packages of Rhai and nothing else.
 pub fn engine() -> Engine {
-    // The seed can be set only once per process. For later engines it is set already.
+    // The seed can be set only once per process. For later engines, it is already set.
     let _ = rhai::config::hashing::set_hashing_seed(Some(SEED));
     let mut engine = Engine::new_raw();
     engine.set_max_strings_interned(TEXTS_SHARED);
     engine.register_global_module(FromRhai::new().as_shared_module());
-    // Code that is evaluated from strings has no line numbers, and no script needs it.
+    // Code evaluated from strings has no line numbers, and no script needs it.
     engine.disable_symbol("eval");
     for refused in REFUSED {
         for count in refused.counts {
@@ -113,7 +113,7 @@ pub fn engine() -> Engine {
 }
 
 fn refuse(engine: &mut Engine, refused: &'static Refused, count: usize) {
-    // Rhai defines some of these functions for exact types. They would take precedence over functions for any type.
+    // Rhai defines some of the rejected functions for exact types, which would take precedence over functions for any type.
     let mut types =
         vec![TypeId::of::<Dynamic>(), TypeId::of::<f64>(), TypeId::of::<ImmutableString>()];
     if count == 0 {

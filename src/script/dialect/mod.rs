@@ -1,4 +1,4 @@
-//! Adaptation of Rhai to the language of withy: parsing, operators, arrays, constants, and functions that are not available.
+//! Adaptation of Rhai to the language of withy: parsing, operators, arrays, constants, and unavailable functions.
 
 pub mod constants;
 pub mod derivatives;

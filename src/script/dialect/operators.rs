@@ -1,11 +1,11 @@
 //! Arithmetic and comparison of numbers as in scientific languages: implementation of the operators of [`syntax`](crate::script::source::syntax).
 //!
-//! Comparisons follow IEEE 754, also between integers and floats. Division never truncates. A power of integers with a non-negative exponent is an
-//! integer, and integer overflow is an error. Other types keep the operators of the engine, with one exception: an order comparison of values of
-//! different types is an error and not `false`.
+//! Comparisons follow IEEE 754, also between integers and floats. Division never truncates.
+//! A power of integers with a non-negative exponent is an integer, and integer overflow is an error.
+//! Other types keep the operators of the engine, with one exception: an order comparison of values of different types is an error instead of `false`.
 //!
-//! Two restrictions of the engine remain. `switch` also compares the number type, so `3.0` does not match `case 3`. A minus sign has precedence
-//! over a power, so `-x^2` is an error.
+//! Two restrictions of the engine remain. `switch` also compares the number type, so `3.0` does not match `case 3`.
+//! A minus sign has precedence over a power, so `-x^2` is an error.
 
 use std::any::TypeId;
 use std::cmp::Ordering;
@@ -48,7 +48,7 @@ pub fn install(engine: &mut Engine) {
     register_assignment(engine, ">>=", format!("{OWN}>>"));
 }
 
-/// Operator as it is written in scripts. For example, `num<` is `<`, and `num^3` is `^`.
+/// Operator in the notation of scripts. For example, `num<` is `<`, and `num^3` is `^`.
 pub fn written(operator: &str) -> &str {
     match operator.strip_prefix(OWN) {
         Some(power) if power.starts_with('^') => "^",
@@ -64,7 +64,7 @@ pub fn written(operator: &str) -> &str {
 
 /// Registers a comparison of numbers. The argument of `holds` is `None` if a number is NaN, which has no order.
 fn register_comparison(engine: &mut Engine, symbol: &str, holds: fn(Option<Ordering>) -> bool) {
-    // The operator is also registered under the engine's name, which arrays use to compare and search elements.
+    // The operator is also registered under the name of the engine, which arrays use to compare and search elements.
     for name in [symbol.to_owned(), format!("{OWN}{symbol}")] {
         engine.register_fn(&name, move |x: f64, y: f64| holds(x.partial_cmp(&y)));
         engine.register_fn(&name, move |m: INT, n: INT| holds(Some(m.cmp(&n))));
@@ -75,7 +75,7 @@ fn register_comparison(engine: &mut Engine, symbol: &str, holds: fn(Option<Order
 
 /// Exact order of an integer and a float.
 fn order(whole: INT, x: f64) -> Option<Ordering> {
-    /// Smallest float above all integers, 2^63.
+    /// Smallest float above all integers: 2^63.
     const BEYOND: f64 = 9_223_372_036_854_775_808.0;
     if x >= BEYOND {
         return Some(Ordering::Less);
@@ -83,7 +83,7 @@ fn order(whole: INT, x: f64) -> Option<Ordering> {
     if x < -BEYOND {
         return Some(Ordering::Greater);
     }
-    // NaN has no order.
+    // NaN has no order, so the result is `None`.
     let rest = (x - x.trunc()).partial_cmp(&0.0)?.reverse();
     Some(whole.cmp(&(x.trunc() as INT)).then(rest))
 }
@@ -119,7 +119,7 @@ fn whole_power(base: INT, exponent: INT) -> EngineResult<Dynamic> {
     })
 }
 
-/// Result of `number << places`. It is an error if bits are lost.
+/// Result of `number << places`. A loss of bits is an error.
 fn shifted_up(number: INT, places: INT) -> EngineResult<INT> {
     let shifted = number << shift(places)?;
     match shifted >> places == number {

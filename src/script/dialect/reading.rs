@@ -1,4 +1,4 @@
-//! Parsing of scripts. All texts are parsed by this module.
+//! Parsing of scripts. This module parses all script texts.
 //!
 //! Rhai stores lines and columns in 16 bits. Powers, loops and errors are identified by their position, so larger texts are rejected.
 
@@ -9,10 +9,10 @@ use crate::script::messages::error::ScriptError;
 use crate::script::source::syntax::mark;
 use crate::script::source::text::Source;
 
-/// Maximum number of lines of a source, and of characters in a line. It is slightly below the limit of Rhai.
+/// Maximum number of lines of a source, and maximum number of characters in a line. It is slightly below the limit of Rhai.
 pub const MOST: usize = 65_000;
 
-/// Parses `source` as if it followed `lines_before` empty lines. The constants of `scope` are known.
+/// Parses `source` at line numbers after `lines_before`. The constants of `scope` are known.
 ///
 /// # Errors
 /// Fails if the text is too large or has a syntax error, or if the run was stopped.

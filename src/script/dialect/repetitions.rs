@@ -1,4 +1,4 @@
-//! The method `array.dedup()`. It works as in Rhai, but it can be interrupted, and it returns errors of its function.
+//! The method `array.dedup()`. Unlike in Rhai, it can be interrupted, and it returns errors of its function.
 
 use std::any::TypeId;
 
@@ -21,7 +21,7 @@ pub fn install(engine: &mut Engine, context: &Context) {
                 Some(same) => without_repetitions(&native, &context, values, |earlier, later| {
                     truth(&native, &same.call_raw(&native, None, [earlier, later])?)
                 })?,
-                // Elements for which there is no operator "==" count as different.
+                // Elements without an operator "==" count as different.
                 None => {
                     without_repetitions(&native, &context, values, |mut earlier, mut later| {
                         let both = &mut [&mut earlier, &mut later];

@@ -1,4 +1,4 @@
-//! The method `text.replace(found, other)`. It works as in Rhai, but the length is checked before memory is allocated.
+//! The method `text.replace(found, other)`. Unlike in Rhai, the length is checked before memory is allocated.
 
 use rhai::{Engine, EvalAltResult, ImmutableString};
 

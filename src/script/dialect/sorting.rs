@@ -1,5 +1,6 @@
-//! Sorting, either by a script function or in natural order. The method `sort` of Rhai ignores errors of the function and differences that are not
-//! integers. It also rejects arrays with both integers and floats.
+//! Sorting, either by a script function or in natural order.
+//! The method `sort` of Rhai ignores errors of the function, and results that are not integers.
+//! The method of Rhai also rejects arrays with both integers and floats.
 
 use std::any::TypeId;
 use std::cmp::Ordering;
@@ -67,7 +68,7 @@ fn sorted_naturally(
         let hint = "give the order: sort(|a, b| a.x - b.x)";
         return Err(ScriptError::new(message).hint(hint).into_engine(native.call_position()));
     }
-    // Above 2^53 integers are more exact than floats. Hence one array must not be sorted by both comparisons.
+    // Above 2^53, integers are more exact than floats. Hence one array must not be sorted by both comparisons.
     let order: fn(&Dynamic, &Dynamic) -> Ordering = match array.iter().all(Dynamic::is_int) {
         true => |x, y| x.as_int().ok().cmp(&y.as_int().ok()),
         false => |x, y| natural_order(x, y).unwrap_or(Ordering::Equal),
@@ -104,9 +105,9 @@ fn sorted(native: &NativeCallContext, values: &[&mut Dynamic]) -> EngineResult<A
     })
 }
 
-/// Returns true if the result of the comparison function means that the first element comes after the second.
+/// Returns true if the result of the comparison function puts the first element after the second element.
 fn is_after(native: &NativeCallContext, order: &Dynamic) -> EngineResult<bool> {
-    // `true` means that the first element comes before the second.
+    // The result `true` puts the first element before the second element.
     if let Ok(is_before) = order.as_bool() {
         return Ok(!is_before);
     }
@@ -124,7 +125,7 @@ fn is_after(native: &NativeCallContext, order: &Dynamic) -> EngineResult<bool> {
     )
 }
 
-/// Merge sort. It is stable, and safe even if the comparison function is inconsistent.
+/// Merge sort. It is stable, and works even if the comparison function is inconsistent.
 fn merged(
     mut left: Array,
     is_after: &mut impl FnMut(&Dynamic, &Dynamic) -> Result<bool, Box<EvalAltResult>>,

@@ -18,16 +18,16 @@ use crate::script::source::syntax;
 use crate::script::state::context::Context;
 use crate::script::state::limits::DEEPEST;
 
-/// Maximum nesting depth of an expression outside functions. The next constant is the maximum in functions, where each level of nesting counts
-/// towards the call depth too.
+/// Maximum nesting depth of an expression outside functions.
+/// The next constant is the maximum nesting depth in functions, where each level of nesting also adds to the call depth.
 const EXPRESSION_DEPTH: usize = 256;
 const EXPRESSION_DEPTH_IN_FUNCTION: usize = 64;
 /// Number of operations between checks for interruption.
 const PULSE: u64 = 256;
 
-/// Creates an engine for the language of `catalog`. It reports to `context`.
+/// Creates an engine for the language of `catalog`. The engine reports to `context`.
 ///
-/// Fails if a token hook of Rhai does not behave as required.
+/// Fails if a token hook of Rhai does not work as required.
 pub fn build(catalog: &Catalog, context: &Context) -> Result<Engine, String> {
     let mut engine = foundation::engine();
     // The optimiser of Rhai would replace shadowed names by constants, and drop statements with side effects.

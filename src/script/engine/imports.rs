@@ -1,4 +1,4 @@
-//! Imports of modules of the standard library, named `std/…`, and of files in the folder of the script. Each file is read once unless it changes.
+//! Imports of modules of the standard library, named `std/…`, and of files in the folder of the script. An unchanged file is read only once.
 //! Circular imports are an error.
 
 use std::cell::RefCell;
@@ -26,7 +26,7 @@ pub struct FolderResolver {
     read: RefCell<HashMap<PathBuf, ReadModule>>,
 }
 
-/// Module, with the content of its file when it was read. Files may change during a session.
+/// Module with the content of its file at the time of reading. Files may change during a session.
 struct ReadModule {
     /// Content of the file; empty for modules of the library.
     content: Vec<u8>,

@@ -1,4 +1,4 @@
-//! Parsing, with all checks that are made before execution.
+//! Parsing with all checks before execution.
 
 use rhai::{AST, Engine, Scope};
 
@@ -10,7 +10,7 @@ use crate::script::source::outline::ScriptOutline;
 use crate::script::source::program::Program;
 use crate::script::source::text::{Source, moved_down};
 
-/// Text to be parsed as a continuation of earlier texts.
+/// Text that is parsed as a continuation of earlier texts.
 pub struct SourcePiece<'a> {
     /// Name of the source in messages.
     pub name: &'a str,
@@ -34,8 +34,8 @@ pub fn parse(engine: &Engine, program: &Program) -> EngineResult<AST> {
     Ok(ast)
 }
 
-/// Parses and checks a piece of a program. Positions refer to the whole program. `variables` returns the top-level variables of the whole program
-/// and the lines of their declarations.
+/// Parses and checks a piece of a program. Positions refer to the whole program.
+/// The callback `variables` returns the top-level variables of the whole program with the lines of their declarations.
 ///
 /// # Errors
 /// Fails if the piece has an error.

@@ -1,4 +1,4 @@
-//! Execution of a script, on a stack that is large enough for the limits of the script.
+//! Execution of a script on a stack that is large enough for the limits of the script.
 
 use std::path::PathBuf;
 use std::time::{Duration, Instant};
@@ -25,7 +25,7 @@ pub enum Ending {
     Finished,
     /// The script has an error.
     Failed(Diagnostic),
-    /// A dry run reached a loop that waits for the result of a simulation. There was no error until then.
+    /// A dry run reached a loop that waits for the result of a simulation. No error occurred before.
     Undecided,
     /// Interrupted from outside.
     Interrupted,
@@ -47,17 +47,17 @@ impl From<Halt> for Ending {
 /// Results of a run.
 #[derive(Debug)]
 pub struct RunOutcome {
-    /// Reason for the end.
+    /// Reason for the end of the run.
     pub ending: Ending,
     /// Checks of the script.
     pub checks: Checks,
     /// Report entries of the simulations.
     pub simulations: Vec<serde_json::Value>,
-    /// Estimated errors of the simulations, one line each. If nothing was estimated, a remark.
+    /// Estimated errors of the simulations, one line each. Without estimates, a remark.
     pub errors: Vec<String>,
     /// Files written.
     pub files: Vec<PathBuf>,
-    /// Interrupt or limit that stopped the run, if it was stopped.
+    /// Interrupt or limit that stopped the run; `None` if it was not stopped.
     pub stopped_by: Option<Stop>,
     /// Number of completed study cases that can be reused if the script is run again.
     pub kept_cases: usize,
@@ -87,7 +87,7 @@ pub fn run(program: &Program, catalog: &Catalog, settings: RunSettings) -> RunOu
 /// Default memory for the snapshots of a simulation [bytes], for scripts that may rewind.
 pub const SNAPSHOTS: usize = 256_000_000;
 
-/// Returns true if a script may rewind a simulation. Snapshots are stored only in this case. The library never rewinds; other imported files might.
+/// Returns true if a script may rewind a simulation, which requires snapshots. The library never rewinds; other imported files may.
 fn may_go_back(program: &Program) -> bool {
     let is_library = |path: Option<&str>| path.is_some_and(|path| path.starts_with(FOLDER));
     let source = &program.text;
@@ -129,7 +129,7 @@ fn run_here(program: &Program, catalog: &Catalog, settings: RunSettings) -> RunO
     }
 }
 
-/// Run time up to which errors are estimated even if this was not requested.
+/// Largest run time for which errors are estimated without a request.
 const BRIEF: Duration = Duration::from_secs(1);
 
 /// Maximum number of simulations whose errors are estimated at the end of a run.

@@ -1,4 +1,4 @@
-//! Environment in which scripts are executed: catalog, engine and shared state. A run, a prompt and the grading of an exercise each have one.
+//! Environment for the execution of scripts: catalog, engine and shared state. Each run, prompt or graded exercise has a separate environment.
 
 use std::rc::Rc;
 
@@ -19,18 +19,18 @@ use crate::script::state::watchdog::Watchdog;
 const DRY_RUN_NOTE: &str =
     "withy check runs no simulation: use withy run to test what depends on results";
 
-/// Environment in which scripts are executed.
+/// Environment for the execution of scripts.
 pub struct ScriptEngine {
     catalog: Catalog,
     context: Context,
-    /// Engine. It is shared with the functions that scenes and simulations store.
+    /// Engine, shared with the functions that are stored in scenes and simulations.
     engine: Rc<Engine>,
 }
 
 /// Reason why a script did not complete.
 #[derive(Debug)]
 pub enum Halt {
-    /// An error in the script, an exceeded limit, or an internal error.
+    /// Error in the script, exceeded limit, or internal error.
     Failed(Diagnostic),
     /// A dry run reached a point at which the script waits for the result of a simulation. The diagnostic describes this point.
     Undecided(Diagnostic),
@@ -41,8 +41,8 @@ pub enum Halt {
 }
 
 impl ScriptEngine {
-    /// Creates the environment for the language of `catalog`, within the limits of the settings. Files to be imported are searched in the folder of
-    /// the settings.
+    /// Creates the environment for the language of `catalog`, within the limits of the settings.
+    /// Imported files are searched in the folder of the settings.
     ///
     /// # Errors
     /// Fails only because of internal errors.
@@ -71,7 +71,7 @@ impl ScriptEngine {
     /// Calls `work` with the engine, then ends the progress display and flushes the output. `program` returns the source text for error messages.
     ///
     /// # Errors
-    /// Fails if the work does not complete. A panic in native code is reported as an internal error; earlier results remain valid.
+    /// Fails if `work` does not complete. A panic in native code is reported as an internal error. Earlier results remain valid.
     pub fn run<T>(
         &self,
         _limits_kept: &Watchdog,
@@ -105,7 +105,7 @@ impl ScriptEngine {
         }
     }
 
-    /// Translates an error of the engine in `program` to the form that is shown to the user.
+    /// Translates an engine error in `program` to the form shown to the user.
     pub fn explain(&self, error: &EvalAltResult, program: &Program) -> Diagnostic {
         Explainer { program, catalog: &self.catalog, engine: &self.engine }.explain(error)
     }
@@ -126,7 +126,7 @@ impl ScriptEngine {
     }
 }
 
-/// Breaks a reference cycle: simulations own stored functions, these own the context, and the context owns the last simulation.
+/// Breaks a reference cycle: simulations own stored functions, which own the context, which owns the last simulation.
 impl Drop for ScriptEngine {
     fn drop(&mut self) {
         self.context.clear_simulations();

@@ -1,4 +1,4 @@
-//! Stack sizes of threads for scripts and workers. They are large enough for the limits of the script, but smaller if the address space is limited.
+//! Stack sizes of threads for scripts and workers. They are sufficient for the limits of the script, but smaller if the address space is limited.
 
 use std::sync::Mutex;
 use std::thread;
@@ -7,8 +7,8 @@ use crate::panics::caught;
 use crate::script::diagnose::Diagnostic;
 use crate::script::state::limits::Limits;
 
-/// Calls `work` on a thread whose stack is large enough for the limits of the script. The stack is smaller if the address space of the process is
-/// limited.
+/// Calls `work` on a thread whose stack is large enough for the limits of the script.
+/// If the address space of the process is limited, the stack is smaller.
 ///
 /// # Errors
 /// Fails if no thread can be started, or if `work` panics.
@@ -49,7 +49,7 @@ pub fn on_stack<T: Send>(
     })
 }
 
-/// Number of workers, at most `most`, and the stack size of each [bytes]; `None` if the address space is too small for one worker.
+/// Number of workers, at most `most`, and stack size of each worker [bytes]; `None` if the address space is too small for one worker.
 pub fn workers(limits: &Limits, most: usize) -> Option<(usize, usize)> {
     worker_stacks(limits, most, room())
 }
@@ -77,7 +77,7 @@ fn script_stack(limits: &Limits, room: Option<usize>) -> usize {
     }
 }
 
-/// Number of workers, and the stack size of each [bytes]. Together they use at most half of the remaining address space.
+/// Number of workers, and stack size of each worker [bytes]. All stacks together use at most half of the remaining address space.
 fn worker_stacks(limits: &Limits, most: usize, room: Option<usize>) -> Option<(usize, usize)> {
     let (whole, least) = (limits.stack(), limits.least_stack());
     let needed = whole.saturating_mul(most).saturating_add(limits.address_space());

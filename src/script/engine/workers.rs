@@ -1,4 +1,4 @@
-//! Worker threads. Each has its own engine, which has compiled the script of the run and calls its functions.
+//! Worker threads. Each worker has a separate engine that has compiled the script of the run and calls its functions.
 
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, mpsc};
@@ -21,13 +21,13 @@ use crate::script::state::limits::Limits;
 use crate::script::state::settings::{RunMode, RunSettings};
 use crate::simulation::cores;
 
-/// Interval between checks for interruption while no job ends.
+/// Interval of checks for interruption while no job ends.
 const PULSE: Duration = Duration::from_millis(50);
 
 /// Time to wait before a batch of results is collected.
 const REST: Duration = Duration::from_millis(1);
 
-/// Data from which an engine on another thread is created.
+/// Data for the creation of an engine on another thread.
 #[derive(Clone)]
 pub struct EngineConfig {
     catalog: Catalog,
@@ -35,16 +35,17 @@ pub struct EngineConfig {
     limits: Limits,
     snapshots: usize,
     refusal: &'static str,
-    /// Number of workers, and stack size of each [bytes].
+    /// Number of workers, and stack size of each worker [bytes].
     workers: (usize, usize),
 }
 
 impl EngineConfig {
-    /// Collects the data for worker engines. `None` if there is no complete script, as at the prompt, or if the address space is too small for one
-    /// worker. `refusal` is the error message of functions that write files.
+    /// Collects the data for worker engines.
+    /// Returns `None` if there is no complete script, as at the prompt, or if the address space is too small for one worker.
+    /// The argument `refusal` is the error message of functions that write files.
     pub fn of(engine: &Engine, context: &Context, refusal: &'static str) -> Option<Self> {
         let catalog = Sources::of(engine).catalog()?;
-        // Time and memory of the whole process are supervised by the run itself.
+        // The run supervises the time and memory of the whole process.
         let limits = Limits { time: None, memory: None, ..*context.meter().limits() };
         let program = context.program()?.clone();
         let snapshots = context.snapshots();
@@ -54,7 +55,7 @@ impl EngineConfig {
     }
 }
 
-/// Engine on another thread, with the functions and imports of the script. The statements of the script are not executed in it.
+/// Engine on another thread, with the functions and imports of the script. The worker does not execute the statements of the script.
 pub struct Worker {
     host: ScriptEngine,
     script: AST,
@@ -86,7 +87,7 @@ impl Worker {
     /// Calls a function of the script by its name.
     ///
     /// # Errors
-    /// Errors of the function.
+    /// Fails if the function fails.
     pub fn call(&self, name: &str, arguments: Vec<Dynamic>) -> EngineResult<Dynamic> {
         let options = CallFnOptions::new().eval_ast(true);
         let mut scope = Scope::new();
@@ -141,7 +142,7 @@ pub struct WorkerPool<'c, J, R> {
 
 pub enum WorkerEvent<R> {
     Done(usize, R),
-    /// The waiting time has passed. The caller can check for interruption.
+    /// The waiting time has elapsed. The caller can check for interruption.
     Timeout,
     NoWorkers,
 }
@@ -153,12 +154,12 @@ impl<J, R> WorkerPool<'_, J, R> {
 
     /// Queues a job. The result of the job has the same number.
     pub fn submit(&self, number: usize, job: J) {
-        // If there are no workers any more, this is detected when results are received.
+        // Missing workers are detected when results are received.
         let _ = self.jobs.send((number, job));
     }
 
-    /// Waits for results like [`receive`](Self::receive), but for many queued jobs. Results are collected in batches, because each wake-up of the
-    /// thread takes time.
+    /// Waits for results like [`receive`](Self::receive), but for many queued jobs.
+    /// Results are collected in batches, because each wake-up of the thread takes time.
     pub fn receive_batch(&self) -> WorkerEvent<R> {
         match self.results.try_recv() {
             Ok((number, result)) => WorkerEvent::Done(number, result),
@@ -182,8 +183,8 @@ impl<J, R> WorkerPool<'_, J, R> {
     }
 }
 
-/// Calls `drive` with a pool of worker threads, each with its own engine. A job that takes longer than `wall` is stopped. `panicked` converts the
-/// message of a panic to a result. When `drive` returns, jobs that have not ended are stopped.
+/// Calls `drive` with a pool of worker threads with separate engines. A job that takes longer than `wall` is stopped.
+/// The callback `panicked` converts the message of a panic to a result. When `drive` returns, jobs that have not ended are stopped.
 ///
 /// # Errors
 /// Fails if no worker can be created.
@@ -214,7 +215,7 @@ pub fn with_crew<J: Send, R: Send, T>(
             post.begin(Some(Instant::now()));
             let result = caught(|| work(&worker, job)).unwrap_or_else(&panicked);
             post.begin(None);
-            // Resets the flag by which the previous job may have been stopped.
+            // Resets the flag that may have stopped the previous job.
             post.interrupt.store(false, Ordering::Relaxed);
             if done.send((number, result)).is_err() {
                 break;

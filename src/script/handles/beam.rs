@@ -12,7 +12,7 @@ use crate::script::presentation::details;
 #[derive(Clone)]
 pub struct BeamHandle {
     pub scene: SceneHandle,
-    /// Index of the beam in its scene, from 0.
+    /// Index of the beam in its scene, counted from 0.
     pub index: usize,
 }
 

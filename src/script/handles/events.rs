@@ -1,6 +1,6 @@
-//! Script functions that are scheduled for times of a simulation.
+//! Script functions scheduled for times of a simulation.
 
-/// Scheduled functions with their times, and the number of functions that have been called.
+/// Scheduled functions with their times, and the number of functions already called.
 #[derive(Clone)]
 pub struct Events<F> {
     functions: Vec<(f64, F)>,
@@ -24,14 +24,14 @@ impl<F: Clone> Events<F> {
         self.functions.get(self.called).map(|(time, _)| *time)
     }
 
-    /// Takes the next function that is due.
+    /// Removes and returns the next function that is due.
     pub fn take_due(&mut self, now: f64) -> Option<F> {
         let (_, due) = self.functions.get(self.called).filter(|(time, _)| *time <= now)?;
         self.called += 1;
         Some(due.clone())
     }
 
-    /// All functions with their times, whether called or not.
+    /// All functions with their times, including functions already called.
     pub fn all(&self) -> &[(f64, F)] {
         &self.functions
     }

@@ -9,12 +9,12 @@ use crate::script::bindings::parameter_variants::ParameterSet;
 #[derive(Clone)]
 pub struct JointHandle {
     pub scene: SceneHandle,
-    /// Index of the joint in its scene, from 0.
+    /// Index of the joint in its scene, counted from 0.
     pub index: usize,
 }
 
 impl JointHandle {
-    /// Name in columns and messages, composed of type and number.
+    /// Name in columns and messages, consisting of type and number.
     pub fn name(&self) -> String {
         let names = self.scene.scene().borrow().joint_names();
         names.into_iter().nth(self.index).unwrap_or_default()

@@ -1,4 +1,4 @@
-//! Record of the warnings of a simulation that have been reported.
+//! Record of the reported warnings of a simulation.
 
 use std::cell::RefCell;
 
@@ -11,7 +11,7 @@ pub enum Printing {
     /// Warnings are printed at the end of a run.
     #[default]
     AtTheEnd,
-    /// Warnings are not printed, but available on request.
+    /// Warnings are not printed, but are available on request.
     Never,
 }
 
@@ -40,7 +40,7 @@ impl Notes {
         }
     }
 
-    /// Reports that the scene has changed since the simulation was started.
+    /// Reports that the scene has changed since the start of the simulation.
     pub fn report_changed_scene(&self, name: &str, scene: &str, context: &Context) {
         if self.printing != Printing::Never {
             context.print_message(&format!(

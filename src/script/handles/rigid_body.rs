@@ -13,7 +13,7 @@ use crate::script::presentation::details;
 #[derive(Clone)]
 pub struct RigidBodyHandle {
     pub scene: SceneHandle,
-    /// Index of the body among the rigid bodies of its scene, from 0.
+    /// Index of the body among the rigid bodies of its scene, counted from 0.
     pub index: usize,
 }
 
@@ -29,7 +29,7 @@ impl RigidBodyHandle {
     /// Station at a named point of the body.
     ///
     /// # Errors
-    /// Fails if the body has no such point.
+    /// Fails if the body has no point of this name.
     pub fn point(&self, name: &str) -> Result<StationHandle, ScriptError> {
         let station = self.scene.scene().borrow().point_of_body(self.index, name)?;
         Ok(StationHandle { scene: self.scene.clone(), station })

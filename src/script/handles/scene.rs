@@ -26,31 +26,31 @@ pub struct SceneHandle {
     variants: Rc<Variants>,
     /// Functions of user-defined columns, in the order of the columns.
     functions: Rc<RefCell<Vec<Rc<StoredFunction>>>>,
-    /// Controllers of loads and drives. They are called at the start of every step.
+    /// Controllers of loads and drives, which are called at the start of every step.
     controllers: Rc<RefCell<Vec<Rc<Controller>>>>,
-    /// Release conditions, each with the index of its release.
+    /// Release conditions, with the index of the release of each condition.
     conditions: Rc<RefCell<Vec<Condition>>>,
-    /// True if a note has been printed that modes do not include the effects of controllers and spins.
+    /// True if a note about modes has been printed: modes do not include the effects of controllers and spins.
     has_modes_note: Rc<Cell<bool>>,
 }
 
 struct Variants {
     scene: Rc<RefCell<Scene>>,
     declared: RefCell<Option<Rc<ParameterSet>>>,
-    /// Perturbed variants. They are created by the first call with an argument that depends on a parameter.
+    /// Perturbed variants. The first call with an argument that depends on a parameter creates them.
     beside: OnceCell<PerturbedBuilds>,
     /// True if the scene has been changed since the last start of a simulation.
     is_changed: Cell<bool>,
 }
 
-/// Perturbed variants of a scene, whose parameters are increased or decreased by a perturbation.
+/// Perturbed variants of a scene. In each variant, one parameter is increased or decreased by a perturbation.
 struct PerturbedBuilds {
     family: Rc<ParameterSet>,
     /// Scenes of the variants 1, 2, …, in this order.
     scenes: Vec<Rc<RefCell<Scene>>>,
 }
 
-/// Release condition, which a script function evaluates.
+/// Release condition that is evaluated by a script function.
 #[derive(Clone)]
 pub struct Condition {
     /// Script function, called with the simulation.
@@ -85,7 +85,7 @@ impl SceneHandle {
         }
     }
 
-    /// Returns true when it is called for the first time. The note on modes is printed once per scene.
+    /// Returns true at the first call, so that the note on modes is printed once per scene.
     pub fn take_modes_note(&self) -> bool {
         !self.has_modes_note.replace(true)
     }
@@ -94,7 +94,7 @@ impl SceneHandle {
         self.of_present()
     }
 
-    /// Gives write access to the scene. Simulations that have been started keep the earlier scene.
+    /// Gives write access to the scene. Running simulations keep the earlier scene.
     pub fn change(&self) -> RefMut<'_, Scene> {
         self.variants.is_changed.set(true);
         self.of_present().borrow_mut()
@@ -106,7 +106,7 @@ impl SceneHandle {
         Rc::clone(self.of_present())
     }
 
-    /// Returns true when it is called for the first time after a change of the scene.
+    /// Returns true at the first call after a change of the scene.
     pub fn take_change(&self) -> bool {
         self.variants.is_changed.replace(false)
     }
@@ -116,7 +116,7 @@ impl SceneHandle {
         let Some(CurrentVariant { family, variant }) = present().filter(|of| of.variant > 0) else {
             return scene;
         };
-        // The present call has not changed the scene yet, because variant 0 is evaluated last.
+        // The present call has not yet changed the scene, because variant 0 is evaluated last.
         let beside = beside.get_or_init(|| {
             let copy = |_| Rc::new(RefCell::new(scene.borrow().clone()));
             PerturbedBuilds { scenes: (1..family.variants()).map(copy).collect(), family }
@@ -128,10 +128,10 @@ impl SceneHandle {
         self.variants.beside.get().map(|beside| Rc::clone(&beside.family))
     }
 
-    /// Declares a parameter, and returns its value together with the perturbed values.
+    /// Declares a parameter, and returns its value with the perturbed values.
     ///
     /// # Errors
-    /// Fails if the name is used already, or if variants of parameters have been used.
+    /// Fails if the name is already used, or if variants of parameters have been used.
     pub fn declare(
         &self,
         name: &str,
@@ -188,7 +188,7 @@ impl SceneHandle {
             return Ok(());
         };
         let own = self.variants.scene.borrow();
-        // In variant 0 the beam does not exist yet, because the perturbed variants are evaluated first.
+        // The beam does not yet exist in variant 0, because the perturbed variants are evaluated first.
         let Some(own) = own.beams.get(beam) else { return Ok(()) };
         let length = own.axis.length();
         let is_other = |scene: &Rc<RefCell<Scene>>| {
@@ -204,7 +204,7 @@ impl SceneHandle {
         Ok(())
     }
 
-    /// Returns true in variant 0. Functions are stored only in this variant, so that each is stored once.
+    /// Returns true in variant 0. Functions are stored only in variant 0, so that each function is stored once.
     fn keeps(&self) -> bool {
         present().is_none_or(|present| present.variant == 0)
     }
@@ -220,14 +220,14 @@ impl SceneHandle {
         Err(ScriptError::new(message).hint(hint))
     }
 
-    /// Stores the function of the user-defined column that was defined last.
+    /// Stores the function of the last defined user column.
     pub fn store_function(&self, function: StoredFunction) {
         if self.keeps() {
             self.functions.borrow_mut().push(Rc::new(function));
         }
     }
 
-    /// Stores a controller that is called at the start of every step or at samples. Returns the cell that contains its value.
+    /// Stores a controller that is called at the start of every step or at samples. Returns the cell with the value of the controller.
     pub fn store_controller(
         &self,
         function: StoredFunction,
@@ -241,7 +241,7 @@ impl SceneHandle {
         value
     }
 
-    /// Stores the condition of the release that was defined last.
+    /// Stores the condition of the last defined release.
     pub fn store_condition(&self, function: StoredFunction) {
         let release = self.scene().borrow().releases.len() - 1;
         let condition = Condition { function: Rc::new(function), release };
@@ -254,7 +254,7 @@ impl SceneHandle {
         self.conditions.borrow().clone()
     }
 
-    /// Rejects a scene with functions that are called between steps. A study could not call them, because it runs the scene without its script.
+    /// Rejects a scene with functions that are called between steps. A study cannot call them, because it runs the scene without its script.
     ///
     /// # Errors
     /// Fails if a load or drive has a controller, or if a release has a condition.
@@ -278,7 +278,7 @@ impl SceneHandle {
         self.functions.borrow().iter().take(columns).cloned().collect()
     }
 
-    /// Station of a handle, if it belongs to this scene.
+    /// Station of a handle that must belong to this scene.
     pub fn own_station(&self, handle: &StationHandle) -> Result<Station, ScriptError> {
         self.expect_same(&handle.scene, "station")?;
         Ok(handle.station)

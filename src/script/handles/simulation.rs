@@ -42,9 +42,9 @@ struct Live {
     scene: SceneHandle,
     simulation: RefCell<Simulation>,
     events: RefCell<Events<Rc<StoredFunction>>>,
-    /// True while a scheduled function runs. During this time no other function may be scheduled for the same simulation time.
+    /// True while a scheduled function runs. During this time, no other function may be scheduled for the same simulation time.
     is_firing: Cell<bool>,
-    /// True if an early end of the run has been reported.
+    /// True if an early end of the run has already been reported.
     is_ending_told: Cell<bool>,
     notes: Notes,
     start: RunStart,
@@ -56,7 +56,7 @@ pub enum RunTarget {
     Time(f64),
 }
 
-/// Observer of steps. It updates the progress display, counts steps, and stops the run if it is interrupted or exceeds a limit.
+/// Observer of steps. It updates the progress display, counts steps, and stops the run after an interrupt or at a limit.
 struct ProgressMonitor<'a> {
     context: &'a Context,
     /// Time at which the run may stop.
@@ -84,7 +84,7 @@ impl Monitor for ProgressMonitor<'_> {
     }
 }
 
-/// Observer of a simulation in a dry run. It stops for the same reasons as a real run, but counts no steps.
+/// Observer of a simulation in a dry run. It stops for the same reasons as in a real run, but does not count steps.
 struct DryRunObserver<'a>(&'a Context);
 
 impl Monitor for DryRunObserver<'_> {
@@ -108,7 +108,7 @@ impl SimulationHandle {
         handle
     }
 
-    /// Adds the simulation to the report of the run, and marks it as the simulation used last.
+    /// Adds the simulation to the report of the run, and marks it as the last used simulation.
     pub fn report_as_latest(&self, context: &Context) {
         context.add_reporter(Box::new(self.clone()));
         self.is_latest(context);
@@ -212,7 +212,7 @@ impl SimulationHandle {
         Ok(())
     }
 
-    /// Returns the simulation to an earlier state. In a dry run the result is approximate.
+    /// Returns the simulation to an earlier state. In a dry run, the result is approximate.
     pub fn rewind_to(&self, call: &Call, goal: &RunTarget) -> Result<(), ScriptError> {
         self.0.sensing.expect_idle()?;
         let mut simulation = self.0.simulation.borrow_mut();
@@ -234,7 +234,7 @@ impl SimulationHandle {
         self.simulation().slack()
     }
 
-    /// Advances the simulation, and calls the functions that are scheduled up to the goal.
+    /// Advances the simulation, and calls the functions scheduled up to the goal.
     pub fn advance(&self, call: &Call, goal: &RunTarget) -> Result<(), ScriptError> {
         self.0.sensing.expect_idle()?;
         let context = call.context();
@@ -268,7 +268,7 @@ impl SimulationHandle {
 
     fn take_steps(&self, context: &Context, steps: usize) -> Result<(), ScriptError> {
         for taken in 0..steps {
-            // If the run had ended before the first step, this step fails. If it ends later, this is only reported.
+            // If the run had ended before the first step, this step fails. A later end is only reported.
             if taken > 0 && self.has_ended() {
                 self.report_end(context, &format!("before it had taken {steps} steps"));
                 break;

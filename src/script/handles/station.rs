@@ -23,13 +23,13 @@ pub struct StationHandle {
 }
 
 impl StationHandle {
-    /// Place of the station in the model of a simulation.
+    /// Point on the model of a simulation for this station.
     pub fn place_in(&self, handle: &SimulationHandle) -> Result<beams::BodyPoint, ScriptError> {
         let simulation = handle.simulation();
         self.within(handle.scene(), simulation.scene(), simulation.model().meshes())
     }
 
-    /// Place of the station on the meshes of a scene `built` from the scene `of`. Fails if the station belongs to another scene.
+    /// Point on the meshes of the scene `built`, which was made from the scene `of`. Fails if the station belongs to another scene.
     pub fn within(
         &self,
         of: &SceneHandle,
@@ -73,7 +73,7 @@ impl Scripted for StationHandle {
     }
 }
 
-/// Scene before the dot of a call, and a station of this scene from an argument.
+/// Scene before the dot of a call, and station of this scene from an argument.
 pub fn here(call: &Call, name: &str) -> Result<(Station, Rc<RefCell<Scene>>), ScriptError> {
     let scene = call.receiver::<SceneHandle>()?;
     let station = scene.own_station(&call.get::<StationHandle>(name)?)?;

@@ -13,7 +13,7 @@ use crate::script::presentation::details;
 #[derive(Clone)]
 pub struct TrackHandle {
     pub scene: SceneHandle,
-    /// Index of the track in its scene, from 0.
+    /// Index of the track in its scene, counted from 0.
     pub index: usize,
 }
 

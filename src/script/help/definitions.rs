@@ -1,7 +1,7 @@
-//! Definition files (`.d.rhai`), which editors read by the Rhai language server. They are generated from the bindings.
+//! Definition files (`.d.rhai`) for the Rhai language server in editors. They are generated from the bindings.
 //!
-//! The format has no optional arguments, so a function is declared once for each number of arguments. Allowed values, units, options and examples
-//! are in the comment above the declaration, which editors show.
+//! The format has no optional arguments, so a function has one declaration for each number of arguments.
+//! Allowed values, units, options and examples are in the comment above the declaration, which editors show.
 
 mod types;
 
@@ -13,7 +13,7 @@ use crate::script::bindings::catalog::Catalog;
 use crate::script::bindings::table::{BindingTable, CallSyntax, FunctionBinding};
 use types::{for_kind, for_value, identifier};
 
-/// A definition file.
+/// Definition file.
 #[derive(Clone, Debug, PartialEq)]
 pub struct DefinitionFile {
     /// File name.

@@ -1,7 +1,7 @@
 //! TextMate grammar for syntax highlighting in editors, generated from the keywords and bindings.
 //!
-//! Its rules correspond to those of the scanner ([`scan`](crate::script::source::scanner::scan)), written as regular expressions of Oniguruma.
-//! Editors do not know types, so every name that is called after a dot is treated as a member.
+//! The rules of the grammar correspond to the scanner ([`scan`](crate::script::source::scanner::scan)). They are regular expressions of Oniguruma.
+//! Editors do not know types, so every name called after a dot is treated as a member.
 
 use std::collections::BTreeSet;
 

@@ -24,7 +24,7 @@ dimensions, such as `[force]`. The keys of an option map are listed below it. Ev
 const ABOUT_RHAI: &str = "A function whose argument is written before a dot here can be called in both forms: \
     `text.len()` is `len(text)`.";
 
-/// A page of the reference.
+/// Page of the reference.
 pub struct ReferencePage {
     /// Path of the page below `docs`.
     pub file: String,
@@ -32,7 +32,7 @@ pub struct ReferencePage {
     pub text: String,
 }
 
-/// Returns the pages of the reference: the index, the syntax, one page for each table of bindings, and the functions of Rhai.
+/// Pages of the reference: the index, the syntax, one page for each table of bindings, and the functions of Rhai.
 pub fn pages(catalog: &Catalog) -> Vec<ReferencePage> {
     let mut syntax = String::from("# Syntax\n");
     TOPICS.iter().for_each(|topic| describe_topic(&mut syntax, topic));

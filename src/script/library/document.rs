@@ -1,4 +1,4 @@
-//! Document about the standard library in Markdown, generated from the comments of its modules.
+//! Markdown document about the standard library, generated from the comments of its modules.
 
 use std::fmt::Write;
 

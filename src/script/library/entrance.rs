@@ -1,5 +1,5 @@
-//! Native functions that wrap the functions of the library and store the calling line. A failed check in the library is therefore reported at the
-//! user's line.
+//! Native functions that wrap the functions of the library and store the calling line.
+//! The calling line is used to report a failed check in the library at the user's line.
 
 use std::any::TypeId;
 
@@ -18,7 +18,7 @@ struct ModuleScope {
     imports: Vec<(String, Shared<Module>)>,
 }
 
-/// Wraps the public functions of `module`. `ast` is the syntax tree from which it was compiled.
+/// Wraps the public functions of `module`, which was compiled from the syntax tree `ast`.
 pub fn with_entry_wrappers(module: &Module, ast: &AST, file: &str) -> Module {
     let imports = module.iter_sub_modules().map(|(name, other)| (name.to_owned(), other.clone()));
     let surroundings = ModuleScope {
@@ -71,7 +71,7 @@ impl ModuleScope {
         let at = native.call_position();
         let _inside = sources.enter_library(native.global_runtime_state().source(), at.line());
         let mut inside = native.global_runtime_state().clone();
-        // The called function is searched in this library first. Functions that it calls are searched starting with the last library.
+        // The called function is searched first in this library. Functions called by it are searched starting with the last library.
         inside.lib.insert(0, self.functions.clone());
         inside.lib.push(self.functions.clone());
         inside.source = Some(self.file.as_str().into());

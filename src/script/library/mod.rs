@@ -1,4 +1,4 @@
-//! The standard library: Rhai modules that are part of the program, imported by `import "std/sections" as sections;`.
+//! Standard library: Rhai modules embedded in the program, imported by `import "std/sections" as sections;`.
 
 mod document;
 mod entrance;

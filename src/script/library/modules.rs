@@ -5,7 +5,7 @@ use crate::script::messages::error::ScriptError;
 use crate::script::messages::suggest::nearest;
 use crate::script::source::program::Program;
 
-/// A module of the standard library.
+/// Module of the standard library.
 #[derive(Debug)]
 pub struct Module {
     /// Name in an import.
@@ -46,7 +46,7 @@ impl Module {
 /// Module for an import path, with or without `.rhai`; `None` for files in the folder of the script.
 ///
 /// # Errors
-/// Fails if the path belongs to the library but there is no such module.
+/// Fails if the path belongs to the library but the module does not exist.
 pub fn find(path: &str) -> Option<Result<&'static Module, ScriptError>> {
     let name = path.strip_suffix(".rhai").unwrap_or(path);
     if !name.starts_with(FOLDER) {

@@ -1,5 +1,5 @@
-//! Help pages of the library. They consist of the comments `//!` of a file and `///` of its functions, which are parsed when help is requested and
-//! not at the import.
+//! Help pages of the library.
+//! The pages consist of the comments `//!` of a file and `///` of its functions. The comments are parsed when help is requested, not at the import.
 
 use std::sync::LazyLock;
 
@@ -28,14 +28,14 @@ pub struct ModuleFunction {
     pub text: Vec<DocBlock>,
 }
 
-/// A block of help text.
+/// Block of help text.
 #[derive(Debug, PartialEq, Eq)]
 pub enum DocBlock {
-    /// A paragraph.
+    /// Paragraph.
     Paragraph(String),
-    /// A list entry.
+    /// List entry.
     Item(String),
-    /// A runnable script.
+    /// Runnable script.
     Example(String),
 }
 
@@ -96,7 +96,7 @@ impl ModuleFunction {
         self.full_name.rsplit("::").next().unwrap_or_default()
     }
 
-    /// Signature with the name under which the module is usually imported.
+    /// Signature with the usual import name of the module.
     pub fn signature(&self) -> String {
         format!("{}({})", self.full_name, self.parameters.join(", "))
     }
@@ -118,7 +118,7 @@ impl ModuleFunction {
         });
         for clause in items.flat_map(|item| item.split(';')) {
             let about = clause.replace('`', "").trim().to_owned();
-            // Every second piece of the clause is between backquotes.
+            // In the clause, every second piece is between backquotes.
             for name in clause.split('`').skip(1).step_by(2) {
                 let is_key = name.chars().all(|letter| letter.is_alphanumeric() || letter == '_');
                 if is_key && keys.iter().all(|(known, _)| known != name) {

@@ -1,4 +1,4 @@
-//! Hints, in terms of the language, for errors of lower layers. These layers do not know about scripts.
+//! Hints, in terms of the language, for errors of lower layers, which do not know about scripts.
 
 use std::error::Error;
 
@@ -9,7 +9,7 @@ use crate::simulation::{ArchiveError, DerivativeError, SimulationError};
 use crate::statics::{InTime, StaticsError, StepFailure};
 use crate::system::{Approach, SliderError, SystemError, TrackError, Turning};
 
-/// Returns the hint for an error. If it has none, the causes of the error are searched for one.
+/// Hint for an error. If the error has no hint, the hint of one of its causes is returned.
 pub fn hint_for(error: &(dyn Error + 'static)) -> Option<String> {
     let own = None
         .or_else(|| error.downcast_ref().and_then(simulation_hint))

@@ -1,10 +1,10 @@
-//! Limit of the length of messages. Long quoted values are shortened in the middle.
+//! Length limit of messages. Long quoted values are shortened in the middle.
 
 const MOST: usize = 1600;
-/// Number of characters that are kept at the end. There, messages state what is allowed.
+/// Number of characters kept at the end, where messages state the allowed values.
 const END: usize = 600;
 
-/// Returns the text. If it is too long, its middle is left out.
+/// Text of limited length. The middle of a longer text is omitted.
 pub fn brief(text: String) -> String {
     // The number of bytes is an upper bound of the number of characters.
     if text.len() <= MOST {

@@ -1,9 +1,9 @@
-//! Record of the checks that a script has made.
+//! Record of the checks made by a script.
 
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct FailedCheck {
     pub message: String,
-    /// Line of the check in the script, from 1.
+    /// Line of the check in the script, counted from 1.
     pub line: usize,
 }
 

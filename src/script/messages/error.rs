@@ -1,4 +1,4 @@
-//! Errors of native functions: message, hint, and the part of the call that is underlined.
+//! Errors of native functions: message, hint, and underlined part of the call.
 
 use rhai::{Dynamic, EvalAltResult, Position};
 
@@ -7,7 +7,7 @@ use super::brief::brief;
 use super::raised::Raised;
 use super::stop::Stop;
 
-/// Marks errors of the engine that are internal errors of the program.
+/// Marker of engine errors that are internal errors of the program.
 pub(in crate::script) const BUG: &str = "a bug in withy";
 
 /// Error of a native function of the language.
@@ -17,33 +17,33 @@ pub enum ScriptError {
     Failure(Failure),
     /// The run was interrupted or exceeded a limit. Scripts cannot catch this error.
     Stopped(Stop),
-    /// Internal error, which the user is asked to report.
+    /// Internal error, with a request to the user to report it.
     Internal(String),
-    /// Error of a script function that was called. It is passed on unchanged.
+    /// Error of a called script function, which is passed on unchanged.
     Engine(Box<EvalAltResult>),
 }
 
-/// Invalid request. The message names the object and the value, the hint says what to do next.
+/// Invalid request. The message names the object and the value. The hint states the remedy.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Failure {
     /// Error message.
     pub message: String,
     /// Suggestion for the user.
     pub hint: Option<String>,
-    /// Part of the call to underline.
+    /// Underlined part of the call.
     pub place: CallPart,
 }
 
 /// Part of a call to which an error refers.
 #[derive(Clone, Debug, PartialEq)]
 pub enum CallPart {
-    /// The name of the function.
+    /// Name of the function.
     Call,
-    /// The argument with this index, from 0. If the function is called like a method, argument 0 is before the dot.
+    /// Argument with this index, counted from 0. In a call with method syntax, argument 0 is before the dot.
     Argument(usize),
-    /// The argument of a method with this index, from 0. The value before the dot does not count.
+    /// Argument of a method with this index, counted from 0, without the value before the dot.
     ArgumentOfMethod(usize),
-    /// This key of an option map that is an argument.
+    /// Key of an option map in the arguments.
     Key(String),
 }
 
@@ -83,7 +83,7 @@ impl ScriptError {
         self
     }
 
-    /// Converts the index of an argument to an index in a method call, in which the value before the dot does not count.
+    /// Converts the index of an argument to an index in a method call, without the value before the dot.
     pub fn of_method(mut self) -> Self {
         if let Self::Failure(Failure { place, .. }) = &mut self
             && let CallPart::Argument(number) = *place
@@ -106,7 +106,7 @@ impl ScriptError {
     }
 }
 
-/// Errors of lower layers become failures with their own message and a hint. Errors of a script function are passed on unchanged.
+/// Converts errors of lower layers to failures with their message and a hint. Errors of a script function are passed on unchanged.
 impl<E: std::error::Error + 'static> From<E> for ScriptError {
     fn from(error: E) -> Self {
         match Raised::script_error_in(&error) {

@@ -1,4 +1,4 @@
-//! Texts and types for messages that all language modules use: errors, numbers, nouns, suggestions, checks, reasons for a stop.
+//! Texts and types for messages, used by all language modules: errors, numbers, nouns, suggestions, checks, and reasons for a stop.
 
 pub mod advice;
 pub(crate) mod brief;

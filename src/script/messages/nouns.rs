@@ -1,6 +1,6 @@
 //! Nouns in messages: articles and type names.
 
-/// Adds the indefinite article to a noun, as in `a vector` or `an array`. A plural such as `knots` gets none.
+/// Adds the indefinite article to a noun, as in `a vector` or `an array`. A plural such as `knots` has no article.
 pub fn with_article(noun: &str) -> String {
     // The noun before "of" or "with" determines the article, as in "a table of costs".
     let head =
@@ -12,7 +12,7 @@ pub fn with_article(noun: &str) -> String {
     }
 }
 
-/// Name of a type in the language. The argument may be a Rust name, as the engine reports it.
+/// Name of a type in the language. The argument may be a Rust name as reported by the engine.
 pub fn type_word(name: &str) -> &str {
     match name.trim() {
         "i64" => "whole number",

@@ -5,7 +5,7 @@ use rhai::{Array, Dynamic, Engine, INT, ImmutableString, Map};
 use super::nouns::with_article;
 pub(crate) use crate::output::format_number;
 
-/// Largest integer for which it and all smaller ones are exact in `f64`.
+/// Largest integer up to which all integers are exact in `f64`.
 const LARGEST_EXACT: f64 = 9_007_199_254_740_992.0;
 
 /// Converts a script value to a number. Integers are accepted.

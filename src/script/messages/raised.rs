@@ -1,4 +1,4 @@
-//! Errors of script functions that native code calls. They pass through the lower layers unchanged.
+//! Errors of script functions called by native code. They pass through the lower layers unchanged.
 
 use std::cell::RefCell;
 use std::error::Error;
@@ -6,22 +6,22 @@ use std::fmt;
 
 use rhai::EvalAltResult;
 
-/// Error of a script function, wrapped for the lower layers, which use only its message. When the error returns to the script, the original error
-/// is taken out of the wrapper, with its position, trace and thrown value.
+/// Error of a script function, wrapped for the lower layers, which use only its message.
+/// When the error returns to the script, the original error is unwrapped with its position, trace and thrown value.
 #[derive(Debug)]
 pub struct Raised {
     words: String,
-    /// Error; `None` after it has been taken out. The engine needs the error by value and cannot clone it.
+    /// Error; `None` after it has been unwrapped. The engine needs the error by value and cannot clone it.
     error: RefCell<Option<Box<EvalAltResult>>>,
 }
 
 impl Raised {
-    /// Wraps an error of a script function. `words` is its message in one line.
+    /// Wraps an error of a script function. `words` is the message of the error on one line.
     pub fn new(words: String, error: Box<EvalAltResult>) -> Self {
         Self { words, error: RefCell::new(Some(error)) }
     }
 
-    /// Takes the script error out of `error` or one of its causes; `None` if there is none.
+    /// Unwraps the script error in `error` or in one of its causes; `None` if there is no script error.
     pub fn script_error_in(error: &(dyn Error + 'static)) -> Option<Box<EvalAltResult>> {
         let mut cause = Some(error);
         while let Some(error) = cause {

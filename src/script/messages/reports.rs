@@ -1,4 +1,4 @@
-//! Report entries of the simulations of a run, and rescue files that save their results if the run is stopped.
+//! Report entries of the simulations of a run, and rescue files with their results for a stopped run.
 
 use std::cell::RefCell;
 use std::collections::HashSet;
@@ -7,20 +7,20 @@ use rhai::Dynamic;
 
 /// Object that contributes to the report of a run, for example a simulation.
 pub trait Reporter {
-    /// Returns the entry in the report. It is called when the run ends, for any reason.
+    /// Entry of the object in the report. Called when the run ends, for any reason.
     fn report(&self) -> serde_json::Value;
 
-    /// Returns the object as a value of the language.
+    /// Object as a value of the language.
     fn object(&self) -> Dynamic;
 
-    /// Name and content of a rescue file with about `numbers` values, for a script that was stopped; `None` if there is nothing to save.
+    /// Name and content of a rescue file with about `numbers` values, for a stopped script; `None` if there is nothing to save.
     fn remains(&self, numbers: usize) -> Option<(String, String)>;
 }
 
-/// Maximum number of rescue files. It ensures that a script with thousands of simulations ends soon after an interrupt.
+/// Maximum number of rescue files, so that a script with thousands of simulations ends soon after an interrupt.
 const MOST_REMAINS: usize = 20;
 
-/// Maximum number of values in all rescue files together (approximate). Writing them takes less than a second.
+/// Approximate maximum number of values in all rescue files together. Writing them takes less than a second.
 const MOST_NUMBERS: usize = 1_000_000;
 /// Largest length of a number and its separator in a file [bytes].
 const LONGEST_NUMBER: u64 = 26;
@@ -35,8 +35,8 @@ impl Reports {
         self.0.borrow_mut().push(reporter);
     }
 
-    /// Unique names and contents of the rescue files for the first simulations of a run. Their total size is about `bytes`. If there are more
-    /// simulations, the second value is a note about them.
+    /// Unique names and contents of the rescue files for the first simulations of a run. Their total size is about `bytes`.
+    /// The second value is a note about simulations without a rescue file, if there are any.
     pub fn remains(&self, bytes: u64) -> (Vec<(String, String)>, Option<String>) {
         let reporters = self.0.borrow();
         let numbers = usize::try_from(bytes / LONGEST_NUMBER).unwrap_or(MOST_NUMBERS);
@@ -65,7 +65,7 @@ impl Reports {
         self.0.borrow_mut().clear();
     }
 
-    /// Returns the report entries and drops the reporters.
+    /// Report entries of all reporters, which are then dropped.
     pub fn take(&self) -> Vec<serde_json::Value> {
         self.0.take().into_iter().map(|reporter| reporter.report()).collect()
     }

@@ -1,4 +1,4 @@
-//! Reasons that stop a run before its end, and their messages.
+//! Reasons for stopping a run before its end, and their messages.
 
 use std::io;
 use std::time::Duration;
@@ -10,10 +10,10 @@ use super::numbers::format_number;
 /// Bytes per megabyte.
 pub const MEGABYTE: u64 = 1_000_000;
 
-/// Reason that stops a run before its end. Scripts cannot catch it.
+/// Reason for stopping a run before its end. Scripts cannot catch it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Stop {
-    /// Interrupt by Ctrl-C, or by anything else that sets the interrupt flag.
+    /// Interrupt by Ctrl-C, or by other code that sets the interrupt flag.
     Interrupt,
     /// The reader of the output has closed the pipe.
     PipeClosed,
@@ -34,7 +34,7 @@ pub enum Stop {
 }
 
 impl Stop {
-    /// Reason that is stored in the token with which the engine was terminated.
+    /// Reason stored in the token that terminated the engine.
     pub fn of_token(token: &Dynamic) -> Self {
         token.read_lock::<Self>().map_or(Self::Interrupt, |stop| *stop)
     }

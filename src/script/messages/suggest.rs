@@ -1,11 +1,11 @@
 //! Suggestions for misspelt names.
 
-/// Largest length of a misspelt name for which a suggestion is searched [bytes].
+/// Largest length of a misspelt name for which suggestions are searched [bytes].
 const LONGEST: usize = 200;
 
-/// Candidate that is most similar to `wrong`; `None` if none is similar enough.
+/// Candidate that is most similar to `wrong`; `None` if no candidate is similar enough.
 pub fn nearest<'a>(wrong: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
-    // The time of a comparison increases with the length of both names, and no name of the language is this long.
+    // The time of a comparison increases with the length of both names. No name of the language is this long.
     if wrong.len() > LONGEST {
         return None;
     }

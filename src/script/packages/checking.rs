@@ -1,4 +1,4 @@
-//! Checks by which a script verifies its own results. After a failed check, the script continues.
+//! Checks by which a script verifies its results. After a failed check, the script continues.
 
 use rhai::Dynamic;
 

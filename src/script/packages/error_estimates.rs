@@ -203,7 +203,7 @@ fn estimate(call: &mut Call) -> Result<Dynamic, ScriptError> {
     Ok(Dynamic::from(estimated))
 }
 
-/// Error estimate for a picture or file of a call with the option `error`; `None` if it is not wanted, or the script is only checked.
+/// Error estimate for a picture or file of a call with the option `error`; `None` if the option is off, or if the script is only checked.
 pub(super) fn wanted_estimate(
     call: &Call,
     options: &Options,

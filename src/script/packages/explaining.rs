@@ -1,4 +1,4 @@
-//! Explanations: the parts of the mechanics that a scene uses, and the properties of a value.
+//! Explanations: the mechanical features that a scene uses, and the properties of a value.
 
 use rhai::Dynamic;
 

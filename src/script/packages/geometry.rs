@@ -1,7 +1,7 @@
 //! Geometry: knots and basis functions, planar curves, Gauss rules.
 //!
-//! In other domains, a curve is a parameter `object("axis", geometry::CURVE)`, read by `call.get::<Rc<Curve>>("axis")`. Knots are [`KNOTS`] with
-//! the native type `Rc<KnotVector>`. Both are immutable.
+//! In other domains, a curve is a parameter `object("axis", geometry::CURVE)`, read by `call.get::<Rc<Curve>>("axis")`.
+//! Knots are parameters [`KNOTS`] with the native type `Rc<KnotVector>`. Curves and knots are immutable.
 
 pub mod curves;
 pub mod knots;
@@ -27,10 +27,10 @@ const ORDER: Parameter = integer("order")
 const TIMES: Parameter =
     integer("times").non_negative().doc("number of insertions").or(Presence::Integer(1));
 
-/// Component of a vector that is printed as 0, as a fraction of the length of the vector.
+/// Component of a vector that is attributed to rounding and printed as 0, as a fraction of the length of the vector.
 const ROUNDING: f64 = 1e-14;
 
-/// Derivatives of all functions of `basis`, at the parameter `xi` and of the `order` that are arguments of `call`.
+/// Derivatives of all functions of `basis`. The arguments of `call` are the parameter `xi` and the `order`.
 pub fn all_functions(basis: &Basis, call: &Call) -> Result<Dynamic, ScriptError> {
     let local = at_argument(0, basis.evaluate(call.number("xi")?))?;
     let mut row = vec![0.0; basis.functions()];
@@ -63,7 +63,7 @@ fn brief(x: f64) -> String {
     format_number(format!("{x:.5e}").parse().unwrap_or(x))
 }
 
-/// Point with six digits per coordinate. A coordinate that is below the rounding error of the other is shown as 0.
+/// Point with six digits per coordinate. A coordinate below the rounding error of the other coordinate is shown as 0.
 fn brief_point(point: Vec2) -> String {
     let [x, y] = [point.x, point.y].map(|x| match x.abs() < ROUNDING * point.norm() {
         true => brief(0.0),

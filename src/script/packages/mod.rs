@@ -1,4 +1,4 @@
-//! Domains of the language, one file each. A new domain is a new file and a line in [`TABLES`].
+//! Domains of the language, one file each. A new domain needs a new file and a line in [`TABLES`].
 
 mod animations;
 mod arrays;

@@ -236,7 +236,7 @@ impl Scripted for ModesHandle {
     }
 }
 
-/// Prints, once per scene, a note that the modes do not include the effects of its controllers and spins.
+/// Prints, once per scene, a note that modes do not include the effects of controllers and spins.
 fn warn_about_omissions(call: &Call, handle: &SceneHandle, scene: &Scene) {
     let steered = scene.schedules().filter(|(_, schedule)| schedule.is_sampled());
     let controllers: Vec<String> = steered

@@ -1,4 +1,4 @@
-//! Checks of options and arguments of script functions, in the same way as for functions of the language.
+//! Checks of options and arguments of script functions. They correspond to the checks for functions of the language.
 
 use rhai::{Array, Dynamic, Map};
 
@@ -75,7 +75,7 @@ pub const TABLE: BindingTable = BindingTable {
     ],
 };
 
-/// Descriptions of types that scripts can use. All other words are type names.
+/// Type descriptions that scripts can use. All other words are type names.
 const KINDS: &[(&str, Kind)] = &[
     ("a value", Kind::Any),
     ("a number", Kind::Number(NumberRange::Finite)),
@@ -161,7 +161,7 @@ fn unknown_option(owner: &str, unknown: &str, known: &[OptionInfo]) -> ScriptErr
         .at(CallPart::Key(unknown.to_owned()))
 }
 
-/// Converts a value to the form used in scripts, if it is of the type that `wanted` describes.
+/// Converts a value to its script form if its type is described by `wanted`.
 fn accept(
     call: &Call,
     owner: &str,
@@ -181,7 +181,7 @@ fn accept(
         if words == type_name {
             return Ok(value);
         }
-        // If one type rejects the value, the next one is tried. If all reject it, the error is reported below.
+        // If a type rejects the value, the next type is tried. If all types reject it, the error is reported below.
         let accept = |kind| call.accept(owner, name, (kind, wanted), value.clone()).ok();
         if let Some(accepted) = kind_named(words).and_then(accept) {
             return Ok(written(accepted));
@@ -195,7 +195,7 @@ fn kind_named(words: &str) -> Option<&'static Kind> {
     KINDS.iter().find(|(known, _)| *known == words).map(|(_, kind)| kind)
 }
 
-/// Converts lists to the form used in scripts.
+/// Converts lists to their script form.
 fn written(accepted: Dynamic) -> Dynamic {
     if let Some(numbers) = accepted.clone().try_cast::<Vec<f64>>() {
         return numbers.into_iter().map(Dynamic::from).collect::<Array>().into();

@@ -83,14 +83,13 @@ pub(super) fn expect_rows_between(call: &Call, of: &SimulationHandle) -> Result<
 }
 
 pub(super) struct Missing {
-    /// Description of the data that are missing.
+    /// Description of the missing data.
     pub what: &'static str,
-    /// Alternative that works without the missing data.
+    /// Alternative without the missing data.
     pub instead: &'static str,
 }
 
-/// Reports that the states of a run cannot be computed again from `time` on. If the data were requested explicitly, it is an error, otherwise a
-/// note.
+/// Reports that the states of a run after `time` cannot be computed again. Explicitly requested data cause an error, other data a note.
 pub(super) fn report_diverged_rerun(
     call: &Call,
     of: &SimulationHandle,

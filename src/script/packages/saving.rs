@@ -1,4 +1,4 @@
-//! Saving and loading of simulations, access to the simulation used last, and search for objects by name.
+//! Saving and loading of simulations, access to the last used simulation, and search for objects by name.
 
 use rhai::{Array, Dynamic};
 

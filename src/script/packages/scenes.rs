@@ -179,10 +179,10 @@ pub const JOINT: Type = Type::of::<JointHandle>();
 
 const SPANS: usize = 16;
 
-/// Difference between the length of a beam on its mesh and its length as drawn, as a fraction of the length, above which a warning is given.
+/// Relative difference between the length of a beam on its mesh and the length of its axis, above which a warning is given.
 const MISSED_LENGTH: f64 = 0.01;
 
-/// Relative error of integrals of a tapered section, computed on the mesh of the beam, above which a warning is given.
+/// Relative error of integrals of a tapered section on the mesh of the beam, above which a warning is given.
 const TAPER_TOLERANCE: f64 = 5e-3;
 
 const AT: Parameter = object("station", STATION);
@@ -247,7 +247,7 @@ fn beam(call: &mut Call) -> Result<Dynamic, ScriptError> {
     }
     warn_about_taper(call, &scene, index)?;
     warn_about_length(call, &scene, index)?;
-    // Variant 0 is evaluated last. Therefore the beams of the perturbed variants exist already.
+    // Variant 0 is evaluated last, so the beams of the perturbed variants already exist.
     scene.expect_constant_length(index).map_err(|error| error.at(CallPart::Key("axis".into())))?;
     Ok(Dynamic::from(BeamHandle { scene, index }))
 }
@@ -277,7 +277,7 @@ fn warn_about_taper(call: &Call, scene: &SceneHandle, index: usize) -> Result<()
     Ok(())
 }
 
-/// Warns if a beam on its mesh is longer or shorter than the axis that was drawn.
+/// Warns if a beam on its mesh is longer or shorter than its given axis.
 fn warn_about_length(call: &Call, scene: &SceneHandle, index: usize) -> Result<(), ScriptError> {
     let scene = scene.scene().borrow();
     let beam = &scene.beams[index];

@@ -142,7 +142,7 @@ pub const TABLE: BindingTable = BindingTable {
 };
 
 pub const SCHEDULE: Type = Type::of::<Schedule>();
-/// Types of values that are accepted as a schedule: a schedule, a constant number, or a function of time.
+/// Accepted types of a schedule argument: a schedule, a constant number, or a function of time.
 pub const SCHEDULE_KINDS: &[Kind] =
     &[Kind::Object(SCHEDULE), Kind::Number(NumberRange::Finite), Kind::Function];
 
@@ -231,12 +231,12 @@ fn stored(call: &Call, function: FnPtr, breaks: Vec<f64>) -> Result<Schedule, Sc
 fn words(context: &Context, error: &EvalAltResult) -> String {
     let Some(engine) = context.engine() else { return error.to_string() };
     let Some(catalog) = Sources::of(&engine).catalog() else { return error.to_string() };
-    // The error contains the name of its file. The source text of the script is not available here.
+    // The error contains the name of its file. The source text of the script is not available.
     let program = Program::named("", "");
     Explainer { program: &program, catalog: &catalog, engine: &engine }.explain(error).line()
 }
 
-/// Schedule of a load from an argument of one of the types [`SCHEDULE_KINDS`]. The default is the constant 1.
+/// Schedule of a load from an argument of a type in [`SCHEDULE_KINDS`]. The default is the constant 1.
 pub(super) fn schedule_of(
     call: &Call,
     arguments: &Arguments,
@@ -251,8 +251,8 @@ pub(super) fn schedule_of(
     }
 }
 
-/// Schedule of a load or drive from an argument as for [`schedule_of`]. The argument may also be a controller: a function of time and simulation
-/// that is evaluated at the start of every step or at samples.
+/// Schedule of a load or drive from an argument, as for [`schedule_of`].
+/// The argument may also be a controller: a function of time and simulation that is evaluated at the start of every step or at samples.
 pub(super) fn controlled_schedule_of(
     call: &Call,
     arguments: &Arguments,

@@ -199,7 +199,7 @@ pub(super) const START: &[Parameter] = &[
         .or(Presence::Text("print")),
 ];
 
-/// Tolerance of the adaptive steps that a simulation takes without `dt`, relative to the size of the scene.
+/// Tolerance of the adaptive steps of a simulation without the option `dt`, relative to the size of the scene.
 const DEFAULT_TOLERANCE: f64 = 1e-3;
 
 #[derive(Clone)]
@@ -294,7 +294,7 @@ pub(super) fn begin(
         tolerance: Tolerance::default(),
     };
     let started = start(settings);
-    // An assembly that was stopped has its reason in the context.
+    // The context contains the reason if the assembly was stopped.
     call.context().proceed()?;
     let mut simulation = started?;
     let name = options.optional_text("name")?;
@@ -343,7 +343,7 @@ fn angle(call: &mut Call) -> Result<Dynamic, ScriptError> {
     tracked_angle(call, &station, simulation.model().angle(simulation.scene(), &station.station))
 }
 
-/// Angle of the section at a station [rad], if it was tracked from the start.
+/// Angle of the section at a station [rad]. The angle must have been tracked from the start.
 pub(super) fn tracked_angle(
     call: &Call,
     station: &StationHandle,

@@ -1,4 +1,4 @@
-//! Laws of springs and dampers from options. They are given by numbers, tables or functions.
+//! Laws of springs and dampers from options: numbers, tables or functions.
 
 use rhai::{Dynamic, FnPtr};
 
@@ -22,7 +22,7 @@ pub(super) enum Acts {
     Push,
 }
 
-/// Spring law, and the zero of its elongations.
+/// Spring law, and configuration of zero elongation.
 pub(super) type ParsedLaw = (Option<SpringLaw>, Origin);
 
 /// Reads a spring law from the options; `None` for a pure damper.
@@ -112,7 +112,7 @@ pub(super) fn damping(call: &Call, options: &Options) -> Result<DampingLaw, Scri
     Ok(law)
 }
 
-/// Law given by a function. The function is sampled over a range of elongations when the spring is created. It is not called later.
+/// Law from a function. The function is sampled over a range of elongations when the spring is created, and not called later.
 fn sampled(call: &Call, options: &Options, ease: &str) -> Result<ParsedLaw, ScriptError> {
     let function = options.callback("law")?;
     call.expect_arguments(&function, 1, "law: |e| 100 * e, where e is the elongation")?;
@@ -156,7 +156,7 @@ fn force_of<'a>(
     }
 }
 
-/// Rejects a function that even the finest polygon does not approximate well. The hint suggests an alternative.
+/// Rejects a function for which even the finest polygon is inaccurate. The hint suggests an alternative.
 fn expect_smooth(
     call: &Call,
     polygon: &SpringLaw,

@@ -101,7 +101,7 @@ fn write(
     Ok(Dynamic::UNIT)
 }
 
-/// File name that is not used yet, for a picture of some rows. It must not overwrite the picture of all rows or of other rows.
+/// Unused file name for a picture of some rows, which must not overwrite the picture of all rows or of other rows.
 fn numbered(call: &Call, name: &str) -> Result<String, ScriptError> {
     let output = call.context().output();
     let written = output.written();
@@ -115,7 +115,7 @@ fn numbered(call: &Call, name: &str) -> Result<String, ScriptError> {
     }
 }
 
-/// Rejects a sweep without rows that have numbers, unless the run computes only a part of the rows.
+/// Rejects a sweep without numeric rows, unless the run computes only a part of the rows.
 fn expect_rows(call: &Call, picture: &Picture, names: &[&str]) -> Result<(), ScriptError> {
     let context = call.context();
     let is_whole = context.mode() == RunMode::Run && context.studies().part.is_none();

@@ -114,7 +114,7 @@ impl SliderGuide {
         }
     }
 
-    /// Beam on which a slider starts and its arc length on this beam. They are the given place, or the place nearest to the slave.
+    /// Start position of a slider, given by a beam and an arc length along it. It is the requested position, or the position nearest to the slave.
     pub(super) fn start(
         self,
         scene: &Scene,

@@ -129,8 +129,8 @@ fn write_viewer(call: &mut Call) -> Result<Dynamic, ScriptError> {
     Ok(Dynamic::UNIT)
 }
 
-/// Fields for colouring beams that are computed from the states of a simulation. The states are restored from snapshots or computed again. If the
-/// repeated run differs from the original, the result is `None` with a note, or an error if the fields were requested explicitly.
+/// Fields for colouring beams, computed from the states of a simulation. The states are restored from snapshots or computed again.
+/// If the repeated run differs from the original, a note is printed and the result is `None`. For explicitly requested fields, it is an error.
 fn inside(
     call: &Call,
     of: &SimulationHandle,
@@ -192,7 +192,7 @@ pub(super) fn span(
     Ok((from, to))
 }
 
-/// Stations for each simulation. Each station must belong to at least one simulation.
+/// Stations assigned to simulations. Each station must belong to at least one simulation.
 fn assigned(
     given: &[StationHandle],
     simulations: &[SimulationHandle],

@@ -15,7 +15,7 @@ const DIGITS: usize = 6;
 
 /// Section results of some beams at one time.
 pub struct SectionForceProfile {
-    /// First part of titles. The name of the quantity follows it.
+    /// First part of titles. The name of the quantity is appended.
     pub title: String,
     /// Time as text; may be empty.
     pub when: String,
@@ -30,7 +30,7 @@ struct BeamProfile {
 }
 
 impl SectionForceProfile {
-    /// Results of a simulation at the present time, for the beams with these indices, or for all beams if `beams` is empty.
+    /// Results of a simulation at the present time, for the beams with the given indices, or for all beams if `beams` is empty.
     ///
     /// # Errors
     /// Fails if an axis has a point without a tangent.
@@ -40,7 +40,7 @@ impl SectionForceProfile {
         Self::of_model(&at, simulation.model(), beams).map(|inside| Self { when, ..inside })
     }
 
-    /// Results of an equilibrium under its full load, for the beams with these indices, or for all beams if `beams` is empty.
+    /// Results of an equilibrium under its full load, for the beams with the given indices, or for all beams if `beams` is empty.
     ///
     /// # Errors
     /// Fails if an axis has a point without a tangent.
@@ -74,7 +74,7 @@ impl SectionForceProfile {
         })
     }
 
-    /// Removes symbols if there are so many that they would hide the beams.
+    /// Removes all symbols if there are so many that they would hide the beams.
     pub fn with_uncrowded_symbols(mut self) -> Self {
         self.scenery.symbols = uncrowded(self.scenery.symbols);
         self
@@ -122,7 +122,7 @@ impl SectionForceProfile {
         })
     }
 
-    /// Picture in which colour and width of the beams show the magnitude of the quantity.
+    /// Picture in which the colour and width of the beams show the magnitude of the quantity.
     pub fn field(&self, quantity: &BeamQuantity) -> FieldPicture {
         let label = match quantity.sign {
             sign if sign.len() == 1 => format!("|{sign}| [{}]", quantity.dimension),

@@ -6,9 +6,9 @@ use crate::output::{Point, VtkCell, VtkField, VtkGrid, VtkValues};
 use crate::simulation::Simulation;
 use crate::system::{BeamPlaces, BeamSample, SystemError};
 
-/// Sample places of all beams, computed once for all frames.
+/// Sample positions on all beams, computed once for all frames.
 pub struct Grids {
-    /// Names of the beams, then of point masses and centres of rigid bodies.
+    /// Names of the beams, followed by those of point masses and centres of rigid bodies.
     names: Vec<String>,
     beams: Vec<BeamPlaces>,
 }
@@ -33,7 +33,7 @@ impl Grids {
         })
     }
 
-    /// Grid of a recorded configuration. It contains only positions.
+    /// Grid of a recorded configuration, which contains only positions.
     pub fn of_configuration(&self, simulation: &Simulation, index: usize) -> VtkGrid {
         let bodies = simulation.control_points_at(index);
         let (of_beams, of_particles) = bodies.split_at(self.beams.len());
@@ -44,7 +44,7 @@ impl Grids {
         VtkGrid { cells: self.cells(lines.chain(dots)), fields: vec![self.arc_lengths()] }
     }
 
-    /// Grid of the present state. It contains positions, velocities, angles and section forces.
+    /// Grid of the present state, with positions, velocities, angles and section forces.
     pub fn of_state(&self, simulation: &Simulation) -> VtkGrid {
         let model = simulation.model();
         let samples: Vec<Vec<BeamSample>> =

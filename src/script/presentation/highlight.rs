@@ -1,4 +1,4 @@
-//! Syntax highlighting. It does not change the text, even if this is incomplete or invalid.
+//! Syntax highlighting. The text is not changed, even if it is incomplete or invalid.
 
 use std::collections::{HashMap, HashSet};
 
@@ -25,12 +25,12 @@ pub const FUNCTION: HighlightStyle = HighlightStyle("34");
 pub const CONSTANT: HighlightStyle = HighlightStyle("36");
 /// Members that the type of a value does not have.
 pub const UNKNOWN_MEMBER: HighlightStyle = HighlightStyle("4");
-/// Bracket at the cursor, and its partner.
+/// Bracket at the cursor, and its matching bracket.
 pub const PARTNER: HighlightStyle = HighlightStyle("1;4");
-/// Brackets and other tokens without a partner.
+/// Brackets and other tokens without a matching token.
 pub const UNMATCHED: HighlightStyle = HighlightStyle("31");
 
-/// Names and their colours. The object is created once and used for many texts.
+/// Names with their colours. The object is created once and used for many texts.
 pub struct Vocabulary {
     functions: HashSet<String>,
     constants: HashSet<String>,
@@ -40,7 +40,7 @@ pub struct Vocabulary {
 }
 
 impl Vocabulary {
-    /// Vocabulary with the names of the language. It is sufficient for files.
+    /// Vocabulary with the names of the language, which is sufficient for files.
     pub fn of_language(catalog: &Catalog) -> Self {
         let built_in = catalog.built_ins().filter(|known| known.is_function());
         let built_in = built_in.map(|known| known.name().to_owned());
@@ -102,9 +102,9 @@ impl Vocabulary {
     }
 }
 
-/// Text with colours. A bracket at the cursor and its partner are emphasised.
+/// Text with colours. A bracket at the cursor and its matching bracket are emphasised.
 pub fn highlight(text: &str, cursor: Option<usize>, vocabulary: &Vocabulary) -> String {
-    // An escape character in the input would interfere with the colour sequences that are inserted.
+    // An escape character in the input would interfere with the inserted colour sequences.
     if text.contains('\x1b') {
         return text.to_owned();
     }
@@ -135,7 +135,7 @@ pub fn highlight(text: &str, cursor: Option<usize>, vocabulary: &Vocabulary) -> 
                     "::" if index > 1 => vocabulary.style_in_module(value, written),
                     _ => vocabulary.style_of_word(written),
                 };
-                // The last name may not be complete yet.
+                // The last name may be incomplete.
                 let is_last = index + 1 == tokens.len();
                 style.filter(|style| !is_last || *style != UNKNOWN_MEMBER)
             }

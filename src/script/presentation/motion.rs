@@ -10,7 +10,7 @@ use crate::output::{
 use crate::script::messages::error::ScriptError;
 use crate::simulation::{Configuration, Simulation};
 
-/// Number of spans above which knots are marked only if this is requested.
+/// Largest number of spans for which knots are marked by default.
 const MOST_SPANS_WITH_DOTS: usize = 40;
 const MOST_SNAPSHOTS: f64 = 2000.0;
 const DIGITS: usize = 6;
@@ -28,9 +28,9 @@ pub struct MotionOptions {
     pub times: Times,
     /// Stations whose paths are drawn, with their names.
     pub traces: Vec<(String, BodyPoint)>,
-    /// Magnification of displacements since the start; `None` for the value 1.
+    /// Magnification of displacements from the start; `None` for the value 1.
     pub magnify: Option<f64>,
-    /// Marks at knots or nodes. If `None`, they are drawn for a small number of spans.
+    /// Marks at knots or nodes. If `None`, marks are drawn only for a small number of spans.
     pub dots: Option<bool>,
     pub symbols: Visibility,
     pub limits: AxisLimits,
@@ -39,7 +39,7 @@ pub struct MotionOptions {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Visibility {
     Yes,
-    /// All symbols, except types of which there are so many that they would hide the others.
+    /// All symbols, without types that are so numerous that they would hide the others.
     IfFew,
     None,
 }
@@ -139,7 +139,7 @@ impl MotionView {
         self.traces.into_iter().fold(picture, |picture, (name, path)| picture.trace(name, path))
     }
 
-    /// Picture as text for a terminal. It shows the last snapshot, and earlier ones as dotted lines.
+    /// Picture as text for a terminal: the last snapshot, and earlier snapshots as dotted lines.
     pub fn text(self, title: impl Into<String>, style: &TerminalStyle) -> String {
         let mut picture = ConfigurationPicture::new(title).limits(self.limits);
         let count = self.snapshots.len();
@@ -177,7 +177,7 @@ fn mark(placed: &PlacedSymbol) -> Option<PictureMark> {
         Symbol::Clamp | Symbol::Guided | Symbol::Carriage => Some(PictureMark::Clamp),
         Symbol::Slider => Some(PictureMark::Slider),
         Symbol::Joint | Symbol::RigidJoint => Some(PictureMark::Joint),
-        // Springs are drawn as lines elsewhere. Loads are not drawn.
+        // Springs are drawn elsewhere as lines. Loads are not drawn.
         _ => None,
     }
 }
@@ -201,7 +201,7 @@ fn times(simulation: &Simulation, times: &Times) -> Result<Vec<f64>, ScriptError
     Ok(met.chain((!is_met).then_some(last)).collect())
 }
 
-/// Recorded configuration nearest to a time. For the present time it is the present configuration, whether recorded or not.
+/// Recorded configuration nearest to a time. For the present time, the present configuration, even if it is not recorded.
 fn configuration(simulation: &Simulation, time: f64) -> Result<Option<Configuration>, ScriptError> {
     Ok(match time >= simulation.time() {
         true => Some(simulation.configuration()?),

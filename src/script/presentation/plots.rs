@@ -28,7 +28,7 @@ pub fn history_chart(
 /// Checks the names of columns of a history.
 ///
 /// # Errors
-/// Fails if no column is named or a column is unknown. The error lists the columns.
+/// Fails if no column is named, or if a column is unknown. The error lists the columns.
 pub fn expect_columns(history: &History, columns: &[String]) -> Result<(), ScriptError> {
     if columns.is_empty() {
         let hint = format!("columns: {}", column_names(history));
@@ -61,7 +61,7 @@ pub fn drift_summary(history: &History) -> String {
     moving.map(line).collect::<Vec<_>>().join("\n")
 }
 
-/// Summary of a column in one line, for output that is not a terminal.
+/// Summary of a column on one line, for output that is not a terminal.
 ///
 /// # Errors
 /// Fails if the column is unknown. The error lists the columns.
@@ -88,7 +88,8 @@ pub fn column_summary(history: &History, column: &str) -> Result<String, ScriptE
     Ok(format!("{name}: {first} at the start, least {least}, most {most}, now {last} ({rows})"))
 }
 
-/// Picture of the present configuration or of the recorded one nearest to a time, as text for a terminal. The initial configuration is dotted.
+/// Picture of the present configuration, or of the recorded configuration nearest to a time, as text for a terminal.
+/// The initial configuration is dotted.
 ///
 /// # Errors
 /// Fails if an axis has a point without a tangent.
@@ -215,7 +216,7 @@ pub fn column_hint(history: &History, name: &str) -> String {
     format!("{suggestion}columns: {}", column_names(history))
 }
 
-/// Columns that exist only in some scenes, each with the reason.
+/// Columns that exist only in some scenes, with the reason.
 const MISSING: [(&str, &str); 2] = [
     (
         "dissipated",

@@ -9,13 +9,13 @@ use crate::output::{beginning, columns, cut, padded, significant};
 use crate::script::bindings::catalog::Catalog;
 use crate::script::bindings::kind::{Details, Type};
 
-/// Number of digits of numbers. It is small enough to hide rounding errors of binary numbers.
+/// Number of digits of numbers, small enough to hide rounding errors of binary numbers.
 const DIGITS: usize = 10;
 const MOST_ITEMS: usize = 8;
-/// Number of items at the start of a long array that are shown, in addition to its last item.
+/// Number of displayed items at the start of a long array, in addition to its last item.
 const FIRST_ITEMS: usize = 3;
 const MOST_KEYS: usize = 12;
-/// Largest nesting depth that is shown. The nesting may be infinite.
+/// Largest displayed nesting depth. The nesting of values may be infinite.
 const DEEPEST: usize = 4;
 const LONGEST_TEXT: usize = 40;
 /// Minimum width of the values in summaries.
@@ -40,7 +40,7 @@ impl OutputLine {
     }
 
     fn write(&mut self, text: &str) {
-        // Two more characters than fit are enough to detect that the line is full, also for wide characters.
+        // Two more characters than fit are sufficient to detect that the line is full, even for wide characters.
         self.text.push_str(beginning(text, self.room + 2));
         self.room = self.room.saturating_sub(columns(text));
     }
@@ -56,13 +56,13 @@ impl OutputLine {
     }
 }
 
-/// Formats a value on lines of `width` columns. Numbers have up to ten digits. Long arrays and maps are abbreviated. Native values are followed by
-/// their summary. The unit value gives an empty text.
+/// Formats a value on lines of `width` columns. Numbers have up to ten digits. Long arrays and maps are abbreviated.
+/// Native values are followed by their summary. The unit value is shown as an empty text.
 pub fn present(catalog: &Catalog, value: &Dynamic, width: usize) -> String {
     Presenter { catalog, width: width.max(20) }.show(value)
 }
 
-/// Formats a value in one line of `width` columns. Arrays and maps are abbreviated. Of other values only the first line is used.
+/// Formats a value on one line of `width` columns. Arrays and maps are abbreviated. For other values, only the first line is used.
 pub fn present_in_a_line(catalog: &Catalog, value: &Dynamic, width: usize) -> String {
     let presenter = Presenter { catalog, width };
     if is_collection(value) {
@@ -122,7 +122,7 @@ impl Presenter<'_> {
     fn native(&self, value: &Dynamic) -> Option<(Type, String)> {
         let mut types = self.catalog.tables().flat_map(|table| table.types);
         let (of, shown) = types.find_map(|of| Some((*of, of.show(value)?)))?;
-        // Here a vector is written as a point, because brackets denote arrays.
+        // A vector in an array is written as a point, because brackets denote arrays.
         let vector = value.read_lock::<Vec2>().map(|vector| written(&vector));
         Some((of, vector.unwrap_or(shown)))
     }
@@ -142,7 +142,7 @@ impl Presenter<'_> {
         } else if let Some(map) = value.read_lock::<Map>() {
             self.write_map(line, &map, depth);
         } else if let Some((of, shown)) = self.native(value) {
-            // Tables do not fit into one line.
+            // Tables do not fit on one line.
             line.write(if shown.contains('\n') { of.name() } else { &shown });
         } else {
             let longest = if depth == 0 { self.width } else { LONGEST_TEXT };
@@ -240,7 +240,7 @@ fn pieces(word: &str, room: usize) -> Vec<String> {
     let mut rest = word;
     let mut pieces = Vec::new();
     while !rest.is_empty() {
-        // Each piece has at least one character, however small the width is.
+        // Each piece has at least one character, even if the width is very small.
         let least = rest.chars().next().map_or(0, char::len_utf8);
         let (piece, behind) = rest.split_at(beginning(rest, room).len().max(least));
         pieces.push(piece.to_owned());
@@ -271,7 +271,7 @@ fn written_key(key: &str) -> String {
 }
 
 fn plain(value: &Dynamic, longest: usize) -> String {
-    // Variables that closures capture are shared values, which must be locked for reading.
+    // Variables captured by closures are shared values, which must be locked for reading.
     let value = value.flatten_clone();
     if let Ok(x) = value.as_float() {
         return significant(x, DIGITS);

@@ -11,7 +11,7 @@ use crate::statics::Equilibrium;
 use crate::system::{Anchor, Drive, Scene, Spring, SpringKind, System, SystemError};
 
 const ARROWS: usize = 5;
-/// Distance between the points from which the tangent at a station is computed, as a fraction of the beam length.
+/// Distance between the two points used to compute the tangent at a station, as a fraction of the beam length.
 const AROUND: f64 = 1e-3;
 
 pub struct StationSymbol<'a> {
@@ -26,7 +26,7 @@ pub struct StationSymbol<'a> {
 pub enum Pointing {
     /// Direction that is fixed in space.
     To(Vec2),
-    /// Direction relative to the beam, given by components along it and to its left.
+    /// Direction relative to the beam, with components along the beam and to its left.
     WithBeam(Vec2),
 }
 
@@ -57,7 +57,7 @@ pub struct SceneAt<'a> {
 }
 
 impl<'a> SceneAt<'a> {
-    /// Scene of a simulation at a time. Released connections are left out.
+    /// Scene of a simulation at a time, without released connections.
     pub fn of(simulation: &'a Simulation, time: f64) -> Self {
         let scene = simulation.scene();
         let holds = scene.releasables().into_iter().map(|(_, hold)| hold);
@@ -83,7 +83,7 @@ impl<'a> SceneAt<'a> {
 /// Symbols of a scene at a time. `places` returns the positions of stations. Zero loads have no symbol.
 ///
 /// # Errors
-/// Errors of `places`.
+/// Fails if `places` fails.
 pub fn symbols(
     at: &SceneAt,
     places: impl FnOnce(&[Station]) -> Result<Vec<Vec2>, SystemError>,
@@ -92,7 +92,7 @@ pub fn symbols(
     let is_there = |sign: &StationSymbol| sign.hold.is_none_or(|hold| !at.released.contains(&hold));
     let held = of_supports(scene).chain(of_sliders(scene)).filter(is_there);
     let unplaced: Vec<StationSymbol> = held.chain(of_loads(scene, time)).collect();
-    // Each symbol uses three positions: its own, and those shortly before and after it on the beam. The positions of the springs are last.
+    // Each symbol uses three positions: its own, and the positions shortly before and after it on the beam. The positions of the springs are last.
     let around = unplaced.iter().flat_map(|symbol| around(scene, &symbol.at));
     let springs = scene.springs().enumerate();
     let springs = springs.filter(|(index, _)| !at.released.contains(&Releasable::Spring(*index)));
@@ -205,13 +205,13 @@ fn of_held(scene: &Scene, at: &Station, held: Components) -> (Symbol, Pointing) 
     }
 }
 
-/// Normal direction of an inclined roller. It points upwards, so that the support is below the beam.
+/// Normal direction of an inclined roller. The direction points upwards, so that the support is below the beam.
 fn across(along: Vec2) -> Pointing {
     let across = perpendicular(along);
     Pointing::To(if across.y < 0.0 { -across } else { across })
 }
 
-/// Direction that points away from a support. At the end of a beam it points backwards along the beam.
+/// Direction that points away from a support. At the end of a beam, it points backwards along the beam.
 fn away(scene: &Scene, at: &Station) -> Pointing {
     let is_end = at.beam().is_some() && at.arc_length > 0.5 * scene.length_at(at);
     Pointing::WithBeam(if is_end { -Vec2::x() } else { Vec2::x() })
@@ -285,8 +285,8 @@ fn of_loads(scene: &Scene, time: f64) -> impl Iterator<Item = StationSymbol<'_>>
     })
 }
 
-/// Factor of a load just before a time; at time zero, the factor just after it. It is 1 if the load calls script functions, because they are not
-/// called here.
+/// Factor of a load just before a time. At time zero, the factor just after it.
+/// The factor is 1 for loads with script functions, because script functions are not called here.
 fn factor(load: &Load, time: f64) -> f64 {
     if load.schedule.functions() > 0 {
         return 1.0;

@@ -28,17 +28,17 @@ const ARROWS_A_BEAM: usize = 6;
 pub struct ViewerOptions<'a> {
     /// Time interval [time].
     pub span: (f64, f64),
-    /// Configurations that are shown, as indices in the trajectory.
+    /// Displayed configurations, as indices in the trajectory.
     pub frames: Vec<usize>,
     /// Label of the motion.
     pub label: String,
-    /// Stations whose paths are drawn; `None` for the free ends.
+    /// Stations with drawn paths; `None` for the free ends.
     pub trails: Option<&'a [Station]>,
     /// Columns of the history.
     pub columns: &'a [String],
     /// Quantities along beams, from [`FIELDS`].
     pub fields: &'a [&'a str],
-    /// Fields that were computed from states of the simulation.
+    /// Fields computed from states of the simulation.
     pub inside: Vec<ColourField>,
 }
 
@@ -215,7 +215,7 @@ fn trails(
     stations.iter().map(trail).collect()
 }
 
-/// Ends of beams without support (one for each joint), and point masses. Empty if there are many.
+/// Unsupported ends of beams (one for each joint), and point masses. Empty if there are many.
 fn free_ends(simulation: &Simulation) -> Vec<Station> {
     let scene = simulation.scene();
     let of_beam = |beam: usize| {

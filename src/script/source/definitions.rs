@@ -7,17 +7,17 @@ use super::text::{Lexeme, name_of};
 #[derive(Clone, Copy, Debug)]
 pub struct Definition<'t> {
     tokens: &'t [Lexeme],
-    /// Index of the first token, which is `fn`, or `private` before it.
+    /// Index of the first token: `fn`, or `private` before `fn`.
     pub first: usize,
     start: usize,
-    /// Index of the bracket before the parameters. Without such a bracket, it is the bracket of the body.
+    /// Index of the bracket before the parameters. If it is missing, index of the bracket of the body.
     opening: usize,
     body: usize,
     /// Index after the last token.
     pub end: usize,
 }
 
-/// All function definitions in these tokens, in their order. The text may contain errors.
+/// All function definitions in the given tokens, in their order. The text may contain errors.
 pub fn definitions(tokens: &[Lexeme]) -> impl DoubleEndedIterator<Item = Definition<'_>> {
     let starts = tokens.iter().enumerate().filter(|(_, (token, _))| matches!(token, Token::Fn));
     starts.map(|(start, _)| Definition::at(tokens, start))
@@ -49,7 +49,7 @@ impl<'t> Definition<'t> {
         }
     }
 
-    /// Name of the function. For a method it includes the type, as in `number.twice`.
+    /// Name of the function. The name of a method includes the type, as in `number.twice`.
     pub fn full_name(&self) -> String {
         let words =
             self.tokens[self.start + 1..self.opening].iter().filter_map(|(token, _)| match token {
@@ -82,7 +82,7 @@ pub fn nesting(token: &Token) -> isize {
     }
 }
 
-/// Index of the bracket that closes the bracket at `open`. If it is not closed, the number of tokens.
+/// Index of the bracket that closes the bracket at `open`; the number of tokens if it is not closed.
 pub fn closing(tokens: &[Lexeme], open: usize) -> usize {
     let mut depth = 0;
     for (index, (token, _)) in tokens.iter().enumerate().skip(open) {

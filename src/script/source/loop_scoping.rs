@@ -1,23 +1,23 @@
-//! New loop variables in every iteration of a `for` loop, so that a closure captures the values of its own iteration.
+//! New loop variables in every iteration of a `for` loop, so that a closure captures the values of its iteration.
 //!
-//! In Rhai all iterations of a loop share one variable, so closures of the first iteration would see the value of the last. If the body contains a
-//! closure that uses the loop variable, an additional first statement declares the variable again in the scope of the iteration. The statement is
-//! inserted into the text before parsing. It replaces blanks around the opening brace, so that columns are unchanged. If there are not two blanks,
-//! the rest of the line is shifted by one or two columns.
+//! In Rhai, all iterations of a loop share one variable. Closures of the first iteration would see the value of the last iteration.
+//! If a closure in the body uses the loop variable, an additional first statement declares the variable again in the scope of the iteration.
+//! The statement is inserted into the text before parsing. It replaces blanks around the opening brace, so that columns are unchanged.
+//! If there are fewer than two blanks, the rest of the line is shifted by one or two columns.
 
 use rhai::{Dynamic, Engine, EvalContext, Position, Token};
 
 use super::definitions::{closing, nesting};
 use super::text::{Lexeme, name_of};
 
-/// Private-use character that stands for the inserted statement in a loop with one variable.
+/// Private-use character for the inserted statement in a loop with one variable.
 pub const ONE: char = '\u{E003}';
-/// Private-use character that stands for the inserted statement in a loop with a counter.
+/// Private-use character for the inserted statement in a loop with a counter.
 pub const TWO: char = '\u{E004}';
 
-/// Name under which the parser knows the inserted statement for one variable.
+/// Parser name of the inserted statement for one variable.
 pub const ONE_NAME: &str = "\u{E003}";
-/// Name under which the parser knows the inserted statement for a variable and a counter.
+/// Parser name of the inserted statement for a variable and a counter.
 pub const TWO_NAME: &str = "\u{E004}";
 
 /// Registers the inserted statements, which declare new loop variables.
@@ -35,7 +35,7 @@ pub fn install(engine: &mut Engine) {
     }
 }
 
-/// Declares the last variables of the scope again, with their values. The loop assigns to its own variables in every iteration.
+/// Declares the last variables of the scope again, with their values. The loop assigns to the original variables in every iteration.
 fn declare_again(context: &mut EvalContext, variables: usize) {
     let scope = context.scope_mut();
     // The newest variables come first.
@@ -47,7 +47,7 @@ fn declare_again(context: &mut EvalContext, variables: usize) {
     }
 }
 
-/// Positions of the loop bodies in which the statement must be inserted, with the character to be inserted.
+/// Positions of the loop bodies that need the statement, with the inserted character.
 pub fn bodies(tokens: &[Lexeme]) -> Vec<(Position, char)> {
     let loops = tokens.iter().enumerate().filter(|(_, (token, _))| matches!(token, Token::For));
     loops.filter_map(|(start, _)| body(tokens, start)).collect()
@@ -75,7 +75,7 @@ fn is_interpolation(tokens: &[Lexeme], index: usize) -> bool {
     matches!(tokens.get(index.wrapping_sub(1)), Some((Token::InterpolatedString(_), _)))
 }
 
-/// Brace that opens the body of a loop. `after` is the index of its `in`. `None` if the expression after `in` contains blocks.
+/// Brace that opens the body of a loop. `after` is the index of the keyword `in`. `None` if the expression after `in` contains blocks.
 fn opening(tokens: &[Lexeme], after: usize) -> Option<usize> {
     let mut depth = 0_usize;
     for (index, (token, _)) in tokens.iter().enumerate().skip(after) {
@@ -90,7 +90,7 @@ fn opening(tokens: &[Lexeme], after: usize) -> Option<usize> {
     None
 }
 
-/// Inserts the statement after the brace at `column` of a line, from 0. Blanks are replaced if there are any.
+/// Inserts the statement after the brace at `column` of a line, counted from 0. Blanks are replaced if there are any.
 pub fn insert_scope(line: &mut Vec<char>, column: usize, letter: char) {
     const LENGTH: usize = 2;
     let is_blank = |letter: &&char| matches!(letter, ' ' | '\t');

@@ -1,4 +1,4 @@
-//! Names that a script declares. They are used for suggestions.
+//! Names declared by a script, used for suggestions.
 
 use rhai::{Position, Token};
 
@@ -13,7 +13,7 @@ pub struct ScriptOutline {
     /// Functions with their numbers of parameters.
     pub functions: Vec<(String, usize)>,
     pub keys: Vec<String>,
-    /// Imported paths, with their names.
+    /// Imported paths, with the names of the imports.
     pub imports: Vec<(String, String)>,
 }
 

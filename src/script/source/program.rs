@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use super::text::Source;
 use crate::sandbox_fs::read_file;
 
-/// Maximum size of a script or imported file [bytes]. Larger files are usually data, whose parsing would need much memory.
+/// Maximum size of a script or imported file [bytes]. Larger files are usually data, and parsing them would need much memory.
 pub const LARGEST_SCRIPT: u64 = 16 << 20;
 
 /// Script: its name in messages, its text, and the folder of its imports.
@@ -19,7 +19,7 @@ pub struct Program {
     pub folder: PathBuf,
 }
 
-/// Error of reading a script.
+/// Error in reading a script.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error("{message}")]
 pub struct Unreadable {
@@ -77,7 +77,7 @@ impl Program {
         Ok(Self { name, text: text.into(), folder: folder.into() })
     }
 
-    /// Byte offset of a line and column. Both are counted from 1, and columns in characters.
+    /// Byte offset of a line and column, both counted from 1. Columns are counted in characters.
     pub fn offset(&self, line: usize, column: usize) -> usize {
         self.text.offset(line, column)
     }

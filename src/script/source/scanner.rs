@@ -1,6 +1,6 @@
 //! Tokenisation of input that may be incomplete or incorrect. Every character belongs to exactly one token.
 //!
-//! The engine's lexer stops at the first error and drops comments and spaces. The editor, however, must highlight all of an unfinished input.
+//! The lexer of the engine stops at the first error and drops comments and spaces. The editor must highlight the whole of an unfinished input.
 
 /// Piece of an input, the bytes `start..end`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -16,23 +16,23 @@ pub struct Token {
 pub enum TokenKind {
     /// Spaces and line ends.
     Space,
-    /// A line comment, or a closed block comment.
+    /// Line comment, or closed block comment.
     Comment,
-    /// A block comment that is not closed.
+    /// Unclosed block comment.
     OpenComment,
-    /// A string or character literal, or a raw string.
+    /// String or character literal, or raw string.
     Text,
-    /// A string literal in quotes that is not closed on its line.
+    /// String literal in quotes that is not closed on its line.
     OpenText,
-    /// A string in backticks, or its part before, between or after interpolations.
+    /// String in backticks, or a piece of it before, between or after interpolations.
     Piece,
-    /// A string in backticks or a raw string that is not closed.
+    /// Unclosed string in backticks, or unclosed raw string.
     OpenPiece,
     Word,
     Number,
     Open(Bracket),
     Close(Bracket),
-    /// An operator or punctuation.
+    /// Operator or punctuation.
     Symbol,
 }
 
@@ -50,7 +50,7 @@ pub enum Bracket {
 }
 
 impl Bracket {
-    /// Returns true if the bracket `closer` closes this one. `}` also closes maps.
+    /// Returns true if the bracket `closer` closes this bracket. `}` also closes maps.
     pub fn is_closed_by(self, closer: Self) -> bool {
         match self {
             Self::Map => closer == Self::Curly,
@@ -70,7 +70,7 @@ impl Token {
     }
 }
 
-/// Operators of more than one character, longer ones first.
+/// Operators of more than one character. Longer operators come first.
 const SIGNS: &[&str] = &[
     "..=", "...", "**=", "<<=", ">>=", "::", "?.", "??", "..", "=>", "==", "!=", "<=", ">=", "&&",
     "||", "+=", "-=", "*=", "/=", "%=", "^=", "&=", "|=", "**", "<<", ">>",
@@ -88,7 +88,7 @@ pub fn scan(text: &str) -> Vec<Token> {
     tokens
 }
 
-/// For each bracket token, the token index of its partner; then the token indices of unclosed brackets.
+/// Token index of the matching bracket for each bracket token, followed by the token indices of unclosed brackets.
 pub fn pair(tokens: &[Token]) -> (Vec<Option<usize>>, Vec<usize>) {
     let mut partners = vec![None; tokens.len()];
     let mut open: Vec<(usize, Bracket)> = Vec::new();
@@ -267,7 +267,7 @@ impl Scanner<'_> {
         TokenKind::OpenComment
     }
 
-    /// Reads a number. The dots in `0..3` and `1.abs()` do not belong to it.
+    /// Reads a number. The dots in `0..3` and `1.abs()` do not belong to the number.
     fn number(&mut self) -> TokenKind {
         let is_decimal = !self.rest().starts_with("0x");
         self.skip(is_name);
@@ -290,7 +290,7 @@ impl Scanner<'_> {
     }
 }
 
-/// Maximum number of `#` before a raw string. It limits the run time for a long row of `#`.
+/// Maximum number of `#` before a raw string, which limits the run time for a long row of `#`.
 const MOST_MARKS: usize = 16;
 
 fn begins_marked(rest: &str) -> bool {

@@ -1,23 +1,23 @@
-//! Check of the values of `switch`. For values that it cannot compare, Rhai would execute the default case without an error.
+//! Check of the values of `switch`. For values that Rhai cannot compare, it would silently execute the default case.
 //!
-//! A private-use character is inserted after the keyword `switch` before parsing. For the parser it is a keyword of a custom syntax, which checks
-//! the value of the expression that follows. The character replaces a blank, so that columns are unchanged. If there is no blank, the rest of the
-//! line is shifted by one column.
+//! A private-use character is inserted after the keyword `switch` before parsing.
+//! The parser treats the inserted character as a keyword of a custom syntax, which checks the value of the following expression.
+//! The character replaces a blank, so that columns are unchanged. Without a blank, the rest of the line is shifted by one column.
 
 use rhai::{Dynamic, Engine, Position, Token};
 
 use super::text::Lexeme;
 use crate::script::messages::error::EngineResult;
 
-/// Private-use character that is inserted after `switch`. The parser reads it as a keyword that checks the value of the following expression.
+/// Private-use character after `switch`. The parser reads it as a keyword that checks the value of the following expression.
 pub const CHOICE: char = '\u{E007}';
 
-/// Name under which the parser knows this character.
+/// Parser name of the character after `switch`.
 pub const CHOICE_NAME: &str = "\u{E007}";
 
 const WORD: usize = 6;
 
-/// Registers the check. `judge` checks the value of the `switch` expression and returns the value to be compared with the cases.
+/// Registers the check. `judge` checks the value of the `switch` expression and returns the value for the comparison with the cases.
 pub fn install(
     engine: &mut Engine,
     judge: impl Fn(&Engine, Dynamic, Position) -> EngineResult<Dynamic> + 'static,
@@ -41,7 +41,7 @@ pub fn words(tokens: &[Lexeme]) -> impl Iterator<Item = Position> + '_ {
     tokens.iter().filter(|(token, _)| matches!(token, Token::Switch)).map(|(_, at)| *at)
 }
 
-/// Inserts the character after the keyword at `column` of a line, from 0. A blank is replaced if there is one.
+/// Inserts the character after the keyword at `column` of a line, counted from 0. A blank is replaced if there is one.
 pub fn insert_wrapper(line: &mut Vec<char>, column: usize) {
     let behind = column + WORD;
     match line.get_mut(behind) {

@@ -1,13 +1,14 @@
 //! Replacement of operators of Rhai before parsing, so that numbers behave as in scientific languages.
 //!
-//! Rhai's built-in comparisons and its integer division bypass all registered functions. Therefore the parser sees
-//! other operator names ([`operators`](crate::script::dialect::operators) implements them):
+//! Rhai's built-in comparisons and integer division ignore registered functions.
+//! Therefore the parser uses other operator names, which [`operators`](crate::script::dialect::operators) implements:
 //!
-//! - `/ << >> < > <= >= == !=` become `num/`, `num<`, … of the same precedence;
-//! - `^` and `**` become `num^0`, `num^1`, … along a chain of powers, each binding tighter than the one before, because
-//!   custom operators bind to the left and `2^3^2` would be 64;
-//! - `-x^2` is an error, because Rhai's minus binds tighter than any operator and would give the square of `-x`;
-//! - `/=`, `^=`, `**=`, `<<=` and `>>=` are converted to two tokens, and loops get an additional statement (`loop_scoping`); see [`mark`].
+//! - The operators `/ << >> < > <= >= == !=` become `num/`, `num<`, … of the same precedence.
+//! - Along a chain of powers, `^` and `**` become `num^0`, `num^1`, … with increasing precedence.
+//!   Custom operators are left-associative, so a single power operator would evaluate `2^3^2` to 64.
+//! - The expression `-x^2` is an error, because Rhai's minus binds tighter than any operator and would give the square of `-x`.
+//! - The operators `/=`, `^=`, `**=`, `<<=` and `>>=` are converted to two tokens (see [`mark`]).
+//! - The module `loop_scoping` adds a statement to loops.
 //!
 //! Rhai declares the functions used here as subject to change. They are used only in this file and in `lexing`.
 
@@ -24,7 +25,7 @@ use crate::script::messages::stop::Stop;
 /// Prefix of the names of replaced operators.
 pub const OWN: &str = "num";
 
-/// Comparison, division and shift operators that are replaced, with their precedences in Rhai.
+/// Replaced comparison, division and shift operators, with their precedences in Rhai.
 pub const REPLACED: [(&str, u8); 9] = [
     ("<<", 210),
     (">>", 210),
@@ -40,10 +41,10 @@ pub const REPLACED: [(&str, u8); 9] = [
 /// Maximum length of a chain of powers `a^b^c^…`.
 pub const LONGEST_CHAIN: u8 = 16;
 
-/// Precedence of the power in Rhai. The next higher precedence of an operator is 210.
+/// Precedence of the power operator in Rhai. The next higher precedence is 210.
 const POWER_PRECEDENCE: u8 = 190;
 
-/// Private-use characters that represent the operators in `/=`, `^=`, `<<=` and `>>=`, and one that wraps the right-hand side.
+/// Private-use characters for the operators in `/=`, `^=`, `<<=` and `>>=`. The last character wraps the right-hand side.
 const DIVIDE_HALF: char = '\u{E000}';
 const POWER_HALF: char = '\u{E001}';
 const OPERAND_HALF: char = '\u{E002}';
@@ -51,7 +52,7 @@ const UP_HALF: char = '\u{E005}';
 const DOWN_HALF: char = '\u{E006}';
 const OPERAND: &str = "\u{E002}";
 
-/// Right-hand side of `x /= y`. It has a type of its own, so that the built-in integer `/=` of Rhai does not apply.
+/// Right-hand side of `x /= y`. It has a separate type, so that the built-in integer `/=` of Rhai does not apply.
 #[derive(Clone)]
 pub struct DivisionOperand(pub Dynamic);
 
@@ -76,7 +77,7 @@ impl TokenReader {
         self.stopped.set(None);
     }
 
-    /// Disables the interruption of parsing while `work` runs. It is used for texts that have been parsed before.
+    /// Disables the interruption of parsing while `work` runs. Used for texts that have been parsed before.
     pub fn undisturbed<T>(&self, work: impl FnOnce() -> T) -> T {
         let was_undisturbed = self.is_undisturbed.replace(true);
         let result = work();
@@ -84,13 +85,13 @@ impl TokenReader {
         result
     }
 
-    /// Reason why parsing was stopped; `None` if it was not.
+    /// Reason why parsing was stopped; `None` if it was not stopped.
     pub fn stopped(&self) -> Option<Stop> {
         self.stopped.get()
     }
 }
 
-/// Number of tokens between checks whether to stop. For each token the parser searches all known names.
+/// Number of tokens between checks for a stop. For each token, the parser searches all known names.
 const PULSE: u32 = 64;
 
 /// Registers the tokens of this language. The returned reader must be reset before each text. `stop` returns a reason for stopping the parser.
@@ -119,7 +120,7 @@ pub fn install(
     let reader = TokenReader::default();
     let TokenReader { nesting, stopped, is_undisturbed } = reader.clone();
     let count = Cell::new(0_u32);
-    // Rhai marks the hook as deprecated only to show that it may change.
+    // Rhai marks the hook as deprecated only because it may change.
     #[allow(deprecated)]
     engine.on_parse_token(move |token, _, _| {
         count.set(count.get().wrapping_add(1));
@@ -136,8 +137,8 @@ pub fn install(
     Ok(reader)
 }
 
-/// Rewrites `/=`, `^=`, `**=`, `<<=` and `>>=` to an operator and a wrapper of the operand, and marks loop bodies and `switch` expressions. Columns
-/// are unchanged if there are blanks that can be replaced.
+/// Rewrites `/=`, `^=`, `**=`, `<<=` and `>>=` to an operator and a wrapper of the operand. Also marks loop bodies and `switch` expressions.
+/// Columns are unchanged if there are blanks to be replaced.
 pub fn mark(source: &Source) -> Cow<'_, str> {
     let tokens = source.tokens();
     let halves = |token: &Token| -> &[char] {
@@ -164,7 +165,7 @@ pub fn mark(source: &Source) -> Cow<'_, str> {
     if marks.is_empty() {
         return Cow::Borrowed(source);
     }
-    // The marks are inserted from the end of the text backwards, because each of them may shift the text after it.
+    // The marks are inserted from the end of the text backwards, because each mark may shift the text after it.
     marks.sort_by_key(|(at, _)| std::cmp::Reverse((at.line(), at.position())));
     let mut lines: Vec<Vec<char>> = source.split('\n').map(|line| line.chars().collect()).collect();
     for (at, mark) in marks {
@@ -190,7 +191,7 @@ enum InsertedMark<'m> {
     Choice,
 }
 
-/// State of an expression at one bracket depth: number of power operators so far, and whether a minus sign precedes.
+/// State of an expression at one bracket depth: number of power operators so far, and a flag for a preceding minus sign.
 #[derive(Clone, Copy, Default)]
 struct Chain {
     powers: u8,
@@ -264,7 +265,7 @@ impl Nesting {
     }
 }
 
-/// Returns true for an integer literal that is too large, so that Rhai has converted it to a float.
+/// Returns true for a too large integer literal, which Rhai has converted to a float.
 fn is_too_large(literal: &str) -> bool {
     !literal.contains(['.', 'e', 'E'])
 }

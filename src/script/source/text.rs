@@ -1,6 +1,6 @@
-//! Text of a script with its tokens. They are cached, so that the text is tokenised only once.
+//! Text of a script with cached tokens, so that the text is tokenised only once.
 //!
-//! The parser of Rhai tokenises the text again, with the replacements of [`syntax`](super::syntax), because it does not accept tokens.
+//! The parser of Rhai does not accept tokens. It tokenises the text again, with the replacements of [`syntax`](super::syntax).
 
 use std::fmt;
 use std::ops::Deref;
@@ -12,7 +12,7 @@ use super::lexing::{Lexed, lex};
 
 pub type Lexeme = (Token, Position);
 
-/// Source text. Clones share the text and its tokens, which are computed when they are first used.
+/// Source text. Clones share the text and its tokens, which are computed at their first use.
 #[derive(Clone)]
 pub struct Source(Arc<SourceData>);
 
@@ -27,7 +27,7 @@ impl Source {
         &self.lexed().tokens
     }
 
-    /// Position of a block comment that is not closed. Rhai would ignore the rest of the script without an error.
+    /// Position of an unclosed block comment. Rhai would silently ignore the rest of the script.
     pub fn open_comment(&self) -> Option<Position> {
         if !self.lexed().ends_in_comment {
             return None;
@@ -55,7 +55,7 @@ impl Source {
         matches!(self.tokens().last(), Some((Token::SemiColon, _)))
     }
 
-    /// Byte offset of a line and column. Both are counted from 1, and columns in characters.
+    /// Byte offset of a line and column, both counted from 1. Columns are counted in characters.
     pub fn offset(&self, line: usize, column: usize) -> usize {
         let mut start = 0;
         for (index, text) in self.split_inclusive('\n').enumerate() {
@@ -86,7 +86,7 @@ pub fn name_of(token: &Token) -> Option<&str> {
     }
 }
 
-/// Position of the engine. It limits lines and columns to 65 535.
+/// Position in the form of the engine, which limits lines and columns to 65 535.
 pub fn position(line: usize, column: usize) -> Position {
     let counted = |number: usize| number.try_into().unwrap_or(u16::MAX);
     Position::new(counted(line), counted(column))

@@ -24,7 +24,7 @@ use crate::script::messages::reports::{Reporter, Reports};
 use crate::script::messages::stop::{MEGABYTE, Stop};
 use crate::script::source::program::Program;
 
-/// Function that returns the reason why a value of a native type is in use; `None` if it is not.
+/// Function that returns the reason why a value of a native type is in use; `None` if it is not in use.
 pub type BusyCheck = fn(&Dynamic) -> Option<String>;
 
 /// Handle to the state of a run. Clones refer to the same state.
@@ -60,7 +60,7 @@ struct ContextData {
 impl Context {
     /// Creates the state at the start of a run.
     pub fn new(settings: RunSettings) -> Self {
-        // A run that computes a part of its studies writes no other files.
+        // A run that computes a part of its studies writes only the files of this part.
         let writing = settings.studies.part.map_or(settings.mode, |_| RunMode::DryRun);
         Self(Rc::new(ContextData {
             mode: settings.mode,
@@ -118,7 +118,7 @@ impl Context {
         &self.0.journals
     }
 
-    /// Reserves the name of a study. Returns false if the name is in use, whatever the case of its letters.
+    /// Reserves the name of a study. Returns false if the name is in use. Upper and lower case are not distinguished.
     pub fn claim_study(&self, name: &str) -> bool {
         self.0.study_names.borrow_mut().insert(PathBuf::from(name))
     }
@@ -128,10 +128,10 @@ impl Context {
         self.stopped_by().map_or(Ok(()), |stop| Err(ScriptError::Stopped(stop)))
     }
 
-    /// Checks in advance whether the run may use this much memory at once [bytes].
+    /// Checks in advance whether a single allocation of the given size is possible [bytes].
     ///
     /// # Errors
-    /// Fails if this exceeds the memory limit.
+    /// Fails if the allocation would exceed the memory limit.
     pub fn expect_room(&self, what: &str, bytes: u64) -> Result<(), ScriptError> {
         match self.meter().limits().memory.filter(|limit| bytes > *limit) {
             None => Ok(()),
@@ -146,7 +146,7 @@ impl Context {
         }
     }
 
-    /// Reason why a loop was stopped: a limit or an interrupt. If there is none, an internal error is reported for `what`.
+    /// Reason why a loop was stopped: a limit or an interrupt. Without such a reason, an internal error is reported for `what`.
     pub fn why_stopped(&self, what: &str) -> ScriptError {
         match self.proceed() {
             Err(stopped) => stopped,
@@ -171,8 +171,8 @@ impl Context {
         self.0.meter.passed()
     }
 
-    /// Resource use and limits of the run. Code that runs a script must first call [`watch`](Meter::watch), and keep the guard until the script has
-    /// ended.
+    /// Resource use and limits of the run.
+    /// Code that runs a script must first call [`watch`](Meter::watch), and keep the guard until the script has ended.
     pub fn meter(&self) -> &Meter {
         &self.0.meter
     }
@@ -192,7 +192,7 @@ impl Context {
         self.print_drawn(&printable(text));
     }
 
-    /// Prints a line. Colour sequences that this program has created are kept.
+    /// Prints a line. Colour sequences created by this program are kept.
     pub fn print_drawn(&self, text: &str) {
         if self.0.is_silent.get() || !self.meter().allows_to_write(text.len() as u64 + 1) {
             return;
@@ -203,23 +203,23 @@ impl Context {
         });
     }
 
-    /// Prints a message to the user that is not output of the script.
+    /// Prints a message to the user. The message is not output of the script.
     pub fn print_message(&self, text: &str) {
         self.print_styled_message(&printable(text));
     }
 
-    /// Prints a message to the user. Control sequences are removed, except the colour sequences of this program.
+    /// Prints a message to the user. Colour sequences created by this program are kept, other control sequences are removed.
     pub fn print_styled_message(&self, text: &str) {
         if self.0.is_silent.get() {
             return;
         }
         self.0.progress.without_progress_bar(&mut || {
-            // Errors are ignored here, because the exit code still reports the result.
+            // Errors are ignored, because the exit code still reports the result.
             let _ = writeln!(self.0.diagnostics.borrow_mut(), "{}", printable_in_colours(text));
         });
     }
 
-    /// Calls `work`, and discards everything that it prints.
+    /// Calls `work`, and discards its printed output.
     pub fn silently<T>(&self, work: impl FnOnce() -> T) -> T {
         let was_silent = self.0.is_silent.replace(true);
         let result = work();
@@ -227,7 +227,7 @@ impl Context {
         result
     }
 
-    /// Calls `work`, discards everything that it prints, and rejects the writing of files. `refusal` is the error message for attempts to write.
+    /// Calls `work`, discards its printed output, and rejects the writing of files. `refusal` is the error message for attempts to write.
     pub fn without_output_or_files<T>(&self, refusal: &'static str, work: impl FnOnce() -> T) -> T {
         let refused_before = self.0.refuses_files.replace(Some(refusal));
         let result = self.silently(work);
@@ -235,7 +235,7 @@ impl Context {
         result
     }
 
-    /// Prints a message that the script has requested, for example the message of a failed check. It counts towards the limit of output.
+    /// Prints a message requested by the script, for example that of a failed check. The message counts towards the output limit.
     pub fn print_debug(&self, text: &str) {
         if self.meter().allows_to_write(text.len() as u64 + 1) {
             self.print_message(text);
@@ -248,7 +248,7 @@ impl Context {
         self.check_write(written);
     }
 
-    /// Handles the result of printing. A closed pipe ends the run without a message; other failures are errors.
+    /// Handles the result of printing. A closed pipe ends the run without a message. Other failures are errors.
     fn check_write(&self, written: io::Result<()>) {
         match written {
             Err(error) if error.kind() == io::ErrorKind::BrokenPipe => {
@@ -269,23 +269,23 @@ impl Context {
         self.0.snapshots
     }
 
-    /// Stores the simulation that was used last.
+    /// Stores the last used simulation.
     pub fn set_latest_simulation(&self, simulation: Dynamic) {
         self.0.latest_simulation.replace(Some(simulation));
     }
 
-    /// Simulation that was started, loaded, copied, stepped or rewound last.
+    /// Simulation that was started, loaded, copied, stepped or rewound most recently.
     pub fn latest_simulation(&self) -> Option<Dynamic> {
         self.0.latest_simulation.borrow().clone()
     }
 
-    /// Clears the last simulation and the reporters.
+    /// Clears the last used simulation and the reporters.
     pub fn clear_simulations(&self) {
         self.0.latest_simulation.take();
         self.clear_reporters();
     }
 
-    /// Sets the engine with which stored functions are called. The caller must keep the engine alive.
+    /// Sets the engine that calls stored functions. The caller must keep the engine alive.
     pub fn set_engine(&self, engine: &Rc<Engine>) {
         self.0.engine.replace(Rc::downgrade(engine));
     }
@@ -323,7 +323,7 @@ impl Context {
         self.0.busy.borrow_mut().push(busy);
     }
 
-    /// Reason why a value is in use; `None` if it is not.
+    /// Reason why a value is in use; `None` if it is not in use.
     pub fn busy(&self, value: &Dynamic) -> Option<String> {
         self.0.busy.borrow().iter().find_map(|busy| busy(value))
     }
@@ -357,7 +357,7 @@ impl Context {
         self.0.reports.clear();
     }
 
-    /// Returns the report entries of all simulations, and drops the reporters.
+    /// Report entries of all simulations. The reporters are dropped.
     pub fn report(&self) -> Vec<serde_json::Value> {
         self.0.latest_simulation.take();
         self.0.reports.take()

@@ -1,5 +1,5 @@
-//! File access of scripts. They can read files in their own folder and in the output folder. They can write files in the output folder; each file
-//! is replaced atomically. Links are not followed, and only regular files are opened.
+//! File access of scripts. Scripts can read files in the folder of the script and in the output folder.
+//! Scripts can write files in the output folder. Each file is replaced atomically. Links are not followed, and only regular files are opened.
 
 use std::cell::{OnceCell, RefCell};
 use std::collections::{HashMap, HashSet};
@@ -20,7 +20,7 @@ pub struct OutputFolder {
     beside: PathBuf,
     mode: RunMode,
     written: RefCell<Vec<PathBuf>>,
-    /// Record of the files that earlier runs have written. It is read before the first file is written.
+    /// Record of the files written by earlier runs, which is read before the first file is written.
     record: OnceCell<RefCell<WrittenFiles>>,
     /// Folders in which temporary files of crashed runs have been removed.
     tidied: RefCell<HashSet<Option<PathBuf>>>,
@@ -31,8 +31,8 @@ pub struct OutputFolder {
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct WrittenFile {
     pub path: PathBuf,
-    /// Path under which an older file with the same name is kept; `None` if there was none. Such a file was not written by this program, or has
-    /// been changed since.
+    /// Path under which an older file with the same name is kept; `None` if there was no such file.
+    /// An older file is kept if it was not written by this program, or has been changed since it was written.
     pub kept: Option<PathBuf>,
 }
 
@@ -57,7 +57,7 @@ impl OutputFolder {
         self.write_by(name, |file| file.write_all(content))
     }
 
-    /// Writes the file `name` in the output folder piece by piece. `write` receives the writer. A dry run only checks the name.
+    /// Writes the file `name` in the output folder in pieces. `write` receives the writer. A dry run only checks the name.
     ///
     /// # Errors
     /// Fails if the name leads out of the folder, or if writing fails.
@@ -83,7 +83,7 @@ impl OutputFolder {
         Ok(WrittenFile { path, kept })
     }
 
-    /// Opens the output folder and writes a file in it. The folder is opened for each file, because it may be moved while a session waits.
+    /// Opens the output folder and writes a file in it. The folder is opened for each file, because it may be moved during a session.
     fn open_folder(
         &self,
         name: &str,
@@ -138,7 +138,8 @@ impl OutputFolder {
         Ok(written)
     }
 
-    /// Reads the file `name` in the output folder, or if there is none, in the folder of the script. It may have at most `most` bytes.
+    /// Reads the file `name` in the output folder. If it does not exist, reads it in the folder of the script.
+    /// The file may have at most `most` bytes.
     ///
     /// # Errors
     /// Fails if the file does not exist, is too large, or is not a regular file.
@@ -208,7 +209,7 @@ pub struct InputFolder {
 }
 
 impl InputFolder {
-    /// Folder that contains a script, whose path the user has given.
+    /// Folder of a script at a path given by the user.
     pub fn in_folder_of(path: &Path) -> Self {
         Self { word: "script's own folder", path: path.to_owned(), open: Folder::open }
     }
@@ -222,7 +223,7 @@ impl InputFolders {
         Self(folders.into_iter().collect())
     }
 
-    /// Content of the file `name` in the first folder that contains it. It may have at most `most` bytes.
+    /// Content of the file `name` in the first folder that contains it. The file may have at most `most` bytes.
     ///
     /// # Errors
     /// Fails if no folder contains the file, if a link or the name leads out of the folder, or if the file is too large or not regular.

@@ -25,7 +25,7 @@ pub struct Journals {
 pub enum JournalLifetime {
     /// Journal that is removed when the script ends.
     Run,
-    /// Journal that is kept, because it contains a part that will be merged.
+    /// Journal that is not removed, because it contains a part that will be merged.
     Persistent,
 }
 
@@ -57,10 +57,10 @@ impl Journals {
         Ok(Some(self.store(journal, lasting)))
     }
 
-    /// Opens the files of all parts of a study as one journal that is only read.
+    /// Opens the files of all parts of a study as one read-only journal.
     ///
     /// # Errors
-    /// Fails if one of them cannot be read.
+    /// Fails if a file cannot be read.
     pub fn open_parts(
         &self,
         paths: impl IntoIterator<Item = PathBuf>,
@@ -74,7 +74,7 @@ impl Journals {
         JournalNumber(open.len() - 1)
     }
 
-    /// Result of the case with a fingerprint in a journal; `None` if there is none.
+    /// Result of the case with the given fingerprint in a journal; `None` if there is none.
     pub fn find<T: DeserializeOwned>(&self, journal: JournalNumber, fingerprint: u64) -> Option<T> {
         let found = self.open.borrow().get(journal.0)?.0.find(fingerprint);
         self.kept.set(self.kept.get() + usize::from(found.is_some()));
@@ -98,8 +98,8 @@ impl Journals {
         Ok(bytes)
     }
 
-    /// Opens the journal of a sweep, if the run uses journals. `about` identifies the sweep. If an existing journal belongs to the same sweep,
-    /// `recall` receives its entries.
+    /// Opens the journal of a sweep, if the run uses journals. `about` identifies the sweep.
+    /// If an existing journal belongs to the same sweep, `recall` receives its entries.
     ///
     /// # Errors
     /// Fails if the journal cannot be read or written.
@@ -184,10 +184,10 @@ impl RowKeeper {
         self.journal.write(entry).map_err(|error| refused_rows(&self.path, &error))
     }
 
-    /// Writes buffered entries to the file, if the last write was long enough ago.
+    /// Writes buffered entries to the file, unless the last write was very recent.
     ///
     /// # Errors
-    /// Fails if they cannot be written.
+    /// Fails if the entries cannot be written.
     pub fn sync_periodically(&mut self) -> Result<(), ScriptError> {
         self.journal.flush_periodically().map_err(|error| refused_rows(&self.path, &error))
     }
@@ -195,7 +195,7 @@ impl RowKeeper {
     /// Writes buffered entries to the file.
     ///
     /// # Errors
-    /// Fails if they cannot be written.
+    /// Fails if the entries cannot be written.
     pub fn flush(&mut self) -> Result<(), ScriptError> {
         self.journal.flush().map_err(|error| refused_rows(&self.path, &error))
     }

@@ -1,4 +1,4 @@
-//! Limits of the resources of a run (time, steps, memory, call depth, output), and their supervision.
+//! Resource limits of a run (time, steps, memory, call depth, output), and their supervision.
 
 use std::cell::Cell;
 use std::io;
@@ -17,14 +17,14 @@ pub const DEFAULT_MEGABYTES_WRITTEN: u64 = 10_000;
 pub const DEFAULT_FILES: u64 = 100_000;
 /// Default limit of the call depth.
 pub const DEFAULT_DEPTH: usize = 400;
-/// Largest call depth that can be set. The stack size [`LEAST_STACK`] is sufficient for it.
+/// Largest allowed setting of the call depth. The stack size [`LEAST_STACK`] is sufficient for this depth.
 pub const DEEPEST: usize = 1000;
-/// Address space of the stack for [`DEEPEST`] nested calls [bytes]. Memory is only used when the stack grows.
+/// Address space of the stack for [`DEEPEST`] nested calls [bytes]. Memory is used only when the stack grows.
 pub const LEAST_STACK: usize = 256 << 20;
 /// Largest address space of the stack for dropping nested values [bytes].
 const LARGEST_FOR_VALUES: usize = 16 << 30;
 
-/// Limits of the resources of a run. `None` means unlimited.
+/// Resource limits of a run. `None` means unlimited.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Limits {
     /// Maximum wall-clock time.
@@ -47,8 +47,8 @@ pub type HardAbort = Arc<dyn Fn(Stop) + Send + Sync>;
 impl Limits {
     /// Address space of a stack that is sufficient for every script within these limits [bytes].
     ///
-    /// Nested closures are dropped recursively. The stack needed for each of them is smaller than twice its memory, so the memory limit determines
-    /// a sufficient stack.
+    /// Nested closures are dropped recursively.
+    /// The stack for each closure is smaller than twice its memory, so the memory limit determines a sufficient stack.
     pub fn stack(&self) -> usize {
         LEAST_STACK + 2 * self.memory_or_default().min(LARGEST_FOR_VALUES)
     }
@@ -58,7 +58,7 @@ impl Limits {
         LEAST_STACK / DEEPEST * self.depth.clamp(DEFAULT_DEPTH, DEEPEST)
     }
 
-    /// Address space for the values of a script [bytes]. A factor takes into account that freed memory is not returned at once.
+    /// Address space for the values of a script [bytes]. A factor allows for freed memory that is not returned at once.
     pub fn address_space(&self) -> usize {
         self.memory_or_default().saturating_mul(2)
     }
@@ -96,14 +96,14 @@ pub struct Meter {
     pretended: Cell<u64>,
 }
 
-/// Largest value of `pretended`. Loops that wait for a time end long before it is reached.
+/// Number of skipped calls in a dry run above which the script counts as waiting for a result. Loops that wait for a time end earlier.
 const MOST_DRY_ADVANCES: u64 = 100_000;
 
-/// True if a run of this process has detected an interrupt. The run then stops soon and saves its results.
+/// True if a run of this process has detected an interrupt. Such a run stops soon and saves its results.
 pub static INTERRUPT_HEARD: AtomicBool = AtomicBool::new(false);
 
-/// State of the watchdog in which no limit is exceeded. The next two constants are its states for an exceeded time limit and an exceeded memory
-/// limit.
+/// Watchdog state without an exceeded limit.
+/// The next two constants are the states for an exceeded time limit and an exceeded memory limit.
 pub(super) const NO_ALARM: u8 = 0;
 pub(super) const TOO_LATE: u8 = 1;
 pub(super) const TOO_LARGE: u8 = 2;
@@ -114,7 +114,7 @@ impl Meter {
         Self::guarded(limits, None)
     }
 
-    /// Creates the meter of a new run. The action `resort` is called if a limit is exceeded and the run does not stop by itself.
+    /// Creates the meter of a new run. The action `resort` is called if a limit is exceeded and the run does not react.
     pub fn guarded(limits: Limits, resort: Option<HardAbort>) -> Self {
         Self {
             limits,
@@ -134,7 +134,7 @@ impl Meter {
         &self.limits
     }
 
-    /// Limit that was exceeded; `None` if there is none.
+    /// Exceeded limit; `None` if no limit was exceeded.
     pub fn passed(&self) -> Option<Stop> {
         match self.alarm.load(Ordering::Relaxed) {
             TOO_LATE => self.limits.time.map(Stop::Time),
@@ -161,7 +161,7 @@ impl Meter {
         self.steps.set(self.steps.get() + 1);
     }
 
-    /// Counts steps that other engines have taken.
+    /// Counts steps taken by other engines.
     pub fn count_steps(&self, steps: usize) {
         self.steps.set(self.steps.get().saturating_add(steps as u64));
     }
@@ -171,7 +171,7 @@ impl Meter {
         self.steps.get()
     }
 
-    /// Returns true if another step is allowed. Otherwise the limit counts as exceeded.
+    /// Returns true if another step is allowed. Otherwise the step limit is marked as exceeded.
     pub fn allows_a_step(&self) -> bool {
         let allowed = self.limits.steps.is_none_or(|limit| self.steps.get() < limit);
         if !allowed {
@@ -200,7 +200,7 @@ impl Meter {
         }
     }
 
-    /// Number of bytes that rescue files may still use: what is left of the limit, plus a twentieth of the limit.
+    /// Number of bytes available for rescue files: the remainder of the limit, plus a twentieth of the limit.
     pub fn rescue_budget(&self) -> u64 {
         let left = |limit: u64| (limit + limit / 20).saturating_sub(self.written.get());
         self.limits.written.map_or(u64::MAX, left)

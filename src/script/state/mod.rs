@@ -1,4 +1,4 @@
-//! State that the calls of a run share: settings, limits, files, journals, and the context that contains them.
+//! State shared by the calls of a run: settings, limits, files, journals, and the context that contains them.
 
 pub mod context;
 pub(crate) mod files;

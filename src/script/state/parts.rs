@@ -1,4 +1,4 @@
-//! Parts of studies for distributed computation: assignment of cases to parts, and search for the files of parts before they are merged.
+//! Parts of studies for distributed computation: assignment of cases to parts, and search for the files of parts before merging.
 
 use std::io;
 use std::path::{Path, PathBuf};
@@ -49,10 +49,10 @@ impl StudyPart {
     }
 }
 
-/// Largest number of missing parts that a message lists.
+/// Largest number of missing parts listed in a message.
 const MOST_LISTED: usize = 10;
 
-/// Searches the files of all parts of a study in some folders. They are returned in the order of the parts.
+/// Finds the files of all parts of a study in the given folders. The files are returned in the order of the parts.
 ///
 /// # Errors
 /// Fails if there are no files, if parts are missing or occur twice, if the numbers of parts differ, or if a folder cannot be read.

@@ -25,11 +25,11 @@ pub struct RunSettings {
     pub mode: RunMode,
     /// Folder for output files. It is created with the first file.
     pub out: PathBuf,
-    /// Folder of the script. The script may read files in it.
+    /// Folder of the script, in which the script may read files.
     pub folder: PathBuf,
     /// Default memory for the snapshots of each simulation [bytes].
     pub snapshots: usize,
-    /// Flag that is set from outside, for example by Ctrl-C. The run then stops as soon as possible.
+    /// Flag set from outside, for example by Ctrl-C. The run then stops as soon as possible.
     pub interrupt: Arc<AtomicBool>,
     /// Resource limits.
     pub limits: Limits,
@@ -45,9 +45,9 @@ pub struct RunSettings {
     pub errors: ErrorEstimation,
     /// Action that ends the whole program if a limit is exceeded and the run does not react.
     pub last_resort: Option<HardAbort>,
-    /// Script of the run; `None` at the prompt. The engines of other threads compile it too.
+    /// Script of the run; `None` at the prompt. The engines of other threads also compile it.
     pub program: Option<Program>,
-    /// Reason why the run must not write files; `None` if it may.
+    /// Reason why the run must not write files; `None` if writing is allowed.
     pub refuses_files: Option<&'static str>,
 }
 
@@ -56,9 +56,9 @@ pub struct RunSettings {
 pub struct StudyPreferences {
     /// Use of journals to resume interrupted studies.
     pub journal: JournalPreference,
-    /// Number of repetitions when run times are measured; `None` to use the number in the script.
+    /// Number of repetitions for the measurement of run times; `None` for the number in the script.
     pub repeats: Option<usize>,
-    /// Part of each study to be computed; `None` for all. If it is given, no other files are written.
+    /// Computed part of each study; `None` for the whole study. If a part is given, no other files are written.
     pub part: Option<StudyPart>,
     /// Folders with computed parts. If there are any, the parts are merged and nothing is computed.
     pub merge: Vec<PathBuf>,
@@ -67,14 +67,14 @@ pub struct StudyPreferences {
 /// Estimation of the discretisation errors of all simulations at the end of a run.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum ErrorEstimation {
-    /// They are not estimated.
+    /// Errors are not estimated.
     #[default]
     Never,
-    /// They are not estimated, but a remark tells how to request an estimate.
+    /// Errors are not estimated. A remark explains how to request an estimate.
     Remark,
-    /// They are estimated after runs of less than a second. This takes about as long as the run.
+    /// Errors are estimated after runs of less than a second. The estimate takes about as long as the run.
     Auto,
-    /// They are estimated after every run.
+    /// Errors are estimated after every run.
     Always,
 }
 
@@ -86,12 +86,12 @@ pub enum JournalPreference {
     None,
     /// Completed cases are kept in the output folder and reused.
     Resume,
-    /// Completed cases are kept in the output folder. Those of earlier runs are removed first.
+    /// Completed cases are kept in the output folder. Cases of earlier runs are removed first.
     Restart,
 }
 
 impl RunSettings {
-    /// Settings for a run without any output. They are used for dry runs, and as a base for other settings.
+    /// Settings for a run without any output, for dry runs and as a base for other settings.
     pub fn silent(mode: RunMode) -> Self {
         Self {
             mode,

@@ -12,17 +12,17 @@ use crate::script::messages::stop::Stop;
 
 const INTERVAL: Duration = Duration::from_millis(10);
 
-/// Processor time that a run may use after it has exceeded the time limit, as a fraction of the limit. On a machine without other load, the run
-/// then ends within twice the limit.
+/// Processor time that a run may use after the time limit, as a fraction of the limit.
+/// On a machine without other load, the run then ends within twice the time limit.
 const OVERTIME: f64 = 0.7;
 const LEAST_OVERTIME: Duration = Duration::from_millis(700);
 const MOST_OVERTIME: Duration = Duration::from_secs(5);
-/// Ratio of wall-clock time to allowed processor time above which a run is ended, even if it has used less processor time than allowed.
+/// Ratio of wall-clock time to allowed processor time. Above this ratio, a run is ended even if it has used less processor time than allowed.
 const SHARE_OF_PROCESSOR: u32 = 10;
 
-/// Guard of the thread that supervises time and memory of a run. The thread ends when the guard is dropped.
+/// Guard of the thread that supervises time and memory of a run. Dropping the guard ends the thread.
 pub struct Watchdog {
-    /// The thread ends when this sender is dropped.
+    /// Sender whose drop ends the thread.
     leash: Option<Sender<()>>,
     thread: Option<JoinHandle<()>>,
 }
@@ -75,8 +75,8 @@ impl Clocks {
         Self { wall: Instant::now(), processor: processor_time() }
     }
 
-    /// Returns true if both the wall-clock time and the processor time exceed `patience`, or if the wall-clock time exceeds a multiple of
-    /// `patience`.
+    /// Returns true if both the wall-clock time and the processor time exceed `patience`.
+    /// Returns also true if the wall-clock time exceeds a large multiple of `patience`.
     fn are_over(self, patience: Duration) -> bool {
         let wall = self.wall.elapsed();
         let had = || match (self.processor, processor_time()) {

@@ -16,7 +16,7 @@ use crate::script::state::parts::find_parts;
 use crate::script::state::settings::RunMode;
 
 pub trait CaseResult: Serialize + DeserializeOwned {
-    /// Returns true if the result may be reused from the journal. A run that exceeded its limits may complete another time.
+    /// Returns true if the result may be reused from the journal. A run that exceeded its limits may complete at another time.
     fn is_final(&self) -> bool;
 }
 
@@ -38,7 +38,7 @@ impl CaseResult for Option<Timing> {
     }
 }
 
-/// Prints the table of a study and an empty line, except in a dry run.
+/// Prints the table of a study and an empty line. Does nothing in a dry run.
 pub fn print_table(context: &Context, table: &str) {
     if context.mode() == RunMode::Run {
         context.print(table);
@@ -52,7 +52,7 @@ pub struct CaseRunner<'c> {
     journal: Option<JournalNumber>,
 }
 
-/// A kind of computation applied to the cases of a study.
+/// Type of computation for the cases of a study.
 #[derive(Clone, Copy)]
 pub struct CaseTask<'t> {
     pub name: &'t str,
@@ -68,7 +68,7 @@ impl CaseTask<'_> {
 }
 
 impl<'c> CaseRunner<'c> {
-    /// Starts a study, and opens its journal if requested. The files of the study have its name.
+    /// Starts a study, and opens its journal if requested. The name of the study is the name of its files.
     ///
     /// # Errors
     /// Fails if the name is not valid for a file in the output folder, or the journal cannot be read.
@@ -93,12 +93,12 @@ impl<'c> CaseRunner<'c> {
         Ok(Self { context, name: name.to_owned(), journal })
     }
 
-    /// Computes all cases that are not in the journal, in parallel. `steps_of` returns the number of steps of a result, which counts towards the
-    /// limits of the run. A panic affects only its case. If the run computes a part of the study, only the cases of the part are computed, and the
-    /// result is `None`.
+    /// Computes all cases that are not in the journal, in parallel.
+    /// The callback `steps_of` returns the number of steps of a result, which count towards the limits of the run. A panic affects only its case.
+    /// If the run computes a part of the study, only the cases of this part are computed, and the result is `None`.
     ///
     /// # Errors
-    /// Fails if the run is stopped (finished cases are then in the journal), or if a case is missing in merged parts.
+    /// Fails if the run is stopped, or if a case is missing in merged parts. After a stop, finished cases are in the journal.
     pub fn in_parallel<R: CaseResult + Clone + Send>(
         &self,
         task: CaseTask,
@@ -163,11 +163,11 @@ impl<'c> CaseRunner<'c> {
         })
     }
 
-    /// Computes the cases one by one on this thread, for timing. Cases in the journal are skipped. `work` receives a function that returns false if
-    /// the case must stop.
+    /// Computes the cases one by one on this thread, for timing. Cases in the journal are skipped.
+    /// The callback `work` receives a function that returns false if the case must stop.
     ///
     /// # Errors
-    /// Fails if the run is stopped; finished cases are in the journal.
+    /// Fails if the run is stopped. Finished cases are then in the journal.
     pub fn run_sequentially<R: CaseResult>(
         &self,
         task: CaseTask,
@@ -187,7 +187,7 @@ impl<'c> CaseRunner<'c> {
             Ok(found)
         });
         let results = results.collect();
-        // Ends the progress bar before an error is reported.
+        // The progress bar is ended before an error is reported.
         context.progress().end();
         results
     }

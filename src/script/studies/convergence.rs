@@ -19,7 +19,7 @@ use crate::script::messages::error::ScriptError;
 use crate::script::state::settings::RunMode;
 use crate::simulation::{SimulationSettings, StepSize};
 
-/// Runs the study; nothing is computed in a dry run.
+/// Runs the study. In a dry run, nothing is computed.
 pub fn study(call: &Call, options: &ErrorOptions) -> Result<Convergence, ScriptError> {
     let mut plan = ErrorStudyPlan::read(call, options)?;
     let refined = refined(call, &plan)?;
@@ -68,7 +68,7 @@ pub fn study(call: &Call, options: &ErrorOptions) -> Result<Convergence, ScriptE
     Ok(study)
 }
 
-/// The refined quantity: step or mesh. The other one must have a single value.
+/// Refined quantity: step or mesh. The other quantity must have a single value.
 fn refined(call: &Call, plan: &ErrorStudyPlan) -> Result<RefinedParameter, ScriptError> {
     let is_adaptive = |dt: &StepSize| matches!(dt, StepSize::Adaptive(_));
     if plan.dts.len() > 1 && plan.dts.iter().any(is_adaptive) {
@@ -165,7 +165,7 @@ pub fn expect_quantity(
 /// Errors of a quantity with an integrator; `None` in a dry run.
 ///
 /// # Errors
-/// Fails if the quantity or integrator is not in the study. The error lists the known ones.
+/// Fails if the quantity or integrator is not in the study. The error lists the known quantities or integrators.
 pub fn find<'s>(
     call: &Call,
     study: &'s Convergence,

@@ -5,7 +5,7 @@ use crate::analysis::{Convergence, RefinedParameter, Refinement};
 use crate::elementary::{ln, power};
 use crate::output::{AxisScale, LineChart, Marker, Series, SeriesColour, Stroke};
 
-/// Difference of two orders below which they count as equal.
+/// Largest difference of two orders that count as equal.
 const SAME_ORDER: f64 = 0.3;
 
 struct Slope {
@@ -13,7 +13,8 @@ struct Slope {
     ends: [(f64, f64); 2],
 }
 
-/// Chart of the errors of a quantity over the sizes, with lines of the claimed orders; for unclaimed orders, lines of the observed orders.
+/// Chart of the errors of a quantity over the sizes, with lines of the theoretical orders.
+/// If an order is unknown, the line of the observed order is drawn.
 pub fn chart(study: &Convergence, quantity: &str) -> LineChart {
     let relative = match quantity.starts_with("position") {
         true => " / length",
@@ -62,7 +63,7 @@ pub fn chart(study: &Convergence, quantity: &str) -> LineChart {
     chart
 }
 
-/// Refinement levels that are usable for an order, from coarse to fine.
+/// Refinement levels that can be used to compute an order, from coarse to fine.
 fn usable_rungs(ladder: &Refinement) -> impl DoubleEndedIterator<Item = usize> {
     (0..ladder.sizes.len()).filter(|rung| ladder.tells_an_order(*rung))
 }
@@ -77,7 +78,7 @@ fn claimed(ladder: &Refinement, order: u32, points: &[(f64, f64)]) -> Option<Slo
     })
 }
 
-/// Line of the order observed for the finest sizes, over the range in which neighbouring orders agree; `None` outside the asymptotic range.
+/// Line of the order observed for the finest sizes. It covers the range of nearly equal neighbouring orders. `None` outside the asymptotic range.
 fn observed_order_line(ladder: &Refinement) -> Option<Slope> {
     let last = usable_rungs(ladder).next_back()?;
     let mut orders = vec![ladder.order(last)?];

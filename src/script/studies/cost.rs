@@ -1,4 +1,4 @@
-//! Cost studies: the same scene with features added one at a time.
+//! Cost studies of a scene with features that are added one at a time.
 
 use rhai::{Dynamic, FnPtr, Map};
 
@@ -20,7 +20,7 @@ const SNAPSHOTS: usize = 256_000_000;
 /// Names of the first two rows: the plain scene and its repetition. Their difference shows the reliability of the times.
 const PLAIN: [&str; 2] = ["the scene alone", "the same again"];
 
-/// Ratio of the times of both plain rows above which all ratios are unreliable.
+/// Ratio of the times of both plain rows, above which all ratios are unreliable.
 const TRUSTED_RATIO: f64 = 1.1;
 
 /// Settings of all rows of a cost study, unless a row varies them.
@@ -50,7 +50,7 @@ impl CostStepping {
     }
 }
 
-/// Rows of the study: the plain scene twice, with each feature, and with each variation of the settings.
+/// Rows of the study: the plain scene twice, the scene with each feature, and the scene with each variation of the settings.
 pub fn cases(
     call: &Call,
     options: &CostOptions,
@@ -100,7 +100,7 @@ pub fn cases(
             let has_beams = !cases[0].case.scene.beams.is_empty();
             for feature in FEATURES.iter().filter(|_| has_beams) {
                 let mut scene = fresh()?;
-                // Features that the scene cannot have, such as a second hinge at the same station, give no row.
+                // Features that are impossible in the scene, such as a second hinge at the same station, give no row.
                 if (feature.add)(&mut scene).is_ok() {
                     cases.push(stepping.case(feature.name, scene));
                 }
@@ -120,7 +120,7 @@ pub fn cases(
 }
 
 impl CostTable {
-    /// Creates the table, with the plain scene first.
+    /// Creates the table. The plain scene comes first.
     pub fn new(name: String, costs: Vec<StepCost>) -> Self {
         Self { name, costs }
     }

@@ -21,13 +21,13 @@ use crate::system::Scene;
 
 use super::plan::usual_stations;
 
-/// Name of the largest error of all stations.
+/// Name of the row with the largest error of all stations.
 pub const POSITIONS: &str = "positions";
 
 /// Largest number of rows of a printed table.
 const MOST_ROWS: usize = 24;
 
-/// Smallest number of spans of a beam that is coarsened twice. Shorter beams are also refined.
+/// Smallest number of spans of a beam for coarsening by a factor of four. Shorter beams are also refined.
 const SPANS_TO_COARSEN: usize = 4;
 
 /// Estimated errors of a run.
@@ -39,7 +39,7 @@ pub struct ErrorEstimate {
     pub time: f64,
     /// Scale of positions [length].
     pub length: f64,
-    /// Largest errors of all stations, then those of each station and recorded column.
+    /// Largest errors of all stations, followed by the errors of each station and recorded column.
     pub quantities: Vec<QuantityError>,
     /// Reasons for missing estimates.
     pub missing: Vec<String>,
@@ -54,14 +54,14 @@ pub struct QuantityError {
     pub dimension: &'static str,
     /// Largest value of the run, or the size of the scene for positions.
     pub scale: f64,
-    /// Error of the steps.
+    /// Error due to the steps.
     pub in_time: Option<DiscretisationError>,
-    /// Error of the mesh.
+    /// Error due to the mesh.
     pub in_space: Option<DiscretisationError>,
 }
 
 impl QuantityError {
-    /// Errors of a quantity in a dry run, in which nothing is estimated.
+    /// Errors of a quantity in a dry run, without an estimate.
     pub fn unknown(name: &str) -> Self {
         let verdict = ErrorVerdict::PreAsymptotic;
         let none = Some(DiscretisationError { over_time: Vec::new(), order: Some(0.0), verdict });
@@ -69,7 +69,7 @@ impl QuantityError {
         Self { name, dimension: "-", scale: 0.0, in_time: none.clone(), in_space: none }
     }
 
-    /// Sum of the errors in time and space at the present time, and the largest of the run.
+    /// Sum of the errors in time and space: at the present time, and the largest of the run.
     pub fn total(&self) -> (f64, f64) {
         (self.sum(DiscretisationError::present), self.sum(DiscretisationError::largest))
     }
@@ -83,7 +83,7 @@ impl QuantityError {
         [&self.in_time, &self.in_space].into_iter().flatten().map(read).sum()
     }
 
-    /// Verdict in words on both errors.
+    /// Verdict on both errors in words.
     pub fn verdict(&self) -> String {
         let both = [("in time", &self.in_time), ("in space", &self.in_space)];
         let known = both.into_iter().filter_map(|(of, error)| Some((of, error.as_ref()?.verdict)));
@@ -114,13 +114,13 @@ impl QuantityError {
 
 /// Companion runs of an estimate.
 struct Plan {
-    /// Meshes and step sizes of the companion runs. The first two have the mesh of the simulation, and two and four times its step.
+    /// Meshes and step sizes of the companion runs. The first two have the mesh of the simulation, with twice and four times its step size.
     companions: Vec<Companion>,
     /// Indices of the runs for the estimate in space, from the finest to the coarsest mesh.
     meshes: Option<[usize; 3]>,
-    /// Mesh sizes of these runs, relative to the mesh of the simulation.
+    /// Mesh sizes of the runs for the estimate in space, relative to the mesh of the simulation.
     mesh_sizes: [f64; 3],
-    /// Position of the mesh of the simulation in these runs.
+    /// Index of the mesh of the simulation in `mesh_sizes`.
     level: usize,
 }
 
@@ -132,7 +132,7 @@ impl Plan {
         let Some(shortest) = scene.beams.iter().map(|beam| beam.mesh.spans()).min() else {
             return Ok(Self { companions, meshes: None, mesh_sizes: [1.0; 3], level: 0 });
         };
-        // Companions 2 and 3 have twice the step of the simulation, as companion 0.
+        // Companions 2 and 3 have twice the step size of the simulation, like companion 0.
         let (ratios, meshes, level) = match shortest {
             SPANS_TO_COARSEN.. => ([0.75, 0.5], [0, 2, 3], 0),
             1 => ([4.0, 2.0], [2, 3, 0], 2),
@@ -161,14 +161,14 @@ impl FinishedRun {
 }
 
 impl ErrorEstimate {
-    /// Estimate without any result, for the given reason.
+    /// Estimate without results, for the given reason.
     pub fn not_estimated(handle: &SimulationHandle, reason: &str) -> Self {
         let (name, time) = (handle.name().to_owned(), handle.time());
         let missing = vec![reason.to_owned()];
         Self { name, time, length: 1.0, quantities: Vec::new(), missing }
     }
 
-    /// Estimates the errors of a simulation at its present time and over its run. With a limit, each companion run stops after this time.
+    /// Estimates the errors of a simulation at its present time and over its run. With a time limit, each companion run stops after this time.
     ///
     /// # Errors
     /// Fails if the simulation cannot be repeated from its start, or the script is stopped.
@@ -279,7 +279,7 @@ impl ErrorEstimate {
         Ok(history.samples().iter().map(|row| quantity.at(row.measures.time)).collect())
     }
 
-    /// Adds the errors of the columns of a history to its table, each in a column after that of the values.
+    /// Adds the errors of the columns of a history to its table. Each error column follows the column of its values.
     pub fn add_columns(&self, table: &mut DataTable, history: &History) {
         let columns = std::mem::take(&mut table.columns).into_iter();
         let with_errors = columns.flat_map(|column| {
@@ -301,7 +301,7 @@ impl ErrorEstimate {
         }));
     }
 
-    /// One line on all positions together.
+    /// One-line summary for all positions together.
     pub fn summary(&self) -> String {
         let Some(positions) = self.of(POSITIONS) else {
             return format!("not estimated: {}", self.missing.join("; "));
@@ -413,7 +413,7 @@ fn run_companions(
         let (outcome, simulation) = case.run(limits, &stop, |_| ());
         match (outcome, simulation) {
             (CaseOutcome::Finished, Some(run)) => Ok(FinishedRun::of(&run, quantities)),
-            // A run may end by itself, as where a slider leaves its beam.
+            // A run may end by itself, for example when a slider leaves its beam.
             (_, Some(run)) if run.ending().is_some() => Ok(FinishedRun::of(&run, quantities)),
             (outcome, _) => Err(outcome.describe()),
         }
@@ -430,7 +430,7 @@ fn run_companions(
     Ok(runs.collect())
 }
 
-/// Larger of both errors at each time, with the order and verdict of the run with the larger error.
+/// Larger of two errors at each time, with the order and verdict of the run with the larger error.
 fn largest_of_both(a: DiscretisationError, b: DiscretisationError) -> DiscretisationError {
     let pairs = a.over_time.iter().zip(&b.over_time);
     let over_time = pairs.map(|((time, a), (_, b))| (*time, larger(*a, *b))).collect();
@@ -467,7 +467,7 @@ impl Scales {
         let all = || quantities.iter().zip(traces);
         let range = all().filter(|(quantity, _)| is_position(quantity)).map(|(_, of)| of.range());
         let length = scene.size().unwrap_or_else(|| range.fold(0.0, larger));
-        // Momenta of a scene at rest as a whole are zero but for rounding.
+        // The momenta of a scene that is at rest as a whole are zero except for rounding.
         let kinetic = largest(simulation.history(), "kinetic");
         let momentum = (2.0 * simulation.model().total_mass() * kinetic).sqrt();
         let mut by_dimension =

@@ -1,4 +1,4 @@
-//! Studies: from options to cases, and from results to tables, files and pictures.
+//! Studies: conversion of options to cases, and of results to tables, files and pictures.
 
 pub mod calls;
 pub mod case_runner;

@@ -56,7 +56,7 @@ option_set! {
         /// Map of names and functions that add a feature to a scene.
         features: Option<Dynamic> =
             of_any_type("features").doc("names and functions: #{ gravity: |scene| … }").optional(),
-        /// Integrator of all rows that do not set another one.
+        /// Integrator of all rows without a separate integrator.
         integrator: Option<Method> =
             object("integrator", INTEGRATOR).doc("integrator; default: energy_momentum()").optional(),
         steps: usize = integer("steps").positive().or(Presence::Integer(200)).doc("number of steps of each run"),

@@ -1,4 +1,4 @@
-//! Parameters that a study varies.
+//! Parameters varied by a study.
 
 use rhai::{Array, Dynamic, Map};
 
@@ -41,12 +41,12 @@ impl StudyParameter {
         Ok(Self { name, values, labels })
     }
 
-    /// A placeholder with a single nameless value, for an omitted option.
+    /// Placeholder with a single nameless value, for an omitted option.
     pub fn none() -> Self {
         Self { name: String::new(), values: vec![Dynamic::UNIT], labels: vec![String::new()] }
     }
 
-    /// Value as text for other programs: all digits of a number, otherwise the label.
+    /// Value as text for other programs: a number with all digits, otherwise the label.
     pub fn exact(&self, index: usize) -> String {
         as_number(&self.values[index]).map_or_else(|| self.labels[index].clone(), format_number)
     }
@@ -59,7 +59,7 @@ impl StudyParameter {
     }
 }
 
-/// Short label of a value. Large numbers are powers of ten, texts are unchanged, integrators and maps have their names.
+/// Short label of a value. Large numbers are written as powers of ten. Texts are unchanged. Integrators and maps have their names.
 pub fn label(call: &Call, value: &Dynamic) -> String {
     if let Some(number) = as_number(value) {
         let short = significant(number, DIGITS);

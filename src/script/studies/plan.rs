@@ -32,7 +32,7 @@ pub struct ErrorStudyPlan {
 }
 
 impl ErrorStudyPlan {
-    /// Reads the common options of error studies. All scenes are created and the first is built, so that errors are reported before any run.
+    /// Reads the common options of error studies. All scenes are created and the first scene is built, so that errors are reported before any run.
     pub fn read(call: &Call, options: &ErrorOptions) -> Result<Self, ScriptError> {
         let name = study_name(call, &options.name)?;
         let methods = all_of::<Method>(call, "integrators", &options.integrators, "an integrator")?;
@@ -82,7 +82,7 @@ impl ErrorStudyPlan {
         &self.subjects[0].observables
     }
 
-    /// History at the start of a run, from which the columns are taken. The scene is built for this.
+    /// History at the start of a run, which provides the columns. The scene is built for this purpose.
     pub fn history(&self) -> Result<History, ScriptError> {
         let (scene, stops) = (self.subjects[0].scene.clone(), self.times.clone());
         let case = Case { scene, settings: self.all_settings()[0], stops };
@@ -91,10 +91,11 @@ impl ErrorStudyPlan {
         Ok(built.history().clone())
     }
 
-    /// Adds columns of the history to the observables. With a reference table, only the columns that it contains are added. The name of a column in
-    /// the table is a symbol (E, KE, SE, px, py or Lz) or its name in the history. Without a table, all columns of the history are added.
+    /// Adds columns of the history to the observables. With a reference table, only the columns in the table are added.
+    /// The name of a column in the table is a symbol (E, KE, SE, px, py or Lz) or its name in the history.
+    /// Without a table, all columns of the history are added.
     ///
-    /// `given` is the option `columns`. It contains the columns of the history for further names, and replaces columns of the same names.
+    /// The option `columns` (argument `given`) assigns history columns to further names, and replaces columns with the same names.
     pub fn add_columns(
         &mut self,
         call: &Call,
@@ -122,7 +123,7 @@ impl ErrorStudyPlan {
     }
 }
 
-/// Entry of the option `columns`: a column name, or a name and a factor.
+/// Entry of the option `columns`: a column name, or a column name and a factor.
 fn column_of(
     call: &Call,
     name: &str,
@@ -157,7 +158,7 @@ fn column_of(
     Ok(Observable::of_column(name, &column, factor))
 }
 
-/// Checks the name of a study and of its files, which must be unique in the run.
+/// Checks the name of a study, which is also that of its files and must be unique in the run.
 pub fn study_name(call: &Call, name: &str) -> Result<String, ScriptError> {
     if !call.context().claim_study(name) {
         let message = format!("this run already has a study '{name}'");
@@ -189,7 +190,7 @@ pub fn at_key(
     call.error(message).hint(hint).at(CallPart::Key(key.to_owned()))
 }
 
-/// Elements of a non-empty array that must all have one type.
+/// Elements of a non-empty array in which all elements must have the same type.
 fn all_of<T: Clone + 'static>(
     call: &Call,
     key: &str,
@@ -208,7 +209,7 @@ fn all_of<T: Clone + 'static>(
     }
 }
 
-/// Limits of a case: time in seconds, and the step limit of the run.
+/// Limits of a case: the given time in seconds, and the step limit of the run.
 pub fn case_limits(call: &Call, seconds: f64) -> RunLimits {
     let steps = call.context().meter().limits().steps;
     RunLimits {
@@ -303,7 +304,7 @@ fn subject(call: &Call, mesh: String, made: &Dynamic) -> Result<ObservedScene, S
     Ok(ObservedScene { mesh, scene, observables })
 }
 
-/// Stations that a study compares: ends of beams, particles and rigid bodies.
+/// Default stations of a comparison: ends of beams, particles and rigid bodies.
 pub fn usual_stations(scene: &Scene) -> Vec<(String, Station)> {
     let ends = scene.beams.iter().enumerate().flat_map(|(index, beam)| {
         [("start", 0.0), ("end", beam.axis.length())]
@@ -333,7 +334,7 @@ pub fn expect_same_observables(
     })
 }
 
-/// Length of the longest beam, or largest distance of a point mass from the first point mass; 1 if there is none.
+/// Length of the longest beam, or largest distance of a point mass from the first point mass; 1 if there is neither.
 fn size_of(scene: &Scene) -> f64 {
     let first = scene.particles.first().map(|first| first.position).unwrap_or_default();
     let particles = scene.particles.iter().map(|other| (other.position - first).norm());

@@ -14,7 +14,7 @@ use crate::script::bindings::call::Call;
 use crate::script::messages::error::ScriptError;
 use crate::script::state::settings::RunMode;
 
-/// Runs the study; nothing is computed in a dry run.
+/// Runs the study. In a dry run, nothing is computed.
 pub fn study(
     call: &Call,
     options: &ErrorOptions,
@@ -34,7 +34,7 @@ pub fn study(
             at_key(call, "rivals", format!("\"{file}\": {error}"), hint)
         })
     };
-    // Reports errors in the table of other programs before any run.
+    // Errors in the table of other programs are reported before any run.
     compared(&reference.placeholder(call, &plan)?)?;
     let desk = CaseRunner::open(call.context(), &plan.name)?;
     let combinations = all_combinations(&plan.subjects, &plan.all_settings());
@@ -47,7 +47,7 @@ pub fn study(
     };
     let is_found = found.is_some();
     let (trials, truth) = found.unwrap_or_else(|| Reference::no_trials(&cases));
-    // Times of different machines are not comparable. If a study is computed in parts, they are measured when the parts are merged.
+    // Run times of different machines are not comparable. For a study computed in parts, they are measured when the parts are merged.
     let timings = match is_found {
         true => timings(&desk, &plan, (&cases, &trials), repeats)?,
         false => vec![None; cases.len()],

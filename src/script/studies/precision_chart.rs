@@ -5,7 +5,7 @@ use crate::analysis::{Precision, PrecisionRow, machines};
 use crate::output::{AxisScale, LineChart, Marker, Series, SeriesColour, Stroke};
 use crate::simulation::StepSize;
 
-/// Series of a row; runs with adaptive steps form their own series.
+/// Name of the series to which a row belongs. Runs with adaptive steps form a separate series.
 fn series_of(row: &PrecisionRow) -> String {
     let method = labels::method(&row.settings.method);
     match row.settings.dt {

@@ -5,7 +5,7 @@ use super::precision_rows::with;
 use crate::analysis::{Precision, machines};
 use crate::output::{Cell, TextTable, format_number, scientific};
 
-/// Text table of the fastest own run and the fastest run of every other program for several errors.
+/// Text table of the fastest run of this program and the fastest run of every other program for several errors.
 pub fn comparison(study: &Precision, errors: &[f64]) -> String {
     let heads = [
         "error ≤",
@@ -65,7 +65,7 @@ pub fn comparison(study: &Precision, errors: &[f64]) -> String {
     format!("{}{measured}{confirmed}", table.to_string().trim_end())
 }
 
-/// Note on the fastest combination that smaller steps confirm, if the fastest combination may be accurate by chance.
+/// Note on the fastest combination confirmed by smaller steps, if the fastest combination may be accurate by chance.
 fn confirmation(study: &Precision, error: f64) -> Option<String> {
     let fastest = study.cheapest(error)?;
     let message = match study.cheapest_confirmed(error) {
@@ -77,7 +77,7 @@ fn confirmation(study: &Precision, error: f64) -> Option<String> {
     Some(format!("\n{error} also at all smaller steps of the mesh, confirmed: {message}"))
 }
 
-/// Other programs with a run of at most this error, or the first other program if there is no such run.
+/// Other programs that have a run with an error of at most `error`. If no program has such a run, only the first program is returned.
 fn programs_with_error(study: &Precision, error: f64) -> Vec<Option<&str>> {
     let peers = study.program_names();
     let able = peers.iter().copied().filter(|peer| study.cheapest_of(peer, error).is_some());

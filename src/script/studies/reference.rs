@@ -19,14 +19,14 @@ use crate::script::messages::error::ScriptError;
 use crate::script::messages::numbers::format_number;
 use crate::simulation::{StepControl, StepSize};
 
-/// A reference run, as specified by the script.
+/// Reference run as specified by the script.
 #[derive(Clone, Default)]
 pub struct FinestRun {
-    /// Mesh of the reference run, with which the scene function is called; by default the finest mesh of the study.
+    /// Mesh argument for the scene function of the reference run. By default, it is the finest mesh of the study.
     pub mesh: Option<Dynamic>,
-    /// Step size [time]; by default a quarter of the smallest step size of the study.
+    /// Step size [time]. By default, it is a quarter of the smallest step size of the study.
     pub dt: Option<f64>,
-    /// Integrator; by default that of the highest order in the study.
+    /// Integrator. By default, it is the integrator of the highest order in the study.
     pub method: Option<Method>,
 }
 
@@ -44,7 +44,7 @@ impl Scripted for FinestRun {
     }
 }
 
-/// A fraction of the smallest fixed step size; without fixed sizes, of the smallest tolerance.
+/// Fraction of the smallest fixed step size or, without fixed step sizes, of the smallest tolerance.
 fn finer(dts: &[StepSize]) -> StepSize {
     let fixed = dts.iter().filter_map(|dt| match dt {
         StepSize::Fixed(dt) => Some(*dt),
@@ -63,7 +63,7 @@ fn finer(dts: &[StepSize]) -> StepSize {
         .map_or(StepSize::Adaptive(control), |dt| StepSize::Fixed(PART_OF_THE_SMALLEST_STEP * dt))
 }
 
-/// Twice the step size, or the tolerance that has about this effect for a second-order method.
+/// Twice the step size, or the tolerance with about the same effect for a second-order method.
 fn doubled_step(dt: StepSize) -> StepSize {
     match dt {
         StepSize::Fixed(dt) => StepSize::Fixed(2.0 * dt),
@@ -75,10 +75,10 @@ fn doubled_step(dt: StepSize) -> StepSize {
 
 /// Reference of a study before the runs.
 pub enum Reference {
-    /// An independent solution from a table file.
+    /// Independent solution from a table file.
     Table(String, ParsedCsv),
-    /// A reference run: its description, its case, and the case with twice the step, which gives an error estimate. The second case is missing if
-    /// all runs of the study have the same time settings, so that time errors cancel.
+    /// Reference run: its description, its case, and the case with twice the step size, for an error estimate.
+    /// The second case is omitted if all runs of the study have the same time settings. The errors in time then cancel.
     ReferenceRun(String, Vec<Case>),
 }
 
@@ -91,7 +91,7 @@ pub fn read_sheet(call: &Call, key: &str, file: &str) -> Result<ParsedCsv, Scrip
     })
 }
 
-/// Rejects a reference run on one of the compared meshes, because the error of that mesh would be zero.
+/// Rejects a reference run on one of the compared meshes, because the error of this mesh would be zero.
 pub fn expect_finer_than_all_meshes(
     call: &Call,
     reference: Option<&ReferenceOption>,
@@ -143,7 +143,7 @@ fn expect_finer_steps(
     Err(at_key(call, "reference", message, hint))
 }
 
-/// Rejects a reference whose steps stay the same if the step size is doubled, because its error cannot be estimated.
+/// Rejects a reference whose steps do not change if the step size is doubled, because its error cannot be estimated.
 fn expect_other_steps_if_doubled(call: &Call, finest: &Case) -> Result<(), ScriptError> {
     match finest.settings.dt {
         StepSize::Fixed(dt) if finest.is_one_step_from_stop_to_stop(dt) => {
@@ -225,7 +225,7 @@ impl Reference {
         }
     }
 
-    /// Reference values of the observables. `own` are the results of the reference run.
+    /// Reference values of the observables. `own` contains the results of the reference run.
     fn truth(
         &self,
         call: &Call,

@@ -1,4 +1,4 @@
-//! RefinedRun of steps and mesh until the estimated error of a run meets a tolerance.
+//! Refinement of steps and mesh until the estimated error of a run meets a tolerance.
 
 use std::time::Instant;
 
@@ -19,10 +19,10 @@ const FIRST_STEPS: f64 = 50.0;
 /// Maximum number of runs.
 const MOST_RUNS: usize = 12;
 
-/// Largest factor of a refinement of the steps and of the mesh between two runs.
+/// Largest factor of refinement between two runs, for the steps and for the mesh.
 const MOST_REFINEMENT: [f64; 2] = [8.0, 4.0];
 
-/// Part of the tolerance for the errors in time and in space each.
+/// Fraction of the tolerance for the error in time, and also for the error in space.
 const PART: f64 = 0.5;
 
 /// Request of a refined run.
@@ -39,19 +39,19 @@ pub struct RefinedRunRequest {
     pub max_time: f64,
 }
 
-/// Refined run and the runs on the way to it.
+/// Refined run with all preceding runs.
 #[derive(Clone)]
 pub struct RefinedRun {
     /// Last run.
     pub simulation: SimulationHandle,
     /// All runs in their order.
     pub rows: Vec<RefinedRunRow>,
-    /// Reason for which the tolerance was not reached; `None` if it was.
+    /// Reason why the tolerance was not reached; `None` if it was reached.
     pub failure: Option<String>,
     tolerance: f64,
 }
 
-/// One run of a refinement.
+/// Run of a refinement.
 #[derive(Debug, Clone)]
 pub struct RefinedRunRow {
     /// Number of spans of all beams.
@@ -60,9 +60,9 @@ pub struct RefinedRunRow {
     pub dt: f64,
     /// Number of steps; zero if the run failed.
     pub steps: usize,
-    /// Largest error of the steps, relative to the size of the scene [-]; NaN if it is not known.
+    /// Largest error due to the steps, relative to the size of the scene [-]; NaN if unknown.
     pub in_time: f64,
-    /// Largest error of the mesh, relative to the size of the scene [-]; NaN if it is not known.
+    /// Largest error due to the mesh, relative to the size of the scene [-]; NaN if unknown.
     pub in_space: f64,
     /// Verdict on both errors, or the reason of a failure.
     pub verdict: String,
@@ -70,7 +70,7 @@ pub struct RefinedRunRow {
     pub seconds: f64,
 }
 
-/// Factor by which the steps or the mesh are refined for the next run; 1 if their error is small enough.
+/// Factor of refinement of the steps or the mesh for the next run; 1 if their error is small enough.
 fn refinement_factor(
     error: Option<&DiscretisationError>,
     length: f64,
@@ -83,7 +83,7 @@ fn refinement_factor(
         (ErrorVerdict::Exact, _) => 1.0,
         _ if ratio <= 1.0 && error.verdict == ErrorVerdict::Converged => 1.0,
         (ErrorVerdict::Converged, Some(order)) => {
-            // A power of two, so that all runs share times and knots.
+            // The factor is a power of two, so that all runs share times and knots.
             let halvings = (ln(power(ratio, 1.0 / order)) / ln(2.0)).ceil().max(1.0);
             power(2.0, halvings).min(most)
         }
@@ -92,7 +92,8 @@ fn refinement_factor(
 }
 
 impl RefinedRun {
-    /// Runs a scene with smaller and smaller steps and finer meshes until the largest estimated error of the positions is within the tolerance.
+    /// Runs a scene repeatedly with smaller steps and finer meshes.
+    /// The runs end when the largest estimated error of the positions is within the tolerance.
     ///
     /// # Errors
     /// Fails if no run can be completed, or the script is stopped.
@@ -182,7 +183,7 @@ impl RefinedRun {
         }
     }
 
-    /// Result in a dry run: a simulation at the end, without steps and errors.
+    /// Result in a dry run: a simulation at the end time, without steps and errors.
     ///
     /// # Errors
     /// Fails if the scene cannot be built.

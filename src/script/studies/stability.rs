@@ -1,4 +1,4 @@
-//! Stability maps: one run per combination of parameters, and its outcome.
+//! Stability maps: one run per combination of parameters, with its outcome.
 
 use rhai::{Dynamic, INT, Map};
 
@@ -128,7 +128,7 @@ impl StabilityPlan {
     /// Case of each cell, or the message thrown by the script function.
     ///
     /// # Errors
-    /// Fails if the function returns an invalid value or fails, or if it throws at every cell, which means that the function is wrong.
+    /// Fails if the function fails or returns an invalid value. Also fails if it throws at every cell, which means that the function is wrong.
     pub fn cases(
         &self,
         call: &Call,

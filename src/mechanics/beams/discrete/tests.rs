@@ -9,8 +9,7 @@ use proptest::prelude::*;
 const TANGENT: Collocation =
     Collocation { configuration: 0.4, stress: 0.6, rotations: RotationIncrement::TangentScaled };
 
-/// Returns the bits of the tangents and forces of all spans, which are computed with the instruction set `arch`, and the spans after the
-/// computation.
+/// Returns the bits of the tangents and forces of all spans, and the spans after the computation. `arch` is the instruction set.
 fn linearised<const N: usize>(
     arch: Arch,
     beam: &DiscreteBeam<N>,

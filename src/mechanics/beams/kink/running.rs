@@ -4,23 +4,25 @@ use super::SplineString;
 use crate::beams::Mesh;
 use crate::geometry::{GaussRule, PiecewisePolynomial, Span, Vec2, lower_splines};
 
-/// Largest number of spans over which the factor is averaged.
+/// Largest number of spans over which the correction factor is averaged.
 const SAMPLES: usize = 16;
 
 impl SplineString {
-    /// Correction factor `μ` of the inertia of a moving kink. The kinetic energy that the mesh misses is `½ μ ρA g |a|² v²` for a kink `a` that
-    /// moves with the speed `v`. The factor is averaged over places `ξ` of the kink in evenly spread spans.
+    /// Correction factor `μ` of the inertia of a moving kink.
+    /// The kinetic energy that the mesh misses is `½ μ ρA g |a|² v²` for a kink `a` that moves with the speed `v`.
+    /// The factor is averaged over positions `ξ` of the kink in evenly spread spans.
     ///
     /// ```text
-    /// μ = ∫ (L - s(ξ) - ∫ u² dX) ds/∫ g ds        u = l(X)ᵀ M⁻¹ t(ξ)/|x_ξ|
+    /// correction factor:  μ = ∫ (L - s(ξ) - ∫ u² dX) ds/∫ g ds
+    /// velocity ratio:     u = l(X)ᵀ M⁻¹ t(ξ)/|x_ξ|
     /// ```
     ///
-    /// `L` is the length of the string, `s(ξ)` the arc length at the kink, and `|x_ξ|` the derivative `ds/dξ`. The kink length `g`, the splines `t`,
-    /// their integrals `l` and the matrix `M` are defined at [`unresolved_kink`](super::unresolved_kink).
+    /// The length of the string is `L`, the arc length at the kink `s(ξ)`, and the derivative `ds/dξ` is `|x_ξ|`.
+    /// The kink length `g`, the splines `t`, their integrals `l` and the matrix `M` are defined at [`unresolved_kink`](super::unresolved_kink).
     ///
-    /// If the start of the string is held, the points in front of a moving unit kink have the velocity `v`, and the points behind it are at rest. On
-    /// the mesh, the point at the arc length `X` has the velocity `u v` instead, where `u` is a function of `X` and `ξ`. Away from the kink `u` is
-    /// exact, so only the spans around the kink contribute to the difference.
+    /// Consider a string whose start is held. The points in front of a moving unit kink have the velocity `v`, and the points behind it are at rest.
+    /// On the mesh, the point at the arc length `X` has the velocity `u v` instead, where `u` is a function of `X` and `ξ`.
+    /// Away from the kink `u` is exact, so only the spans around the kink contribute to the difference of the energies.
     pub fn inertia(
         &self,
         mesh: &Mesh,
@@ -43,7 +45,7 @@ impl SplineString {
                         let fields = rule.iter_on(around.start, around.end).map(|(x, weight)| {
                             let values = basis.evaluate_in(around, x);
                             let own = values.values().iter().enumerate();
-                            // In front of the kink, motion is missing in the mesh. Behind the kink, the mesh has additional motion.
+                            // In front of the kink, the mesh lacks a part of the motion. Behind the kink, the mesh has additional motion.
                             let (there, missing) =
                                 own.fold((0.0, 0.0), |(there, missing), (a, n)| {
                                     let [low, high] = motion[around.first + a];
@@ -68,8 +70,9 @@ impl SplineString {
         missed / lengths
     }
 
-    /// Motion of the control points for a kink at a place in a span, as a fraction of the motion of the end of the string. `lower` contains the
-    /// splines of lower degree at the place. The second value is the difference from the motion of the end.
+    /// Motion of the control points for a kink at a given position in a span, relative to the motion of the end of the string.
+    /// The argument `lower` contains the values of the splines of lower degree at this position.
+    /// The second value of each pair is the difference between the motion of the control point and the motion of the end.
     fn motion(&self, span: &Span, lower: &[f64]) -> Vec<[f64; 2]> {
         let mut strains = vec![0.0; self.stretched.len()];
         strains[span.first..][..lower.len()].copy_from_slice(lower);

@@ -2,7 +2,7 @@
 
 use crate::beams::Section;
 
-/// Section at a place between quadrature points, as a weighted sum. The sum of the weights is one.
+/// Weighted sum of sections: the section at a position between quadrature points. The sum of the weights is one.
 pub(in crate::beams) trait Interpolation: Default {
     fn add(&mut self, section: &Section, weight: f64);
 

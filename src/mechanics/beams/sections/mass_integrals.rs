@@ -9,20 +9,20 @@ use crate::beams::dynamics::Movement;
 pub(in crate::beams) trait MassIntegral:
     Copy + Default + Debug + Send + Sync
 {
-    /// Adds the value of the product, multiplied by its quadrature weight [length], at a place with the given section.
+    /// Adds the product of two basis functions at a point with the given section, multiplied by the quadrature weight [length].
     fn add(&mut self, product: f64, section: &Section);
 
     /// Integral of the product of the functions, without the inertia per length [length].
     fn length(self) -> f64;
 
-    /// Integrals to which the inertia of each component is proportional: the unweighted integral for every component, or the integrals weighted
-    /// with mass and rotary inertia.
+    /// Integrals to which the inertia of each component is proportional.
+    /// The integrals are unweighted for every component, or weighted with mass and inertia.
     fn weights(self) -> Movement;
 
-    /// Factors that convert the [`weights`](Self::weights) to inertia: mass and rotary inertia per length, or one.
+    /// Factors that convert the [`weights`](Self::weights) to inertia: the mass and rotary inertia per length, or one.
     fn shares(uniform: &Section) -> Movement;
 
-    /// Inertia of each component, multiplied by a factor.
+    /// Inertia of each component x, y and rotation, multiplied by a factor.
     #[inline]
     fn inertia(self, factor: f64, uniform: &Section) -> Movement {
         let (weights, shares) = (self.weights(), Self::shares(uniform));

@@ -265,7 +265,7 @@ proptest! {
         basis in bases(), t in 0.0..=1.0f64, u in 0.0..=1.0f64, nearness in 0..15i32,
     ) {
         let xi = place(&basis, t);
-        // The paths start at a given place, at all breaks, and slightly before the breaks.
+        // The paths start at a given parameter, at all breaks, and slightly before the breaks.
         for from in basis.breaks().into_iter().chain([xi]) {
             let increment = (place(&basis, u) - from) * 10f64.powi(-nearness);
             for (a, b) in [(from, from + increment), (from - 0.3 * increment, from + increment)] {

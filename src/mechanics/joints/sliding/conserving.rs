@@ -5,16 +5,20 @@ use super::{CONTACT_UNKNOWNS, Contact, ContactUnknowns, Equation, SlidingLaw, Un
 use crate::elementary::square;
 use crate::geometry::{cross, perpendicular};
 
-/// Conserving law of sliding on the smooth axis of a mesh. The gap is closed at the end of every step, and energy, linear and angular momentum are
-/// conserved for any step size. The mesh represents the kink of the axis under the contact force only approximately.
+/// Conserving sliding law on the smooth axis of a mesh.
+/// The gap is closed at the end of every step, and energy, linear and angular momentum are conserved for any step size.
+/// The mesh represents the kink of the axis under the contact force only approximately.
 ///
 /// ```text
-/// x_s1 = Σ B_i(ξ1) x_i1          |τ|² η + (d × λ) Jτ = 0          λ·τ + 4 η·d = 0
+/// closed gap at the end:  x_s1 = Σ B_i(ξ1) x_i1
+/// balance of moments:     |τ|² η + (d × λ) Jτ = 0
+/// no work:                λ·τ + 4 η·d = 0
 /// ```
 ///
-/// The mean position of the slave, `Σ B̄_i x̄_i + Δξ d`, is not the point at which `λ` acts on the master, so the two opposite forces have a
-/// moment. The law uses the smallest `η` that balances this moment. The sliding equation follows from conservation of energy. Derivation:
-/// docs/theory.md, section 10.
+/// The mean position of the slave, `Σ B̄_i x̄_i + Δξ d`, is not the point at which `λ` acts on the master.
+/// Hence the contact forces on slave and master, which are opposite, have a moment.
+/// The law uses the smallest couple `η` that balances the moment of the contact forces. The sliding equation follows from the conservation of energy.
+/// Derivation: docs/theory.md, section 10.
 #[derive(Debug, Clone, Copy)]
 pub struct Conserving;
 

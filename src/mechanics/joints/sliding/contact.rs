@@ -6,18 +6,18 @@ use crate::geometry::{ContactPath, FunctionOnPath, Vec2};
 /// Number of unknowns of a contact: `λ` and `η` with two components each, and `Δξ`.
 pub const CONTACT_UNKNOWNS: usize = 5;
 
-/// Unknowns of a sliding contact in a step. The same type is used for derivatives with respect to them.
+/// Unknowns of a sliding contact in a step. The type is also used for derivatives with respect to these unknowns.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ContactUnknowns {
     /// Contact force `λ` on the master; `-λ` acts on the slave [force].
     pub force: Vec2,
     /// Couple of the contact: `η`, or with a kink `χ`. The forces `Δξ D_i η` or `D_i χ` on the master balance the angular momentum [force].
     pub couple: Vec2,
-    /// Increment `Δξ` in the step of the position of the slave, measured by the parameter of the master [-].
+    /// Sliding increment `Δξ` in the step: the change of the position of the slave, measured by the parameter of the master [-].
     pub increment: f64,
 }
 
-/// Unit vectors of the axes [-]. A scalar product with them gives a component.
+/// Unit vectors of the axes [-]. The scalar product of a vector with a unit vector is a component.
 pub(super) const AXES: [Vec2; 2] = [Vec2::new(1.0, 0.0), Vec2::new(0.0, 1.0)];
 
 const NONE: ContactUnknowns =
@@ -44,25 +44,25 @@ impl ContactUnknowns {
     }
 }
 
-/// Position or direction on the path of a slave along its master, with its derivative with respect to the parameter `ξ1` at the end of the path
-/// [length].
+/// Position or direction on the path of a slave along its master [length].
+/// The derivative is taken with respect to the parameter `ξ1` at the end of the path.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PathVector {
-    /// Place or direction [length].
+    /// Position or direction [length].
     pub value: Vec2,
     /// Derivative with respect to the parameter `ξ1` at the end of the path [length].
     pub by_end: Vec2,
 }
 
-/// Kink of the axis of a master under the contact force, which the mesh does not represent. The axis is displaced by `g a`, where `a = p/GA` is the
-/// jump of its tangent.
+/// Kink of the axis of a master under the contact force, which the mesh does not represent.
+/// The kink displaces the axis by `g a`, where `a = p/GA` is the jump of the tangent of the axis.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Kink {
     /// Kink length `g` of the master, as a function along the path of the slave [length].
     pub along: FunctionOnPath,
     /// Compliance `1/GA` of the master [1/force].
     pub compliance: f64,
-    /// Jump of the tangent at the start of the step. It is given by the force `p0 = GA a0` that would cause it statically [force].
+    /// Jump of the tangent at the start of the step, given as the force `p0 = GA a0` that would cause it statically [force].
     pub before: Vec2,
     /// Motion of the kink along the master.
     pub motion: KinkMotion,
@@ -71,7 +71,7 @@ pub struct Kink {
 /// Kink of a master at the end of a step.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct KinkState {
-    /// Jump of the tangent, given by the force `p = GA a` that would cause it statically [force].
+    /// Jump of the tangent, given as the force `p = GA a` that would cause it statically [force].
     pub jump: Vec2,
     /// Speed `v` of the kink along the undeformed axis of the master [length/time].
     pub speed: f64,
@@ -92,13 +92,13 @@ pub struct KinkMotion {
 
 /// Kinematics of a sliding contact in a step. All positions are relative to the position of the slave at the start of the step.
 ///
-/// All laws have the same forces: `-λ` on the slave, and on control point `i` of the master `B̄_i λ - Δξ D_i η`, or with a kink `B̄_i λ - D_i χ`.
+/// All sliding laws have the force `-λ` on the slave.
+/// The force on control point `i` of the master is `B̄_i λ - Δξ D_i η`, or with a kink `B̄_i λ - D_i χ`.
 #[derive(Debug, Clone, Copy)]
 pub struct Contact<'a> {
     /// Path of the slave along the master.
     pub path: &'a ContactPath,
-    /// Control points of the master whose basis functions are nonzero on the path, relative to the slave, and their increments in the step
-    /// [length].
+    /// Control points of the master whose basis functions are nonzero on the path, relative to the slave, and their increments in the step [length].
     pub master: (&'a [Vec2], &'a [Vec2]),
     /// Increment `Δx_s` of the slave in the step [length].
     pub slave_movement: Vec2,
@@ -108,7 +108,7 @@ pub struct Contact<'a> {
     pub kink: Option<Kink>,
     /// Friction along the master; `None` without friction.
     pub friction: Option<Friction<'a>>,
-    /// Length of the master divided by its parameter range. The equations are scaled by it [length].
+    /// Length of the master divided by its parameter range [length]. The equations are divided by it.
     pub length: f64,
 }
 
@@ -128,7 +128,7 @@ impl Contact<'_> {
         weights.iter().zip(moved).map(|(w, moved)| moved * *w).sum()
     }
 
-    /// Vector from the slave to its place on the master at the start of the step [length]. It is zero if the gap is closed.
+    /// Vector from the slave to its position on the master at the start of the step [length]. It is zero if the gap is closed.
     pub fn start_gap(&self) -> Vec2 {
         self.sum(self.path.start(), 0.0)
     }
@@ -139,21 +139,21 @@ impl Contact<'_> {
         PathVector { value, by_end: self.sum(self.path.change(), 0.0) }
     }
 
-    /// Position `Σ B_i(ξ1) x_i1` on the master at the end of the path and at the end of the step [length].
+    /// Position `Σ B_i(ξ1) x_i1` on the master for the end of the path, at the end of the step [length].
     #[inline]
     pub fn end_point(&self) -> PathVector {
         let value = self.sum(self.path.end(), 1.0);
         PathVector { value, by_end: self.sum(self.path.slope(), 1.0) }
     }
 
-    /// Product `λ·dx/dξ` of the contact force and the tangent of the master at `ξ1`, at the end of the step [force·length]. It is positive if the
-    /// slave pushes outwards at an end of the master. `outward` is the sign of `dξ` towards this end.
+    /// Product `λ·dx/dξ` of the contact force and the tangent of the master at `ξ1`, at the end of the step [force·length].
+    /// The product is positive if the slave pushes outwards at an end of the master. `outward` is the sign of `dξ` towards this end.
     pub fn outward_push(&self, outward: f64) -> f64 {
         self.unknowns.force.dot(&self.end_point().by_end) * outward
     }
 
-    /// Sum `Σ ∂D_i/∂ξ1 x_i1` at the end of the step, with the divided differences `D_i` of the basis functions [length]. For a path of zero length
-    /// it is half the second derivative of the axis.
+    /// Sum `Σ ∂D_i/∂ξ1 x_i1` at the end of the step, with the divided differences `D_i` of the basis functions [length].
+    /// For a path of zero length, the sum is half the second derivative of the axis.
     pub(super) fn end_bend(&self) -> Vec2 {
         self.sum(self.path.change(), 1.0)
     }
@@ -171,7 +171,7 @@ impl Contact<'_> {
         PathVector { value, by_end: self.sum(self.path.change(), 0.5) }
     }
 
-    /// Quarter of the change in the step of the tangent of the path, `d = ¼ Σ D_i Δx_i` [length].
+    /// Quarter of the change of the mean tangent in the step, `d = ¼ Σ D_i Δx_i` [length].
     #[inline]
     pub fn tangent_change(&self) -> PathVector {
         let value = self.movement(self.path.difference()) * 0.25;
@@ -183,8 +183,8 @@ impl Contact<'_> {
         self.path.first()
     }
 
-    /// Factor of the couple in the forces on the master: the sliding increment `Δξ`, or 1 with a kink. With a kink, the displacement of the axis is
-    /// a moment arm even if the path has zero length.
+    /// Factor of the couple in the forces on the master: the sliding increment `Δξ`, or 1 with a kink.
+    /// With a kink, the displacement of the axis is a moment arm even if the path has zero length.
     fn couple_factor(&self) -> f64 {
         self.kink.map_or(self.unknowns.increment, |_| 1.0)
     }
@@ -197,8 +197,8 @@ impl Contact<'_> {
         weights.map(move |(mean, difference)| force * *mean - couple * (share * difference))
     }
 
-    /// Derivatives of the contact forces on the control points of the master. For each control point, they are a factor for the force `λ`, a factor
-    /// for the couple `η`, and a vector for the sliding increment `Δξ`.
+    /// Derivatives of the contact forces on the control points of the master.
+    /// For each control point, returns a factor for the force `λ`, a factor for the couple `η`, and a vector for the sliding increment `Δξ`.
     pub fn master_force_slopes(&self) -> impl Iterator<Item = (f64, f64, Vec2)> + '_ {
         let ContactUnknowns { force, couple, .. } = self.unknowns;
         let share = self.couple_factor();
@@ -232,9 +232,9 @@ impl Contact<'_> {
         })
     }
 
-    /// Equations of a closed gap to a kinked axis at the end of the step, `x_s1 = Σ B_i(ξ1) x_i1 + g1 p1/GA`. The force of the kink `p1` is the
-    /// argument `force`, and `factor` its derivative with respect to the contact force. Without a kink, they are the equations of
-    /// [`closed`](Self::closed).
+    /// Equations of a closed gap to a kinked axis at the end of the step, `x_s1 = Σ B_i(ξ1) x_i1 + g1 p1/GA`.
+    /// The argument `force` is the force of the kink `p1`, and `factor` is its derivative with respect to the contact force.
+    /// Without a kink, the equations are those of [`closed`](Self::closed).
     pub(super) fn closed_on_kink(&self, force: Vec2, factor: f64) -> [Equation; 2] {
         let mut equations = self.closed();
         if let Some(kink) = &self.kink {

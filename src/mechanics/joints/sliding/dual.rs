@@ -1,4 +1,4 @@
-//! Dual numbers, which carry the derivatives that the equations of a contact need (forward differentiation).
+//! Dual numbers: values with the derivatives that the equations of a contact need (forward differentiation).
 
 use std::ops::{Add, Mul, Neg, Sub};
 
@@ -6,12 +6,12 @@ use super::contact::PathVector;
 use super::{Contact, ContactUnknowns, Equation, Unit};
 use crate::geometry::Vec2;
 
-/// Number of derivatives of a dual number. The variables are the displacement of the slave from the smooth axis, the mean tangent, the quarter
-/// tangent change, the contact force, the couple, and the sliding increment.
+/// Number of derivatives of a dual number.
+/// The variables are: displacement of the slave from the smooth axis, mean tangent, quarter tangent change, contact force, couple, sliding increment.
 pub(super) const ALL_SLOPES: usize = 11;
 
-/// Number of derivatives if only values are needed. Such values are computed by the same operations as dual numbers, so that both agree to the last
-/// bit.
+/// Number of derivatives of a dual number that is only a value.
+/// Values and dual numbers are computed by the same operations, so that both agree to the last bit.
 pub(super) const NO_SLOPES: usize = 0;
 
 const OFFSET: usize = 0;
@@ -21,8 +21,9 @@ const FORCE: usize = 6;
 const COUPLE: usize = 8;
 const WAY: usize = 10;
 
-/// Number with its derivatives with respect to: the displacement of the slave from the smooth axis, the mean tangent `τ`, the quarter tangent
-/// change `d`, the force `λ`, the couple, and the sliding increment `Δξ`. There are [`ALL_SLOPES`] or [`NO_SLOPES`] derivatives.
+/// Number with its derivatives.
+/// The variables are: slave displacement from the smooth axis, mean tangent `τ`, quarter tangent change `d`, force `λ`, couple, increment `Δξ`.
+/// The number of derivatives is [`ALL_SLOPES`] or [`NO_SLOPES`].
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Dual<const SLOPES: usize> {
     pub value: f64,
@@ -41,7 +42,7 @@ pub(super) struct ContactDuals<const SLOPES: usize> {
     pub offset: DualVector<SLOPES>,
     /// Mean tangent `τ` of the path [length].
     pub tangent: DualVector<SLOPES>,
-    /// Quarter `d` of the change of the tangent in the step [length].
+    /// Vector `d`, a quarter of the change of the tangent in the step [length].
     pub tangent_change: DualVector<SLOPES>,
     /// Contact force `λ` on the master [force].
     pub force: DualVector<SLOPES>,
@@ -73,7 +74,7 @@ impl<const SLOPES: usize> Dual<SLOPES> {
         Self { value, slopes: [0.0; SLOPES] }
     }
 
-    /// Creates a number that depends only on the sliding increment. `by_way` is its derivative.
+    /// Creates a number that depends only on the sliding increment. `by_way` is the derivative with respect to the increment.
     pub fn path_dual(value: f64, by_way: f64) -> Self {
         let mut jet = Self::constant(value);
         jet.add_slope(WAY, by_way);
@@ -180,7 +181,7 @@ impl<const SLOPES: usize> DualVector<SLOPES> {
         self.x * other.y - self.y * other.x
     }
 
-    /// Vector `J a`, rotated by a right angle.
+    /// Vector `J a`: `a` rotated by a right angle.
     pub fn turned(&self) -> Self {
         Self { x: -self.y, y: self.x }
     }

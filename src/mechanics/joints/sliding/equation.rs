@@ -3,7 +3,7 @@
 use super::ContactUnknowns;
 use crate::geometry::Vec2;
 
-/// Unit of the value of an equation.
+/// Unit of the value of a contact equation.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Unit {
     /// Length.
@@ -45,7 +45,8 @@ impl Equation {
         }
     }
 
-    /// Derivative with respect to the increment of a control point of the master. The argument contains its weights `B_i(ξ1)`, `B̄_i` and `D_i`.
+    /// Derivative with respect to the increment of a control point of the master.
+    /// The argument contains the weights `B_i(ξ1)`, `B̄_i` and `D_i` of the control point.
     pub fn by_master(&self, (end, mean, difference): (f64, f64, f64)) -> Vec2 {
         self.by_end * end + self.by_mean * mean + self.by_difference * difference
     }

@@ -1,14 +1,17 @@
-//! Sliding rule of equation 17 of Sibileau & Muñoz. The gap is closed; angular momentum is not conserved.
+//! Sliding rule of equation 17 of Sibileau & Muñoz. It closes the gap, but does not conserve angular momentum.
 
 use super::{CONTACT_UNKNOWNS, Contact, Equation, SlidingLaw};
 
-/// Exact law of sliding. The gap is closed at the end of every step. Energy and linear momentum are conserved, angular momentum is not.
+/// Exact sliding law. The gap is closed at the end of every step. Energy and linear momentum are conserved, but not angular momentum.
 ///
 /// ```text
-/// x_s1 = Σ B_i(ξ1) x_i1          λ·τ = 0          η = 0
+/// closed gap at the end:    x_s1 = Σ B_i(ξ1) x_i1
+/// no force along the path:  λ·τ = 0
+/// no couple:                η = 0
 /// ```
 ///
-/// The law is that of Sibileau & Muñoz, equations 15 and 17. The divided difference `D_i` replaces `B_i'(ξ1)`, so that energy is conserved exactly.
+/// The law is that of Sibileau & Muñoz, equations 15 and 17, with the divided difference `D_i` instead of `B_i'(ξ1)`.
+/// Energy is therefore conserved exactly.
 #[derive(Debug, Clone, Copy)]
 pub struct Exact;
 

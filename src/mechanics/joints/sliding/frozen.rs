@@ -1,19 +1,24 @@
-//! Law of a slider on a master whose kink is kept constant in a step.
+//! Sliding law for a master whose kink is kept constant in a step.
 
 use super::dual::{ContactDuals, Dual, DualVector, NO_SLOPES};
 use super::kink_on_path::{KinkOnPath, vanish};
 use super::{CONTACT_UNKNOWNS, Conserving, Contact, Equation, Kink, KinkState, SlidingLaw};
 
-/// Law of a slider on a master with a kink that rotates with the master but does not depend on the contact force. The gap to the kinked axis is
-/// closed, and energy, linear and angular momentum are conserved for any step size.
+/// Sliding law for a master with a kink that rotates with the master but does not depend on the contact force.
+/// The gap to the kinked axis is closed, and energy, linear and angular momentum are conserved for any step size.
 ///
 /// ```text
-/// x_s1 = Σ B_i(ξ1) x_i1 + g1 a1          a1 = (1 - q J)⁻¹ (1 + q J) a0          q = 2 Jτ·d/|τ|²
-/// |τ|² χ + (r × λ) Jτ = 0                r = Δξ d + ½ (g0 a0 + g1 a1)
-/// (λ - (Δπ/Δt) e)·w = κ ½ GA |a|² Δg/Δξ  w = τ - 2 q J d + (Δg/Δξ) (1 + q J) a0
+/// closed gap at the end:  x_s1 = Σ B_i(ξ1) x_i1 + g1 a1
+/// rotated kink:           a1 = (1 - q J)⁻¹ (1 + q J) a0
+/// rotation in the step:   q = 2 Jτ·d/|τ|²
+/// balance of moments:     |τ|² χ + (r × λ) Jτ = 0
+/// arm of the force:       r = Δξ d + ½ (g0 a0 + g1 a1)
+/// balance of forces:      (λ - (Δπ/Δt) e)·w = κ ½ GA |a|² Δg/Δξ
+/// direction of the path:  w = τ - 2 q J d + (Δg/Δξ) (1 + q J) a0
 /// ```
 ///
-/// Here `π`, `e` and `v1` are those of the law [`Kinked`](super::Kinked), and `κ = 1 - ρA v0 v1/GA`. Derivation: docs/theory.md, section 10.1.
+/// The quantities `π`, `e` and `v1` are those of the law [`Kinked`](super::Kinked), and `κ = 1 - ρA v0 v1/GA`.
+/// Derivation: docs/theory.md, section 10.1.
 #[derive(Debug, Clone, Copy)]
 pub struct Frozen;
 
@@ -36,7 +41,7 @@ impl SlidingLaw for Frozen {
 /// Quantities of the kink in an iterate of a step.
 struct FrozenInStep<const SLOPES: usize> {
     on_path: KinkOnPath<SLOPES>,
-    /// Vector `w` along the path [length].
+    /// Vector `w` along the path of the slave [length].
     direction: DualVector<SLOPES>,
     /// Speed `v1` of the kink along the master at the end of the step [length/time].
     speed: Dual<SLOPES>,

@@ -1,10 +1,10 @@
-//! Kink on the path of a slider: common part of the laws for masters with a kink.
+//! Kink on the path of a slider: equations shared by the sliding laws for masters with a kink.
 
 use super::dual::{ALL_SLOPES, ContactDuals, Dual, DualVector};
 use super::{CONTACT_UNKNOWNS, Contact, Equation, Kink, Unit};
 use crate::elementary::square;
 
-/// Quantities of a kink that depend on the path, in an iterate.
+/// Quantities of a kink that depend on the path of the slave, in an iterate.
 pub(super) struct KinkOnPath<const SLOPES: usize> {
     /// Kink length `g1` at the end of the path [length].
     pub length: Dual<SLOPES>,
@@ -24,7 +24,7 @@ pub(super) struct KinkOnPath<const SLOPES: usize> {
 pub(super) const UNITS: [Unit; CONTACT_UNKNOWNS] =
     [Unit::Length, Unit::Length, Unit::Force, Unit::Force, Unit::Force];
 
-/// Returns the equations that set the given values to zero. The units of the values are [`UNITS`].
+/// Returns equations that set the given values to zero. The units of the values are [`UNITS`].
 pub(super) fn vanish(
     numbers: [Dual<ALL_SLOPES>; CONTACT_UNKNOWNS],
 ) -> [Equation; CONTACT_UNKNOWNS] {
@@ -45,8 +45,9 @@ impl<const SLOPES: usize> KinkOnPath<SLOPES> {
         }
     }
 
-    /// Values of the equations of a contact with a kink `jump` [force] at the end of the step: gap to the kinked axis, moment balance, and force
-    /// balance along the path. `balance` is the force balance [force·length].
+    /// Residuals of the contact equations for a kink `jump` [force] at the end of the step.
+    /// The equations are: gap to the kinked axis, moment balance, force balance along the path.
+    /// The argument `balance` is the residual of the force balance along the path [force·length].
     pub fn imbalances(
         &self,
         (contact, kink): (&Contact<'_>, &Kink),

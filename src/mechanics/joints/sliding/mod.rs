@@ -1,7 +1,7 @@
 //! Laws of sliding joints: equations of a closed gap, and equations of sliding.
 //!
-//! In a step, each slider has the unknowns contact force `λ` on the master, couple `η` and sliding increment `Δξ`. All laws apply the same forces
-//! to slave and master (see [`Contact`]). They differ in the five equations for these unknowns.
+//! The unknowns of a slider in a step are the contact force `λ` on the master, the couple `η` and the sliding increment `Δξ`.
+//! All laws apply the same forces to slave and master (see [`Contact`]). They differ in the five equations for the unknowns.
 
 mod conserving;
 mod contact;

@@ -1,19 +1,22 @@
-//! Sliding rule of equations 11 to 14 of Sibileau & Muñoz. Energy and momenta are conserved; the gap drifts.
+//! Sliding rule of equations 11 to 14 of Sibileau & Muñoz. It conserves energy and momenta, but the gap drifts.
 
 use super::contact::AXES;
 use super::{CONTACT_UNKNOWNS, Contact, Equation, SlidingLaw, Unit};
 
-/// Gap that is due to rounding and defines no direction, as a fraction of the length of the master.
+/// Largest gap that counts as rounding and defines no direction, as a fraction of the length of the master.
 const ROUNDING: f64 = 1e-13;
 
-/// Relaxed law of sliding. The gap is closed on average over each step. Energy, linear and angular momentum are conserved, the closed gap is not.
+/// Relaxed sliding law. The gap is closed on average over each step. Energy, linear and angular momentum are conserved. A closed gap may open.
 ///
 /// ```text
-/// ½ (x_s0 + x_s1) = Σ B̄_i x̄_i          λ·(2/Δξ) (Σ B̄_i x_i0 - x_s0) = 0          η = 0
+/// closed mean gap:   ½ (x_s0 + x_s1) = Σ B̄_i x̄_i
+/// sliding equation:  λ·(2/Δξ) (Σ B̄_i x_i0 - x_s0) = 0
+/// no couple:         η = 0
 /// ```
 ///
-/// The law is that of Sibileau & Muñoz, equations 11 to 14. A step may have no solution, because the direction in the second equation deviates from
-/// the tangent as the gap grows, and is undefined for `Δξ = 0`.
+/// The law is that of Sibileau & Muñoz, equations 11 to 14.
+/// A step may have no solution, because the direction in the second equation deviates from the tangent as the gap grows.
+/// The direction is undefined for `Δξ = 0`.
 #[derive(Debug, Clone, Copy)]
 pub struct Relaxed;
 
@@ -38,7 +41,7 @@ fn closed_mean(contact: &Contact<'_>) -> [Equation; 2] {
     })
 }
 
-/// Sliding equation. Its direction `2/Δξ (Σ B̄_i x_i0 - x_s0)` is computed as tangent plus gap: `Σ D_i x_i0 + 2/Δξ (Σ B_i(ξ0) x_i0 - x_s0)`.
+/// Sliding equation. Its direction `2/Δξ (Σ B̄_i x_i0 - x_s0)` is computed as the tangent plus the gap: `Σ D_i x_i0 + 2/Δξ (Σ B_i(ξ0) x_i0 - x_s0)`.
 fn sliding(contact: &Contact<'_>) -> Equation {
     let (mut direction, gap) = (contact.start_tangent(), contact.start_gap());
     if gap.norm() > ROUNDING * contact.length {

@@ -1,8 +1,8 @@
-//! Law of a slider that has left its master.
+//! Law for a slider that has left its master.
 
 use super::{CONTACT_UNKNOWNS, Contact, Equation, SlidingLaw};
 
-/// Law of a released slider, without force and constraint: `λ = 0`, `η = 0`, `Δξ = 0`.
+/// Law for a released slider, which has no force and no constraint: `λ = 0`, `η = 0`, `Δξ = 0`.
 #[derive(Debug, Clone, Copy)]
 pub struct Released;
 

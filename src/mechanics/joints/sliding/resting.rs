@@ -8,14 +8,16 @@ use crate::geometry::Vec2;
 /// Static law of a slider without friction. The potential energy of its contact, `λ·(x_s - Σ B_i(ξ) x_i) - ½ g(ξ) |λ|²/GA`, is stationary:
 ///
 /// ```text
-/// x_s = Σ B_i(ξ) x_i + g(ξ) λ/GA          λ·x'(ξ) + ½ g'(ξ) |λ|²/GA = 0          η = 0
+/// closed gap:  x_s = Σ B_i(ξ) x_i + g(ξ) λ/GA
+/// no work:     λ·x'(ξ) + ½ g'(ξ) |λ|²/GA = 0
+/// no couple:   η = 0
 /// ```
 ///
 /// Without a [`Kink`](super::Kink), `g = 0`. Derivation: docs/theory.md, section 14.
 #[derive(Debug, Clone, Copy)]
 pub struct Resting;
 
-/// Static law of a slider that a stop holds at an end of its master, including the kink of the master: `x_s = Σ B_i(ξ) x_i` at that end.
+/// Static law of a slider that a stop holds at an end of its master: `x_s = Σ B_i(ξ) x_i` at this end, including the kink of the master.
 #[derive(Debug, Clone, Copy)]
 pub struct AtStop {
     /// Sliding increment `Δξ` to the end [-].
@@ -40,7 +42,7 @@ impl SlidingLaw for AtStop {
     }
 }
 
-/// Equation `(λ·x'(ξ) + ½ g'(ξ) |λ|²/GA)/ℓ = 0`: the contact does no work if the slave moves along the master.
+/// Equation `(λ·x'(ξ) + ½ g'(ξ) |λ|²/GA)/ℓ = 0`. It states that the contact does no work if the slave moves along the master.
 fn not_driven(contact: &Contact<'_>) -> Equation {
     let (force, scale) = (contact.unknowns.force, 1.0 / contact.length);
     let tangent = contact.end_point().by_end;
@@ -51,7 +53,7 @@ fn not_driven(contact: &Contact<'_>) -> Equation {
         let half = 0.5 * kink.compliance * scale;
         equation.value += half * kink.along.slope * force.norm_squared();
         equation.by_unknowns.force += force * (2.0 * half * kink.along.slope);
-        // For a path of zero length, the change of the slope is half the second derivative.
+        // For a path of zero length, the change of the slope is half the second derivative of the kink length.
         equation.by_unknowns.increment += 2.0 * half * kink.along.change * force.norm_squared();
     }
     equation
@@ -63,8 +65,8 @@ impl Contact<'_> {
         self.path.end().iter().map(|value| self.unknowns.force * *value)
     }
 
-    /// Derivatives of the static contact forces `B_i(ξ) λ` on the control points of the master. For each control point, they are a factor for the
-    /// force `λ`, a factor for the couple `η`, and a vector for the sliding increment `Δξ`.
+    /// Derivatives of the static contact forces `B_i(ξ) λ` on the control points of the master.
+    /// For each control point, returns a factor for the force `λ`, a factor for the couple `η`, and a vector for the sliding increment `Δξ`.
     pub fn master_force_slopes_at_rest(&self) -> impl Iterator<Item = (f64, f64, Vec2)> + '_ {
         let force = self.unknowns.force;
         let weights = self.path.end().iter().zip(self.path.slope());

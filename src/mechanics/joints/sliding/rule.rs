@@ -1,24 +1,25 @@
-//! List of the sliding rules and their claims, used by tests and help.
+//! List of the sliding rules and their conservation properties, used by tests and help.
 
 use serde::{Deserialize, Serialize};
 
 use super::{Conserving, Exact, Kinked, Relaxed, SlidingLaw};
 
-/// Sliding rule, which selects the law that keeps a slider on its master.
+/// Sliding rule, which selects the sliding law of a slider.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 pub enum SlidingRule {
-    /// [`Relaxed`]: the contact is closed on average over each step.
+    /// [`Relaxed`]: the gap is closed on average over each step.
     Relaxed,
-    /// [`Exact`]: the contact is closed at the end of each step; angular momentum is not conserved.
+    /// [`Exact`]: the gap is closed at the end of each step; angular momentum is not conserved.
     Exact,
-    /// [`Conserving`]: the contact is closed at the end of each step; energy and momenta are conserved.
+    /// [`Conserving`]: the gap is closed at the end of each step; energy and momenta are conserved.
     #[default]
     Conserving,
-    /// [`Kinked`]: the contact is closed on the axis with its kink at the end of each step; energy and momenta are conserved.
+    /// [`Kinked`]: the gap to the kinked axis is closed at the end of each step; energy and momenta are conserved.
     Kinked,
 }
 
-/// Quantities that a law conserves to rounding, if the integrator conserves them in scenes without sliders. All laws conserve linear momentum.
+/// Quantities that a sliding law conserves to rounding, if the integrator conserves them in scenes without sliders.
+/// All laws conserve linear momentum.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct RuleClaims {
     /// True if the energy is conserved.
@@ -32,19 +33,19 @@ pub struct RuleClaims {
 /// Entry of [`SLIDING_RULES`].
 #[derive(Debug, Clone, Copy)]
 pub struct RuleEntry {
-    /// The rule.
+    /// Sliding rule of the entry.
     pub rule: SlidingRule,
     /// Name in scripts and reports.
     pub name: &'static str,
     /// Recommended use as a sentence.
     pub summary: &'static str,
-    /// Claims of the law.
+    /// Conservation properties of the law.
     pub claims: RuleClaims,
     /// Reference to the literature.
     pub source: &'static str,
 }
 
-/// All rules, the default first.
+/// All sliding rules. The first rule is the default.
 pub const SLIDING_RULES: &[RuleEntry] = &[CONSERVING, KINKED, EXACT, RELAXED];
 
 const CONSERVING: RuleEntry = RuleEntry {
@@ -90,7 +91,7 @@ impl SlidingRule {
         }
     }
 
-    /// Law with the equations of this rule.
+    /// Sliding law with the equations of this rule.
     pub fn law(self) -> &'static dyn SlidingLaw {
         match self {
             Self::Kinked => &Kinked,

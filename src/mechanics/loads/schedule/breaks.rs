@@ -4,7 +4,7 @@ use super::Schedule;
 use crate::loads::SampleClock;
 
 impl Schedule {
-    /// Times of jumps and kinks. Steps should end there.
+    /// Times of jumps and kinks, at which steps should end.
     pub fn breaks(&self) -> Vec<f64> {
         match self {
             Self::Constant(_)
@@ -18,8 +18,8 @@ impl Schedule {
         }
     }
 
-    /// Clock of a digital controller; `None` for other schedules. Steps should end at its samples and when its commands start to act. Controllers
-    /// cannot be combined with other schedules.
+    /// Clock of a digital controller; `None` for other schedules. Steps should end at its samples and at the times when its commands start to act.
+    /// Controllers cannot be combined with other schedules.
     pub(crate) fn sample_clock(&self) -> Option<SampleClock> {
         if let Self::DigitalController { clock, .. } = self { Some(*clock) } else { None }
     }
@@ -36,7 +36,7 @@ impl Schedule {
         }
     }
 
-    /// Returns true if the values just before and just after a time may differ.
+    /// Returns true if the limits of the schedule just before and just after a time may differ.
     pub(crate) fn may_jump_at(&self, time: f64) -> bool {
         match self {
             Self::Constant(_) | Self::Sine { .. } | Self::SmoothPulse { .. } | Self::Sampled(_) => {

@@ -1,9 +1,11 @@
 //! Means of schedules over steps.
 //!
-//! Between breaks, constants and tables are polynomials, which three Gauss points integrate exactly. Sines, smooth pulses, and their products with
-//! each other and with tables are sums of terms `p(x) cos(κ x + φ)` with a polynomial `p`. They are integrated in closed form. All other schedules
-//! are sampled at five points. Two rules use them: three Gauss points, and the middle point with two additional points. Both rules are exact for
-//! cubic polynomials, so their difference shows what the samples miss.
+//! Between breaks, constants and tables are polynomials, which a three-point Gauss rule integrates exactly.
+//! Sines, smooth pulses, and their products with each other and with tables are sums of terms.
+//! A term has the form `p(x) cos(κ x + φ)` with a polynomial `p`.
+//! Terms `p(x) cos(κ x + φ)` are integrated in closed form. All other schedules are sampled at five points.
+//! Two quadrature rules use the five points: three Gauss points, and the middle point with two additional points.
+//! Both quadrature rules are exact for cubic polynomials. The difference of their results is an estimate of the sampling error.
 
 use super::{GAUSS, LimitSide, LoadError, Operation, Schedule, table_value};
 use crate::elementary::{cos, sin};
@@ -14,7 +16,7 @@ use std::f64::consts::TAU;
 pub struct StepMean {
     /// Mean factor [-].
     pub mean: f64,
-    /// Difference between the two rules [-]; zero if the mean is exact.
+    /// Difference between the results of two quadrature rules [-]; zero if the mean is exact.
     pub sampling_error: f64,
     /// Largest absolute value of the samples [-].
     pub largest: f64,
@@ -23,10 +25,11 @@ pub struct StepMean {
 /// Highest degree of a polynomial that three Gauss points integrate exactly.
 const EXACT_DEGREE: usize = 5;
 
-/// Distance of the additional points from the middle, on [-1, 1]. Points at the ends would see jumps at the ends, which do not affect the mean.
+/// Distance of the additional points from the middle, on [-1, 1].
+/// The points are inside the step, because a jump at an end of the step does not affect the mean.
 const OUTER: f64 = 0.96;
 
-/// Weight of each additional point. The rule of these points and the middle point is exact for cubic polynomials.
+/// Weight of each additional point. The rule with these points and the middle point is exact for cubic polynomials.
 const OUTER_WEIGHT: f64 = 1.0 / (6.0 * OUTER * OUTER);
 
 /// Largest number of terms in a closed form. Products with more terms are sampled.
@@ -35,14 +38,14 @@ const MOST_WAVES: usize = 64;
 /// Largest degree of a product of tables that is integrated in closed form.
 const MOST_DEGREE: usize = 4;
 
-/// Number of terms in the power series for slowly oscillating terms. The series is fully accurate up to a phase of 1.
+/// Number of terms in the power series for slowly oscillating functions. The series is accurate to rounding up to a phase of 1.
 const TERMS: usize = 10;
 
 impl Schedule {
     /// Mean factor [-] over a step. No break may lie inside the step.
     ///
     /// # Errors
-    /// Fails if a function fails or a value is not finite.
+    /// Fails if a script function fails or a value is not finite.
     pub fn mean(&self, start: f64, end: f64) -> Result<StepMean, LoadError> {
         if let Self::Constant(factor) = self {
             return Ok(StepMean { mean: *factor, sampling_error: 0.0, largest: factor.abs() });
@@ -108,7 +111,7 @@ impl Schedule {
         Ok(values)
     }
 
-    /// Numbers of terms of the closed form between breaks; `None` if there is a script function.
+    /// Bounds for the number and the degree of the terms of the closed form between breaks; `None` if there is a script function.
     fn shape(&self) -> Option<Shape> {
         let wave = |waves| Shape { degree: 0, waves, is_polynomial: false };
         match self {
@@ -141,7 +144,7 @@ fn gauss_mean(values: [f64; 3]) -> StepMean {
     found
 }
 
-/// Upper bounds of the number and degree of the terms that represent a schedule between breaks.
+/// Upper bounds of the number and the degree of the terms that represent a schedule between breaks.
 struct Shape {
     degree: usize,
     waves: usize,
@@ -170,7 +173,7 @@ struct Step {
 }
 
 impl Step {
-    /// Mean of a wave multiplied by the schedules `factors`; `None` if there is no closed form.
+    /// Mean of the product of a wave and the schedules `factors`; `None` if there is no closed form.
     fn mean(&self, factors: Option<&Factors>, wave: Wave) -> Option<f64> {
         let Some(Factors { first, others }) = factors else { return Some(wave.mean()) };
         let Self { middle, half } = *self;
@@ -185,7 +188,7 @@ impl Step {
                 let sine = [amplitude * sin(phase), -amplitude * cos(phase)];
                 self.mean_of_product(*others, wave, (sine, rate * half))
             }
-            // 16/5 sin⁶ x = 1 - 3/2 cos 2x + 3/5 cos 4x - 1/10 cos 6x
+            // Identity: 16/5 sin⁶ x = 1 - 3/2 cos 2x + 3/5 cos 4x - 1/10 cos 6x
             Schedule::SmoothPulse { duration } if middle > 0.0 && middle < *duration => {
                 let mut sum = self.mean(*others, wave)?;
                 for (order, amplitude) in [(1.0, -1.5), (2.0, 0.6), (3.0, -0.1)] {
@@ -218,7 +221,7 @@ impl Step {
         }
     }
 
-    /// Mean of a wave, multiplied by `Re(amplitude exp(i turn x))` and by the schedules `factors`.
+    /// Mean of the product of a wave, `Re(amplitude exp(i turn x))` and the schedules `factors`.
     fn mean_of_product(
         &self,
         factors: Option<&Factors>,
@@ -238,7 +241,7 @@ impl Step {
     }
 }
 
-/// Value of a table in the middle of a step, and its change from there to the end of the step.
+/// Value of a table in the middle of a step, and its change from the middle to the end of the step.
 fn line(rows: &[(f64, f64)], middle: f64, half: f64) -> [f64; 2] {
     let passed = rows.partition_point(|row| row.0 <= middle);
     let value = table_value(rows, middle, LimitSide::After);
@@ -312,7 +315,7 @@ impl Wave {
     }
 }
 
-/// Half the integral over [-1, 1], computed by a power series: of `xᵏ cos(turn x)` for even `k`, of `xᵏ sin(turn x)` for odd `k`.
+/// Half the integral over [-1, 1] of `xᵏ cos(turn x)` for even `k`, or `xᵏ sin(turn x)` for odd `k`, computed by a power series.
 fn slow_moment(power: usize, turn: f64) -> f64 {
     let odd = power % 2;
     let (mut term, mut sum) = (if odd == 1 { turn } else { 1.0 }, 0.0);

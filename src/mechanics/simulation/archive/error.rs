@@ -2,7 +2,7 @@
 
 use crate::simulation::SimulationError;
 
-/// Simulation that cannot be stored, or bytes that are not a valid file.
+/// Error for a simulation that cannot be stored, or for bytes that are not a valid file.
 #[expect(missing_docs, reason = "the messages describe the variants and their fields")]
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum ArchiveError {
@@ -20,7 +20,7 @@ pub enum ArchiveError {
     Truncated {
         /// Actual length of the file [bytes].
         found: usize,
-        /// Length that the header requires, as far as it could be read [bytes].
+        /// Length that the header states, as far as it could be read [bytes].
         needed: u64,
     },
     #[error(

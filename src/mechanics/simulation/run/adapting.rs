@@ -1,4 +1,4 @@
-//! Variable steps with a tolerance of the error.
+//! Variable steps with an error tolerance.
 
 use super::Simulation;
 use super::event_location::MOST_ARRIVALS;
@@ -24,7 +24,7 @@ impl Simulation {
         planned.map_or(stop, |(adaptive, state)| adaptive.plan(&state, now, stop).interval.end)
     }
 
-    /// Takes two equal half steps whose error is within the tolerance. After a rejection they are repeated with a smaller size.
+    /// Takes two equal half steps whose error is within the tolerance. After a rejection, both are repeated with a smaller size.
     pub(super) fn adapt(
         &mut self,
         adaptive: &mut Adaptive,
@@ -88,7 +88,7 @@ impl Simulation {
                 }
                 Err(FailedStep { source: StepError::Overshoot { iterations, .. }, before }) => {
                     self.progress.count_try(before + iterations);
-                    // An error estimated before the event says nothing about the motion after it.
+                    // The error before the event is discarded, because it gives no information about the motion after the event.
                     self.clock.step_size = Some(StepSizeState { error: None, tries: 0, ..state });
                     let start = interval.start;
                     let half = StepRetry::new(Interval::between(start, start + 0.5 * dt));
@@ -118,7 +118,7 @@ impl Simulation {
         }
     }
 
-    /// Takes a whole step and its two halves. If one of them has no solution, all are repeated with the kinks under contact forces kept constant.
+    /// Takes a whole step and its two halves. If one of them has no solution, all are repeated with constant kinks under contact forces.
     fn try_step(
         &mut self,
         adaptive: &mut Adaptive,
@@ -155,8 +155,8 @@ impl Simulation {
         resampling.as_mut()?.resume(doubling, &mut *self.stepper.integrator, &mut self.model, order)
     }
 
-    /// Returns true if a step is paused in its middle to sample controllers. If the run is stopped there, it may be continued, or the start of the
-    /// step may be [restored](Self::restore_step_start).
+    /// Returns true if a step is paused in its middle to sample controllers.
+    /// A run stopped in a paused step can be continued. Alternatively, the start of the step can be [restored](Self::restore_step_start).
     pub fn is_paused_in_step(&self) -> bool {
         let adaptive = self.adaptive.as_ref();
         adaptive
@@ -173,7 +173,7 @@ impl Simulation {
         }
     }
 
-    /// Takes the rest of a step without error estimate. If a slider arrives, the step ends there.
+    /// Takes the rest of a step without error estimate. If a slider arrives at an end, the step ends at the arrival.
     fn cover_uncompared(
         &mut self,
         halving: StepRetry,

@@ -9,8 +9,9 @@ use crate::simulation::{SimulationError, WorkCounts};
 use crate::system::SystemState;
 
 impl Simulation {
-    /// Stores a snapshot after every step, within a memory limit in bytes. If the limit is exceeded, the oldest snapshots except the first are
-    /// discarded. A limit of zero disables snapshots. A reduced limit applies immediately.
+    /// Stores a snapshot after every step, within a memory limit in bytes.
+    /// If the limit is exceeded, the oldest snapshots are discarded, except the first one. A limit of zero disables snapshots.
+    /// A reduced limit applies immediately.
     pub fn enable_snapshots(&mut self, limit: usize) {
         let mut snapshots = std::mem::take(&mut self.snapshots);
         snapshots.set_limit(limit, || self.snapshot(self.model.state()));
@@ -27,8 +28,8 @@ impl Simulation {
         (self.snapshots.count(), self.snapshots.bytes())
     }
 
-    /// Returns to the state `steps` steps earlier, bit for bit. Two half steps with error control count as in the history. Additional end times of
-    /// steps are kept.
+    /// Returns to the state `steps` steps earlier, bit for bit. With error control, two half steps count as one step.
+    /// Additional end times of steps, which the caller has requested, are not removed.
     ///
     /// # Errors
     /// Fails if fewer steps have been taken, or the state is not stored.
@@ -40,14 +41,14 @@ impl Simulation {
         }
     }
 
-    /// Returns to the end of the last step at or before a time, bit for bit. The present state is a possible result.
+    /// Returns to the end of the last step at or before a time, bit for bit. This may be the present state.
     ///
     /// # Errors
     /// Fails if the time is outside the run, or the state is not stored.
     pub fn rewind(&mut self, time: f64) -> Result<(), SimulationError> {
         let (now, slack) = (self.time(), self.slack());
         let begun = self.history().samples().first().map_or(0.0, |row| row.measures.time);
-        // A time of zero means the start of the run, which may be at a later time.
+        // A time of zero means the start of the run, even if the run started at a later time.
         let time = if time.abs() <= slack { begun } else { time };
         if time.is_nan() || time < begun - slack || time > now + slack {
             return Err(SimulationError::OutsideRun { time, start: begun, now });
@@ -66,7 +67,7 @@ impl Simulation {
         }
     }
 
-    /// Number of steps that ended at or before a time, if history or snapshots contain it.
+    /// Number of steps that ended at or before a time, if the history or the snapshots contain this time.
     fn steps_until(&self, time: f64) -> Option<usize> {
         if self.has_all_rows() {
             let rows = self.record.history.samples();
@@ -75,12 +76,12 @@ impl Simulation {
         Some(self.snapshots.last_until(time, self.progress.counts.steps)?.steps())
     }
 
-    /// Returns to the state of a dry run a number of steps earlier.
+    /// Returns, in a dry run, to the state a number of steps earlier.
     pub fn dry_run_back(&mut self, steps: usize) {
         self.dry_run_back_to(self.progress.counts.steps.saturating_sub(steps));
     }
 
-    /// Returns to the state of a dry run at a time.
+    /// Returns, in a dry run, to the state at a time.
     pub fn dry_run_rewind(&mut self, time: f64) {
         self.dry_run_back_to(self.steps_until(time + self.slack()).unwrap_or(0));
     }
@@ -88,7 +89,7 @@ impl Simulation {
     fn dry_run_back_to(&mut self, steps: usize) {
         let Some(first) = self.snapshots.first().map(Snapshot::steps) else { return };
         if self.restore_step(steps.max(first)).is_err() {
-            // This cannot fail, because the first snapshot is always kept.
+            // The restoration cannot fail, because the first snapshot is always kept.
             let _: Result<(), SimulationError> = self.restore_step(first);
         }
     }
@@ -117,7 +118,7 @@ impl Simulation {
         Ok(())
     }
 
-    /// Restores a snapshot of this simulation or of a copy of it. Later rows of the history are removed.
+    /// Restores a snapshot of this simulation or of a copy. Later rows of the history are removed.
     ///
     /// # Errors
     /// Fails if the scene cannot be built again, although it was built before.
@@ -135,7 +136,7 @@ impl Simulation {
         Ok(())
     }
 
-    /// Error for a state that is not stored. `steps` is the smallest number of steps back that may lead to it.
+    /// Error for a state that is not stored. `steps` is the smallest number of steps back that may lead to a stored state.
     fn missing_snapshot_error(&self, target: String, steps: usize) -> SimulationError {
         let now = self.progress.counts.steps;
         let kept = self.snapshots.first().zip(self.snapshots.unbroken_from(now));

@@ -20,7 +20,7 @@ const MOST_COUNTED: usize = 1 << 52;
 /// Largest number of Newton iterations that is accepted in settings.
 const MOST_ITERATIONS: usize = 10_000;
 
-/// Stored data of a simulation. All other data are computed from them.
+/// Stored data of a simulation. All other data of the simulation are computed from them.
 #[derive(Serialize, Deserialize)]
 struct Content<'a> {
     name: Cow<'a, str>,
@@ -31,7 +31,7 @@ struct Content<'a> {
     samples: Cow<'a, [Sample]>,
     permanent_rows: usize,
     extra: Cow<'a, [f64]>,
-    /// The trajectory keeps one of this number of configurations.
+    /// Number `n` for which the trajectory keeps every n-th recorded configuration.
     every: usize,
     times: Cow<'a, [f64]>,
     numbers: Cow<'a, [f64]>,
@@ -39,7 +39,7 @@ struct Content<'a> {
     releases: Cow<'a, [ReleaseEvent]>,
     counts: WorkCounts,
     cuts: Cow<'a, [f64]>,
-    /// Parts of a [`StepRetry`].
+    /// Contents of a [`StepRetry`].
     retry: Option<((f64, f64), u64, u32, usize)>,
     step_size: Option<StepSizeState>,
 }
@@ -49,7 +49,7 @@ fn refused(reason: &str) -> ArchiveError {
 }
 
 impl Simulation {
-    /// Converts the simulation and a name to bytes that [`from_bytes`](Self::from_bytes) reads. Snapshots are not included.
+    /// Serialises the simulation and its name for [`from_bytes`](Self::from_bytes). Snapshots are not included.
     ///
     /// # Errors
     /// Fails if the schedule of a load is a script function, or a script function triggers a release.
@@ -90,10 +90,10 @@ impl Simulation {
         Ok(wrap(&bytes))
     }
 
-    /// Restores a simulation and its name from the result of [`to_bytes`](Self::to_bytes). The simulation can be continued bit for bit.
+    /// Restores a simulation and its name from the result of [`to_bytes`](Self::to_bytes). The continued simulation is bit for bit the same.
     ///
     /// # Errors
-    /// Fails if the file is truncated or damaged, has a later format or another type, or has an invalid content.
+    /// Fails if the file is truncated or damaged, has a later format or a different type, or has invalid content.
     pub fn from_bytes(file: &[u8]) -> Result<(String, Self), ArchiveError> {
         let bytes = unwrap(file)?;
         let read = postcard::take_from_bytes::<Content>(bytes);

@@ -1,4 +1,4 @@
-//! Derivatives of a run with respect to parameters of the scene. They are computed together with the steps.
+//! Derivatives of a run with respect to parameters of the scene, computed together with the steps.
 
 use super::{Simulation, SimulationSettings};
 use crate::simulation::sensitivities::Sensitivities;
@@ -8,11 +8,11 @@ use crate::simulation::{
 use crate::system::{Scene, System};
 
 impl Simulation {
-    /// Starts a simulation with derivatives. `variations` contains the scenes at perturbed parameters. Each step computes the derivatives too; its
-    /// other results do not change.
+    /// Starts a simulation with derivatives. `variations` contains the scenes at perturbed parameters.
+    /// Each step also computes the derivatives; the other results of the step do not change.
     ///
     /// # Errors
-    /// Errors of [`start`](Self::start), or an error if the method provides no derivatives or the scenes differ in more than numbers.
+    /// Fails in the same cases as [`start`](Self::start), if the method provides no derivatives, or if the scenes differ in more than numbers.
     pub fn start_with_derivatives(
         scene: Scene,
         settings: SimulationSettings,
@@ -24,13 +24,13 @@ impl Simulation {
         Ok(run)
     }
 
-    /// Names of the parameters, each with its perturbation.
+    /// Names of the parameters with their perturbations.
     pub fn parameters(&self) -> impl Iterator<Item = (&str, f64)> {
         self.stepper.sensitivities.iter().flat_map(|of| of.parameters())
     }
 
-    /// Perturbed run for a parameter. Its state is the present state plus or minus the derivative times the perturbation. The derivative of any
-    /// result is half the difference between the results of both runs, divided by the perturbation.
+    /// Perturbed run for a parameter. Its state is the present state plus or minus the derivative times the perturbation.
+    /// The derivative of any result is the difference between the results of both runs, divided by twice the perturbation.
     ///
     /// # Errors
     /// Fails if there are no derivatives.
@@ -56,10 +56,10 @@ impl Simulation {
         known.perturbed_mut(parameter, side)
     }
 
-    /// History of a perturbed run between two times. It is available also if the derivatives ended at a later time.
+    /// History of a perturbed run between two times. It remains available after the end of the derivatives.
     ///
     /// # Errors
-    /// Fails if some of these rows have no derivatives.
+    /// Fails if some of the requested rows have no derivatives.
     pub fn perturbed_history(
         &self,
         parameter: usize,
@@ -101,7 +101,7 @@ impl Simulation {
         &mut self.model
     }
 
-    /// Ends the computation of derivatives at an event that makes them undefined afterwards.
+    /// Ends the computation of derivatives at an event after which they are undefined.
     pub(super) fn disable_derivatives(&mut self, event: &'static str) {
         let time = self.time();
         if let Some(sensitivities) = &mut self.stepper.sensitivities {

@@ -17,6 +17,10 @@ const MOST_TRIES: usize = 60;
 /// rounding errors of positions to velocities.
 const NEAR: f64 = 1e-10;
 
+/// Duration relative to the step within which the end of a slip is moved to the start of the step. Rounding errors of positions become velocities in
+/// a short step, and their square limits the accuracy of the energy balance.
+const SHORT: f64 = 1e-6;
+
 /// Number of halvings of a step in the test whether a slider at an end leaves it temporarily.
 const PROBES: i32 = 12;
 
@@ -133,7 +137,7 @@ impl Simulation {
             };
             loop {
                 let is_slip_end = matches!(target, SliderEvent::SlipEnd(_));
-                if is_slip_end && bracket.after.0 < NEAR * self.dt() {
+                if is_slip_end && bracket.after.0 <= SHORT * self.dt() {
                     return Ok(EventStep { step: None, event: Event::Slider(target) });
                 }
                 if bracket.is_converged() {
@@ -145,7 +149,8 @@ impl Simulation {
                 if tries.next().is_none() {
                     return Err(StepError::Overshoot { interval, overshoot: first, iterations: 0 });
                 }
-                let duration = bracket.next_duration();
+                let shortest = if is_slip_end { SHORT * self.dt() } else { 0.0 };
+                let duration = bracket.next_duration().max(shortest);
                 cut = Interval::lasting(interval.start, duration);
                 overshoot = match self.attempt(cut)? {
                     Ok(report) => {
@@ -212,9 +217,8 @@ impl Simulation {
     fn bracket_slip_end(&self, interval: Interval, slider: usize, beyond: f64) -> ArrivalEstimate {
         let speed = self.model.slip_speed(slider);
         let bracket = TimeBracket::new((0.0, -speed), (interval.duration(), beyond));
-        // The forces of a very short step would consist of rounding errors.
         let is_at_start =
-            speed <= 0.0 || beyond <= 0.0 || bracket.next_duration() < NEAR * self.dt();
+            speed <= 0.0 || beyond <= 0.0 || bracket.next_duration() < SHORT * self.dt();
         match is_at_start {
             true => ArrivalEstimate::Located(EventStep {
                 step: None,

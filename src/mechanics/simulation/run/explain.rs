@@ -1,4 +1,4 @@
-//! Summary of the parts of the mechanics that a simulation uses and omits.
+//! Summary of the mechanical features that a simulation uses and omits.
 
 use super::Simulation;
 use crate::simulation::controller::StepController;
@@ -6,7 +6,7 @@ use crate::simulation::{Recording, WorkCounts};
 use crate::system::SystemFeature;
 
 impl Simulation {
-    /// Parts that this simulation uses and omits: first those of its scene, then those of its steps.
+    /// Features that this simulation uses and omits: first those of its scene, then those of its steps.
     pub fn explain(&self) -> Vec<SystemFeature> {
         let method = self.settings().method;
         let mut parts = self.model().explain(self.scene(), &[method]);
@@ -55,7 +55,7 @@ impl Simulation {
         }
     }
 
-    /// Describes how failed and rejected steps are treated, with their number.
+    /// Describes the treatment of failed and rejected steps, with their number.
     fn explain_tries(&self) -> SystemFeature {
         let WorkCounts { rejected, retries, .. } = self.counts();
         match &self.adaptive {

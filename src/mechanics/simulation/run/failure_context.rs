@@ -1,4 +1,4 @@
-//! Extreme conditions under which a step may fail whatever its length.
+//! Extreme conditions under which a step of any size may fail.
 
 use super::Simulation;
 use crate::beams::BodyIndex;
@@ -9,21 +9,21 @@ use crate::simulation::Axes;
 use crate::simulation::warning::short;
 use crate::system::{Element, SliderState};
 
-/// Ratio of deformed to initial length of the axis at any place, below which the axis counts as crushed.
+/// Ratio of deformed to initial length of the axis, below which the axis counts as crushed at this point.
 const COMPRESSED: f64 = 0.5;
 
-/// Ratio of deformed to initial length of the axis at any place, above which the axis counts as torn.
+/// Ratio of deformed to initial length of the axis, above which the axis counts as torn at this point.
 const STRETCHED: f64 = 1.5;
 
 /// Contact force above which the axis folds, as a fraction of the shear stiffness of the beam.
 const FOLDING_FORCE: f64 = 0.1;
 
-/// Distance of a slider from an end of its master, as a fraction of the length of the master. Below it, the kink under the contact force prevents
-/// the slider from reaching the end.
+/// Smallest distance from an end of its master that a slider can reach, as a fraction of the length of the master.
+/// The kink under the contact force prevents smaller distances.
 const END_DISTANCE: f64 = 5e-3;
 
 impl Simulation {
-    /// Text about extreme conditions in the present configuration, to be appended to messages; empty if there are none.
+    /// Text about extreme conditions in the present configuration, for messages; empty if there are none.
     pub(super) fn plight(&self) -> String {
         let extreme = self.extreme_axes().chain(self.extreme_contacts());
         let others = self.bodies_without_inertia().chain(self.driven_backwards());

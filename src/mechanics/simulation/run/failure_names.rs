@@ -1,4 +1,4 @@
-//! Names for the place at which a step failed.
+//! Names of the object or degree of freedom at which a step failed.
 
 use super::Simulation;
 use crate::beams::{BodyIndex, Station};

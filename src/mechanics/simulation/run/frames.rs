@@ -6,7 +6,7 @@ use crate::simulation::Outline;
 use crate::system::SystemError;
 
 impl Simulation {
-    /// Indices of at most `most` recorded configurations between two times. They are spread over the recorded ones as evenly as possible.
+    /// Indices of at most `most` recorded configurations between two times, spread as evenly as possible.
     pub fn frames_between(&self, from: f64, to: f64, most: usize) -> Vec<usize> {
         let trajectory = self.trajectory();
         let first = trajectory.times().partition_point(|time| *time < from);
@@ -32,7 +32,7 @@ impl Simulation {
         self.model.control_points().map(of_body).collect()
     }
 
-    /// Outlines of the beams, then of rigid bodies with points off the centre.
+    /// Outlines of the beams, followed by those of rigid bodies with points off the centre.
     ///
     /// # Errors
     /// Fails if an axis has a point without a tangent.

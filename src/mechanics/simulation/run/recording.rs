@@ -4,12 +4,12 @@ use super::Simulation;
 use crate::simulation::Recording;
 
 impl Simulation {
-    /// Rule that selects the states to be recorded.
+    /// Rule that selects the recorded states.
     pub fn recording(&self) -> Recording {
         self.record.recording
     }
 
-    /// Changes the rule that selects the states to be recorded, for the following steps.
+    /// Changes the rule that selects the recorded states, for the following steps.
     pub fn record(&mut self, recording: Recording) {
         self.record.recording = recording;
         if let Some(sensitivities) = &mut self.stepper.sensitivities {
@@ -41,7 +41,7 @@ impl Simulation {
         self.store_snapshot();
     }
 
-    /// Adds a temporary row for the present state. There is none if the state has a row already, or a step is paused in its middle.
+    /// Adds a temporary row for the present state. No row is added if the state has a row already, or if a step is paused in its middle.
     pub(in crate::simulation) fn show_present(&mut self) {
         if self.is_paused_in_step() {
             return;

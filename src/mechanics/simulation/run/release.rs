@@ -1,7 +1,7 @@
 //! Releases between two steps of a run.
 //!
-//! A release occurs at the start of a step. The stored state at the end of the previous step is the state before the release, so that a run that is
-//! continued after a rewind repeats the release.
+//! A release occurs at the start of a step. The stored state at the end of the previous step is the state before the release.
+//! A run that is continued after a rewind repeats the release.
 
 use std::rc::Rc;
 
@@ -10,12 +10,12 @@ use crate::joints::{Releasable, Release, Trigger};
 use crate::simulation::{ReleaseEvent, SimulationError};
 
 impl Simulation {
-    /// Releases so far, in the order of their execution.
+    /// Executed releases, in the order of their execution.
     pub fn releases(&self) -> &[ReleaseEvent] {
         &self.progress.releases
     }
 
-    /// Returns true if the caller triggers the release and it has not been executed yet.
+    /// Returns true if the caller triggers this release and it has not been executed yet.
     pub fn waits_for_release(&self, release: usize) -> bool {
         let described = self.scene.releases.get(release);
         described.is_some_and(|described| described.trigger == Trigger::Outside)
@@ -56,7 +56,7 @@ impl Simulation {
         }
     }
 
-    /// Executes, before the next step, the releases that are due at the present time.
+    /// Executes the releases that are due at the present time, before the next step.
     pub(super) fn execute_due_releases(&mut self) -> Result<(), SimulationError> {
         for release in 0..self.scene.releases.len() {
             if let Trigger::Time(time) = self.scene.releases[release].trigger
@@ -68,7 +68,7 @@ impl Simulation {
         Ok(())
     }
 
-    /// Marks the given objects as released, before a state is restored.
+    /// Marks the given objects as released before a state is restored.
     pub(super) fn restore_releases(
         &mut self,
         let_go: &Rc<[ReleaseEvent]>,
@@ -92,7 +92,7 @@ impl Simulation {
         Ok(record.relocate_sensors(scene, model)?)
     }
 
-    /// Executes all releases that the caller triggers, in a dry run. Scripts may wait for them.
+    /// Executes, in a dry run, all releases that the caller triggers. Scripts may wait for these releases.
     pub(super) fn dry_run_releases(&mut self) -> Result<(), SimulationError> {
         for release in 0..self.scene.releases.len() {
             if self.waits_for_release(release) {

@@ -1,4 +1,4 @@
-//! Access to earlier states by means of a copy. The state is restored from a snapshot or computed again.
+//! Access to earlier states in a copy of the run. The copy restores the state from a snapshot or computes it again.
 
 use super::Simulation;
 use crate::simulation::{Monitor, SimulationError};
@@ -16,7 +16,7 @@ impl Monitor for PauseTime<'_> {
 }
 
 impl Simulation {
-    /// Step numbers and times of the stored states from which no later state is missing up to the present.
+    /// Step numbers and times of stored states. After the first of them, no state up to the present is missing.
     pub fn stored_states(&self) -> Vec<(usize, f64)> {
         let steps = self.progress.counts.steps;
         let from = self.snapshots.unbroken_from(steps).unwrap_or(steps);
@@ -24,7 +24,7 @@ impl Simulation {
         kept.chain([(steps, self.time())]).collect()
     }
 
-    /// Restores, in this copy, the state of the original simulation after a number of steps. Returns false if that state is not stored.
+    /// Restores, in this copy, the state of the original simulation after a number of steps. Returns false if the state is not stored.
     ///
     /// # Errors
     /// Fails if the scene cannot be built again, although it was built before.
@@ -64,11 +64,12 @@ impl Simulation {
         Ok(copy)
     }
 
-    /// Repeats, in this copy, the original run up to a row of its history. Returns true if energies, momenta, work and impulses agree bit for bit
-    /// with that row. They may differ if script functions were called during the original run.
+    /// Repeats, in this copy, the original run up to a row of its history.
+    /// Returns true if energies, momenta, work and impulses agree bit for bit with the row of the original.
+    /// The two runs may differ if script functions were called during the original run.
     ///
     /// # Errors
-    /// Errors of [`run_to`](Self::run_to), or an error if the row does not exist.
+    /// Fails in the same cases as [`run_to`](Self::run_to), or if the row does not exist.
     pub fn run_again(
         &mut self,
         of: &Self,
@@ -79,7 +80,8 @@ impl Simulation {
         let Some(wanted) = rows.get(row) else { return Ok(false) };
         let time = wanted.measures.time;
         if time > self.time() {
-            // The original steps may have been planned beyond the arrival, so the run continues towards the next row and pauses at the arrival.
+            // The original step may have been planned beyond the arrival.
+            // The copy continues towards the next row and pauses at the arrival.
             let is_arrival = |at: &f64| of.arrivals().iter().any(|arrival| arrival.time == *at);
             let mut ends = rows[row..].iter().map(|row| row.measures.time);
             let goal = ends.find(|end| !is_arrival(end)).unwrap_or(time);

@@ -8,7 +8,7 @@ impl Simulation {
     /// Section forces and strains at a station in the present configuration: see [`System::section_forces`](crate::system::System::section_forces).
     ///
     /// # Errors
-    /// Fails if the station lies outside its beam or on a particle.
+    /// Fails if the station lies outside its beam, or if it belongs to a particle.
     pub fn section_forces(&self, station: &Station) -> Result<SectionForces, SystemError> {
         let at = self.model.cross_section(&self.scene, station)?;
         Ok(self.model.section_forces(&at))
@@ -22,7 +22,7 @@ impl Simulation {
         self.model.section_forces_along(&self.scene, beam)
     }
 
-    /// Places along a beam for repeated sampling: its knots, and `within` places between consecutive knots.
+    /// Positions along a beam for repeated sampling: its knots, and `within` positions between consecutive knots.
     ///
     /// # Errors
     /// Fails if an axis has a point without a tangent.
@@ -47,18 +47,18 @@ impl Simulation {
         self.model.instant()
     }
 
-    /// Energy of a body by type. Indices count beams first, then particles, then rigid bodies.
+    /// Energy of a body by type. Body indices count beams first, then particles, then rigid bodies.
     pub fn energy_of(&mut self, body: usize) -> BodyEnergy {
         self.model.energy_of(body)
     }
 
-    /// Number of columns that the caller fills after every row.
+    /// Number of columns whose values the caller provides after every row.
     pub fn outside_columns(&self) -> usize {
         let sensors = self.scene.sensors.iter();
         sensors.filter(|sensor| !sensor.can_be_stored()).count()
     }
 
-    /// Sets the columns that the caller fills, in the last row of the history.
+    /// Sets, in the last row of the history, the columns whose values the caller provides.
     pub fn fill_in(&mut self, values: &[f64]) {
         let first = self.record.history.extra_width() - self.scene.sensors.len();
         let sensors = self.scene.sensors.iter().enumerate();

@@ -1,4 +1,4 @@
-//! Steps of the time grid. They are halved on failure, end at arrivals of sliders, and are recorded.
+//! Steps of the time grid. Failed steps are halved. Steps end at arrivals of sliders and are recorded.
 
 use super::Simulation;
 use super::event_location::MOST_ARRIVALS;
@@ -63,8 +63,7 @@ impl Simulation {
                             self.keep_row();
                         }
                         let arrived = self.execute_arrivals(&landing);
-                        // If an arrival took place without a step, no snapshot is stored. A run from the previous snapshot reaches the arrival
-                        // again.
+                        // If the slider arrived without a step, no snapshot is stored. A run from the previous snapshot reaches the arrival again.
                         if landing.step.is_some() {
                             self.store_snapshot();
                         }
@@ -104,8 +103,8 @@ impl Simulation {
     }
 
     fn step_or_freeze_kinks(&mut self, interval: Interval) -> Result<NewtonReport, StepError> {
-        // Kinks that were kept constant in the last step follow the contact forces from now on. They were kept until now because queries of the
-        // last step depend on them.
+        // Kinks that were kept constant in the last step follow the contact forces again.
+        // The constant kinks were kept until now, because queries of the last step depend on them.
         self.model.unfreeze_kinks();
         let stepped = self.stepper.step(&mut self.model, interval);
         let stepped = match stepped {
@@ -116,13 +115,13 @@ impl Simulation {
             other => other,
         };
         if self.stepper.sensitivities.is_some() && self.model.has_frozen_kinks() {
-            // The perturbed runs may have been solved without keeping their kinks constant. Their equations then differ from those of this run.
+            // The perturbed runs may have been solved without constant kinks. Their equations would then differ from those of the main run.
             self.disable_derivatives("the kink under a slider is not adapted to the contact force");
         }
         stepped
     }
 
-    /// After a failed step, keeps the kinks under contact forces constant. Returns true if this changes the equations of the step.
+    /// Keeps the kinks under contact forces constant after a failed step. Returns true if this changes the equations of the step.
     pub(super) fn keeps_kinks_for(&mut self, source: &StepError) -> bool {
         match source {
             StepError::Overshoot { .. } | StepError::Load { .. } => false,

@@ -1,4 +1,4 @@
-//! Places, paths and configurations of a simulation for drawing.
+//! Positions, paths and configurations of a simulation for drawing.
 
 use super::Simulation;
 use crate::beams::{BodyPoint, Station};
@@ -9,7 +9,7 @@ use crate::system::SystemError;
 use crate::vibration::{Modes, VibrationError};
 
 impl Simulation {
-    /// Place of a station on its body.
+    /// Position of a station on its body.
     ///
     /// # Errors
     /// Fails if the station lies outside its beam.
@@ -17,14 +17,14 @@ impl Simulation {
         self.scene.place(station, self.model.meshes())
     }
 
-    /// Returns true if a column of the history contains means over the last step, such as contact forces, and not present values.
+    /// Returns true if a column of the history contains means over the last step, such as contact forces. False if it contains present values.
     pub fn is_step_mean(&self, column: &str) -> bool {
         let mut sensors = self.record.sensors.iter();
         let sensor = sensors.find(|sensor| sensor.name == column);
         sensor.is_some_and(|sensor| sensor.is_step_mean(self.settings.method))
     }
 
-    /// Lowest natural modes about the present configuration. It is treated as an equilibrium with its present section forces and constraint forces.
+    /// Lowest natural modes about the present configuration, which is treated as an equilibrium with its section forces and constraint forces.
     ///
     /// # Errors
     /// Fails if there are too few modes, a load is a follower load, forces are undetermined, or the search is stopped.
@@ -80,7 +80,7 @@ impl Simulation {
         Ok(Some(Outline::draw(self.outlines()?, self.record.trajectory.times()[index], &bodies)))
     }
 
-    /// Time at which an object was released or a slider left its master [time]; `None` if neither occurred.
+    /// Time at which an object was released, or at which a slider left its master [time]; `None` if neither occurred.
     pub fn release_of(&self, hold: Releasable) -> Option<f64> {
         let is_release = |arrival: &&Arrival| {
             Releasable::Slider(arrival.limit.slider) == hold

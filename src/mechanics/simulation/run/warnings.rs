@@ -12,20 +12,20 @@ use crate::simulation::{Invariant, Sample, StepSize, Warning};
 use crate::system::{LawArgument, RESOLVED_IMPACT, Resolution, SpringLaw, System, SystemFeature};
 use crate::vibration::{Modes, VibrationError};
 
-/// Unresolved fraction of the kinetic energy above which the steps are too long. For a single vibration this is the value at 3.5 steps per period,
-/// where the computed period is 20 % too long.
+/// Unresolved fraction of the kinetic energy, above which a warning states that the steps are too long.
+/// The constant is the unresolved fraction of a single vibration with 3.5 steps per period, whose computed period is 20 % too long.
 const LARGEST_SHARE: f64 = 0.2;
 
-/// Unresolved fraction above which a warning is given if also the phase exceeds [`HIDDEN_TURN`], even if the motion as a whole is resolved.
+/// Unresolved fraction of the kinetic energy, above which a warning is given if also the phase exceeds [`HIDDEN_TURN`].
 const HIDDEN_SHARE: f64 = 0.05;
 
-/// Phase per step above which a small unresolved fraction causes a warning [rad].
+/// Phase of a vibration per step, above which a small unresolved fraction causes a warning [rad].
 const HIDDEN_TURN: f64 = 2.0 * TAU;
 
-/// Kinetic energy of a body below which the body is ignored, as a fraction of the total kinetic energy.
+/// Smallest kinetic energy of a body that is considered, as a fraction of the total kinetic energy.
 const NOTHING: f64 = 1e-8;
 
-/// Energy drift above which a warning is given. Rounding errors of about ten thousand steps do not reach it, for any stiffness.
+/// Energy drift above which a warning is given. Rounding errors of about ten thousand steps remain below it, for any stiffness.
 const LARGEST_DRIFT: f64 = 1e-7;
 
 /// Rounding error of dissipated energies, as a fraction of these energies.
@@ -37,29 +37,29 @@ const MUCH: f64 = 0.3;
 /// Largest number of unknowns for which modes of the initial configuration are computed.
 const MOST_UNKNOWNS: usize = 1200;
 
-/// Numbers of modes to be computed, in this order, until one mode is not a rigid-body mode.
+/// Numbers of modes that are computed one after the other, until a mode is not a rigid-body mode.
 const MODES: [usize; 3] = [4, 8, 16];
 
 const RECENT_STEPS: usize = 200;
 
-/// Change of the step length from one step to the next, as a fraction of the length, that counts as an alternation.
+/// Relative change of the step length from one step to the next that counts as an alternation.
 const ALTERNATION: f64 = 0.1;
 
-/// Number of alternations of the step length among the recent steps from which a warning is given.
+/// Number of alternations of the step length among the recent steps, above which a warning is given.
 const MOST_TURNS: usize = 20;
 
-/// Number of adaptive steps above which a warning about their number is given if the other conditions hold.
+/// Number of adaptive steps, above which a warning about their number may be given.
 const MANY_STEPS: usize = 5000;
 
-/// Ratio of the step size that the motion of the scene needs to the mean step size, above which a warning is given. The steps then follow a
-/// vibration whose amplitude is below a thousandth of the length of the scene.
+/// Ratio of the step size that resolves the motion of the scene to the mean step size, above which a warning is given.
+/// With this ratio, the steps follow a vibration whose amplitude is below a thousandth of the length of the scene.
 const MUCH_SHORTER: f64 = 50.0;
 
-/// Largest number of sliders with a description of their resolution.
+/// Largest number of sliders whose resolution is described.
 const SLIDERS: usize = 6;
 
 impl Simulation {
-    /// Warnings about motion that the steps so far do not resolve. Steps undone by a rewind do not count.
+    /// Warnings about motion that the steps so far do not resolve. Steps that were undone by a rewind are ignored.
     ///
     /// The lowest period of the scene is computed only when a warning needs it for the first time.
     pub fn warnings(&self) -> Vec<Warning> {
@@ -147,7 +147,8 @@ impl Simulation {
             || (unresolved_fraction > HIDDEN_SHARE && turn > HIDDEN_TURN)
     }
 
-    /// Warnings about damped beams whose motion is not resolved with a step size [time], although the motion of the scene as a whole is resolved.
+    /// Warnings about damped beams.
+    /// A step size [time] may not resolve the motion of a damped beam, although it resolves the motion of the whole scene.
     fn unresolved_beams(&self, dt: f64) -> impl Iterator<Item = Warning> {
         let least = NOTHING * self.model.resolution().kinetic();
         let beams = self.model.resolution_by_beam();
@@ -160,8 +161,8 @@ impl Simulation {
         })
     }
 
-    /// Warning about alternating long and short steps in scenes with persistent velocity errors. Each step multiplies such errors by -1. The
-    /// resulting position errors of a long and a short step do not cancel.
+    /// Warning about alternating long and short steps in scenes with persistent velocity errors. Each step multiplies the velocity errors by -1.
+    /// Because the steps have different lengths, the resulting position errors do not cancel.
     fn uneven_steps(&self) -> Option<Warning> {
         let keeps = self.model.has_rigid_links() || self.scene.dissipating().next().is_some();
         if !keeps || !matches!(self.settings.dt, StepSize::Fixed(_)) {
@@ -181,8 +182,7 @@ impl Simulation {
         (turns >= MOST_TURNS).then_some(Warning::Uneven { shortest, longest })
     }
 
-    /// Warning about many adaptive steps, if the method is of first order or the steps are much shorter than the motion of the scene as a whole
-    /// needs.
+    /// Warning about many adaptive steps. The method is of first order, or the steps are much shorter than the motion of the whole scene requires.
     fn many_steps(&self) -> Option<Warning> {
         let Adaptive { tolerance, length, order, .. } = **self.adaptive.as_ref()?;
         let (steps, rows) = (self.counts().steps, self.history().samples());
@@ -205,8 +205,8 @@ impl Simulation {
         if longest > 0.0 { longest.min(self.dt()) } else { self.dt() }
     }
 
-    /// Energy drift that is larger than rounding, although the method claims to conserve energy. Scenes with sliders are excluded, because sliding
-    /// rules have their own claims.
+    /// Energy drift above rounding, with a method that conserves energy.
+    /// Scenes with sliders are excluded, because sliding rules have separate conservation properties.
     fn excess_energy_drift(&self) -> Option<f64> {
         let keeps = self.settings.method.entry().claims.energy == EnergyClaim::Conserved;
         let rows = self.history().samples();
@@ -214,7 +214,7 @@ impl Simulation {
         if !keeps || !self.scene.sliders.is_empty() {
             return None;
         }
-        // The other rows are examined only if the first and the last row differ too much.
+        // The other rows of the history are examined only if the energies of the first and the last row differ too much.
         let apart = Invariant::Energy.value(&last) - Invariant::Energy.value(&first);
         let now = last.energy.kinetic + last.energy.strain + last.energy.stored;
         if apart.norm() <= LARGEST_DRIFT * now {
@@ -224,8 +224,8 @@ impl Simulation {
         (drift > LARGEST_DRIFT).then_some(drift)
     }
 
-    /// Name of a method with numerical damping; `None` if it is in use already or would have no effect. Numerical damping acts on strains of beams
-    /// and on springs with a linear law.
+    /// Name of a method with numerical damping; `None` if this method is already used or would have no effect.
+    /// Numerical damping acts on strains of beams and on springs with a linear law.
     fn damping_method(&self) -> Option<&'static str> {
         let entries = INTEGRATORS.iter();
         let damping = entries.filter(|entry| entry.claims.energy == EnergyClaim::NonIncreasing);
@@ -236,9 +236,10 @@ impl Simulation {
         others.find(|name| *name != self.settings.method.entry().name)
     }
 
-    /// Warning that dampers added energy in the method `fourth_order`, whose backward substeps return energy. It is given if the backward substeps
-    /// returned more energy than the dampers took in total, or if a step increased the energy, both by more than rounding. The step with the
-    /// largest return is reported.
+    /// Warning that dampers added energy with the method `fourth_order`, whose backward substeps return energy.
+    /// The warning is given if the backward substeps returned more energy than the dampers dissipated in total.
+    /// The warning is also given if a step increased the energy. Differences within rounding are ignored.
+    /// The warning reports the step with the largest returned energy.
     fn energy_gain(&self) -> Option<Warning> {
         if self.settings.method != Method::FourthOrder {
             return None;
@@ -275,7 +276,7 @@ impl Simulation {
     fn possible_causes(&self) -> Vec<RateChangeCause> {
         let rows = self.history().samples();
         let others = rows.last().map(|row| row.measures).unwrap_or_default().dissipated;
-        // A damper may dissipate stored energy arbitrarily slowly, so the comparison uses the kinetic energy only.
+        // A damper may dissipate stored energy arbitrarily slowly, so only the kinetic energy is compared.
         let left = rows.iter().map(|row| row.measures.energy.kinetic).fold(0.0, larger);
         let most = self.model.most_damping();
         let is_much = |energy: f64| larger(energy, others) > MUCH * (larger(energy, others) + left);
@@ -295,7 +296,7 @@ impl Simulation {
             if slides || self.model.unknowns() > MOST_UNKNOWNS {
                 return None;
             }
-            // If modes cannot be computed, the warning does not contain the period.
+            // If the modes cannot be computed, the warning does not contain a period.
             let drawn = System::assemble(&self.scene).ok()?;
             MODES.iter().find_map(|count| {
                 let modes = match Modes::of(&drawn, *count, &mut || true) {

@@ -1,4 +1,4 @@
-//! Assembly of a mechanism from the parts of a scene.
+//! Assembly of a mechanism from the objects of a scene.
 
 use super::numbering::{LinkPlace, Numbering};
 use crate::beams::{
@@ -15,11 +15,11 @@ use crate::system::sliders::Sliders;
 use crate::system::state::MotionState;
 use crate::system::{BeamDefinition, Scene, System, SystemError, SystemState};
 
-/// Largest rounding error of strains, as a multiple of the machine precision. It exceeds one, because strains are differences of coordinates that
-/// may be much larger than a span.
+/// Largest rounding error of strains, as a multiple of the machine precision.
+/// The rounding error of a strain exceeds the machine precision. Strains are differences of coordinates, which may be much larger than a span.
 const STRAIN_ROUNDINGS: f64 = 100.0;
 
-/// Bodies of a scene with the meshes of the beams. The model is built from them.
+/// Bodies of a scene with the meshes of the beams, from which the model is built.
 pub struct Assembly<'a> {
     pub scene: &'a Scene,
     pub meshes: Vec<Mesh>,
@@ -28,7 +28,7 @@ pub struct Assembly<'a> {
 }
 
 impl System {
-    /// Builds the mechanism of a scene at its start.
+    /// Builds the mechanism of a scene in its initial state.
     ///
     /// # Errors
     /// Fails if the scene is empty, a beam does not fit its mesh, or start velocities contradict the joints.
@@ -36,11 +36,11 @@ impl System {
         Self::assemble_while(scene, &mut || true)
     }
 
-    /// Builds the mechanism of a scene at its start, with a way to stop the assembly. `goes_on` is called between beams and between phases; if it
-    /// returns false, the assembly ends with an error.
+    /// Builds the mechanism of a scene in its initial state. The caller can stop the assembly.
+    /// The callback `goes_on` is called between beams and between phases. If it returns false, the assembly fails.
     ///
     /// # Errors
-    /// Errors of [`assemble`](Self::assemble), or an error if the assembly is stopped.
+    /// Fails in the same cases as [`assemble`](Self::assemble), or if the assembly is stopped.
     pub fn assemble_while(
         scene: &Scene,
         goes_on: &mut dyn FnMut() -> bool,
@@ -50,10 +50,10 @@ impl System {
         Ok(model)
     }
 
-    /// Builds the mechanism of a scene at the start of a run. Kinks under sliders begin with the contact forces at the start.
+    /// Builds the mechanism of a scene at the start of a run. The initial kinks under sliders are those of the initial contact forces.
     ///
     /// # Errors
-    /// Errors of [`assemble_while`](Self::assemble_while).
+    /// Fails in the same cases as [`assemble_while`](Self::assemble_while).
     pub(crate) fn assemble_in_motion(
         scene: &Scene,
         goes_on: &mut dyn FnMut() -> bool,
@@ -75,11 +75,11 @@ impl System {
         Ok(model)
     }
 
-    /// Builds the mechanism of a scene in the given static state at the given time. Velocities are checked against the sliders in this state, not
-    /// in the scene as drawn.
+    /// Builds the mechanism of a scene in the given static state at the given time.
+    /// Velocities are checked against the positions of the sliders in this state, not against their initial positions.
     ///
     /// # Errors
-    /// Errors of [`assemble`](Self::assemble), or an error if a function has no value at that time.
+    /// Fails in the same cases as [`assemble`](Self::assemble), or if a function has no value at that time.
     pub(crate) fn assemble_at_rest(
         scene: &Scene,
         state: &SystemState,
@@ -180,7 +180,7 @@ impl<'a> Assembly<'a> {
         Ok(assembly)
     }
 
-    /// Control points of all bodies in the scene as drawn. The slaves of sliders are moved onto the meshes of their masters.
+    /// Control points of all bodies in the initial configuration. The slaves of sliders are moved onto the meshes of their masters.
     fn drawn(&self, goes_on: &mut dyn FnMut() -> bool) -> Result<Vec<Vec<Vec2>>, SystemError> {
         let beams = self.scene.beams.iter().zip(&self.meshes).map(|(beam, mesh)| {
             query(self.scene, goes_on)?;
@@ -190,7 +190,7 @@ impl<'a> Assembly<'a> {
         let rigid = self.scene.rigid_bodies.iter().map(|body| Ok(body.control_points()));
         let mut points =
             beams.chain(particles).chain(rigid).collect::<Result<Vec<_>, SystemError>>()?;
-        // A master may itself be a slave, so the placement is repeated until no slave moves.
+        // A master may also be a slave of another slider, so the placement is repeated until no slave moves.
         let place = |slider: &Slider| {
             Ok((
                 self.place_at(slider.master, self.slider_parameter(slider)?)?,

@@ -1,12 +1,12 @@
-//! Blocks of the linear system in which the contact and the slave of each slider are eliminated independently. They are used if there are many
-//! sliders.
+//! Blocks of the linear system in which the contact and the slave of each slider are eliminated independently.
+//! Contact blocks are used if there are many sliders.
 
 use super::Numbering;
 use crate::linalg::BlockLayout;
 use crate::system::scene::Ties;
 use crate::system::sliders::SliderContact;
 
-/// Number of sliders from which contacts are eliminated block by block. For fewer sliders a dense border is faster (docs/studies.md).
+/// Smallest number of sliders for block-wise elimination of contacts. For fewer sliders a dense border is faster (docs/studies.md).
 const MANY: usize = 4;
 
 /// Largest number of control points of a slave that is eliminated together with its contact.
@@ -25,7 +25,7 @@ impl Numbering {
         let mut sizes = vec![0_usize; self.unknowns];
         component.iter().for_each(|&of| sizes[of] += 1);
         let unknown = |at: &usize| *at < self.unknowns;
-        // For each set of coupled unknowns, identified by its root, the number of sliders whose slaves have unknowns in the set.
+        // For each set of coupled unknowns, identified by its root: the number of sliders whose slaves have unknowns in the set.
         let mut sliders_on = vec![0_usize; self.unknowns];
         for slider in sliders {
             let (body, point) = slider.connection.slave;
@@ -36,7 +36,7 @@ impl Numbering {
             }
             roots.into_iter().flatten().for_each(|root| sliders_on[root] += 1);
         }
-        // A slave can be eliminated with its contact if no other slider moves its unknowns.
+        // A slave can be eliminated together with its contact if no other slider moves its unknowns.
         let own = sliders.iter().map(|slider| {
             let own = self.unknowns_of_free_slave(slider);
             let root = component[*own.first()?];

@@ -1,4 +1,4 @@
-//! Check of rigid bodies without mass or without inertia, whose motion must be determined by other parts of the scene.
+//! Check of rigid bodies without mass or inertia. Other objects of the scene must determine their motion.
 
 use crate::beams::{BodyIndex, Station};
 use crate::joints::Component;
@@ -6,10 +6,10 @@ use crate::system::elements::{Dragged, Element};
 use crate::system::{Scene, SpringKind, System, SystemError};
 
 impl System {
-    /// Rejects a rigid body with a degree of freedom that has neither inertia nor a restraint, because its acceleration would be undetermined.
+    /// Rejects a rigid body with a degree of freedom that has neither inertia nor a restraint. Its acceleration would be undetermined.
     ///
-    /// A restraint is a support, a drive, a tied degree of freedom, a mass at a point, or an element at a point. A point restrains the angle only if
-    /// it is off the centre or rotates with the body.
+    /// A restraint is a support, a drive, a tied degree of freedom, a mass at a point, or an element at a point.
+    /// A point restrains the angle of the body only if it is off the centre or rotates with the body.
     pub(super) fn check_movements_held(&self, scene: &Scene) -> Result<(), SystemError> {
         let inertia = self.diagonal_of_inertia();
         let first = scene.first_rigid_body();

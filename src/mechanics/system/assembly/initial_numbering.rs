@@ -6,7 +6,7 @@ use crate::joints::Component;
 use crate::system::SystemError;
 use crate::system::scene::Scene;
 
-/// Number of a component that is not an unknown.
+/// Placeholder for a component that is not an unknown.
 const NONE: usize = usize::MAX;
 
 /// Unknowns in the order of the bodies, before bandwidth reduction.
@@ -16,7 +16,7 @@ pub struct InitialNumbering {
     pub number: Vec<usize>,
     /// Force unknowns of each rigid link, numbered just before the linked point.
     pub forces: Vec<[usize; 2]>,
-    /// Force unknown of each inclined roller, numbered just before its point; `None` after a release.
+    /// Force unknown of each inclined roller, numbered just before the point of the roller; `None` after a release.
     pub roller_forces: Vec<Option<usize>>,
 }
 

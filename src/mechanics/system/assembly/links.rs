@@ -5,14 +5,14 @@ use crate::geometry::larger;
 use crate::linalg::BandedMatrix;
 use crate::system::{Scene, System, SystemError, UnknownKind};
 
-/// Constraint force that closes a gap of one, above which the force is determined by rounding only.
+/// Constraint force for a gap of one, above which only rounding determines the force.
 const UNDETERMINED: f64 = 1e11;
 
 impl System {
     /// Rejects redundant constraints of rigid bodies and rollers.
     ///
-    /// The check closes small gaps at all constraints, with unit mass at all degrees of freedom. Forces that are determined are then at most as
-    /// large as the gaps times the square of the number of bodies in a chain.
+    /// The check closes small gaps at all constraints of a model with unit masses at all degrees of freedom.
+    /// Determined forces are then at most as large as the gaps times the square of the number of bodies in a chain.
     pub(super) fn check_links(&self, scene: &Scene) -> Result<(), SystemError> {
         if self.links().forces() == 0 {
             return Ok(());
@@ -30,7 +30,7 @@ impl System {
         }
         self.links().add_coupling(self.bodies(), unknowns.count(), &mut matrix);
         matrix.weigh_rows();
-        // The gaps are all different, so that no symmetry of a scene can make redundant constraints compatible.
+        // All gaps are different, so that no symmetry of a scene can make redundant constraints compatible.
         let mut forces = vec![0.0; unknowns.count()];
         let across = self.links().rollers().map(|(unknown, _)| unknown);
         let of_links = self.links().iter().flat_map(|link| link.unknowns);

@@ -1,4 +1,4 @@
-//! Numbering of the degrees of freedom. Some are tied to each other or to the ground.
+//! Numbering of the degrees of freedom. Some degrees of freedom are tied to each other or to the ground.
 
 use super::initial_numbering::InitialNumbering;
 use super::tied_components::{GROUND, TiedComponents};
@@ -10,7 +10,7 @@ use crate::system::elements::{PrescribedMovement, Support};
 use crate::system::scene::Scene;
 use crate::system::state::{UnknownKind, Unknowns};
 
-/// Rigid link: its body, the linked control point, and its force unknowns. The other end is the first control point of the body.
+/// Rigid link: its body, the linked control point, and its force unknowns. It starts at the first control point of the body.
 #[derive(Debug, Clone, Copy)]
 pub struct LinkPlace {
     pub body: usize,
@@ -18,7 +18,7 @@ pub struct LinkPlace {
     pub force: [usize; 2],
 }
 
-/// Degree of freedom of every component of every control point. Unknowns come first, supported degrees of freedom last.
+/// Degree of freedom of every component of every control point. Unknowns come first, and supported degrees of freedom last.
 #[derive(Debug, Clone)]
 pub struct Numbering {
     pub degrees_of_freedom: Vec<Vec<[usize; 3]>>,
@@ -27,15 +27,16 @@ pub struct Numbering {
     pub rollers: Vec<Option<(usize, (usize, usize))>>,
     pub unknowns: usize,
     pub groups: Vec<Vec<usize>>,
-    /// Number of prescribed degrees of freedom. They precede the fixed ones.
+    /// Number of prescribed degrees of freedom, which precede the fixed degrees of freedom.
     prescribed: usize,
     supported: usize,
     half_bandwidth: usize,
 }
 
 impl Numbering {
-    /// Numbers the degrees of freedom of bodies. `place` locates stations on the meshes. The `border` contact unknowns are numbered after the
-    /// unknowns and before the supported degrees of freedom. Joints and drives in `released` tie nothing.
+    /// Numbers the degrees of freedom of bodies. `place` locates stations on the meshes.
+    /// The `border` contact unknowns are numbered between the unknowns and the supported degrees of freedom.
+    /// Joints and drives in the list `released` have no effect.
     pub fn new(
         scene: &Scene,
         released: &[Releasable],
@@ -77,7 +78,7 @@ impl Numbering {
             });
             degrees_of_freedom.push(points.collect());
         }
-        // Elements at a point, such as drag, couple its components. Consecutive numbers keep the band of the tangent narrow.
+        // Elements at a point, such as drag, couple its components. Consecutive numbers keep the bandwidth of the tangent small.
         for (index, body) in bodies.iter().enumerate().filter(|(_, body)| body.order() == 1) {
             for point in 0..body.control_points().len() {
                 groups.push(initial.numbers([(index, point)].into_iter(), &mut tied));
@@ -98,8 +99,8 @@ impl Numbering {
         })
     }
 
-    /// Returns the supports in the order of their degrees of freedom (prescribed ones first), and the unknowns. The `border` contact unknowns are
-    /// numbered between the unknowns and the supported degrees of freedom.
+    /// Returns the unknowns, and the supports in the order of their degrees of freedom (prescribed supports first).
+    /// The `border` contact unknowns are numbered between the unknowns and the supported degrees of freedom.
     pub fn supports_and_unknowns(
         &self,
         scene: &Scene,

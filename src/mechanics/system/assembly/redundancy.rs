@@ -1,7 +1,8 @@
 //! Check that the contact forces of sliders are determined. Redundant contacts have no unique forces.
 //!
-//! Contact impulses `P` change the velocities of the slaves across their masters by `G M⁻¹ Gᵀ P`, with the constraint matrix `G` and the mass
-//! matrix `M`. If `G M⁻¹ Gᵀ` is singular, some impulses have no effect, and the forces of a step are not determined.
+//! Contact impulses `P` change the velocities of the slaves across their masters by `G M⁻¹ Gᵀ P`.
+//! The constraint matrix is `G` and the mass matrix is `M`.
+//! If `G M⁻¹ Gᵀ` is singular, some impulses have no effect, and the contact forces of a step are undetermined.
 
 use crate::system::errors::SliderError;
 use crate::system::{Scene, System, SystemError};
@@ -9,8 +10,8 @@ use crate::system::{Scene, System, SystemError};
 /// Ratio of a pivot of the Cholesky factorisation to the diagonal entry, below which the pivot is due to rounding.
 const ROUNDING_PIVOT: f64 = 1e-13;
 
-/// Velocity change by a unit impulse at a slider, as a fraction of the velocity change of the total mass. Below this value the change is due to
-/// rounding.
+/// Velocity change due to a unit impulse at a slider, as a fraction of the velocity change of the total mass.
+/// Below this fraction, the velocity change is due to rounding.
 const NO_RESPONSE: f64 = 1e-26;
 
 impl System {

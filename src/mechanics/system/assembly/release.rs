@@ -9,11 +9,11 @@ use crate::system::mechanism::DofNumbers;
 use crate::system::{Scene, System, SystemError};
 
 impl System {
-    /// Releases an object of the scene at the present time. `released` lists the objects released earlier. Positions and rates are continuous. The
-    /// energy stored in a released spring counts as dissipated. The caller must allocate a new work space of the integrator afterwards.
+    /// Releases an object of the scene at the present time. Positions and rates are continuous. `released` lists the objects released earlier.
+    /// The energy stored in a released spring counts as dissipated. The caller must allocate a new work space of the integrator afterwards.
     ///
     /// # Errors
-    /// Fails if a station lies off its beam, which cannot occur in a checked scene.
+    /// Fails if a station lies outside its beam, which cannot occur in a checked scene.
     pub fn release(
         &mut self,
         scene: &Scene,
@@ -35,7 +35,7 @@ impl System {
     /// Marks the given objects as released and all others as attached, before a state is restored.
     ///
     /// # Errors
-    /// Fails if a station lies off its beam, which cannot occur in a checked scene.
+    /// Fails if a station lies outside its beam, which cannot occur in a checked scene.
     pub fn restore_releases(
         &mut self,
         scene: &Scene,

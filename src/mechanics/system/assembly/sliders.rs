@@ -14,12 +14,12 @@ use crate::system::sliders::{
 };
 use crate::system::{BeamDefinition, Scene, System, SystemError};
 
-/// Largest start velocity of a slave across its master that counts as zero, as a fraction of the velocity of the fastest point of the scene. At a
-/// dead centre of a mechanism, velocities of this size are due to rounding.
+/// Largest start velocity of a slave across its master that counts as zero. Its unit is the velocity of the fastest point of the scene.
+/// At a dead centre of a mechanism, rounding errors of velocities have about this size.
 const SAME_VELOCITY: f64 = 1e-9;
 
 impl Assembly<'_> {
-    /// Contacts of the sliders, in the order of the scene.
+    /// Contacts of the sliders, in the order of the sliders in the scene.
     pub fn sliders(&self, numbering: &Numbering) -> Result<Vec<SliderContact>, SystemError> {
         let mut sliders: Vec<SliderContact> = Vec::new();
         let mut kink_lengths = vec![None; self.scene.beams.len()];
@@ -70,7 +70,7 @@ impl Assembly<'_> {
         MasterCurve::new(self.scene.beams[beam].axis.clone(), self.mesh(beam).basis().domain())
     }
 
-    /// Contact path of a beam. Paths that have been computed are stored in `found`.
+    /// Contact path of a beam. Computed paths are stored in `found`.
     fn contact_path(&self, beam: usize, found: &mut [Option<ContactPath>]) -> ContactPath {
         let basis = || ContactPath::new(self.mesh(beam).basis().clone());
         found[beam].get_or_insert_with(basis).clone()
@@ -94,8 +94,8 @@ impl Assembly<'_> {
         legs.iter().map(leg).collect()
     }
 
-    /// Axis of the master with a kink under the contact force; `None` if the rule of the slider has no kink or the mesh of the master is not
-    /// smooth. Kink lengths are computed once per master and stored in `found`.
+    /// Axis of a master with a kink under the contact force; `None` if the sliding rule has no kink or the mesh of the master is not smooth.
+    /// Kink lengths are computed once per master and stored in `found`.
     fn kinked_axis(
         &self,
         slider: &Slider,
@@ -103,7 +103,7 @@ impl Assembly<'_> {
     ) -> Result<Option<KinkedAxis>, SystemError> {
         let (master, beam) = (slider.master, &self.scene.beams[slider.master]);
         let basis = self.mesh(master).basis();
-        // A C0 mesh represents the kink at its nodes, so no compliance is missing there, and the kink could not pass a node.
+        // A C0 mesh represents the kink at its nodes, so no compliance is missing at the nodes, and the kink could not pass a node.
         let has_nodes = basis.breaks().len() > 2 && basis.continuity() == 0;
         if slider.rule != SlidingRule::Kinked || has_nodes {
             return Ok(None);
@@ -140,9 +140,9 @@ fn bar(beam: &BeamDefinition) -> ImpactBar {
 }
 
 impl System {
-    /// Applies the rule of each slider for start velocities: the velocity across the master is checked or projected to zero.
+    /// Applies the rule of each slider for start velocities: the velocity across the master is either checked or projected to zero.
     ///
-    /// A speed `w` across a master counts as zero if the strain `w/c` of its wave, with the wave speed `c`, is below the rounding error `ε`.
+    /// A speed `w` across a master counts as zero if the strain `w/c` of its wave is below the rounding error `ε`. The wave speed is `c`.
     pub(super) fn project_start_velocities(&mut self, scene: &Scene) -> Result<(), SystemError> {
         let negligible = self.negligible_velocity(scene);
         let mut is_projected = false;
@@ -159,8 +159,8 @@ impl System {
         Ok(())
     }
 
-    /// Sets a static model to a time. Prescribed motions get the rates of their functions. Points of rigid bodies get the rates that fit the rates
-    /// of their bodies.
+    /// Sets a static model to a time. Prescribed motions receive the rates of their functions.
+    /// Points of rigid bodies receive the rates that follow from the rates of their bodies.
     ///
     /// # Errors
     /// Fails if a function has no value at that time, or velocities contradict the sliders.

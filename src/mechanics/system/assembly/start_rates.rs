@@ -7,11 +7,11 @@ use crate::system::elements::AssemblyContext;
 use crate::system::errors::{rounded, written};
 use crate::system::{Scene, StartMotion, StationVelocity, SystemError, Turning};
 
-/// Largest difference of two start velocities that are tied by a joint, as a fraction of the velocities of the beam.
+/// Largest difference of two start velocities tied by a joint that count as equal, as a fraction of the velocities of the beam.
 const SAME_VELOCITY: f64 = 1e-9;
 
-/// Largest difference between a start velocity and the initial rate of a prescribed motion, as a fraction of that rate. The rate is computed by
-/// finite differences.
+/// Largest accepted difference between a start velocity and the initial rate of a prescribed motion, as a fraction of this rate.
+/// The initial rate is computed by finite differences, which have an error.
 const SAME_START: f64 = 1e-6;
 
 /// Names of the components in messages.
@@ -23,7 +23,7 @@ fn given_rate_text(rate: f64) -> String {
     format!("its motion is prescribed there and begins with {}", rounded(rate))
 }
 
-/// Start rates found so far. `rates` holds the rate of each unknown with the body that set it; `requested` holds the rates of single nodes.
+/// Start rates found so far. `rates` contains the rate of each unknown and the body that set it. `requested` contains the rates of single nodes.
 struct SharedRates<'a> {
     rates: Vec<Option<(usize, f64)>>,
     requested: Vec<Option<RequestedRate<'a>>>,
@@ -53,7 +53,7 @@ impl InitialDriveRates<'_> {
 }
 
 impl SharedRates<'_> {
-    /// Sets the rate of a degree of freedom. If another body or the ground has set a different rate, that earlier rate is returned.
+    /// Sets the rate of a degree of freedom. If another body or the ground has already set a different rate, returns the earlier rate.
     fn set_rate(
         &mut self,
         at: usize,
@@ -88,7 +88,7 @@ impl RequestedRate<'_> {
 impl Assembly<'_> {
     /// Rates of the unknowns at the start, compatible with joints and start velocities [length/time, 1/time].
     ///
-    /// After the unknowns the result has entries for the `constraints` contact unknowns, then the rates of the prescribed degrees of freedom.
+    /// The result contains the rates of the unknowns, zeros for the contact unknowns, and the rates of the prescribed degrees of freedom.
     pub fn start_rates(
         &self,
         numbering: &Numbering,
@@ -107,8 +107,8 @@ impl Assembly<'_> {
         let first = self.scene.first_rigid_body();
         for (index, body) in (first..).zip(&self.scene.rigid_bodies) {
             let degrees = &numbering.degrees_of_freedom[index];
-            // If all points of a body are at its centre, the body shares no rotation with other bodies. Its size then has no effect and can have
-            // any value.
+            // If all points of a body are at its centre, the body shares no rotation with other bodies.
+            // If all points of a body coincide, the size of the body has no effect and can have any value.
             let size = if body.size() > 0.0 { body.size() } else { 1.0 };
             self.apply_rigid_motion(index, size, &body.motion, degrees, &mut shared, begun)?;
         }
@@ -165,7 +165,7 @@ impl Assembly<'_> {
             let sized = degrees.iter().zip(rates).zip(sizes).zip(COMPONENTS);
             for (((&at, rate), size), component) in sized {
                 if let Some(begins) = begun.at(at) {
-                    // A body with zero start velocity is accepted; an impact at the start sets it in motion.
+                    // A body with zero start velocity is accepted. An impact at the start sets it in motion.
                     if !rests && (rate - begins).abs() > SAME_START * size.max(begins.abs()) {
                         return Err(SystemError::StartVelocity {
                             body: self.name_of(index),
@@ -177,8 +177,8 @@ impl Assembly<'_> {
                     continue;
                 }
                 if let Some(asked) = shared.requested.get(at).copied().flatten() {
-                    // A node of a beam may have its own velocity. A rigid body cannot, nor can a moving beam joined to a particle with another
-                    // velocity.
+                    // A node of a beam may have a separate velocity.
+                    // Separate velocities are rejected for rigid bodies, and for a moving beam joined to a particle with a different velocity.
                     let is_rigid = degrees_of_freedom.len() > 1 && index >= self.scene.beams.len();
                     let moves_apart = !rests && matches!(asked.at.body, BodyIndex::Particle(_));
                     let missed = (rate - asked.rate).abs();
@@ -209,7 +209,7 @@ impl Assembly<'_> {
         Ok(())
     }
 
-    /// Requested rates of single nodes, by number of the unknown.
+    /// Requested rates of single nodes, indexed by the number of the unknown.
     ///
     /// # Errors
     /// Fails if joined stations have different requested rates.

@@ -1,11 +1,11 @@
-//! Components (x, y and angle) of control points that must move equally because joints tie them to each other. Tied components form a class.
+//! Components (x, y and angle) of control points that move equally because joints tie them to each other. Tied components form a class.
 
 use crate::beams::{BodyDynamics, BodyPoint, Station};
 use crate::joints::{Component, Partner, Releasable};
 use crate::system::SystemError;
 use crate::system::scene::{Scene, Ties};
 
-/// Number of the class of all components that are fixed to the ground.
+/// Index of the class of all components that are fixed to the ground.
 pub const GROUND: usize = 0;
 
 /// Classes of components tied by joints, particles and rigid bodies. Components are numbered from one in the order of the bodies.
@@ -21,7 +21,7 @@ pub struct TiedComponents {
 }
 
 impl TiedComponents {
-    /// Ties the components of a scene. `place` locates stations on the meshes. Joints and drives in `released` tie nothing.
+    /// Ties the components of a scene. `place` locates stations on the meshes. Joints and drives in `released` have no effect.
     pub fn new(
         scene: &Scene,
         released: &[Releasable],
@@ -44,7 +44,7 @@ impl TiedComponents {
                 classes.rollers.extend(joint.kind.inclined().map(|_| None));
                 continue;
             }
-            // Stations of joints are breaks of the mesh, so a control point lies on the axis there.
+            // Stations of joints are breaks of the mesh, so a control point lies on the axis at the joint.
             let from = place(&joint.station)?;
             let to = match &joint.partner {
                 Partner::Ground => None,

@@ -1,4 +1,4 @@
-//! All bodies of a model, with the sections whose angles are tracked, and the places at which bodies are joined.
+//! All bodies of a model, the sections whose angles are tracked, and the points at which bodies are joined.
 
 use std::ops::{Deref, DerefMut};
 
@@ -7,10 +7,10 @@ use super::{Body, DegreesOfFreedom, Momenta, Tracker};
 use crate::beams::{BodyPoint, Mesh, Movement};
 use crate::geometry::{Vec2, larger};
 
-/// Value of a basis function at a node below which the function counts as zero there.
+/// Value of a basis function at a node, below which the function counts as zero at the node.
 const NO_WEIGHT: f64 = 1e-12;
 
-/// Bodies of a model: beams, then particles, then rigid bodies. This type dereferences to a slice of them.
+/// Bodies of a model: beams, then particles, then rigid bodies. The type dereferences to a slice of bodies.
 pub struct Bodies {
     pub(super) all: Vec<Body>,
     meshes: Vec<Mesh>,
@@ -66,7 +66,7 @@ impl Bodies {
         &self.meshes
     }
 
-    /// Mass of the beams, excluding attached masses [mass].
+    /// Mass of the beams, without attached masses [mass].
     pub fn mass(&self) -> f64 {
         self.mass
     }
@@ -75,7 +75,7 @@ impl Bodies {
         self.trackers.len()
     }
 
-    /// Unwrapped angle of a tracked section [rad].
+    /// Angle of a tracked section, counted over full turns [rad].
     pub fn angle(&self, section: usize) -> Option<f64> {
         self.trackers.get(section).map(|tracker| tracker.angle)
     }
@@ -109,7 +109,7 @@ impl Bodies {
         self.iter().map(|body| body.dynamics.strain_energy()).sum()
     }
 
-    /// Stores the increments of the unknowns in the bodies that they move.
+    /// Stores the increments of the unknowns in the bodies.
     pub fn gather(&mut self, increments: &[f64]) {
         for body in &mut self.all {
             body.gather(increments);
@@ -144,7 +144,7 @@ impl Bodies {
         bodies.for_each(|(body, own)| std::mem::swap(&mut body.degrees_of_freedom, own));
     }
 
-    /// Nodes that joints connect with a node, itself included, as indices of bodies and control points; `None` if the place is not a node.
+    /// Nodes that joints connect with a node, including this node. They are given by body and control point. `None` if the point is not a node.
     pub fn tied_nodes(&self, place: &BodyPoint) -> Option<Vec<(usize, usize)>> {
         let mut nodes = vec![node_of(place)?];
         let mut next = 0;

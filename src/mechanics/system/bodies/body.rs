@@ -17,10 +17,10 @@ pub struct Body {
     pub dynamics: Box<dyn BodyDynamics>,
     pub degrees_of_freedom: DegreesOfFreedom,
     consecutive: Vec<Option<usize>>,
-    /// For each control point, true if the unknowns of all spans that contain it are consecutive.
+    /// For each control point, true if the unknowns of all spans that contain this point are consecutive.
     in_order: Vec<bool>,
     unknowns: usize,
-    /// First control point and first row of the tangent of each part that is evaluated concurrently, except the first part.
+    /// First control point and first row of the tangent of each concurrent part, without the first part.
     parts: Vec<(usize, usize)>,
     movements: Vec<Movement>,
     forces: Vec<Movement>,
@@ -71,8 +71,8 @@ impl Body {
         }
     }
 
-    /// Divides the body into at most `most` parts that are evaluated concurrently, and returns their number. Results do not change. A body is not
-    /// divided if it is small, or if the rows of its parts are interleaved.
+    /// Divides the body into at most `most` concurrent parts, and returns their number. Results do not change.
+    /// A body is not divided if it is small, or if the rows of its parts are interleaved.
     pub fn divide(&mut self, most: usize) -> usize {
         let points = self.dynamics.divide(most);
         let rows_of = |points: &[[usize; 3]]| {
@@ -124,7 +124,7 @@ impl Body {
         self.degrees_of_freedom.iter().map(move |degrees| degrees.map(value))
     }
 
-    /// Displacement and rotation at a place of the body [length, length, rad], interpolated from values of the unknowns.
+    /// Displacement and rotation at a point of the body [length, length, rad], interpolated from values of the unknowns.
     pub fn at(&self, place: &BodyPoint, values: &[f64]) -> Movement {
         let mut sum = [0.0; 3];
         for (point, weight) in place.weights() {
@@ -154,7 +154,7 @@ impl Body {
         self.dynamics.advance(&self.movements, rotations);
     }
 
-    /// Adds the forces accumulated in the body to `out`, resets them to zero, and returns their summary.
+    /// Adds the forces accumulated in the body to `out`, resets the accumulated forces to zero, and returns their summary.
     pub fn scatter(&mut self, out: &mut [f64]) -> ForceSummary {
         self.degrees_of_freedom.scatter(&mut self.forces, out);
         std::mem::take(&mut self.summary)
@@ -169,7 +169,7 @@ impl Body {
         self.summary = self.dynamics.add_forces(at, &self.movements, weight, &mut self.forces);
     }
 
-    /// Accumulates the internal forces, with strain mismatches condensed out, and adds their derivatives to the given rows of the tangent.
+    /// Accumulates the internal forces with strain mismatches condensed out, and adds their derivatives to the given rows of the tangent.
     pub fn linearise(
         &mut self,
         at: Collocation,
@@ -248,8 +248,7 @@ impl Body {
     ) {
         let rows = &self.degrees_of_freedom[point];
         for (columns, inertia) in self.degrees_of_freedom[first..].iter().zip(inertia) {
-            // Zero entries are omitted: without a common span, two control points may be numbered so far apart that the entry lies outside the band
-            // of the tangent.
+            // Zero entries are omitted. If two control points have no common span, the entry may lie outside the band of the tangent.
             if *inertia == Movement::default() {
                 continue;
             }

@@ -4,7 +4,7 @@ use std::ops::{Deref, Range};
 
 use crate::beams::Movement;
 
-/// Degrees of freedom of a body: three for each control point. Dereferences to a slice of them.
+/// Degrees of freedom of a body: three for each control point. The type dereferences to a slice.
 #[derive(Debug, Clone, Default)]
 pub struct DegreesOfFreedom {
     numbers: Vec<[usize; 3]>,
@@ -39,7 +39,7 @@ impl Deref for DegreesOfFreedom {
 }
 
 impl DegreesOfFreedom {
-    /// Gathers values by control point. Degrees of freedom without a value get zero.
+    /// Gathers values by control point. Degrees of freedom without a value receive zero.
     pub fn gather(&self, values: &[f64], moved: &mut [Movement]) {
         let moved = moved.as_flattened_mut();
         for DofRun { movements, first } in &self.runs {
@@ -55,7 +55,7 @@ impl DegreesOfFreedom {
         self.numbers.as_flattened().iter().copied().filter(|number| *number < unknowns).collect()
     }
 
-    /// Adds nodal forces to `out` and resets them to zero.
+    /// Adds nodal forces to `out` and resets the nodal forces to zero.
     pub fn scatter(&self, forces: &mut [Movement], out: &mut [f64]) {
         let forces = forces.as_flattened_mut();
         for DofRun { movements, first } in &self.runs {

@@ -1,15 +1,15 @@
 //! Division of many bodies into two halves for two threads. Results are identical to those of one thread.
 //!
-//! Sums are made in the order of the bodies: each body accumulates its own forces, and one thread adds them to the result. In the tangent, the
-//! thread of the second half writes only the rows in which no body of the first half has entries. Bodies of the second half with entries in other
-//! rows are added afterwards.
+//! Sums are computed in the order of the bodies: each body accumulates its forces separately, and one thread adds them to the result.
+//! In the tangent, the thread of the second half writes only the rows in which no body of the first half has entries.
+//! Contributions of the second half to other rows are added afterwards by one thread.
 
 use super::Body;
 
-/// Smallest number of control points of a half. Smaller halves gain little, and cost time if the other core is busy (docs/studies.md).
+/// Smallest number of control points of a half. Smaller halves gain little time, and lose time if the other core is busy (docs/studies.md).
 const SMALLEST_HALF: usize = 1500;
 
-/// Largest fraction of control points in bodies with rows in both halves of the tangent. These bodies are evaluated twice.
+/// Largest fraction of control points in bodies with rows in both halves of the tangent. Such bodies are evaluated twice.
 const LARGEST_ASTRIDE: f64 = 0.1;
 
 #[derive(Debug, Clone)]

@@ -1,8 +1,8 @@
-//! Tracked rotations of sections, for stations and follower loads.
+//! Tracked rotations of sections, used for stations and follower loads.
 
 use crate::beams::{BodyPoint, Movement, Rotation, RotationIncrement};
 
-/// Place of a body with the angle of its section, which is updated in every step.
+/// Point of a body with the angle of its section, which is updated in every step.
 #[derive(Debug, Clone, Copy)]
 pub struct Tracker {
     pub place: BodyPoint,

@@ -1,4 +1,4 @@
-//! Sums over all bodies in a step, computed in sequence or in two concurrent halves.
+//! Sums over all bodies in a step, computed sequentially or in two concurrent halves.
 
 use super::halves::BodyHalves;
 use super::{Bodies, Body};
@@ -45,7 +45,7 @@ impl Bodies {
         self.scatter(out)
     }
 
-    /// Adds the forces accumulated in the bodies to `out`, in the order of the bodies so that rounding is reproducible. Returns their summary.
+    /// Adds the forces accumulated in the bodies to `out`. The order of the bodies is fixed, so that rounding is reproducible. Returns their summary.
     fn scatter(&mut self, out: &mut [f64]) -> ForceSummary {
         let mut summary = ForceSummary::default();
         for body in &mut self.all {
@@ -54,7 +54,7 @@ impl Bodies {
         summary
     }
 
-    /// Adds the internal forces, with strain mismatches condensed out, to `out`, and their derivatives to the tangent.
+    /// Adds the internal forces with strain mismatches condensed out to `out`, and their derivatives to the tangent.
     pub fn add_linearised_forces(
         &mut self,
         at: Collocation,

@@ -18,12 +18,12 @@ pub struct Elements {
     forces: Vec<Box<dyn ExternalForce>>,
     /// Internal forces, in the order of the scene.
     resistances: Vec<Box<dyn InternalForce>>,
-    /// Largest relative force mismatch in the last iterate, and the index of the internal force with this mismatch.
+    /// Largest relative difference between a force and its law in the last iterate, and the index of the internal force.
     largest_mismatch: (f64, usize),
 }
 
 impl Elements {
-    /// Collects elements that have been built, and adds the weight of the point masses to the weight of the beams.
+    /// Collects the built elements, and adds the weight of the point masses to the weight of the beams.
     pub fn new(parts: impl Iterator<Item = BuiltElement>, mut weight: Option<Weight>) -> Self {
         let (mut masses, mut forces, mut resistances) = (Vec::new(), Vec::new(), Vec::new());
         for part in parts {
@@ -72,7 +72,7 @@ impl Elements {
         self.springs_mut().nth(spring).into_iter().for_each(|spring| spring.release());
     }
 
-    /// Marks the selected springs as released and all others as attached, before their state is restored.
+    /// Marks the selected springs as released and all other springs as attached, before their state is restored.
     pub fn detach_only(&mut self, is_released: impl Fn(usize) -> bool) {
         for (at, spring) in self.springs_mut().enumerate() {
             if is_released(at) { spring.detach() } else { spring.attach() }
@@ -82,7 +82,7 @@ impl Elements {
     /// Prepares all elements for a step that starts with the given rates of the unknowns.
     ///
     /// # Errors
-    /// Returns the name of the element without a finite value, and the reason.
+    /// Returns the name of an element without a finite value, and the reason.
     pub fn begin_step(
         &mut self,
         (interval, stages): (Interval, &[Stage]),
@@ -97,10 +97,10 @@ impl Elements {
         })
     }
 
-    /// Evaluates all loads just after a time, that is, after a jump at this time.
+    /// Evaluates all loads just after a time. If a load jumps at this time, the value after the jump is used.
     ///
     /// # Errors
-    /// Returns the name of the element without a finite value, and the reason.
+    /// Returns the name of an element without a finite value, and the reason.
     pub fn evaluate_after(&mut self, time: f64) -> Result<(), (String, LoadError)> {
         self.forces.iter_mut().try_for_each(|force| {
             force.evaluate_after(time).map_err(|error| (force.name().to_owned(), error))
@@ -120,8 +120,8 @@ impl Elements {
         self.masses.iter().for_each(|mass| mass.add_inertia(bodies, factor, rates, out));
     }
 
-    /// Calls `add` with the row, column and value of each entry of `factor · M` of all point masses. Values for the same row and column must be
-    /// added up.
+    /// Calls `add` with the row, column and value of each entry of `factor · M` for all point masses.
+    /// Values for the same row and column must be added up.
     pub fn inertia_entries(
         &self,
         bodies: &[Body],
@@ -142,7 +142,7 @@ impl Elements {
         on_body.map(|mass| mass.momenta(bodies, rates).twice_kinetic).sum()
     }
 
-    /// Potential energy of the weight of a body and of the point masses on it [energy].
+    /// Potential energy of the weight of a body, including its point masses [energy].
     pub fn potential_of(&self, bodies: &[Body], body: usize) -> f64 {
         self.weight.as_ref().map_or(0.0, |weight| weight.energy_of(bodies, body))
     }
@@ -157,7 +157,7 @@ impl Elements {
         })
     }
 
-    /// Adds the tangent stiffness of all forces, their negative derivative with respect to the increments, to the `unknowns` rows of the tangent.
+    /// Adds the tangent stiffness of all forces to the `unknowns` rows of the tangent. It is the negative derivative with respect to the increments.
     pub fn add_tangent(&self, at: TrialState<'_>, unknowns: usize, tangent: &mut BandedMatrix) {
         self.forces.iter().for_each(|force| force.add_tangent(at, unknowns, tangent));
     }
@@ -186,14 +186,15 @@ impl Elements {
         }
     }
 
-    /// Name and relative mismatch of the internal force that had the largest mismatch in the last iterate; `None` if all mismatches are zero.
+    /// Internal force that differed most from its law in the last iterate, given by its name and the relative difference.
+    /// Returns `None` if all differences are zero.
     pub fn farthest(&self) -> Option<(&str, f64)> {
         let (missing, index) = self.largest_mismatch;
         let resistance = self.resistances.get(index)?;
         (missing != 0.0).then(|| (resistance.name(), missing))
     }
 
-    /// Adds all internal forces, with force mismatches condensed out, and their derivatives with respect to the `unknowns` increments.
+    /// Adds all internal forces with force residuals condensed out, and their derivatives with respect to the `unknowns` increments.
     pub fn add_linearised_resistance(
         &mut self,
         at: TrialState<'_>,
@@ -206,7 +207,7 @@ impl Elements {
         }
     }
 
-    /// Adds `weight` times the forces that would remove the current force mismatch.
+    /// Adds `weight` times the forces that would remove the present residuals of the force laws.
     pub fn add_mismatch_forces(&self, bodies: &[Body], weight: f64, out: &mut [f64]) {
         self.resistances.iter().for_each(|resistance| {
             resistance.add_mismatch_forces(bodies, weight, out);
@@ -253,7 +254,7 @@ impl Elements {
         self.resistances().for_each(|resistance| resistance.static_stiffness(bodies, take));
     }
 
-    /// Work and impulse of all elements in the step being accepted, from the increments stored in the bodies.
+    /// Work and impulse of all elements in the completed step, computed from the increments stored in the bodies.
     pub fn exchange(&self, bodies: &[Body], duration: f64) -> WorkAndImpulse {
         let mut sum = WorkAndImpulse::default();
         for element in self.forces().chain(self.weight()) {

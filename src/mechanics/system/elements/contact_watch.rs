@@ -1,18 +1,18 @@
-//! Duration of contact on springs that can be slack, such as bumpers and ropes. Contacts shorter than a few steps are not resolved.
+//! Duration of contact for springs that can be slack, such as bumpers and ropes. The steps do not resolve contacts shorter than a few steps.
 
-/// Number of steps up to which a bounce is unresolved. Three steps cover half of the contact period.
+/// Largest number of steps of an unresolved bounce. Three steps cover half of the contact period.
 const FEW: f64 = 3.0;
 
 /// Change of the elongation rate during a contact that counts as a bounce, as a fraction of the rate at the start of the contact.
 const TURNED: f64 = 0.5;
 
-/// Contact depth that is attributed to rounding, as a fraction of the length or angle of the spring.
+/// Largest contact depth that is attributed to rounding, as a fraction of the length or angle of the spring.
 const ROUNDING_DEPTH: f64 = 1e-12;
 
-/// Bounce on a spring, too short to be resolved by the steps.
+/// Bounce on a spring that is too short to be resolved by the steps.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ShortBounce {
-    /// Number of steps during the contact, including steps at whose start or end the spring is slack [-].
+    /// Number of steps during the contact [-]. Steps at whose start or end the spring is slack are included.
     pub steps: f64,
     /// Largest force of the bounce, averaged over a step [force, force·length].
     pub force: f64,
@@ -23,7 +23,7 @@ pub struct ShortBounce {
 /// Monitor of the contact phases of a spring that can be slack.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct ContactWatch {
-    /// Number of steps since contact began; zero while slack.
+    /// Number of steps since contact began; zero while the spring is slack.
     steps: f64,
     /// Rate of elongation when contact began [length/time, rad/time].
     entry: f64,
@@ -31,7 +31,7 @@ pub struct ContactWatch {
     force: f64,
     /// Time since contact began [time].
     duration: f64,
-    /// Force below which a bounce is attributed to rounding [force, force·length].
+    /// Largest force of a bounce that is attributed to rounding [force, force·length].
     noise: f64,
     unresolved: Option<ShortBounce>,
 }
@@ -41,8 +41,9 @@ impl ContactWatch {
         Self { noise: ROUNDING_DEPTH * largest_stiffness * extent, ..Self::default() }
     }
 
-    /// Records a step. The arguments are: whether the spring is slack at the start and at the end, the rates of elongation of the previous step and
-    /// of this step, and the force and the duration.
+    /// Records a step.
+    /// The flags are true if the spring is slack at the start and at the end.
+    /// The rates of elongation are those of the previous step and of this step.
     pub fn add(
         &mut self,
         [was_slack, is_slack]: [bool; 2],
@@ -57,7 +58,7 @@ impl ContactWatch {
             *self = Self { steps: 0.0, entry, force: 0.0, duration: 0.0, ..*self };
         }
         self.steps += 1.0;
-        // Substeps may be backwards in time.
+        // Substeps may run backwards in time.
         self.duration += duration.abs();
         self.force = self.force.max(force.abs());
         if !is_slack {

@@ -1,9 +1,9 @@
 //! Sums of increments with compensated rounding.
 
-/// Length, angle or rate that is a sum of increments, stored together with the rounding error of the sum.
+/// Length, angle or rate, accumulated from increments and stored together with the rounding error of the sum.
 ///
-/// The method is compensated summation (N. J. Higham, Accuracy and Stability of Numerical Algorithms (2002), section 4.3). Without it, the
-/// elongation of a rope of 1 m that is stretched by a micrometre in an impact would be accurate to ten digits only, and so would its stored energy.
+/// The method is compensated summation (N. J. Higham, Accuracy and Stability of Numerical Algorithms (2002), section 4.3).
+/// Without compensated summation, the elongation of a 1 m rope stretched by a micrometre, and its stored energy, would have only ten accurate digits.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Coordinate {
     pub value: f64,
@@ -24,7 +24,7 @@ impl Coordinate {
         Self { value, rest: self.rest + lost }
     }
 
-    /// Difference from a number. Its error is the rounding error of the difference, not of the sum.
+    /// Difference from a number. Its rounding error is relative to the difference, not to the sum.
     pub fn difference(self, number: f64) -> f64 {
         (self.value - number) + self.rest
     }

@@ -1,4 +1,4 @@
-//! Damping laws: a dissipative force as a function of the rate of an elongation.
+//! Damping laws: dissipative force as a function of the rate of an elongation.
 
 use std::fmt;
 
@@ -8,11 +8,11 @@ use super::law_range::LawRange;
 use super::spring_law::SpringLaw;
 use crate::geometry::larger;
 
-/// Force that is attributed to rounding, as a fraction of the largest force of the law. A force of this size is accepted at zero rate, and in the
-/// direction in which it adds energy.
+/// Largest force that is attributed to rounding, as a fraction of the largest force of the law.
+/// A force of this size is accepted at zero rate, and also in the direction in which it adds energy.
 const ROUNDING: f64 = 1e-12;
 
-/// Damping force as a function of the rate `q̇` of an elongation. It is zero at zero rate and opposes the motion otherwise.
+/// Damping force as a function of the rate `q̇` of an elongation. The force is zero at zero rate and opposes the motion otherwise.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub enum DampingLaw {
     /// Linear law `c q̇` with the coefficient `c` ≥ 0 [force·time/length; for torsion force·length·time/rad].
@@ -38,7 +38,7 @@ impl From<f64> for DampingLaw {
 pub enum NegativeDamping {
     /// Point of the law that adds energy: its rate [length/time, rad/time] and its force [force, force·length].
     At { rate: f64, force: f64 },
-    /// Linear extrapolation beyond the end of the law at the rate `end`, which adds energy beyond the rate `from`.
+    /// Linear extrapolation beyond the end of the law at the rate `end`. It adds energy beyond the rate `from`.
     Extrapolated { end: f64, from: f64 },
 }
 
@@ -58,10 +58,10 @@ impl fmt::Display for NegativeDamping {
 }
 
 impl DampingLaw {
-    /// Samples a damping force over a range of rates that contains zero. Each side of zero is sampled separately by `SpringLaw::sampled`.
+    /// Samples a damping force over a range of rates that contains zero. `SpringLaw::sampled` samples each side of zero separately.
     ///
     /// # Errors
-    /// Errors of the function.
+    /// Fails if the function fails.
     pub fn sampled<E>(
         (from, to): (f64, f64),
         mut force: impl FnMut(f64) -> Result<f64, E>,
@@ -88,7 +88,7 @@ impl DampingLaw {
         }
     }
 
-    /// Record of rates outside the range for which the law is given; `None` if it is defined everywhere.
+    /// Record of rates outside the range of the law; `None` if the law is defined everywhere.
     pub fn watch(&self) -> Option<LawRange> {
         match self {
             Self::Linear(_) => None,
@@ -96,13 +96,13 @@ impl DampingLaw {
         }
     }
 
-    /// Returns true if there is any damping.
+    /// Returns true if the law is not zero.
     pub fn is_active(&self) -> bool {
         *self != Self::Linear(0.0)
     }
 
-    /// Range in which the law adds energy or has a force at zero rate. The result is `None` if the law and its extrapolation dissipate at every
-    /// rate.
+    /// Range in which the law adds energy or has a force at zero rate.
+    /// Returns `None` if the law and its extrapolation dissipate energy at every rate.
     pub(crate) fn active_range(&self) -> Option<NegativeDamping> {
         let corners = self.corners();
         let (Some(first), Some(last)) = (corners.first(), corners.last()) else { return None };
@@ -116,7 +116,7 @@ impl DampingLaw {
         if let Some((rate, force)) = moving.find(|at| feeds(*at)) {
             return Some(NegativeDamping::At { rate, force });
         }
-        // The distance is so large that the force of a falling line has changed its sign there.
+        // At this large rate, the force of an extrapolation with negative slope has changed its sign.
         let reach = |end: f64| 1e6 * (end.abs() + (last.0 - first.0));
         let beyond = [(first, first.0 - reach(first.0)), (last, last.0 + reach(last.0))];
         let (end, rate) = beyond.into_iter().find(|(_, rate)| feeds((*rate, self.force(*rate))))?;
@@ -124,7 +124,7 @@ impl DampingLaw {
         Some(NegativeDamping::Extrapolated { end: end.0, from: end.0 - end.1 / slope })
     }
 
-    /// Returns the law with an additional point of zero force at zero rate, where the slope may then change.
+    /// Returns the law with an additional point of zero force at zero rate. The slope may change at this point.
     pub(crate) fn with_corner_at_rest(&self) -> Self {
         let mut law = self.clone();
         if let Self::Curve(SpringLaw::Table { points } | SpringLaw::Sampled { points, .. }) =
@@ -147,8 +147,8 @@ impl DampingLaw {
         }
     }
 
-    /// Derivative of the force with respect to the rate [force·time/length, force·length·time/rad]. At a corner it is the slope of the segment
-    /// above the corner.
+    /// Derivative of the force with respect to the rate [force·time/length, force·length·time/rad].
+    /// At a corner, the slope of the segment above the corner is returned.
     pub fn slope(&self, rate: f64) -> f64 {
         match self {
             Self::Linear(constant) => *constant,
@@ -156,9 +156,10 @@ impl DampingLaw {
         }
     }
 
-    /// Force and slope for Newton's method. If the impedance of the rest of the system is known, the linearisation uses the segment of the law that
-    /// intersects the straight line through (`rate`, `force`) with the slope `-impedance`. Without this rule, the iteration could alternate between
-    /// two steep segments.
+    /// Force and slope for Newton's method.
+    /// If the impedance of the rest of the system is known, the law is linearised at its intersection with the line of the impedance.
+    /// The line of the impedance passes through (`rate`, `force`) with the slope `-impedance`.
+    /// Without the line of the impedance, the iteration could alternate between two steep segments.
     pub(crate) fn linearised_target(
         &self,
         rate: f64,
@@ -171,7 +172,7 @@ impl DampingLaw {
         let Some(passed) = corners.iter().position(|(at, _)| above(*at) >= 0.0) else {
             return at_rate;
         };
-        // A rate in the interior of the segment below that corner.
+        // Rate in the interior of the segment below this corner.
         let Some(before) = passed.checked_sub(1) else { return at_rate };
         let inside = 0.5 * (corners[before].0 + corners[passed].0);
         let slope = self.slope(inside);

@@ -1,4 +1,4 @@
-//! Drag in air or water, as described by a scene.
+//! Definition of drag in air or water in a scene.
 
 use serde::{Deserialize, Serialize};
 
@@ -14,7 +14,7 @@ use crate::system::errors::finite;
 /// Object that experiences drag, with its drag law.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub enum Dragged {
-    /// A beam, along its whole length, with separate laws across and along the axis.
+    /// A beam with drag along its whole length. There are separate laws across and along the axis.
     Beam {
         /// Index of the beam.
         beam: usize,
@@ -23,7 +23,7 @@ pub enum Dragged {
         /// Force per length along the axis.
         tangent: SpeedLaw,
     },
-    /// A particle or a station of a beam, with the same drag in every direction.
+    /// A particle or a station of a beam. The drag is the same in every direction.
     Point {
         /// Station with drag.
         station: Station,
@@ -32,7 +32,7 @@ pub enum Dragged {
     },
 }
 
-/// Drag force, opposite to the velocity relative to a medium. The medium has a uniform velocity.
+/// Drag force opposite to the velocity relative to a medium. The medium has a uniform velocity.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Drag {
     /// Name in messages and columns.
@@ -44,7 +44,7 @@ pub struct Drag {
 }
 
 impl Drag {
-    /// Kind and name for messages.
+    /// Type and name for messages.
     pub fn object(&self) -> String {
         format!("drag '{}'", self.name)
     }
@@ -78,7 +78,7 @@ impl ElementDef for Drag {
         }
     }
 
-    /// Quadratic drag couples the velocity components of a station.
+    /// Stations with quadratic drag, which couples the velocity components.
     fn coupled(&self) -> Vec<Station> {
         match &self.on {
             Dragged::Beam { .. } => Vec::new(),

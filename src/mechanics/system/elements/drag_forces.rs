@@ -1,14 +1,18 @@
 //! Drag in a step.
 //!
 //! ```text
-//! v = Δx/Δt - wind      f_a = -w N_a G(v, t)      D increases by Σ w G·v Δt ≥ 0, W by -Σ w G·wind Δt
+//! relative velocity:  v = Δx/Δt - wind
+//! nodal force:        f_a = -w N_a G(v, t)
+//! dissipated energy:  D increases by Σ w G·v Δt ≥ 0
+//! work of the wind:   W increases by -Σ w G·wind Δt
 //! ```
 //!
-//! Here `w` are quadrature weights, `N_a` the basis functions, `f_a` the nodal forces, `D` the dissipated energy and `W` the work of the wind. The
-//! power `G·v` is computed from the force `G` alone by means of the law. The difference `G·Δx - G·wind Δt` would be a small difference of large
-//! numbers whose rounding may have either sign. `W` is the remainder to `-G·Δx`, so that the energy balance is exact.
+//! Here `w` are quadrature weights, `N_a` the basis functions, `f_a` the nodal forces, `D` the dissipated energy and `W` the work of the wind.
+//! The power `G·v` is computed from the force `G` alone by means of the law.
+//! The difference `G·Δx - G·wind Δt` would be a small difference of large numbers, and rounding could change its sign.
+//! The work `W` is computed as the remainder to `-G·Δx`, so that the energy balance is exact.
 //!
-//! `t` is the direction of the axis in the mean configuration.
+//! The direction `t` of the axis is that of the mean configuration.
 
 use super::drag_law::DragLaw;
 use super::drag_point::{DragPoint, Medium};
@@ -48,7 +52,7 @@ impl DragForces {
         self.rate_history.at(at.stage, at.weight).filter(|_| is_timed)
     }
 
-    /// Work of the wind and dissipated energy at one point in the step being accepted, from the increments stored in its body [energy].
+    /// Work of the wind and dissipated energy at one point in the completed step [energy]. The increments stored in the body of the point are used.
     fn turnover(&self, point: &DragPoint, body: &Body) -> [f64; 2] {
         let (force, movement) = (point.applied_force(), point.movement(body));
         let taken = force.dot(&movement);
@@ -117,7 +121,7 @@ impl InternalForce for DragForces {
         }
     }
 
-    /// Drag is evaluated once per step, so the weight of a stage does not apply.
+    /// Drag is evaluated once per step, so the weight of a stage has no effect.
     fn add_mismatch_forces(&self, bodies: &[Body], _weight: f64, out: &mut [f64]) {
         for point in &self.points {
             point.scatter(&bodies[point.body], point.missing(), out);

@@ -1,14 +1,17 @@
 //! Drag laws: force as a function of the velocity relative to the medium, with derivatives.
 //!
 //! ```text
-//! point    G = (c + k |v|) v        line    G = φn(n·v) n + φt(t·v) t,  φ(s) = c s + k |s| s        G·v ≥ 0
+//! force on the medium at a point:  G = (c + k |v|) v
+//! force on the medium at a line:   G = φn(n·v) n + φt(t·v) t
+//! law of each direction:           φ(s) = c s + k |s| s
+//! dissipated power:                G·v ≥ 0
 //! ```
 
 use serde::{Deserialize, Serialize};
 
 use crate::geometry::{Vec2, perpendicular};
 
-/// Force `c s + k |s| s` as a function of the speed `s`, for a point or per length of a line.
+/// Force `c s + k |s| s` as a function of the speed `s`. It applies to a point, or per length of a line.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct SpeedLaw {
     /// Coefficient `c` of the linear part [force·time/length; for a line force·time/length²].
@@ -22,7 +25,7 @@ impl SpeedLaw {
         (self.linear + self.quadratic * speed.abs()) * speed
     }
 
-    /// Power `F s` at the speed `s`. It is computed only from the force `F = c s + k |s| s`, so that it is never negative.
+    /// Power `F s` at the speed `s`. It is computed from the force `F = c s + k |s| s` alone, so that it is never negative.
     fn power(&self, force: f64) -> f64 {
         let force = force.abs();
         if force == 0.0 {
@@ -44,7 +47,7 @@ pub enum DragLaw {
     Line { normal: SpeedLaw, tangent: SpeedLaw },
 }
 
-/// Force of the body on the medium and its derivatives, in components across (`n = J t`) and along a line with unit tangent `t`.
+/// Force of the body on the medium with its derivatives, in components across (`n = J t`) and along a line with unit tangent `t`.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct DragResponse {
     /// Components of the force across and along the line [force, or force/length].
@@ -54,7 +57,7 @@ pub struct DragResponse {
     pub by_angle: Vec2,
 }
 
-/// Vector in space, from its components across and along a line with unit tangent `t`.
+/// Vector in space, computed from its components across and along a line with unit tangent `t`.
 pub fn in_space(t: Vec2, components: Vec2) -> Vec2 {
     perpendicular(t) * components.x + t * components.y
 }
@@ -68,7 +71,7 @@ impl DragLaw {
             Self::Point(law) => {
                 let speed = velocity.norm();
                 let factor = law.linear + law.quadratic * speed;
-                // k v ⊗ v/|v|
+                // Nonlinear term k v ⊗ v/|v| of the derivative.
                 let bend = if speed > 0.0 { velocity * (law.quadratic / speed) } else { velocity };
                 DragResponse {
                     force: Vec2::new(across, along) * factor,

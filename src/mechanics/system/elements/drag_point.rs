@@ -1,7 +1,8 @@
 //! Drag at a point of a body in a step.
 //!
-//! The force is an independent unknown, in components across and along the line. If it were computed from velocities, it would have their rounding
-//! error times the damping coefficient `c`. Under strong drag or wind this error exceeds the forces in the balance.
+//! The drag force is an independent unknown, in components across and along the line.
+//! If the force were computed from velocities, it would have their rounding error times the damping coefficient `c`.
+//! Under strong drag or wind, the rounding error of a force computed from velocities exceeds the forces in the balance.
 
 use super::drag_law::{DragLaw, DragResponse, in_space};
 use crate::beams::{BodyPoint, RateCollocation};
@@ -19,14 +20,14 @@ pub struct DragPoint {
     pub body: usize,
     /// First control point with a nonzero basis function at the point.
     first: usize,
-    /// Basis functions at the point [-]; `slope` holds their derivatives with respect to arc length [1/length], which are zero for isotropic drag.
+    /// Basis functions at the point [-]. `slope` contains their derivatives with respect to arc length [1/length]; they are zero for isotropic drag.
     shape: Vec<f64>,
     slope: Vec<f64>,
     /// Quadrature weight [length]; 1 for a point.
     weight: f64,
     /// Velocity in the previous step [length/time].
     last_velocity: Vec2,
-    /// Largest term in the sum for the velocity, at the start of the step [length/time]. It sets the rounding error of the velocity.
+    /// Largest term in the sum for the velocity at the start of the step [length/time]. It determines the rounding error of the velocity.
     speed: f64,
     /// Force components across and along the line in the present iterate [force, or force/length].
     force: Vec2,
@@ -54,7 +55,7 @@ impl DragTrial {
         Self { tangent: Vec2::x(), response, angle_by_gradient: none, rates: (0.0, 0.0) }
     }
 
-    /// Drag at a velocity, for a line in the direction of `gradient`.
+    /// Drag force at a velocity, for a line in the direction of `gradient`.
     fn new(law: &DragLaw, velocity: Vec2, gradient: Vec2, rates: (f64, f64)) -> Self {
         let (tangent, inverse) = unit_tangent(gradient);
         let response = law.force(velocity, tangent);
@@ -109,7 +110,7 @@ impl DragPoint {
             .fold(Vec2::zeros(), |sum, (at, by)| sum + value(self.first + at) * *by)
     }
 
-    /// Largest term in a sum over the basis functions, which sets the rounding error of the sum.
+    /// Largest term in a sum over the basis functions. It determines the rounding error of the sum.
     fn size(&self, value: impl Fn(usize) -> Vec2) -> f64 {
         let sizes = self.shape.iter().enumerate();
         sizes.fold(0.0, |sum, (at, by)| sum + value(self.first + at).norm() * by.abs())
@@ -141,7 +142,7 @@ impl DragPoint {
         self.combine(&self.shape, |at| Vec2::new(moved[at][0], moved[at][1]))
     }
 
-    /// Mean position of the point in the step being accepted, from the increments stored in its body.
+    /// Mean position of the point in the completed step, computed from the increments stored in its body.
     pub fn middle(&self, body: &Body) -> Vec2 {
         let points = body.dynamics.control_points();
         let origin = points[self.first];
@@ -174,7 +175,7 @@ impl DragPoint {
         DragTrial::new(&around.law, velocity, gradient, (rates.by_change, rates.fraction))
     }
 
-    /// Compares the force with the drag law in an iterate. Returns the mismatch as a fraction of the scale of the velocities.
+    /// Compares the force with the drag law in an iterate. Returns the difference as a fraction of the scale of the velocities.
     pub fn compare(
         &mut self,
         around: &Medium,
@@ -210,8 +211,8 @@ impl DragPoint {
         in_space(tangent, resisted.force) * self.weight
     }
 
-    /// Calls `give` with the derivatives of the nodal forces with respect to nodal increments. They include the rotation of the line under the
-    /// current force.
+    /// Calls `give` with the derivatives of the nodal forces with respect to nodal increments.
+    /// The derivatives include the rotation of the line under the present force.
     pub fn each_derivative(&self, mut give: impl FnMut((usize, usize), (usize, usize), f64)) {
         let DragTrial {
             tangent,
@@ -255,20 +256,20 @@ impl DragPoint {
         self.applied_force
     }
 
-    /// Dissipated power, computed from the force of the last iterate. It has no rounding error of velocities [power].
+    /// Dissipated power, computed from the force of the last iterate [power]. It contains no rounding error of velocities.
     pub fn power(&self, law: &DragLaw) -> f64 {
         law.power(self.force) * self.weight
     }
 
-    /// Displacement of the point minus `duration` times the velocity that the drag law used [length]. It is zero if that velocity is the mean
-    /// velocity of the step.
+    /// Displacement of the point minus `duration` times the velocity in the drag law [length].
+    /// The result is zero if the velocity in the drag law is the mean velocity of the step.
     pub fn besides(&self, movement: Vec2, duration: f64) -> Vec2 {
         let Some(rates) = self.rates else { return Vec2::zeros() };
         movement * (1.0 - rates.by_change * duration)
             + self.last_velocity * (rates.by_last * duration)
     }
 
-    /// Force that would remove the mismatch, in the direction of the last linearisation [force].
+    /// Force that would remove the residual of the drag law, in the direction of the last linearisation [force].
     pub fn missing(&self) -> Vec2 {
         in_space(self.linearised.tangent, self.mismatch) * self.weight
     }

@@ -9,9 +9,9 @@ use crate::loads::{PrescribedMotion, Schedule};
 /// Type of a prescribed motion.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum DriveKind {
-    /// Components of the motion of a station follow functions.
+    /// Components of the position of a station follow functions of time.
     Move,
-    /// A section is rotated relative to the ground.
+    /// The angle of a section relative to the ground follows a function of time.
     Motor,
 }
 
@@ -30,7 +30,7 @@ impl DriveKind {
 pub struct Drive {
     /// Name in messages and columns.
     pub name: String,
-    /// Kind of the prescribed motion.
+    /// Type of the prescribed motion.
     pub kind: DriveKind,
     /// Station whose motion is prescribed.
     pub station: Station,

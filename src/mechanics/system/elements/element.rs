@@ -1,4 +1,4 @@
-//! Elements of a scene, and the interface of their descriptions.
+//! Elements of a scene, and the interface of their definitions.
 
 use serde::{Deserialize, Serialize};
 
@@ -11,8 +11,8 @@ use crate::system::SystemError;
 
 /// Element of a scene: a mass on a body, or forces on bodies.
 ///
-/// To add a kind, add a variant and a file in `system/elements` with its [`ElementDef`] and the [`ExternalForce`] or
-/// [`InternalForce`](super::InternalForce) that it builds.
+/// To add a type, add a variant and a file in `system/elements` with its [`ElementDef`].
+/// The file also contains the [`ExternalForce`] or [`InternalForce`](super::InternalForce) that the definition builds.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub enum Element {
     /// Mass at a station.
@@ -60,7 +60,7 @@ impl Element {
     }
 }
 
-/// Description of an element in a scene.
+/// Definition of an element in a scene.
 pub trait ElementDef {
     /// Checks numbers and stations.
     ///
@@ -73,12 +73,12 @@ pub trait ElementDef {
         Vec::new()
     }
 
-    /// Stations that the element couples. Their unknowns get close numbers, for a narrow band.
+    /// Stations that the element couples. Their unknowns get neighbouring numbers, for a small bandwidth.
     fn coupled(&self) -> Vec<Station> {
         Vec::new()
     }
 
-    /// Schedule of the element with the element's name; `None` without a schedule. Steps end where the schedule or its derivative jumps.
+    /// Schedule of the element and name of the element; `None` without a schedule. Steps end where the schedule or its derivative jumps.
     fn schedule(&self) -> Option<(&str, &Schedule)> {
         None
     }
@@ -86,18 +86,18 @@ pub trait ElementDef {
     /// Builds the element for a model.
     ///
     /// # Errors
-    /// Fails if the element cannot be applied at its place.
+    /// Fails if the element cannot be applied at its station.
     fn build(&self, site: &dyn AssemblyContext) -> Result<BuiltElement, SystemError>;
 }
 
-/// Element of a model, built from its description.
+/// Element of a model, built from its definition.
 pub enum BuiltElement {
     PointMass(NodalMass),
     Force(Box<dyn ExternalForce>),
     Resistance(Box<dyn InternalForce>),
 }
 
-/// Scene queries available to the check of an element.
+/// Scene queries for the check of an element.
 pub trait SceneChecks {
     fn describe(&self, station: &Station) -> String;
 
@@ -108,15 +108,15 @@ pub trait SceneChecks {
     fn check_station(&self, object: &'static str, station: &Station) -> Result<(), SystemError>;
 }
 
-/// Model queries available while an element is built.
+/// Model queries for the construction of an element.
 pub trait AssemblyContext {
-    /// Returns the place on the mesh for a station.
+    /// Returns the point on the mesh for a station.
     ///
     /// # Errors
     /// Fails if the station lies outside its beam.
     fn place(&self, station: &Station) -> Result<BodyPoint, SystemError>;
 
-    /// Returns the place on a beam for a parameter of its mesh.
+    /// Returns the point on a beam for a parameter of its mesh.
     ///
     /// # Errors
     /// Fails if the parameter lies outside the mesh.
@@ -127,9 +127,9 @@ pub trait AssemblyContext {
     /// Cross section as a function of the position along a beam.
     fn variation(&self, beam: usize) -> &SectionVariation;
 
-    /// Body in its initial state. Indices count beams first, then particles, then rigid bodies.
+    /// Body in its initial state. Body indices count beams first, then particles, then rigid bodies.
     fn body(&self, index: usize) -> &dyn BodyDynamics;
 
-    /// Converts an error of the geometry of a beam to a scene error.
+    /// Converts a geometry error of a beam to a scene error.
     fn wrong(&self, beam: usize, error: GeometryError) -> SystemError;
 }

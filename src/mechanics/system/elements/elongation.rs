@@ -1,13 +1,16 @@
-//! Elongations: the length of a polygonal path over several places, or the angle between two sections.
+//! Elongations: the length of a polygonal path over several points, or the angle between two sections.
 //!
 //! ```text
-//! length:  Δℓ = Σ e·Δd, e = (d₀ + d₁)/(ℓ₀ + ℓ₁) for each part     angle:  Δθ = r (Δω_b - Δω_a)
+//! change of a length:  Δℓ = Σ e·Δd over the parts of the path
+//! secant of a part:    e = (d₀ + d₁)/(ℓ₀ + ℓ₁)
+//! change of an angle:  Δθ = r (Δω_b - Δω_a) with the secant r
 //! ```
 //!
-//! `e` and `r` are secants. A force along a secant does exactly the work `F Δℓ` or `M Δθ`, and the forces at both ends are opposite. Differences of
-//! positions are updated by increments, so that their rounding error does not depend on the distance from the origin. The elongation is stored as
-//! its growth since the start, not as a length minus the natural length. That difference would have the rounding error of the length, which may be
-//! millions of times as large as the elongation.
+//! The vectors `e` and `r` are secants. A force along a secant does exactly the work `F Δℓ` or `M Δθ`. The forces at both ends are opposite.
+//! Differences of positions are updated by increments. Their rounding error does not depend on the distance from the origin.
+//! The elongation is stored as its growth since the start.
+//! The difference of a length and the natural length would have the rounding error of the length.
+//! The rounding error of the length may be much larger than that of the elongation.
 
 mod shares;
 mod term;
@@ -25,7 +28,7 @@ use crate::system::bodies::Body;
 /// Largest rounding error of increments, as a multiple of the machine precision.
 const MOST_ROUNDING: f64 = 16.0;
 
-/// End of an elongation: a place of a body, or the ground.
+/// End of an elongation: a point of a body, or the ground.
 #[derive(Debug, Clone)]
 pub enum ElongationEnd {
     Moving(BodyPoint),
@@ -58,49 +61,49 @@ enum Measure {
     Component(usize),
 }
 
-/// Length or angle `q` between the terminals of a spring: value at the start of a step, and change in the present iterate.
+/// Length or angle `q` between the terminals of a spring: its value at the start of a step, and its change in the present iterate.
 ///
-/// Its coordinates `u` are the increments of the terminals in their order: x and y for a length, the rotation for an angle.
+/// The coordinates `u` of an elongation are the increments of its terminals, in their order. A length has coordinates x and y, an angle the rotation.
 #[derive(Debug, Clone)]
 pub struct Elongation {
     measure: Measure,
     terminals: Vec<ElongationEnd>,
-    /// Coefficients that express the coordinates by the degrees of freedom. They use the numbering given in the last call of `locate`.
+    /// Coefficients that express the coordinates by the degrees of freedom, in the numbering of the last call of `locate`.
     shares: Vec<CoordinateShare>,
-    /// Elongation in the scene as built on its meshes [length, rad].
+    /// Elongation in the initial configuration on the meshes [length, rad].
     initial: f64,
-    /// Growth of the elongation from the building of the scene to the start of the step [length, rad].
+    /// Growth of the elongation from the initial configuration to the start of the step [length, rad].
     growth: Coordinate,
     movements: Vec<f64>,
     corrected: Vec<f64>,
     /// Change `Δq` in the step [length, rad].
     pub change: f64,
-    /// Change of the elongation in the iterate whose force was accepted last, and the further change that this force implies [length, rad]. It is
-    /// more accurate than the change computed from the increments, whose rounding error would store energy in a stiff spring.
+    /// Change of the elongation in the last accepted iterate, and the further change that its force implies [length, rad].
+    /// The stored change is more accurate than a change computed from increments.
+    /// The rounding error of increments would store energy in a stiff spring.
     settled: (f64, f64),
-    /// Secant `g`, which gives the elongation change as `Δq = Σ g u`. For methods with forces at the end of a step it is the derivative of the
-    /// elongation `q` at the end [-].
+    /// Secant `g`, which gives the elongation change as `Δq = Σ g u` [-].
+    /// For methods with forces at the end of a step, the secant is the derivative of the elongation `q` at the end.
     pub secant: Vec<f64>,
     /// Derivative `∂Δq/∂u` with respect to the coordinates [-].
     pub slope: Vec<f64>,
-    /// Derivative `∂g/∂u` of the secant with respect to the coordinates, row by row, in the iterate in which it was last evaluated [1/length,
-    /// 1/rad].
+    /// Derivative `∂g/∂u` of the secant with respect to the coordinates in the last iterate that needed it, row by row [1/length, 1/rad].
     pub secant_slope: Vec<f64>,
-    /// Force direction at the time given to [`balance`](Self::balance), minus the secant [-].
+    /// Difference between the force direction at the time given to [`balance`](Self::balance) and the secant [-].
     pub lag: Vec<f64>,
     /// Derivative of `lag` with respect to the coordinates, row by row [1/length].
     pub lag_slope: Vec<f64>,
 }
 
 impl Elongation {
-    /// Creates the length of a path through terminals. `at` contains their initial positions.
+    /// Creates the length of a path through terminals. `at` contains the initial positions of the terminals.
     pub fn path_length(terminals: Vec<ElongationEnd>, at: &[Vec2]) -> Self {
         let parts: Vec<Vec2> = at.windows(2).map(|pair| pair[1] - pair[0]).collect();
         let length = parts.iter().map(Vec2::norm).sum();
         Self::new(Measure::Length(parts), length, terminals, 2)
     }
 
-    /// Creates one component, x or y, of the vector from the first terminal to the second. The second argument contains their initial positions.
+    /// Creates a component (x or y) of the vector from the first terminal to the second. The second argument contains the initial positions.
     pub fn component(
         terminals: [ElongationEnd; 2],
         [from, to]: [Vec2; 2],
@@ -149,18 +152,17 @@ impl Elongation {
         self.initial + self.growth.value
     }
 
-    /// Elongation in the scene as built on its meshes [length, rad].
+    /// Elongation in the initial configuration on the meshes [length, rad].
     pub fn drawn(&self) -> f64 {
         self.initial
     }
 
-    /// Growth of the elongation since the scene was built, with compensated rounding [length, rad].
+    /// Growth of the elongation since the initial configuration, with compensated rounding [length, rad].
     pub fn grown(&self) -> Coordinate {
         self.growth
     }
 
-    /// Magnitude of the largest term in the sum for the elongation of an iterate, which determines the rounding error of the elongation [length,
-    /// rad].
+    /// Magnitude of the largest term in the sum for the elongation of an iterate [length, rad]. It determines the rounding error of the elongation.
     pub fn extent(&self) -> f64 {
         let after = (self.value() + self.change).abs();
         match self.measure {
@@ -173,14 +175,14 @@ impl Elongation {
         }
     }
 
-    /// Largest rounding error of the change [length, rad].
+    /// Largest rounding error of the elongation change [length, rad].
     fn rounding(&self) -> f64 {
         let moved = self.movements.iter().fold(0.0, |most, by| larger(most, by.abs()));
         MOST_ROUNDING * f64::EPSILON * moved
     }
 
-    /// Stores `missing` as a part of the elongation change of the last iterate, if it is within the rounding error of the increments. Returns true
-    /// if it was stored.
+    /// If `missing` is within the rounding error of the increments, stores it as a part of the elongation change of the last iterate.
+    /// Returns true if `missing` was stored.
     pub fn absorb_rounding(&mut self, missing: f64) -> bool {
         let is_rounding = missing.abs() <= self.rounding();
         self.settled = (self.change, if is_rounding { missing } else { 0.0 });
@@ -206,7 +208,7 @@ impl Elongation {
         })
     }
 
-    /// Evaluates change, secant and slope in an iterate.
+    /// Evaluates change, secant and slope of the elongation in an iterate.
     pub fn evaluate(&mut self, at: TrialState<'_>) {
         self.locate(at.bodies);
         self.gather(at.increments);
@@ -214,8 +216,8 @@ impl Elongation {
         self.compare(collocation.rotations);
     }
 
-    /// Evaluates the lag of the last iterate: the force direction at the fraction `share` of the step, minus the secant. The lag is zero if `share`
-    /// is `None`. It is also zero for angles, because their force directions are constant.
+    /// Evaluates the lag of the last iterate: the force direction at the fraction `share` of the step, minus the secant.
+    /// The lag is zero if `share` is `None`. For angles, it is always zero, because their force directions are constant.
     pub fn balance(&mut self, share: Option<f64>) {
         let Self { measure, movements: moved, lag, lag_slope: lag_bend, .. } = self;
         [&mut *lag, lag_bend].into_iter().for_each(|all| all.fill(0.0));
@@ -261,7 +263,7 @@ impl Elongation {
         self.moving().fold(0.0, |sum, (place, coordinates)| {
             let [x, y, spin] = bodies[place.body].at(place, rates);
             match (self.is_angle(), &self.slope[coordinates]) {
-                // Rates of angles are given directly, without the conversion factor between increments and angles that the slope contains.
+                // Rates of angles are given directly. They do not need the conversion factor between increments and angles in the slope.
                 (true, slope) => sum + slope[0].signum() * spin,
                 (false, slope) => sum + (slope[0] * x + slope[1] * y),
             }
@@ -356,8 +358,9 @@ impl Elongation {
         }
     }
 
-    /// Returns for each segment of a path its length, and the derivative of its displacement across itself with respect to the coordinates, in the
-    /// present configuration. The direction of the force rotates with the segment.
+    /// Lengths of the segments of a path in the present configuration.
+    /// The vectors are the derivatives of the displacement across each segment with respect to the coordinates.
+    /// The direction of the force rotates with the segment.
     pub fn turned(&self) -> Vec<(f64, Vec<f64>)> {
         let Measure::Length(parts) = &self.measure else { return Vec::new() };
         let of_part = |(index, part): (usize, &Vec2)| {

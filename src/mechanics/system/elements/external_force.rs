@@ -18,7 +18,7 @@ pub fn collocation(stage: Stage) -> Collocation {
     Collocation { configuration: tau, stress: sigma, rotations }
 }
 
-/// Iterate of a step for which forces are evaluated.
+/// Iterate of a step in which forces are evaluated.
 #[derive(Clone, Copy)]
 pub struct TrialState<'a> {
     /// All bodies of the model at the start of the step.
@@ -35,19 +35,19 @@ pub struct TrialState<'a> {
 pub struct LoadAccount {
     /// Work of the load since the start [energy].
     pub work: f64,
-    /// Value of the load, averaged over the last step: force, moment, or force per length.
+    /// Mean value of the load in the last step: force, moment, or force per length.
     pub value: f64,
 }
 
 /// Element that applies forces to bodies: a load or the weight.
 ///
-/// Forces are evaluated in every iterate, work and impulse at the end of a step. If an element has a potential, the work of its forces is exactly
-/// the decrease of the potential (a discrete gradient). All methods with a default are optional. Methods are called dynamically, once per element
-/// and iterate.
+/// Forces are evaluated in every iterate. Work and impulse are evaluated at the end of a step.
+/// If an element has a potential, the work of its forces is exactly the decrease of the potential (a discrete gradient).
+/// Methods with a default implementation are optional. Each method is called dynamically, once per element and iterate.
 pub trait ExternalForce {
     fn name(&self) -> &str;
 
-    /// Prepares a step: evaluates time-dependent values. `_stages` lists the stages at which the integrator evaluates forces.
+    /// Prepares a step by evaluating time-dependent values. `_stages` lists the stages at which the integrator evaluates forces.
     ///
     /// # Errors
     /// Fails if a value is not finite.
@@ -76,10 +76,10 @@ pub trait ExternalForce {
     /// Subtracts the forces on bodies in an iterate from `out`. Returns the largest force and the largest moment on a control point.
     fn subtract_from(&mut self, at: TrialState<'_>, out: &mut [f64]) -> (f64, f64);
 
-    /// Adds the tangent stiffness, the negative derivative of the forces with respect to the increments, to the tangent.
+    /// Adds the tangent stiffness to the tangent. It is the negative derivative of the forces with respect to the increments.
     fn add_tangent(&self, _at: TrialState<'_>, _unknowns: usize, _tangent: &mut BandedMatrix) {}
 
-    /// Work and impulse in the step whose increments are stored in the bodies. A change of the potential does not count as work.
+    /// Work and impulse in the step whose increments are stored in the bodies. Changes of the potential are not included in the work.
     fn exchange(&self, bodies: &[Body], duration: f64) -> WorkAndImpulse;
 
     /// Potential energy at the start of the step [energy].
@@ -109,7 +109,7 @@ pub trait ExternalForce {
 
     fn restore(&mut self, _next: &mut dyn FnMut() -> f64) {}
 
-    /// Describes the evaluation of the element in a step, for each of these methods.
+    /// Describes the evaluation of the element in a step, for each of the given methods.
     fn explain(&self, methods: &[Method]) -> String;
 
     /// Number of script functions that the element calls.

@@ -12,7 +12,7 @@ use crate::system::bodies::{Body, Tracker};
 pub struct Follower {
     tracker: Tracker,
     force: Vec2,
-    /// Part of the force from the start of the step. The part from the present iterate is in `current`.
+    /// Contribution from the start of the step to the force. The contribution from the present iterate is in `current`.
     force_parts: Vec2,
     current: Vec2,
 }

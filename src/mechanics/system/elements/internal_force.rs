@@ -19,9 +19,10 @@ pub struct SpringTrialState {
 
 /// Element that resists the motion of bodies and stores or dissipates energy.
 ///
-/// The force is an independent unknown, like the section forces of beams. Residuals use its current value. Linearisations eliminate it by
-/// condensation, and corrections update it together with the increments. Hence the rounding error of the configuration is not multiplied by the
-/// stiffness, and the number of iterations does not increase with the stiffness. Methods are called dynamically, once per element and iterate.
+/// Residuals use the present value of the force.
+/// Linearisations condense the force out. Corrections update the force together with the increments.
+/// Hence the rounding error of the configuration is not multiplied by the stiffness. The number of iterations does not increase with the stiffness.
+/// Each method is called dynamically, once per element and iterate.
 pub trait InternalForce {
     fn name(&self) -> &str;
 
@@ -31,13 +32,13 @@ pub trait InternalForce {
     /// Prepares an increment of zero duration, such as a static load step, without damping.
     fn begin_movement(&mut self);
 
-    /// Forgets the rates of the last step, after a jump of the rates.
+    /// Discards the rates of the last step. Called after a jump of the rates.
     fn clear_rate_history(&mut self) {}
 
-    /// Adds `at.weight` times the current forces on bodies to `out`. Returns the largest force and the mismatch.
+    /// Adds `at.weight` times the present forces on bodies to `out`. Returns the largest force and the largest difference from a force law.
     fn add_forces(&mut self, at: TrialState<'_>, out: &mut [f64]) -> ForceSummary;
 
-    /// Adds `at.weight` times the forces, with the mismatch condensed out, and their derivatives with respect to the increments.
+    /// Adds `at.weight` times the forces with their residuals condensed out, and their derivatives with respect to the increments.
     fn add_linearised_forces(
         &mut self,
         at: TrialState<'_>,
@@ -46,13 +47,14 @@ pub trait InternalForce {
         tangent: &mut BandedMatrix,
     );
 
-    /// Adds `weight` times the forces that would remove the current force mismatch. Their directions are those of the last linearisation.
+    /// Adds `weight` times the forces that would remove the present residuals of the force laws.
+    /// The directions of the forces are those of the last linearisation.
     fn add_mismatch_forces(&self, bodies: &[Body], weight: f64, out: &mut [f64]);
 
     fn correct(&mut self, bodies: &[Body], correction: &[f64]);
 
-    /// Work on the bodies, and impulse on them, by the ground or a flowing medium through the element in a step of length `duration`. The increments
-    /// of the step are stored in the bodies.
+    /// Work and impulse that the ground or a flowing medium exerts on the bodies through the element, in a step of length `duration`.
+    /// The increments of the step must be stored in the bodies.
     fn exchange(&self, bodies: &[Body], duration: f64) -> WorkAndImpulse;
 
     /// Updates the element at the end of a step, from the increments stored in the bodies.
@@ -81,7 +83,7 @@ pub trait InternalForce {
         None
     }
 
-    /// Calls `take` with each elongation or rate that has left the range of a law.
+    /// Calls `take` for each elongation or rate that has left the range of a law.
     fn each_outside_law(&self, _take: &mut dyn FnMut(OutsideLaw)) {}
 
     /// Bounce with the largest force among the bounces that the steps do not resolve.
@@ -89,8 +91,8 @@ pub trait InternalForce {
         None
     }
 
-    /// Damping force [force] and damping moment [force·length] at a place of a beam, computed from the given rates at the start of the step. `None`
-    /// if the element does not damp this beam.
+    /// Damping force [force] and damping moment [force·length] at a section of a beam, computed from the given rates at the start of the step.
+    /// Returns `None` if the element does not damp this beam.
     fn transmitted(
         &self,
         _bodies: &[Body],
@@ -108,8 +110,8 @@ pub trait InternalForce {
     /// Adds the forces at the start of the step, computed from the given rates.
     fn add_forces_at_start(&self, bodies: &[Body], rates: &[Vec<Movement>], out: &mut [f64]);
 
-    /// Calls `take` with each damped rate at the start of the step and its damping coefficient for small rates. The coefficient times the squared
-    /// rate is the dissipated power. The number and order of calls do not depend on the rates.
+    /// Calls `take` with each damped rate at the start of the step, and with the damping coefficient of this rate for small rates.
+    /// The coefficient times the squared rate is the dissipated power. The number and order of calls do not depend on the rates.
     fn each_damped_rate(&self, bodies: &[Body], rates: &[f64], take: &mut dyn FnMut(f64, f64));
 
     /// Calls `take` with the degrees of freedom of the element and its static stiffness.
@@ -118,10 +120,10 @@ pub trait InternalForce {
     /// Releases the element at the start of a step. Its stored energy counts as dissipated. The default does nothing.
     fn release(&mut self) {}
 
-    /// Marks the element as released, before a released state is restored.
+    /// Marks the element as released before a released state is restored.
     fn detach(&mut self) {}
 
-    /// Marks the element as attached, before an attached state is restored.
+    /// Marks the element as attached before an attached state is restored.
     fn attach(&mut self) {}
 
     fn save(&self, state: &mut Vec<f64>);

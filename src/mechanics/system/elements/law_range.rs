@@ -1,8 +1,8 @@
-//! Record of how far elongations or rates leave the range of a tabulated law.
+//! Record of elongations or rates outside the range of a tabulated law.
 
 use super::spring_law::SpringLaw;
 
-/// Distance beyond a range that is attributed to rounding, as a fraction of the range.
+/// Distance from a range that is attributed to rounding, as a fraction of the range.
 const ROUNDING: f64 = 1e-9;
 
 /// Argument of a force law.
@@ -14,7 +14,7 @@ pub enum LawArgument {
     Rate,
 }
 
-/// Value outside the range in which a law is given.
+/// Value outside the range of a tabulated law.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct OutsideLaw {
     /// Argument that left the range.
@@ -57,7 +57,7 @@ impl LawRange {
         }
     }
 
-    /// Value farthest outside the range; `None` if it is outside by rounding only.
+    /// Value farthest outside the range; `None` if it is outside only by rounding.
     pub fn outside(&self) -> Option<OutsideLaw> {
         let [from, to] = self.farthest.range;
         let ends = [from, to].into_iter().filter(|end| end.is_finite());

@@ -1,4 +1,4 @@
-//! Loads in a step: values, work and impulse.
+//! Values, work and impulse of loads in a step.
 
 use super::element::{AssemblyContext, BuiltElement, ElementDef, SceneChecks};
 use super::follower::Follower;
@@ -33,7 +33,7 @@ impl ElementDef for Load {
         }
     }
 
-    /// A force that rotates with a rigid body couples the displacement of its point with the rotation of the body.
+    /// Stations coupled by the load. A force that rotates with a rigid body couples the displacement of its point with the rotation of the body.
     fn coupled(&self) -> Vec<Station> {
         match &self.kind {
             LoadKind::Force { station, frame: LoadFrame::Follower, .. }
@@ -123,7 +123,7 @@ struct AppliedLoad {
     check: Option<ScheduleCheck>,
     action: Action,
     factors: StageFactors,
-    /// Schedule factor at the start of the step, times the weight of that stage. The product for the iterate is in `current`.
+    /// Schedule factor at the start of the step, multiplied by the weight of the start. The product for the present iterate is in `current`.
     weighted_factors: f64,
     current: f64,
     account: Option<LoadAccount>,
@@ -131,8 +131,9 @@ struct AppliedLoad {
     size: f64,
 }
 
-/// Schedule factors at the stages of a step. `start` and `end` are the ends of a straight line that has the mean of the schedule over the step and
-/// its change in the step. Hence every method has the exact impulse of a load. Factors that the step does not use are NaN.
+/// Values of a schedule at the stages of a step.
+/// The fields `start` and `end` are the ends of a straight line that has the mean and the change of the schedule in the step.
+/// With the straight line, every method has the exact impulse of a load. Factors that the step does not use are NaN.
 #[derive(Debug, Clone, Copy)]
 struct StageFactors {
     start: f64,
@@ -173,7 +174,7 @@ impl AppliedLoad {
 
     fn calls(&self, methods: &[Method]) -> String {
         let functions = self.schedule.functions();
-        // The caller samples a controller once per step, so the load does not call it.
+        // The caller samples a controller once per step, so the load does not call the controller.
         if functions == 0 || self.schedule.is_sampled() {
             return String::new();
         }
@@ -316,7 +317,7 @@ impl ExternalForce for AppliedLoad {
     }
 }
 
-/// Times after the start, in increasing order, at which steps must end because the schedule or its derivative jumps.
+/// Times after the start at which steps must end, because the schedule or its derivative jumps. They are in increasing order.
 fn cuts(schedule: &Schedule) -> Vec<f64> {
     let mut times = schedule.breaks();
     times.retain(|time| *time > 0.0);
@@ -325,7 +326,7 @@ fn cuts(schedule: &Schedule) -> Vec<f64> {
     times
 }
 
-/// Number of evaluations of a schedule in a step. Forces are evaluated either in the middle of each substep, or at one or both ends of the step.
+/// Number of evaluations of a schedule in a step. Forces are evaluated in the middle of each substep, or at one or both ends of the step.
 fn calls_in_step(stages: &[Stage]) -> usize {
     match stages.contains(&Stage::End) {
         true => VALUES_OF_A_MEAN + stages.len(),

@@ -65,7 +65,7 @@ impl LoadVector {
         self.potential_work_on(bodies, |_| true)
     }
 
-    /// Part of the sum `Σ f·x` from the selected bodies [energy].
+    /// Contribution of the selected bodies to the sum `Σ f·x` [energy].
     pub fn potential_work_on(&self, bodies: &[Body], counts: impl Fn(usize) -> bool) -> f64 {
         let work = |(body, point, [fx, fy, _]): &(usize, usize, Movement)| {
             bodies[*body].dynamics.control_points()[*point].dot(&Vec2::new(*fx, *fy))

@@ -15,7 +15,7 @@ use crate::linalg::BandedMatrix;
 use crate::system::SystemError;
 use crate::system::bodies::Body;
 
-/// Relaxation times of the material of a beam, as described by a scene.
+/// Definition of material damping in a scene: the relaxation times of a beam.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct MaterialDamping {
     /// Name of the beam, which also names the columns of its damping.
@@ -136,7 +136,7 @@ impl InternalForce for DampedMaterial {
         self.dashpots.add_linearised_forces(rates, &self.movements, give, &mut add);
     }
 
-    /// Dashpots are evaluated once per step, so the weight of a stage does not apply.
+    /// Dashpots are evaluated once per step, so the weight of a stage has no effect.
     fn add_mismatch_forces(&self, bodies: &[Body], _weight: f64, out: &mut [f64]) {
         let degrees = &bodies[self.beam].degrees_of_freedom;
         self.dashpots.add_mismatch_forces(&mut scatter(degrees, out));

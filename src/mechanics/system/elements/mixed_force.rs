@@ -1,4 +1,5 @@
-//! Force of an element as an independent unknown. The iterations make it equal to the target, the force that the law of the element requires.
+//! Force of an element as an independent unknown.
+//! The iterations make the force equal to the target, which is the force required by the law of the element.
 
 use crate::geometry::larger;
 
@@ -14,7 +15,7 @@ pub struct MixedForce {
     search: IterationState,
 }
 
-/// Number of linearisations in the present step, and the rate (or elongation change) and force at the last one.
+/// Number of linearisations in the present step. The other fields contain the rate (or elongation change) and the force at the last linearisation.
 #[derive(Debug, Clone, Copy, Default)]
 struct IterationState {
     linearised: u32,
@@ -32,8 +33,8 @@ pub struct ForceTarget {
 }
 
 impl MixedForce {
-    /// Compares the force with its target. Returns the mismatch as a fraction of the force scale, which includes the stiffness times `extent` (a
-    /// length or angle).
+    /// Compares the force with its target.
+    /// Returns the difference as a fraction of the force scale, which includes the stiffness times `extent` (a length or angle).
     pub fn compare(&mut self, target: ForceTarget, extent: f64) -> f64 {
         self.mismatch = target.force - self.force;
         self.target_slope = target.stiffness;
@@ -42,8 +43,8 @@ impl MixedForce {
         if self.mismatch == 0.0 { 0.0 } else { self.mismatch.abs() / size }
     }
 
-    /// Change of the elongation increment `Δq` after which the target would equal the current force, to first order. It is infinite if the slope is
-    /// not positive.
+    /// Change of the elongation increment `Δq` for which the target would equal the present force, to first order.
+    /// The missing change is infinite if the slope is not positive.
     pub fn missing_change(&self) -> f64 {
         match self.mismatch == 0.0 {
             true => 0.0,
@@ -57,7 +58,7 @@ impl MixedForce {
         self.search = IterationState::default();
     }
 
-    /// Secant estimate of the impedance of the rest of the system, from the last two iterates; `None` during the first iterations.
+    /// Estimate of the impedance of the rest of the system by a secant through the last two iterates; `None` during the first iterations.
     pub fn impedance(&mut self, rate: f64) -> Option<f64> {
         let IterationState { linearised, at: (rate_before, force_before) } = self.search;
         self.search = IterationState { linearised: linearised + 1, at: (rate, self.force) };
@@ -66,7 +67,7 @@ impl MixedForce {
             .then_some(impedance)
     }
 
-    /// Stores the mismatch with a target and the derivative of the target for the next correction.
+    /// Stores the difference from the target, and the derivative of the target, for the next correction.
     pub fn linearise(&mut self, target: ForceTarget) {
         self.mismatch = target.force - self.force;
         self.stiffness = target.stiffness;

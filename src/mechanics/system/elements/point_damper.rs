@@ -1,12 +1,17 @@
-//! Damper along the line between two points whose distance may pass through zero.
+//! Damper along the line between two points. The distance of the points may pass through zero.
 //!
 //! ```text
-//! v = Δd/Δt      d̄ = d₀ + ½ Δd      e = d̄/|d̄|      F = φ(e·v) e, opposite at both ends      D grows by F·Δd ≥ 0
+//! relative velocity:  v = Δd/Δt
+//! mean vector:        d̄ = d₀ + ½ Δd
+//! direction:          e = d̄/|d̄|
+//! force:              F = φ(e·v) e, opposite at both ends
+//! dissipated energy:  D increases by F·Δd ≥ 0
 //! ```
 //!
-//! The rate of the length, `Δℓ/Δt`, vanishes if the connecting vector reverses through zero within a step, although the ends pass each other at
-//! full speed. The rate along the mean vector `d̄` is correct in this case, and otherwise agrees with `Δℓ/Δt` to second order. The force acts along
-//! the mean line, so that angular momentum is conserved. `D` is the dissipated energy.
+//! The rate of the length, `Δℓ/Δt`, vanishes if the connecting vector reverses through zero within a step.
+//! The ends then pass each other at full speed, although the rate of the length is zero.
+//! The rate along the mean vector `d̄` is also correct for a reversal. Without a reversal, this rate agrees with `Δℓ/Δt` to second order.
+//! The force acts along the mean line, so that angular momentum is conserved. The dissipated energy is `D`.
 
 use super::damping_law::DampingLaw;
 use super::elongation::ElongationEnd;
@@ -34,9 +39,9 @@ pub struct PointDamper {
     range: Option<LawRange>,
     released: Option<DampingLaw>,
     rate_history: RateHistory,
-    /// `Δd/Δt` in the previous step [length/time].
+    /// Relative velocity `Δd/Δt` in the previous step [length/time].
     last_velocity: Vec2,
-    /// Largest term in the sum for the rate, at the start of the step [length/time]. It sets the rounding error of the rate.
+    /// Largest term in the sum for the rate at the start of the step [length/time]. It determines the rounding error of the rate.
     speed: f64,
     force: MixedForce,
     /// Force on the second terminal in the last evaluation [force].
@@ -47,7 +52,7 @@ pub struct PointDamper {
 
 #[derive(Debug, Clone, Copy)]
 struct DamperTrial {
-    /// Direction `e`.
+    /// Unit vector `e` of the force direction.
     direction: Vec2,
     /// Rate `e·v` [length/time].
     rate: f64,
@@ -239,7 +244,7 @@ impl InternalForce for PointDamper {
         }
     }
 
-    /// The damper is evaluated once per step, so the weight of a stage does not apply.
+    /// The damper is evaluated once per step, so the weight of a stage has no effect.
     fn add_mismatch_forces(&self, bodies: &[Body], _weight: f64, out: &mut [f64]) {
         self.scatter(bodies, self.linearised.direction * self.force.mismatch, out);
     }

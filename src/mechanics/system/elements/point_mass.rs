@@ -8,7 +8,7 @@ use crate::geometry::{Vec2, cross};
 use crate::system::bodies::{Body, Momenta};
 use crate::system::{SystemError, Turning};
 
-/// Point mass at a station, as described by a scene.
+/// Definition of a point mass in a scene.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct PointMass {
     /// Station of the point mass.
@@ -57,7 +57,7 @@ impl ElementDef for PointMass {
     }
 }
 
-/// Point mass on a body of a model. Its inertia is distributed to the control points whose basis functions are nonzero at its place.
+/// Point mass on a body of a model. Its inertia is distributed to the control points whose basis functions are nonzero at the point mass.
 #[derive(Debug, Clone, Copy)]
 pub struct NodalMass {
     pub place: BodyPoint,

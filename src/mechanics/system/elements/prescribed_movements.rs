@@ -1,14 +1,17 @@
-//! Prescribed motions of supported degrees of freedom: their increments in a step, and the work and impulse of the drives.
+//! Prescribed motions of supported degrees of freedom: increments in a step, and work and impulse of the drives.
 //!
-//! Let `v` be the rates and `v̄` their mean over a step. For prescribed degrees of freedom they are the derivatives of the prescribed functions.
-//! Let `ε = Δx - Δt v̄` be the difference between a prescribed increment and its mean rate times `Δt`. It is of third order in `Δt`, and zero for
-//! unknowns. By the proofs of the energy–momentum step, the changes of energy, momentum and angular momentum are exactly
+//! Let `v` be the rates and `v̄` their mean over a step. At prescribed degrees of freedom, they are derivatives of the prescribed functions.
+//! Let `ε = Δx - Δt v̄` be the difference between a prescribed increment and its mean rate times `Δt`.
+//! The difference `ε` is of third order in `Δt`, and zero for unknowns.
+//! The proofs for the energy–momentum step give the exact changes of energy, momentum and angular momentum:
 //!
 //! ```text
-//! ΔE = Σ R·Δx - Σ ε·M Δv/Δt          Δp = Δt Σ R          ΔL = Δt Σ x̄ × R + Σ ε × M v̄          R: residual of the equations, the reaction
+//! energy:            ΔE = Σ R·Δx - Σ ε·M Δv/Δt with the reactions R
+//! momentum:          Δp = Δt Σ R
+//! angular momentum:  ΔL = Δt Σ x̄ × R + Σ ε × M v̄
 //! ```
 //!
-//! summed over the prescribed degrees of freedom. They are the work, impulse and angular impulse of the drives.
+//! The sums extend over the prescribed degrees of freedom and give the work, impulse and angular impulse of the drives.
 
 mod at_rest;
 
@@ -40,20 +43,20 @@ struct Driven {
 struct PresentMotion {
     /// Acceleration at the end of the last step [length/time², 1/time²].
     acceleration: f64,
-    /// Largest kink so far; the kink of the current step is in `step_curvature`.
+    /// Largest kink in all earlier steps. The kink in the present step is in `step_curvature`.
     curvature: MotionCurvature,
     step_curvature: MotionCurvature,
-    /// Check for rates that change within a step; `None` for rates with exact means.
+    /// Check for rates that change within a step; `None` for rates whose mean is exact.
     check: Option<ScheduleCheck>,
-    /// Reaction; moments are conjugate to the angle [force, force·length].
+    /// Reaction [force, force·length]. A moment is conjugate to the angle.
     reaction: StepMean<f64>,
-    /// Product `M Δv` of the inertia and the rate change of the step being accepted [force·time, force·length·time].
+    /// Product `M Δv` of the inertia and the change of the rate in the completed step [force·time, force·length·time].
     impact_momentum: f64,
     /// Static position or angle under the full load [length, rad].
     goal: f64,
-    /// Displacement that has already been applied on the way to `goal` [length, rad].
+    /// Displacement on the way to `goal` that has already been applied [length, rad].
     placed: f64,
-    /// `M v̄` of the control point in the step being accepted, with the mean rates `v̄` [mass·length/time].
+    /// Momentum `M v̄` of the control point in the completed step, with the mean rates `v̄` [mass·length/time].
     momentum: Vec2,
 }
 
@@ -72,13 +75,13 @@ impl PresentMotion {
 pub struct DriveState {
     /// Work since the start [energy].
     pub work: f64,
-    /// Force on the station in the last step, averaged over the step [force].
+    /// Mean force on the station in the last step [force].
     pub force: Vec2,
-    /// Moment on the station in the last step, averaged over the step and conjugate to the angle of the section [force·length].
+    /// Mean moment on the station in the last step, conjugate to the angle of the section [force·length].
     pub moment: f64,
 }
 
-/// Ratio `Δω/Δθ` of a rotation increment to its angle. It converts a moment conjugate to the increment into a moment conjugate to the angle.
+/// Ratio `Δω/Δθ` of a rotation increment to the rotation angle. It converts a moment conjugate to the increment into a moment conjugate to the angle.
 fn per_angle(increment: f64, rotations: RotationIncrement) -> f64 {
     let angle = rotations.angle(increment);
     if angle == 0.0 { 1.0 } else { increment / angle }
@@ -99,10 +102,10 @@ pub struct PrescribedMovements {
 }
 
 impl PrescribedMovements {
-    /// Creates the prescribed degrees of freedom of drives. They are numbered after the unknowns and the constraint multipliers.
+    /// Creates the prescribed degrees of freedom of drives, which are numbered after the unknowns and the constraint multipliers.
     ///
     /// # Errors
-    /// Returns the name of the drive whose function has no value at the start, and the reason.
+    /// Returns the name of a drive whose function has no value at the start, and the reason.
     pub fn new<'d>(
         movements: Vec<PrescribedMovement>,
         drives: impl Iterator<Item = &'d Drive>,
@@ -133,7 +136,7 @@ impl PrescribedMovements {
     /// Evaluates prescribed rates and accelerations just after a time.
     ///
     /// # Errors
-    /// Returns the name of the drive whose function has no value at this time, and the reason.
+    /// Returns the name of a drive whose function has no value at this time, and the reason.
     pub fn begin_at(&mut self, time: f64) -> Result<(), (String, LoadError)> {
         for (at, (movement, present)) in self.movements.iter().zip(&mut self.present).enumerate() {
             let MotionAtStart { rate, acceleration } = movement
@@ -146,8 +149,8 @@ impl PrescribedMovements {
         Ok(())
     }
 
-    /// Replaces the prescribed degrees of freedom by `movements` after a release. They are numbered after the `unknowns` and the multipliers. The
-    /// states of the remaining ones are kept.
+    /// Replaces the prescribed degrees of freedom by `movements` after a release. They are numbered after the `unknowns` and the multipliers.
+    /// The states of the remaining prescribed degrees of freedom are kept.
     pub fn with(self, movements: Vec<PrescribedMovement>, unknowns: usize) -> Self {
         let known = |wanted: &PrescribedMovement| {
             let mut all = self.movements.iter().zip(&self.present);
@@ -212,7 +215,7 @@ impl PrescribedMovements {
         DriveState { work: self.drives[drive].work, force, moment }
     }
 
-    /// Drives whose motion has a kink within a step, each with its largest kink.
+    /// Drives whose motion has a kink within a step, with the largest kink of each drive.
     pub fn bends(&self) -> impl Iterator<Item = (&str, MotionCurvature)> {
         let all = self.movements.iter().zip(&self.present);
         let bent = all.filter(|(_, present)| present.curvature.size() > 0.0);
@@ -221,7 +224,7 @@ impl PrescribedMovements {
         })
     }
 
-    /// Drives with a prescribed rate whose changes within a step the method misses, each with its largest missed change.
+    /// Drives with a prescribed rate that changes within a step between the samples, with the largest such change of each drive.
     pub fn missed_changes(&self) -> impl Iterator<Item = (&str, UnsampledChange)> {
         let all = self.movements.iter().zip(&self.present);
         all.filter_map(|(movement, present)| {
@@ -233,7 +236,7 @@ impl PrescribedMovements {
     /// Evaluates the prescribed increments in a step, and the rates at its start.
     ///
     /// # Errors
-    /// Returns the name of the drive whose function has no finite value, and the reason.
+    /// Returns the name of a drive whose function has no finite value, and the reason.
     pub fn begin_step(
         &mut self,
         interval: Interval,
@@ -269,8 +272,8 @@ impl PrescribedMovements {
         Ok(())
     }
 
-    /// Jumps of prescribed rates at the start of a step, by number of the degree of freedom; `None` without a jump. Rates may jump at declared
-    /// breaks of a function and at samples of a controller.
+    /// Jumps of prescribed rates at the start of a step, by number of the degree of freedom; `None` without a jump.
+    /// Rates may jump at declared breaks of a function and at samples of a controller.
     ///
     /// # Errors
     /// Fails if a function has no finite value.
@@ -319,7 +322,7 @@ impl PrescribedMovements {
 
     /// Work and impulse of the drives in the step whose increments are stored in the bodies. The work is added to the work of each drive.
     ///
-    /// `mean` returns the mean rate of a degree of freedom.
+    /// The callback `mean` returns the mean rate of a degree of freedom.
     pub fn exchange(
         &mut self,
         bodies: &[Body],
@@ -362,7 +365,7 @@ impl PrescribedMovements {
         sum
     }
 
-    /// Sets the reactions of a step of zero length to a residual of all degrees of freedom [force, force·length].
+    /// Sets the reactions for a step of zero length. The reactions are the residual at the prescribed degrees of freedom [force, force·length].
     pub fn start_reactions(&mut self, residual: &[f64]) {
         for (present, reaction) in self.present.iter_mut().zip(&residual[self.first..]) {
             present.reaction = StepMean::at_start(*reaction);

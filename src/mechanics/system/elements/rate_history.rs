@@ -1,10 +1,10 @@
-//! Rates of the present and the last step, from which dissipative elements compute their forces.
+//! Rates in the present and the last step. Dissipative elements compute their forces from these rates.
 
 use super::collocation;
 use crate::beams::RateCollocation;
 use crate::integrators::Stage;
 
-/// Durations of the current step and the previous one [time]. An increment of zero duration has no rates.
+/// Durations of the present step and the previous step [time]. An increment of zero duration has no rates.
 #[derive(Debug, Clone, Copy)]
 pub struct RateHistory {
     duration: f64,
@@ -22,7 +22,7 @@ impl RateHistory {
         self.duration = duration;
     }
 
-    /// Duration of the current step; infinite for an increment of zero duration [time].
+    /// Duration of the present step [time]; infinite for an increment of zero duration.
     pub fn duration(&self) -> f64 {
         self.duration
     }
@@ -31,10 +31,10 @@ impl RateHistory {
         self.before = if self.duration.is_finite() { self.duration } else { 0.0 };
     }
 
-    /// Coefficients of the rates for a stage with a weight; `None` at the start of a step, where no rates are used.
+    /// Coefficients of the rates for a stage with a weight; `None` at the start of a step, where rates are not used.
     ///
-    /// Rates are evaluated once per step. A method with forces at both ends of the step balances forces at the fraction `weight` of the step. The
-    /// rate at that time is extrapolated from the rates at the middle of this step and of the last one.
+    /// Rates are evaluated once per step. A method with forces at both ends of the step evaluates the balance at the fraction `weight` of the step.
+    /// The rate at the fraction `weight` is extrapolated from the rates at the middle of this step and of the previous step.
     pub fn at(&self, stage: Stage, weight: f64) -> Option<RateCollocation> {
         let by_change = 1.0 / self.duration;
         let rotations = collocation(stage).rotations;

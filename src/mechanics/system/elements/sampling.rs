@@ -1,9 +1,9 @@
-//! Sampling of force functions into tables, whose stored energy is known exactly.
+//! Sampling of force functions into tables. The stored energy of a table is known exactly.
 
 use super::spring_law::SpringLaw;
 use crate::geometry::larger;
 
-/// Allowed deviation of the polygon from the function, as a fraction of the largest force.
+/// Allowed deviation of the table from the function, as a fraction of the largest force.
 const TOLERANCE: f64 = 1e-7;
 
 /// Initial number of segments.
@@ -12,7 +12,7 @@ const SEGMENTS: usize = 32;
 /// Largest number of points of a sampled function.
 const MOST_POINTS: usize = 20_000;
 
-/// Second test point of a segment, as a fraction of its length [-]. In the middle, an oscillating function may match the polygon by chance.
+/// Second test point of a segment, as a fraction of its length [-]. At the middle alone, an oscillating function may match the polygon by chance.
 const SECOND_TEST_POINT: f64 = 0.381_966;
 
 /// Factor by which the tolerance is larger at the second test point.
@@ -21,11 +21,11 @@ const OFF_MIDDLE_MARGIN: f64 = 4.0;
 type Polygon = Vec<(f64, f64)>;
 
 impl SpringLaw {
-    /// Samples a force over a range of elongations. Points are added until the polygon deviates from the function by at most 1e-7 of its largest
-    /// value, up to 20 000 points.
+    /// Samples a force over a range of elongations.
+    /// Points are added until the polygon deviates from the function by at most 1e-7 of its largest value, up to 20 000 points.
     ///
     /// # Errors
-    /// Errors of the function.
+    /// Fails if the function fails.
     pub fn sampled<E>(
         (from, to): (f64, f64),
         mut force: impl FnMut(f64) -> Result<f64, E>,
@@ -66,8 +66,8 @@ fn largest_force(points: &[(f64, f64)]) -> f64 {
     points.iter().map(|(_, force)| force.abs()).fold(0.0, larger)
 }
 
-/// Adds a point to every segment of the polygon that deviates by more than `allowed` at its fraction `part`. Returns the new polygon and the
-/// largest deviation.
+/// Adds a point to every segment of the polygon that deviates from the function by more than `allowed` at its fraction `part`.
+/// Returns the new polygon and the largest deviation.
 fn refined<E>(
     points: &[(f64, f64)],
     force: &mut impl FnMut(f64) -> Result<f64, E>,
@@ -107,7 +107,7 @@ mod tests {
             let missed = (law.force(q) - 100.0 * q - 50.0 * q * q * q).abs();
             assert!(missed < 1.2e-5, "{q}: {missed:e}");
         }
-        // The energy is that of the polygon, and close to that of the function.
+        // The stored energy is the integral of the polygon, which is close to the integral of the function.
         let (low, high) = (law.energy(-0.2), law.energy(0.7));
         let exact = |q: f64| 50.0 * q * q + 12.5 * q * q * q * q;
         assert!((high - low - exact(0.7) + exact(-0.2)).abs() < 1e-5);

@@ -1,22 +1,23 @@
-//! Check of sampled schedules for changes within a step that lie between the samples.
+//! Check of sampled schedules for changes between the samples of a step.
 
 use crate::integrators::Interval;
 use crate::loads::{Schedule, StepMean};
 
-/// Difference between two quadrature rules for the mean over a step, as a fraction of the largest value, above which the steps do not resolve a
-/// schedule. For a jump, the difference is at least a tenth of the jump. For a sine with 2.7 steps per period, it is the value given here.
+/// Difference between two quadrature rules for the mean over a step, above which the steps do not resolve a schedule.
+/// The difference is given as a fraction of the largest value of the schedule.
+/// For a jump, the difference is at least a tenth of the jump. For a sine with 2.7 steps per period, the difference equals this constant.
 const LARGEST_MISS: f64 = 0.01;
 
 /// Largest difference between two quadrature rules for the mean of a schedule over a step.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct UnsampledChange {
-    /// Middle of the step with this difference [time].
+    /// Middle of the step with the largest difference [time].
     pub time: f64,
     /// Difference, as a fraction of the largest value of the schedule [-].
     pub sampling_error: f64,
 }
 
-/// Record of the largest difference so far between two quadrature rules. Schedules with exact means have no such record in the saved state.
+/// Record of the largest difference so far between two quadrature rules. For schedules with exact means, the saved state contains no record.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct ScheduleCheck {
     time: f64,
@@ -32,7 +33,7 @@ struct MissedInStep {
 }
 
 impl ScheduleCheck {
-    /// Creates the check of a schedule; `None` if its means are exact.
+    /// Creates the check of a schedule; `None` if the means of the schedule are exact.
     pub fn of(schedule: &Schedule) -> Option<Self> {
         schedule.is_sampled_in_steps().then(Self::default)
     }
@@ -50,7 +51,7 @@ impl ScheduleCheck {
         self.largest = self.largest.max(largest);
     }
 
-    /// Largest change that the steps so far have missed; `None` if they resolve the schedule.
+    /// Largest change between the samples in the steps so far; `None` if the steps resolve the schedule.
     pub fn missed(&self) -> Option<UnsampledChange> {
         let is_missed = self.sampling_error > LARGEST_MISS * self.largest;
         is_missed.then(|| UnsampledChange {

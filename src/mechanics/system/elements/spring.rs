@@ -1,4 +1,4 @@
-//! Springs, dampers and tendons as described by a scene.
+//! Definitions of springs, dampers and tendons in a scene.
 
 use serde::{Deserialize, Serialize};
 
@@ -25,19 +25,19 @@ pub enum Anchor {
 /// Quantity measured by a spring.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub enum SpringKind {
-    /// Length of the path through these places. A spring or damper has two places. A tendon has more, and slides over intermediate places without
-    /// friction.
+    /// Length of the path through the given points. A spring or damper has two points.
+    /// A tendon has more than two points, and slides over intermediate points without friction.
     Length(Vec<Anchor>),
-    /// Angle of the section at the second place, minus the angle of the section at the first. The ground does not rotate.
+    /// Angle of the section at the second point minus the angle of the section at the first point. The ground does not rotate.
     Torsion([Anchor; 2]),
 }
 
 /// Configuration in which the elongation in a force law is zero.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Origin {
-    /// The law depends on the length or angle itself.
+    /// The argument of the law is the length or angle.
     Zero,
-    /// The law depends on the change of the length or angle since the scene was built on its meshes.
+    /// The argument of the law is the change of the length or angle from the initial configuration on the meshes.
     AsBuilt,
 }
 
@@ -48,16 +48,16 @@ pub struct Spring {
     pub name: String,
     /// Quantity on which the forces depend.
     pub kind: SpringKind,
-    /// Force as a function of the quantity; `None` for a pure damper.
+    /// Force as a function of this quantity; `None` for a pure damper.
     pub law: Option<SpringLaw>,
-    /// Origin of the elongations of the law.
+    /// Configuration of zero elongation in the law.
     pub origin: Origin,
-    /// Damping force as a function of the rate of the quantity.
+    /// Damping force as a function of the rate of this quantity.
     pub damping: DampingLaw,
 }
 
 impl Spring {
-    /// Attachments, in their order.
+    /// Attachments of the spring, in their order.
     pub fn anchors(&self) -> &[Anchor] {
         match &self.kind {
             SpringKind::Length(anchors) => anchors,
@@ -251,7 +251,7 @@ impl Spring {
         })
     }
 
-    /// Rejects springs whose ends cannot move relative to each other: two consecutive equal stations, or only places on the ground.
+    /// Rejects springs whose ends cannot move relative to each other. Their stations are equal, or all their points are on the ground.
     fn check_movable(&self, setting: &dyn SceneChecks) -> Result<(), SystemError> {
         let idle = |[from, to]: [&Anchor; 2], why| {
             let [from, to] = [from, to].map(|anchor| match anchor {
@@ -288,7 +288,7 @@ impl Spring {
         Ok(())
     }
 
-    /// Kind and name for messages.
+    /// Type and name for messages.
     pub fn object(&self) -> String {
         match (&self.kind, &self.law) {
             (_, None) => format!("damper '{}'", self.name),

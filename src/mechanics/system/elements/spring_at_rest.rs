@@ -5,7 +5,8 @@ use super::spring_law::SpringLaw;
 use crate::beams::SpanStiffness;
 use crate::system::bodies::Body;
 
-/// Degrees of freedom and static stiffness of a spring. The material part comes from the slope of the law, the geometric part from the force.
+/// Degrees of freedom and static stiffness of a spring.
+/// The material stiffness follows from the slope of the law, the geometric stiffness from the force.
 pub fn static_law(
     law: &SpringLaw,
     elongation: &Elongation,

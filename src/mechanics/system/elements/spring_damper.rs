@@ -1,11 +1,13 @@
 //! Springs and dampers in a step: forces along an elongation, as independent unknowns.
 //!
 //! ```text
-//! energy–momentum      F = ΔU/Δq + d(Δq/Δt)  along the secant of the elongation: F Δq = ΔU + D, opposite at both ends
-//! forces at the ends   U'(q₀) and U'(q₁); once per step the damper force d(q̇), at the time and in the direction of the force balance
+//! energy–momentum method:       F = ΔU/Δq + d(Δq/Δt) along the secant of the elongation, opposite at both ends
+//! work of this force:           F Δq = ΔU + D
+//! springs with forces at ends:  U'(q₀) and U'(q₁)
+//! dampers with forces at ends:  d(q̇) once per step, at the time and in the direction of the force balance
 //! ```
 //!
-//! `U` is the stored energy, `d` the damping law and `D` the dissipated energy.
+//! Symbols: stored energy `U`, damping law `d`, and dissipated energy `D`.
 
 mod targets;
 
@@ -24,30 +26,30 @@ use crate::integrators::{Interval, Stage};
 use crate::linalg::BandedMatrix;
 use crate::system::bodies::Body;
 
-/// Tolerance of forces of laws with corners, as a fraction of the rounding error of the elongation times the stiffness. For a linear law, the
-/// mismatch is zero after the next iteration; for a law with corners it is not.
+/// Force tolerance for laws with corners, as a fraction of the rounding error of the elongation times the stiffness.
+/// For a linear law, the residual is zero after the next iteration. For a law with corners, it is not zero.
 const CORNER_TOLERANCE: f64 = 2e-4;
 
 #[derive(Debug, Clone)]
 pub struct SpringDamper {
     name: String,
     elongation: Elongation,
-    /// Secant, slope and lag at the last linearisation. Corrections use these values.
+    /// Secant, slope and lag at the last linearisation, which corrections use.
     linearised: [Vec<f64>; 3],
     /// Derivative of the force with respect to the coordinates, row by row.
     tangent: Vec<f64>,
     /// Positions of terminals on the ground [length]; `None` for terminals on bodies.
     grounds: Vec<Option<Vec2>>,
-    /// Force law as a function of the change of the elongation since the scene was built.
+    /// Force law as a function of the change of the elongation from the initial configuration.
     law: Option<SpringLaw>,
     /// True if the law has corners and is monotonically increasing.
     rises: bool,
-    /// Changes of the elongation since the scene was built at which the stiffness jumps [length, rad].
+    /// Elongation changes from the initial configuration at which the stiffness jumps [length, rad].
     corners: Vec<f64>,
-    /// Elongation of the law, in the terms of the scene, at which the growth of the elongation is zero.
+    /// Elongation in the scene for which the argument of the law is zero.
     offset: f64,
     ranges: [Option<LawRange>; 2],
-    /// Description of the law as given in the scene.
+    /// Text of the law in the scene.
     law_text: Option<String>,
     /// Damping law `d(q̇)`.
     damping: DampingLaw,
@@ -59,11 +61,11 @@ pub struct SpringDamper {
     /// Duration of the last step, and the mean rate of the elongation in that step.
     last: (f64, f64),
     rotations: RotationIncrement,
-    /// Force along the coordinates from the start of the step. The force of the present iterate is in `current`.
+    /// Contribution from the start of the step to the force along the coordinates. The contribution from the present iterate is in `current`.
     force_coordinates: Vec<f64>,
     current: Vec<f64>,
     dissipated: f64,
-    /// Monitor of contact phases, for laws that can be slack.
+    /// Monitor of contact phases, for laws with a slack range.
     contact: ContactWatch,
 }
 
@@ -114,7 +116,7 @@ impl SpringDamper {
         new
     }
 
-    /// Evaluates an iterate. If there is a damper, this includes the difference of its force direction from the secant.
+    /// Evaluates an iterate. With a damper, the difference between its force direction and the secant is also evaluated.
     fn evaluate(&mut self, at: TrialState<'_>) {
         self.elongation.evaluate(at);
         if self.damping.is_active() {
@@ -130,7 +132,7 @@ impl SpringDamper {
         }
     }
 
-    /// Records the forces along the coordinates: `force` acts along the secant, `damper` along the lag in addition.
+    /// Records the forces along the coordinates. `force` acts along the secant, and `damper` acts additionally along the lag.
     fn record_force(&mut self, stage: Stage, force: f64, damper: f64) {
         let Self {
             elongation: Elongation { secant, lag, .. },
@@ -220,7 +222,7 @@ impl InternalForce for SpringDamper {
         if self.damping.is_active() {
             self.elongation.scatter(&self.elongation.lag, damping.force, out);
         }
-        // Geometric terms use the force of the iterate.
+        // Geometric terms use the force of the present iterate.
         let stiffness = self.weighted(at, restoring.stiffness, damping.stiffness);
         let force = self.weighted(at, self.spring.force, self.damper.force);
         let Elongation { secant, slope, secant_slope: bend, lag, lag_slope: lag_bend, .. } =

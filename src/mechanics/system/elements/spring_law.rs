@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 use super::coordinate::Coordinate;
 use crate::geometry::larger;
 
-/// Force that counts as zero, as a fraction of the largest force of the law.
+/// Largest force that counts as zero, as a fraction of the largest force of the law.
 const ROUNDING: f64 = 1e-12;
 
 /// Change of the stiffness above which a corner is sharp, as a fraction of the largest stiffness.
@@ -14,7 +14,7 @@ const SHARP_CORNER: f64 = 0.5;
 /// Restoring force as a function of an elongation `q`, which is a length or an angle.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub enum SpringLaw {
-    /// `k (q - q₀)`
+    /// Linear law `k (q - q₀)`.
     Linear {
         /// Stiffness `k` [force/length, or force·length/rad].
         stiffness: f64,
@@ -30,7 +30,7 @@ pub enum SpringLaw {
     Sampled {
         /// Increasing elongations with forces, as in a table.
         points: Vec<(f64, f64)>,
-        /// Largest deviation of the function from the polygon at the test points within the segments [force, force·length].
+        /// Largest difference between the function and the polygon at the test points within the segments [force, force·length].
         error: f64,
     },
 }
@@ -51,8 +51,8 @@ impl SpringLaw {
         match self {
             Self::Linear { stiffness, natural } => stiffness * (q.value - natural),
             Self::Table { points } | Self::Sampled { points, .. } => {
-                // The interpolation starts at the end with the smaller force. From the other end, the rounding error of the larger force would
-                // remain.
+                // The interpolation starts at the end of the segment with the smaller force.
+                // An interpolation from the other end would have the rounding error of the larger force.
                 let [first, second] = segment(points, q);
                 let (at, force) = if first.1.abs() <= second.1.abs() { first } else { second };
                 force + self.slope(q) * q.difference(at)
@@ -60,7 +60,7 @@ impl SpringLaw {
         }
     }
 
-    /// Stiffness `U''(q)` [force/length, force·length/rad]. At a corner it is the stiffness of the segment above the corner.
+    /// Stiffness `U''(q)` [force/length, force·length/rad]. At a corner, the stiffness of the segment above the corner is returned.
     pub fn slope(&self, q: impl Into<Coordinate>) -> f64 {
         match self {
             Self::Linear { stiffness, .. } => *stiffness,
@@ -91,8 +91,8 @@ impl SpringLaw {
         }
     }
 
-    /// Range in which the law is given. Beyond the range it is extended linearly. If the force is constant at an end, the range has no limit there.
-    /// `None` for a law that is defined everywhere: a straight line, or a straight line that ends in a slack segment.
+    /// Range of elongations in which the law is given. Beyond the range it is extended linearly. An end with constant force is not a limit.
+    /// Returns `None` for a law that is defined everywhere: a straight line, or a straight line that ends in a slack segment.
     pub fn range(&self) -> Option<[f64; 2]> {
         match self {
             Self::Linear { .. } => None,
@@ -163,7 +163,7 @@ impl SpringLaw {
         }
     }
 
-    /// Work `∫ F dq` between two elongations of a table. It is summed by segment to avoid differences of large numbers.
+    /// Work `∫ F dq` between two elongations of a table. It is summed by segments to avoid differences of large numbers.
     fn work(&self, points: &[(f64, f64)], from: Coordinate, to: Coordinate) -> f64 {
         let rises = to.difference_from(from) >= 0.0;
         let (low, high) = if rises { (from, to) } else { (to, from) };
@@ -261,14 +261,14 @@ fn shifted(points: &[(f64, f64)], by: f64) -> Vec<(f64, f64)> {
     points.iter().map(|(q, force)| (q + by, *force)).collect()
 }
 
-/// Ends of the segment that contains an elongation or is nearest to it. At a corner, it is the segment above the corner.
+/// Ends of the segment that contains an elongation or is nearest to it. At a corner, the segment above the corner is chosen.
 fn segment(points: &[(f64, f64)], q: Coordinate) -> [(f64, f64); 2] {
     let beyond = points.partition_point(|(at, _)| q.difference(*at) >= 0.0);
     let beyond = beyond.clamp(1, points.len() - 1);
     [points[beyond - 1], points[beyond]]
 }
 
-/// Zero of the straight line through two points. If the line is horizontal, the abscissa of the first point.
+/// Zero of the straight line through two points. For a horizontal line, the abscissa of the first point is returned.
 fn zero((q0, f0): (f64, f64), (q1, f1): (f64, f64)) -> f64 {
     match (f1 == f0, f1 == 0.0) {
         (true, _) => q0,
@@ -277,8 +277,8 @@ fn zero((q0, f0): (f64, f64), (q1, f1): (f64, f64)) -> f64 {
     }
 }
 
-/// Elongation of least energy, where the force of a table or its extrapolation changes from negative to positive. Without such an elongation, the
-/// first point.
+/// Elongation of least energy, at which the force of a table or its extrapolation changes from negative to positive.
+/// If there is no such elongation, the abscissa of the first point is returned.
 fn natural_elongation(points: &[(f64, f64)]) -> f64 {
     let passes = |pair: &&[(f64, f64)]| pair[0].1 <= 0.0 && pair[1].1 >= 0.0;
     let last = points.len() - 1;
@@ -362,7 +362,7 @@ mod tests {
         assert_eq!(table.sharp_corners(), [0.0, 0.5]);
         let hardening = |q: f64| Ok::<f64, ()>(q + q * q * q);
         assert!(SpringLaw::sampled((-1.0, 1.0), hardening).unwrap().sharp_corners().is_empty());
-        // Nor at zeros of the stiffness.
+        // A zero of the stiffness is not a sharp corner either.
         let cubic = |q: f64| Ok::<f64, ()>(q * q * q);
         let waves = |q: f64| Ok::<f64, ()>((3.0 * q) - q * q * q);
         assert!(SpringLaw::sampled((-1.0, 1.0), cubic).unwrap().sharp_corners().is_empty());

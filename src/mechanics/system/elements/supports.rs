@@ -23,7 +23,7 @@ impl Support {
     }
 }
 
-/// Supported degrees of freedom of a model. They are numbered after all others: prescribed ones first, then fixed ones.
+/// Supported degrees of freedom of a model. They are numbered after all others: first the prescribed, then the fixed degrees of freedom.
 pub struct Supports {
     prescribed: PrescribedMovements,
     held: Vec<Support>,
@@ -93,8 +93,8 @@ impl Supports {
         sum
     }
 
-    /// Reaction force [force] and moment [force·length] on the given nodes (body and control point) and on the angles of the rigid bodies
-    /// `turning`. `None` if none of them is supported.
+    /// Reaction force [force] and moment [force·length] on the given nodes (body and control point) and on the angles of the rigid bodies `turning`.
+    /// Returns `None` if none of the nodes and angles is supported.
     pub fn force_on(
         &self,
         nodes: &[(usize, usize)],

@@ -1,8 +1,9 @@
 //! Springs of zero natural length, whose ends may coincide.
 //!
-//! A linear spring of zero natural length is a pair of springs along x and y: `U = ½ k (x² + y²)`. A single force `k ℓ` along the connecting vector
-//! would have an unbounded rate of change of its direction where the ends meet. Other laws act on the length. The parallel damper uses the rate
-//! along the mean vector, because the rate of the length is wrong if the ends pass through each other within a step.
+//! A linear spring of zero natural length is a pair of springs along x and y: `U = ½ k (x² + y²)`.
+//! A single force `k ℓ` along the connecting vector would change its direction infinitely fast where the ends meet.
+//! Nonlinear laws act on the length.
+//! The parallel damper uses the rate along the mean vector. The rate of the length is wrong if the ends pass through each other within a step.
 
 use super::damping_law::DampingLaw;
 use super::elongation::{Elongation, ElongationEnd};
@@ -17,14 +18,14 @@ use crate::integrators::Interval;
 use crate::linalg::BandedMatrix;
 use crate::system::bodies::Body;
 
-/// Springs along x and y, or one spring along the length, with an optional damper along the connecting vector.
+/// Springs along x and y, or a single spring along the length, with an optional damper along the connecting vector.
 pub struct ZeroLengthSpring {
     along: Vec<SpringDamper>,
     damper: Option<PointDamper>,
 }
 
 impl ZeroLengthSpring {
-    /// Creates a linear spring [force/length] with a damper between two terminals. The last argument contains their initial positions.
+    /// Creates a linear spring [force/length] with a damper between two terminals. The last argument contains the initial positions of the terminals.
     pub fn new(
         name: &str,
         terminals: [ElongationEnd; 2],
@@ -43,7 +44,8 @@ impl ZeroLengthSpring {
         Self::beside(name, along, terminals, at, grounds, damping)
     }
 
-    /// Creates a spring with a law of the length, and a damper, between two terminals. The last argument contains their initial positions.
+    /// Creates a spring with a law for the length, and a damper, between two terminals.
+    /// The last argument contains the initial positions of the terminals.
     pub fn of_law(
         name: &str,
         terminals: [ElongationEnd; 2],
@@ -83,7 +85,7 @@ impl ZeroLengthSpring {
         along.chain(self.damper.iter_mut().map(|part| part as &mut dyn InternalForce))
     }
 
-    /// Elongation and force as magnitudes of vectors, from their components along x and y.
+    /// Elongation and force as magnitudes of vectors, computed from their components along x and y.
     fn magnitudes(&self) -> Option<SpringTrialState> {
         let [x, y] = self.along.as_slice() else { return self.along[0].stretched() };
         let (x, y) = (x.stretched()?, y.stretched()?);

@@ -1,11 +1,11 @@
-//! Errors of the description of a scene.
+//! Errors in the definition of a scene.
 
 use super::{SliderError, TrackError, plural, rounded};
 use crate::beams::BeamError;
 use crate::geometry::GeometryError;
 use crate::loads::LoadError;
 
-/// Error in the description or assembly of a scene.
+/// Error in the definition or assembly of a scene.
 #[expect(missing_docs, reason = "the messages describe the variants and their fields")]
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum SystemError {
@@ -17,7 +17,7 @@ pub enum SystemError {
     Unnamed { kind: &'static str, name: String, reason: &'static str },
     #[error("the scene already has a {kind} '{name}'; give this {new} another name")]
     DuplicateName { kind: &'static str, new: &'static str, name: String },
-    /// Station outside its beam.
+    /// The station lies outside its beam.
     #[error("station {station} is outside the length of beam '{beam}', [0, {}]", rounded(*length))]
     StationOutside {
         beam: String,
@@ -67,11 +67,11 @@ pub enum SystemError {
     )]
     TableOrder {
         object: String,
-        /// Index of the point whose elongation does not increase, from 0.
+        /// Index of the point whose elongation does not increase, counted from 0.
         index: usize,
         /// Elongation of the rejected point of the table [length, rad].
         elongation: f64,
-        /// Elongation of the point before it [length, rad].
+        /// Elongation of the previous point [length, rad].
         before: f64,
     },
     #[error(
@@ -81,7 +81,7 @@ pub enum SystemError {
         joint: String,
         from: String,
         to: String,
-        /// Distance between the two connected places [length].
+        /// Distance between the two connected points [length].
         gap: f64,
     },
     #[error("{joint}: {place} is already {existing}; remove one of the two joints")]
@@ -89,7 +89,7 @@ pub enum SystemError {
     #[error("{damper}: {active_range}")]
     ActiveDamper {
         damper: String,
-        /// Description of the range of rates in which the law adds energy, with advice for correcting it.
+        /// Description of the rates at which the law adds energy, with advice for correcting it.
         active_range: String,
     },
     #[error(
@@ -140,16 +140,16 @@ pub enum SystemError {
     StartVelocity {
         body: String,
         place: String,
-        /// Start velocity of the body at this place [length/time, or 1/time for a rotation].
+        /// Start velocity of the body at this point [length/time, or 1/time for a rotation].
         velocity: f64,
         other: String,
     },
     #[error("{object}: a particle has no rotation")]
     ParticleTurned { object: String, by: Turning },
-    /// Invalid sliding joint.
+    /// A sliding joint is invalid.
     #[error(transparent)]
     Slider(Box<SliderError>),
-    /// Invalid track.
+    /// A track is invalid.
     #[error(transparent)]
     Track(Box<TrackError>),
     #[error("{object}: {name} is {value}, but must be {allowed}")]
@@ -164,7 +164,7 @@ pub enum SystemError {
     Beam { beam: String, source: BeamError },
 }
 
-/// Object that would have to rotate a particle, which has no rotation.
+/// Object that requires the rotation of a particle, although particles have no rotation.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Turning {
     /// Rigid joint.

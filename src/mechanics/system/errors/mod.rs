@@ -1,4 +1,4 @@
-//! Errors of a model, rules for names, and number formats of messages.
+//! Errors of a model, rules for names, and number formats for messages.
 
 mod error;
 mod names;

@@ -9,11 +9,11 @@ use super::SystemError;
 /// Largest number of characters of a name.
 const LONGEST: usize = 100;
 
-/// First characters by which spreadsheets recognise formulas. Names must not begin with them.
+/// Characters with which spreadsheets recognise formulas. Names must not begin with them.
 const FORMULA: [char; 4] = ['=', '+', '-', '@'];
 
-/// Characters that are invisible or look like other letters. By Unicode 16 they are the invisible characters of the general categories Cf and Mn,
-/// fillers, variation selectors, full-width forms and mathematical alphabets.
+/// Characters that are invisible or look like ordinary letters.
+/// Unicode 16 categories in this list: invisible Cf and Mn, fillers, variation selectors, full-width forms, mathematical alphabets.
 const INVISIBLE_OR_COPIES: [RangeInclusive<u32>; 14] = [
     0xAD..=0xAD,
     0x34F..=0x34F,

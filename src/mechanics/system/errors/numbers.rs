@@ -1,11 +1,11 @@
-//! Formats of numbers, places, times and counts in messages.
+//! Formats of numbers, positions, times and counts in messages.
 
 use crate::geometry::Vec2;
 
 /// Largest number of objects listed in a message.
 pub const MOST: usize = 6;
 
-/// Formats a number with at most six digits. Very small and very large numbers are written with a power of ten.
+/// Formats a number with at most six significant digits. Very small and very large numbers are written with a power of ten.
 pub fn rounded(number: f64) -> String {
     let rounded: f64 = format!("{number:.5e}").parse().unwrap_or(number);
     let is_plain = rounded == 0.0 || !rounded.is_finite() || (1e-4..1e7).contains(&rounded.abs());
@@ -16,7 +16,7 @@ pub fn written(at: Vec2) -> String {
     format!("({}, {})", rounded(at.x), rounded(at.y))
 }
 
-/// Lists the first times; `None` if there are none.
+/// Lists the first times in words; `None` if there are no times.
 pub fn in_words(times: &[f64]) -> Option<String> {
     match times {
         [] => None,

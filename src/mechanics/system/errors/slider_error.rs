@@ -15,7 +15,7 @@ pub struct SliderParts {
     pub guide: String,
 }
 
-/// Nearest place of a beam or track to a point.
+/// Point of a beam or track that is nearest to a given point.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Approach {
     /// The point lies on the beam or track.
@@ -27,11 +27,11 @@ pub enum Approach {
     },
     /// The point does not lie on the beam or track.
     Distant {
-        /// Relative position of the nearest place along the master [-].
+        /// Relative position of the nearest point along the master [-].
         place: f64,
         /// The word `beam` or `track`.
         guide: &'static str,
-        /// Distance to that place [length].
+        /// Distance to the nearest point [length].
         distance: f64,
     },
 }
@@ -53,7 +53,7 @@ impl fmt::Display for Approach {
     }
 }
 
-/// Sliding joint that cannot be described or built.
+/// Error for a sliding joint that cannot be defined or built.
 #[expect(missing_docs, reason = "the messages describe the variants and their fields")]
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum SliderError {
@@ -70,7 +70,7 @@ pub enum SliderError {
         parts: SliderParts,
         from: String,
         to: String,
-        /// Distance between the two places [length].
+        /// Distance between the two points [length].
         gap: f64,
         nearest: Approach,
     },

@@ -1,6 +1,6 @@
 //! Errors of tracks.
 
-/// Track that cannot be described.
+/// Error for a track that cannot be defined.
 #[expect(missing_docs, reason = "the messages describe the variants and their fields")]
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum TrackError {
@@ -29,7 +29,7 @@ pub enum TrackError {
         place: String,
         /// Description of the start of the first beam.
         start: String,
-        /// Distance between these two places [length].
+        /// Distance between the end of the last beam and the start of the first beam [length].
         gap: f64,
     },
     #[error("track '{track}': {first_end} and {other} are both at {place}, but are not joined")]

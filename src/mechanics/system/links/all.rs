@@ -57,8 +57,8 @@ impl Links {
         2 * self.rigid.len() + self.rollers().count()
     }
 
-    /// Sum of the forces of the inclined rollers at the given nodes. `force` returns the force of each roller [force]. `None` without a roller at
-    /// these nodes.
+    /// Sum of the forces of the inclined rollers at the given nodes. `force` returns the force of a roller [force].
+    /// Returns `None` if the nodes have no roller.
     pub fn force_of_rollers(
         &self,
         nodes: &[(usize, usize)],
@@ -147,7 +147,8 @@ impl Links {
         }
     }
 
-    /// Adds the constraint forces to the forces on bodies. The forces are among the `unknowns`; their arms are those at the start of a step.
+    /// Adds the constraint forces to the forces on bodies. The constraint forces are contained in `unknowns`.
+    /// The arms of the constraint forces are those at the start of a step.
     pub fn transmit(&self, bodies: &Bodies, unknowns: &[f64], out: &mut [f64]) {
         for link in &self.rigid {
             let force = Vec2::new(unknowns[link.unknowns[0]], unknowns[link.unknowns[1]]);
@@ -169,13 +170,13 @@ impl Links {
         self.rollers().for_each(|(at, roller)| rates[at] = roller.multiplier());
     }
 
-    /// Exchanges the stored forces of all rigid links with those in `others` [force].
+    /// Exchanges the stored forces of all rigid links with the forces in `others` [force].
     pub fn exchange_forces(&mut self, others: &mut [Vec2]) {
         self.rigid.iter_mut().zip(others).for_each(|(link, other)| link.exchange_force(other));
     }
 
-    /// Largest constraint violation in a residual [-]. The violation of a link is a fraction of its increments and arm, that of a roller a fraction
-    /// of the size of the scene.
+    /// Largest constraint violation in a residual [-].
+    /// The violation of a link is divided by its increments and arm. The violation of a roller is divided by the size of the scene.
     pub fn violation(&self, residual: &[f64]) -> f64 {
         let most = self.rigid.iter().fold(0.0, |most, link| larger(most, link.violation(residual)));
         self.rollers.iter().fold(most, |most, roller| larger(most, roller.violation(residual)))
@@ -194,7 +195,7 @@ impl Links {
         self.rollers.iter_mut().for_each(|roller| roller.advance(self.force_unknowns, values));
     }
 
-    /// Calls `take` with the static stiffness of each constraint, which is replaced by a spring of the given penalty stiffness [force/length].
+    /// Calls `take` with the static stiffness of each constraint. A spring of the given penalty stiffness replaces the constraint [force/length].
     pub fn for_each_static_stiffness(
         &self,
         bodies: &Bodies,

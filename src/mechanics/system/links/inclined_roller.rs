@@ -1,12 +1,13 @@
-//! Inclined roller in a step: a point on a straight line, held there by a force across the line.
+//! Inclined roller in a step: a point on a straight line, with a constraint force across the line.
 //!
 //! ```text
-//! n·Δx = 0          force on the point: -λ n,   n: unit normal of the line
+//! constraint:          n·Δx = 0 with the unit normal n of the line
+//! force on the point:  -λ n
 //! ```
 //!
-//! The equation is linear in the increments, so the force `-λ n` does no work in any increment that satisfies it. Its impulse `-Δt λ n` acts at the
-//! mean position of the point, as for other supports. For methods with `v1 = 2 Δx/Δt - v0`, velocities stay along the line if the start velocity
-//! does.
+//! The equation is linear in the increments. Hence the force `-λ n` does no work in any increment that satisfies the equation.
+//! The impulse `-Δt λ n` of the roller acts at the mean position of the point, like impulses of other supports.
+//! For methods with `v1 = 2 Δx/Δt - v0`, all velocities are along the line if the start velocity is along the line.
 
 use super::rigid_link::ForceUnknowns;
 use crate::beams::{ForceSummary, SpanStiffness};
@@ -27,7 +28,7 @@ pub struct InclinedRoller {
     normal: Vec2,
     /// Initial position of the point on the line [length].
     origin: Vec2,
-    /// Scale of the violation: the size of the scene. The increments of the iterate are added to it [length].
+    /// Scale of the violation [length]: the size of the scene plus the increments of the iterate.
     size: f64,
     movement: f64,
     /// Multiplier `λ` of the last step or static solution [force].
@@ -160,7 +161,7 @@ impl InclinedRoller {
         }
     }
 
-    /// Calls `take` with the static stiffness of the constraint, which is replaced by a spring of the given penalty stiffness [force/length].
+    /// Calls `take` with the static stiffness of the constraint. A spring of the given penalty stiffness replaces the constraint [force/length].
     pub fn at_rest(
         &self,
         bodies: &Bodies,
@@ -173,7 +174,7 @@ impl InclinedRoller {
         span.strains.extend([self.normal.x, self.normal.y]);
         span.stiffness.push(stiffness);
         take(&self.degrees(bodies), span);
-        // The geometric stiffness is zero.
+        // The spring has no geometric stiffness.
         span.begin(0);
         span.strains.push(1.0);
         span.stiffness.push(stiffness);

@@ -1,4 +1,4 @@
-//! Constraints with force unknowns: rigid links between the points of rigid bodies and their centres, and inclined rollers.
+//! Constraints with force unknowns: inclined rollers, and rigid links between the points of rigid bodies and their centres.
 
 mod all;
 mod inclined_roller;

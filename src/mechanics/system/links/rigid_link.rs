@@ -1,14 +1,20 @@
 //! Rigid link in a step: a point fixed in the frame of a rigid body, and its constraint force.
 //!
 //! ```text
-//! Δx_p - Δx_b - χ J ā = 0        a = Λ r,   ā = ½ (a0 + a1),   χ = 2 tan(Δθ/2)
-//! force on the point -λ,   on the body λ with the moment aτ × λ        aτ = (1-τ) a0 + τ a1,   τ = ½ except for generalized-α and in statics
+//! constraint:          Δx_p - Δx_b - χ J ā = 0
+//! arm and mean arm:    a = Λ r and ā = ½ (a0 + a1)
+//! rotation increment:  χ = 2 tan(Δθ/2)
+//! force on the point:  -λ
+//! force on the body:   λ with the moment aτ × λ
+//! arm of the force:    aτ = (1-τ) a0 + τ a1 with τ = ½ (other values for generalized-α and in statics)
 //! ```
 //!
-//! `x_p` is the position of the point and `x_b` that of the body; `a` is the arm between them, with the rotation `Λ` of the body and the place `r`
-//! in the body frame. `χ` is the tangent-scaled rotation increment. Since `χ J ā = a1 - a0` holds for every increment, the point is at its position
-//! in the body at the end of every step. With tangent-scaled increments `Δω` and `τ = ½`, the work `λ·Δx_b + (ā × λ) Δω - λ·Δx_p` of the force is
-//! zero, and the sums of forces and of moments in the mean configuration are also zero.
+//! Here `x_p` is the position of the point, and `x_b` is the position of the body.
+//! The arm between both positions is `a`, with the rotation `Λ` of the body and the position `r` in the body frame.
+//! The tangent-scaled rotation increment is `χ`.
+//! Since `χ J ā = a1 - a0` holds for every increment, the point keeps its position in the body at the end of every step.
+//! With tangent-scaled increments `Δω` and `τ = ½`, the work `λ·Δx_b + (ā × λ) Δω - λ·Δx_p` of the force is zero.
+//! The sums of forces and of moments in the mean configuration are also zero.
 
 use std::ops::{Add, Div};
 
@@ -20,14 +26,14 @@ use crate::system::bodies::Bodies;
 /// Quantity that the force unknowns of a rigid link represent.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum ForceUnknowns {
-    /// In a step: the impulse of the force. The contained value is the duration of the step [time].
+    /// In a step, the unknown is the impulse of the force. The value in the variant is the duration of the step [time].
     Step(f64),
-    /// In a displacement between two equilibria: the change of the force.
+    /// In a displacement between two equilibria, the unknown is the change of the force.
     AtRest,
 }
 
 impl ForceUnknowns {
-    /// Force for a value of the unknown. `last` is the force before the step or displacement [force].
+    /// Force for a value of the force unknown. The argument `last` is the force before the step or displacement [force].
     pub fn force<F>(self, last: F, unknown: F) -> F
     where
         F: Add<Output = F> + Div<f64, Output = F>,
@@ -47,11 +53,11 @@ impl ForceUnknowns {
     }
 }
 
-/// Position in a step at which a method takes the arms of rigid links for their forces.
+/// Fraction of a step at which a method evaluates the arms of the forces of rigid links.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ArmRule {
     pub rotations: RotationIncrement,
-    /// Fraction `τ` of the step at which the arm of the force is taken [-].
+    /// Fraction `τ` of the step at which the arm is evaluated [-].
     pub fraction: f64,
 }
 
@@ -62,18 +68,18 @@ pub struct RigidLink {
     /// Control point of the linked point. The centre of mass is the first control point.
     pub point: usize,
     pub unknowns: [usize; 2],
-    /// Place of the point in the body frame [length].
+    /// Position of the point in the body frame [length].
     arm: Vec2,
     /// Rotation of the body at the start of the step.
     rotation: Rotation,
     /// Force `-λ` on the point in the last step or static solution [force].
     force: Vec2,
-    /// Scale of the violation: the arm plus the increments of the iterate [length].
+    /// Scale of the violation [length]: the arm plus the increments of the iterate.
     size: f64,
 }
 
 struct Iterated {
-    /// Arm `a0` at the start of the step [length]. The next fields contain the arm at the end of the step, and the arm at which the force acts.
+    /// Arm `a0` at the start of the step [length]. The next fields contain the arm at the end of the step, and the arm of the force.
     start: Vec2,
     end: Vec2,
     force_arm: Vec2,
@@ -246,9 +252,9 @@ impl RigidLink {
         self.arm() * (-spin * spin)
     }
 
-    /// Returns the difference between the velocity of the linked point and the velocity that the motion of the body gives this point [length/time].
-    /// At the end of a step it is an error of second order, whose sign alternates from step to step. If accelerations are given instead of
-    /// velocities, the result does not contain the centripetal acceleration of the arm.
+    /// Difference between the velocity of the linked point and the velocity of the body at this point [length/time].
+    /// At the end of a step, the velocity difference is an error of second order, whose sign alternates from step to step.
+    /// If accelerations are given instead of velocities, the result does not contain the centripetal acceleration of the arm.
     pub fn velocity_violation(&self, bodies: &Bodies, rates: &[f64]) -> Vec2 {
         let body = &bodies[self.body];
         let ([.., rotation], _) = self.degrees(bodies);
@@ -269,8 +275,9 @@ impl RigidLink {
         self.rotation = self.rotation.turned(arms.rotations, now.increment).normalised();
     }
 
-    /// Calls `take` with the static stiffness of the link: a penalty stiffness [force/length] that holds the point at its position in the body, and
-    /// the geometric stiffness of the force.
+    /// Calls `take` with the static stiffness of the link.
+    /// The stiffness consists of the geometric stiffness of the force and a penalty stiffness [force/length].
+    /// The penalty stiffness holds the point at its position in the body.
     pub fn at_rest(
         &self,
         bodies: &Bodies,

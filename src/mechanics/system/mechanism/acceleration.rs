@@ -1,4 +1,4 @@
-//! Accelerations of a mechanism, for integrators that have them in their state.
+//! Accelerations of a mechanism, for integrators whose state contains accelerations.
 
 use super::System;
 use crate::integrators::Accelerated;
@@ -9,7 +9,7 @@ impl Accelerated for System {
     }
 
     fn accelerations(&self) -> Option<&[f64]> {
-        // Accelerations computed before a jump are not valid after it.
+        // Accelerations computed before a jump are not valid after the jump.
         self.motion.accelerations.known().filter(|_| !self.step.jumps)
     }
 

@@ -30,7 +30,7 @@ impl BodyEnergy {
 }
 
 impl System {
-    /// Energy of a body. Indices count beams first, then particles, then rigid bodies.
+    /// Energy of a body. Body indices count beams first, then particles, then rigid bodies.
     pub fn energy_of(&mut self, body: usize) -> BodyEnergy {
         let rates = &self.motion.rates;
         let own = self.bodies[body].momenta(rates).twice_kinetic;

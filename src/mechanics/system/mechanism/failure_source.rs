@@ -1,11 +1,11 @@
-//! Cause of a failed step: the place of the largest residual. It is evaluated only after a failure.
+//! Cause of a failed step: the object with the largest residual. It is evaluated only after a failure.
 
 use super::System;
 use crate::integrators::FailureSource;
 use crate::newton::ResidualPart;
 use crate::system::state::UnknownKind;
 
-/// Index of the first NaN, or without NaN of the largest value; `None` if all values are zero.
+/// Index of the first NaN or, without NaN, of the largest value; `None` if all values are zero.
 fn worst(values: impl Iterator<Item = f64>) -> Option<usize> {
     let size = |value: f64| if value.is_nan() { f64::INFINITY } else { value.abs() };
     let largest =
@@ -14,7 +14,7 @@ fn worst(values: impl Iterator<Item = f64>) -> Option<usize> {
 }
 
 impl System {
-    /// Place of the largest residual in a part of the residual. For strain mismatches it is the element with the largest mismatch.
+    /// Object with the largest value in a part of the residual. For strain mismatches, it is the element with the largest strain mismatch.
     pub(super) fn worst_of(&self, part: ResidualPart, residual: &[f64]) -> Option<FailureSource> {
         match part {
             ResidualPart::Strain => self.worst_strain().or_else(|| self.worst_balance(residual)),
@@ -23,7 +23,7 @@ impl System {
         }
     }
 
-    /// Internal force of an element with a larger mismatch than all section forces; `None` if there is none.
+    /// Element whose internal force has a larger residual than all section forces; `None` if there is none.
     fn worst_strain(&self) -> Option<FailureSource> {
         let (name, missing) = self.elements.farthest()?;
         let is_worst = missing.is_nan() || missing >= self.step.summary.strain_mismatch;

@@ -4,11 +4,57 @@ use super::impact::{ImpactDirection, ImpactLaw};
 use super::rigidity::Deformation;
 use super::{Instant, System};
 use crate::geometry::cross;
-use crate::linalg::LinearError;
+use crate::integrators::Mechanism;
+use crate::linalg::{BandedMatrix, LinearError};
 use crate::system::SystemError;
 
 /// Velocity along the master, relative to the fastest point of the model, below which a slider sticks at the start.
 const AT_REST: f64 = 1e-9;
+
+/// Factorised inertia matrix with the memory for responses to unit impulses.
+pub(super) struct InertiaSolver {
+    inertia: BandedMatrix,
+    is_factorised: bool,
+    /// Generalised forces of a unit impulse.
+    forces: Vec<f64>,
+    /// Velocities that the impulse causes.
+    rates: Vec<f64>,
+}
+
+impl InertiaSolver {
+    fn new(system: &System) -> Box<Self> {
+        let unknowns = system.unknowns();
+        Box::new(Self {
+            inertia: BandedMatrix::zeros(unknowns, system.half_bandwidth()),
+            is_factorised: false,
+            forces: vec![0.0; system.degrees_of_freedom()],
+            rates: vec![0.0; unknowns],
+        })
+    }
+
+    /// Factorises the present inertia. Without rigid links it is constant.
+    fn factorise(&mut self, system: &System) -> Result<(), LinearError> {
+        if self.is_factorised && system.links.count() == 0 {
+            return Ok(());
+        }
+        self.is_factorised = false;
+        self.inertia.clear();
+        system.fill_banded_inertia(&mut self.inertia);
+        self.inertia.factorise()?;
+        self.is_factorised = true;
+        Ok(())
+    }
+
+    /// Velocity in a direction that a unit impulse in this direction causes [1/mass].
+    fn response(&mut self, system: &System, (slider, unit): ImpactDirection) -> f64 {
+        let Self { inertia, forces, rates, .. } = self;
+        forces.fill(0.0);
+        system.sliders[slider].transmit(&system.bodies, unit, forces);
+        rates.iter_mut().zip(forces.iter()).for_each(|(rate, force)| *rate = *force);
+        inertia.factors().solve(rates);
+        rates.iter().zip(forces.iter()).map(|(rate, force)| rate * force).sum()
+    }
+}
 
 impl System {
     /// Returns true if a slider has friction.
@@ -30,18 +76,18 @@ impl System {
 
     /// Determines the inertia of all sliders with friction across their masters. Without a response to an impulse it is zero.
     pub(super) fn measure_inertia_across(&mut self) {
-        let sliders = self.sliders.iter().enumerate();
-        let with_friction = sliders.filter(|(_, slider)| slider.active_friction().is_some());
-        let directions: Vec<ImpactDirection> =
-            with_friction.map(|(at, slider)| (at, slider.across(&self.bodies))).collect();
-        let mut inertia = self.banded_inertia();
-        let Ok(inertia) = inertia.factorise() else { return };
-        let responses = self.impulse_responses(&inertia, &directions);
-        for ((slider, _), response) in directions.iter().zip(&responses) {
-            let velocity = response.velocity(&response.rates);
-            let inertia = if velocity > 0.0 { 1.0 / velocity } else { 0.0 };
-            self.sliders[*slider].friction.iter_mut().for_each(|of| of.inertia_across = inertia);
+        let mut solver = self.inertia_solver.take().unwrap_or_else(|| InertiaSolver::new(self));
+        if solver.factorise(self).is_ok() {
+            for at in 0..self.sliders.len() {
+                if self.sliders[at].active_friction().is_none() {
+                    continue;
+                }
+                let velocity = solver.response(self, (at, self.sliders[at].across(&self.bodies)));
+                let inertia = if velocity > 0.0 { 1.0 / velocity } else { 0.0 };
+                self.sliders[at].friction.iter_mut().for_each(|of| of.inertia_across = inertia);
+            }
         }
+        self.inertia_solver = Some(solver);
     }
 
     /// Lets sliders slip that stick with a present force along their masters above the friction limit. Returns true if there is one.

@@ -1,10 +1,11 @@
-//! Impulses at sliders: consistent start velocities, and impacts at the ends of masters. Simultaneous impacts are computed together.
+//! Impulses at sliders: consistent start velocities, and impacts at the ends of masters. Simultaneous impacts are solved together.
 //!
-//! Impulses `P` at contacts change the velocities by `M (v⁺ - v⁻) = Σ Gᵀ P`, where `G v` is the velocity of a slave relative to the contact point
-//! of the master. An impulse at a closed contact conserves linear and angular momentum. With the relaxed sliding rule, the slave may have a gap from
-//! the master, and an impulse across a gap changes the angular momentum. In an impact, `G v` is the part of the relative velocity that the steps
-//! resolve ([`Rigidity`]). The work of a contact on the bodies is `½ P (w⁻ + w⁺)`, with the relative velocities `w⁻` before and `w⁺` after the
-//! impact.
+//! Impulses `P` at contacts change the velocities by `M (v⁺ - v⁻) = Σ Gᵀ P`.
+//! Here `G v` is the velocity of a slave relative to the contact point of the master.
+//! An impulse at a closed contact conserves linear and angular momentum.
+//! With the relaxed sliding rule, there may be a gap between slave and master. An impulse across a gap changes the angular momentum.
+//! In an impact, `G v` is the part of the relative velocity that the steps resolve ([`Rigidity`]).
+//! The work of a contact on the bodies is `½ P (w⁻ + w⁺)`, with the relative velocities `w⁻` before and `w⁺` after the impact.
 
 use super::System;
 use super::rigidity::{Deformation, Rigidity};
@@ -14,17 +15,17 @@ use crate::linalg::{BandedLu, LinearError, Pairing, complementary};
 use crate::system::SystemError;
 use crate::system::elements::WorkAndImpulse;
 
-/// Slider, and the direction in which an impulse acts on its relative velocity.
+/// Slider, and direction of an impulse that changes its relative velocity.
 pub(super) type ImpactDirection = (usize, Vec2);
 
-/// Directions of contact impulses, and the deformations that take part in the impact.
+/// Directions of contact impulses, and the deformations that the impact includes.
 pub(super) type ImpactSelection<'a> = (&'a [ImpactDirection], Deformation);
 
-/// Two velocity responses to an impulse are compared: with the deformations that take part, and with all deformations. If their ratio is below this
-/// value, the direction of the impulse counts as rigid.
+/// Smallest ratio of two velocity responses to an impulse: with the included deformations, and with all deformations.
+/// Below this ratio of the two responses, the direction of the impulse counts as rigid.
 pub(super) const GIVES: f64 = 1e-9;
 
-/// Forces of a unit impulse in one direction, and the velocities that it causes.
+/// Forces of a unit impulse in one direction, with the resulting velocities.
 pub(super) struct ImpulseResponse {
     /// Generalised forces `Gᵀ` of the impulse at all degrees of freedom, including the impulses of section forces.
     pub(super) forces: Vec<f64>,
@@ -56,18 +57,18 @@ impl ImpulseResponse {
     }
 }
 
-/// Law of an impact: condition on the velocities `w⁻` before and `w⁺` after the impact, and on the impulse `P`.
+/// Impact law: condition on the velocities `w⁻` before and `w⁺` after the impact, and on the impulse `P`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum ImpactLaw {
-    /// `w⁺ = 0`, with an impulse of either sign.
+    /// Condition `w⁺ = 0`, with an impulse of either sign.
     Ends,
-    /// `w⁺ = -w⁻`, with an impulse of either sign and without work.
+    /// Condition `w⁺ = -w⁻`, with an impulse of either sign and without work.
     Elastic,
-    /// `0 ≤ P ⟂ w⁺ + e w⁻ ≥ 0` with the coefficient of restitution `e`: a stop with compressive impulses only (Moreau 1988).
+    /// Condition `0 ≤ P ⟂ w⁺ + e w⁻ ≥ 0` with the coefficient of restitution `e`: a stop with compressive impulses only (Moreau 1988).
     Restitution(f64),
-    /// `0 ≤ P ⟂ w⁺ ≥ 0`: a slider held at a stop.
+    /// Condition `0 ≤ P ⟂ w⁺ ≥ 0` of a slider held at a stop.
     Held,
-    /// `0 ≤ P ⟂ w⁺ - c ≥ 0`: a stop that returns its stored energy with a speed `c` [length/time].
+    /// Condition `0 ≤ P ⟂ w⁺ - c ≥ 0` of a stop that returns its stored energy with a speed `c` [length/time].
     StoredEnergy(f64),
 }
 
@@ -79,7 +80,7 @@ impl ImpactLaw {
         }
     }
 
-    /// Value by which the velocity would violate the law if no impulse acted [length/time]. `w` is the velocity before the impact.
+    /// Violation of the law by the velocity if no impulse acted [length/time]. `w` is the velocity before the impact.
     fn deficit(self, w: f64) -> f64 {
         match self {
             Self::Ends | Self::Held => w,
@@ -90,17 +91,17 @@ impl ImpactLaw {
     }
 }
 
-/// Contacts of one impact with their directions, and the velocities that their impulses cause.
+/// Contacts of one impact with their directions, and the velocities due to their impulses.
 pub(super) struct ImpactProblem {
     directions: Vec<ImpactDirection>,
     responses: Vec<ImpulseResponse>,
-    /// Velocity changes `G M⁻¹ Gᵀ` in all contact directions due to a unit impulse in each of them, one row per direction [1/mass].
+    /// Velocity changes `G M⁻¹ Gᵀ` in all contact directions due to unit impulses in these directions, one row per direction [1/mass].
     pub(super) response: Vec<Vec<f64>>,
     /// Relative velocities `w⁻` before the impact [length/time].
     before: Vec<f64>,
-    /// Changes of the rates that rigid links and jumps of prescribed rates cause without contact impulses.
+    /// Changes of the rates due to rigid links and jumps of prescribed rates, without contact impulses.
     change: Vec<f64>,
-    /// Jumps of prescribed rates by number of the degree of freedom; empty without jumps.
+    /// Jumps of prescribed rates, indexed by degree of freedom; empty without jumps.
     jumps: Vec<f64>,
 }
 
@@ -113,7 +114,7 @@ pub(super) struct ImpactImpulses {
 }
 
 impl ImpactProblem {
-    /// Velocity change in a direction that rigid links and jumps of prescribed rates cause without contact impulses [length/time].
+    /// Velocity change in a direction due to rigid links and jumps of prescribed rates, without contact impulses [length/time].
     fn by_links(&self, at: usize) -> f64 {
         self.responses[at].velocity(&self.change)
     }
@@ -124,14 +125,14 @@ impl ImpactProblem {
         (self.before[at], self.by_links(at) + by_impulses)
     }
 
-    /// Mean of the velocities before and after the impact if no contact impulse acts [length/time].
+    /// Mean of the velocities before and after the impact for the case without contact impulses [length/time].
     pub(super) fn mean_velocity(&self) -> Vec<f64> {
         let half_way = |(at, w): (usize, &f64)| w + 0.5 * self.by_links(at);
         self.before.iter().enumerate().map(half_way).collect()
     }
 
-    /// Values by which the velocities would violate the given laws if no contact impulse acted [length/time]. The laws apply to the last directions
-    /// of the impact problem.
+    /// Violations of the given impact laws by the velocities that would result without contact impulses [length/time].
+    /// The laws apply to the last directions of the impact problem.
     pub(super) fn lacks(&self, laws: &[ImpactLaw]) -> Vec<f64> {
         let first = self.before.len() - laws.len();
         let lack =
@@ -155,7 +156,7 @@ impl ImpactProblem {
     }
 }
 
-/// Velocity in each direction caused by a unit impulse in each direction: `G M⁻¹ Gᵀ` [1/mass].
+/// Velocities in all directions due to unit impulses in these directions: `G M⁻¹ Gᵀ` [1/mass].
 fn response(answers: &[ImpulseResponse]) -> Vec<Vec<f64>> {
     let row = |answer: &ImpulseResponse| {
         answers.iter().map(|other| answer.velocity(&other.rates)).collect()
@@ -180,8 +181,8 @@ impl System {
         Ok(())
     }
 
-    /// Adjusts the velocities of points of rigid bodies to the initial rates of drives, if they differ by more than `negligible` [length/time].
-    /// Without the adjustment, the difference would alternate in sign from step to step.
+    /// Adjusts the velocities of points of rigid bodies to the initial rates of drives. Differences below `negligible` are ignored [length/time].
+    /// Without the adjustment, the difference of the velocities would alternate in sign from step to step.
     pub(in crate::system) fn fit_links_to_drives(&mut self, negligible: f64) {
         if self.links.count() == 0 || !self.supports.prescribed().has_start_rate() {
             return;
@@ -191,8 +192,8 @@ impl System {
         if missed.iter().all(|missed| missed.abs() <= negligible) {
             return;
         }
-        // This impulse acts before the start time, so it is not added to the accumulated impulses. A singular matrix is ignored here, because the
-        // first step reports it.
+        // The adjusting impulse acts before the start time, so it is not added to the accumulated impulses.
+        // A singular matrix is ignored, because the first step reports it.
         let before = std::mem::take(&mut self.exchanged);
         let struck = self.apply_transverse_impact();
         self.exchanged = before;
@@ -201,19 +202,20 @@ impl System {
         }
     }
 
-    /// Computes the impact of rigid links and sliders that is caused by jumps of prescribed rates at the start of a step. Without it, the violation
-    /// of the velocity constraints would alternate in sign from step to step. The impact reverses the violation, so that it conserves energy except
-    /// for the work of drives (theory.md 9.5). Returns true if there was a jump.
+    /// Computes the impact of rigid links and sliders due to jumps of prescribed rates at the start of a step.
+    /// Without the impact, the violation of the velocity constraints would alternate in sign from step to step.
+    /// The impact reverses the violation of the velocity constraints. It conserves energy except for the work of drives (theory.md 9.5).
+    /// Returns true if there was a jump.
     pub(crate) fn apply_drive_jumps(&mut self, interval: Interval) -> bool {
         if self.links.count() == 0 && self.sliders.iter().next().is_none() {
             return false;
         }
-        // A function without a value is ignored here, because the step that follows reports it.
+        // A function without a value is ignored, because the following step reports it.
         let prescribed = self.supports.prescribed();
         let Ok(Some(jumps)) = prescribed.jumps(interval, &self.motion.rates) else { return false };
         let directions = self.sliders.directions(&self.bodies);
         let laws = vec![ImpactLaw::Elastic; directions.len()];
-        // A singular matrix is ignored here, because the step that follows reports it.
+        // A singular matrix is ignored, because the following step reports it.
         let Ok(encounter) =
             self.impact_problem_with_jumps(&[(&directions, Deformation::All)], -2.0, jumps)
         else {
@@ -269,8 +271,8 @@ impl System {
         directions.iter().map(answer).collect()
     }
 
-    /// Computes the velocity responses to unit impulses if the given deformations take part. If both bodies respond rigidly to an impulse
-    /// direction, all deformations take part for this direction.
+    /// Computes the velocity responses to unit impulses with the given deformations.
+    /// If both bodies respond rigidly to an impulse direction, all deformations are included for this direction.
     ///
     /// # Errors
     /// Fails if the matrix is singular.
@@ -298,8 +300,8 @@ impl System {
         Ok(directions.iter().map(&mut answer).collect())
     }
 
-    /// Creates the impact problem for the given directions. The velocity violation `w` of each rigid link changes by `links · w`. With `links =
-    /// -2`, the impact reverses the violation, and the links do no work.
+    /// Creates the impact problem for the given directions. The velocity violation `w` of each rigid link changes by `links · w`.
+    /// With `links = -2`, the impact reverses the violation of the links, and the links do no work.
     pub(super) fn impact_problem(
         &mut self,
         met: &[ImpactSelection<'_>],
@@ -308,7 +310,7 @@ impl System {
         self.impact_problem_with_jumps(met, links, Vec::new())
     }
 
-    /// Impact problem with jumps of prescribed rates. Contacts and links see the mean of the rates before and after the jump.
+    /// Creates the impact problem with jumps of prescribed rates. Contacts and links use the mean of the rates before and after the jump.
     fn impact_problem_with_jumps(
         &mut self,
         met: &[ImpactSelection<'_>],
@@ -382,7 +384,7 @@ impl System {
         }
     }
 
-    /// Velocities across the masters caused by unit impulses across the masters: `G M⁻¹ Gᵀ`, one row per slider [1/mass].
+    /// Velocities across the masters due to unit impulses across the masters: `G M⁻¹ Gᵀ`, one row per slider [1/mass].
     pub(in crate::system) fn response_across(&self) -> Result<Vec<Vec<f64>>, LinearError> {
         let mut inertia = self.banded_inertia();
         let answers = self.impulse_responses(&inertia.factorise()?, &self.across());

@@ -1,13 +1,15 @@
 //! Impulses of joints and supports in the last step. They are accumulated if mean forces over a step are requested.
 //!
-//! After a step has been solved, its balance is evaluated again with separate degrees of freedom for every control point, so that joints tie none
-//! of them. The residual at each control point is then the force of joints and supports. Impulses of impacts are added.
+//! After a step has been solved, its balance is evaluated again, without the ties of joints.
+//! In this evaluation, every control point has separate degrees of freedom.
+//! The residual at each control point is the force of joints and supports. Impulses of impacts are added.
 //!
 //! ```text
-//! M (v1 - v0)/Δt + Σ share · F(stage) + G = r        p1 - p0 = Δt Σ (r + loads)
+//! balance of forces:  M (v1 - v0)/Δt + Σ share · F(stage) + G = r
+//! impulse of a step:  p1 - p0 = Δt Σ (r + loads)
 //! ```
 //!
-//! Methods that balance accelerations instead of momenta do not have such mean forces.
+//! Methods that balance accelerations instead of momenta do not provide mean forces.
 
 use super::rigidity::add_transmitted_impulses;
 use super::{Reactions, System};
@@ -31,22 +33,22 @@ pub struct ExchangeLedger {
 
 /// Impulses on all control points, with preallocated buffers.
 pub struct Impulses {
-    /// Degrees of freedom that are numbered separately for every control point, even if joints tie control points. For an evaluation, they
-    /// temporarily replace the degrees of freedom of the model.
+    /// Degrees of freedom that are numbered separately for every control point, even if joints tie control points.
+    /// During an evaluation, the separate degrees of freedom replace the degrees of freedom of the model.
     numbers: Vec<DegreesOfFreedom>,
-    /// Force unknowns of rigid links, numbered after all separate degrees of freedom. For an evaluation, they temporarily replace the numbers in
-    /// the model.
+    /// Force unknowns of rigid links, numbered after all separate degrees of freedom.
+    /// During an evaluation, the separately numbered force unknowns of links replace the force unknowns in the model.
     links: Vec<[usize; 2]>,
-    /// List with `None` for each inclined roller, because the forces of rollers are summed separately. For an evaluation, it temporarily replaces
-    /// the force unknowns in the model.
+    /// List with `None` for each inclined roller, because the forces of rollers are summed separately.
+    /// During an evaluation, the list replaces the force unknowns of rollers in the model.
     rollers: Vec<Option<usize>>,
     values: Vec<f64>,
     /// Residual of the balance, with additional space for contact equations.
     residual: Vec<f64>,
-    /// Impulses since the end of the last step by control point, followed by the impulses of the multipliers of inclined rollers [force·time,
-    /// force·length·time].
+    /// Impulses since the end of the last step [force·time, force·length·time].
+    /// Impulses on control points are followed by impulses of inclined rollers.
     present: Vec<f64>,
-    /// Means of the last step, in the same order; before the first one the present forces [force, force·length].
+    /// Mean forces of the last step in the same order [force, force·length]. Before the first step, the list contains the present forces.
     means: Vec<f64>,
 }
 
@@ -106,8 +108,8 @@ impl System {
         }));
     }
 
-    /// Sets all mean forces to the present forces, which are the means over a step of zero length. If the present forces are unknown, for example
-    /// because a load has no value, the first step reports the reason.
+    /// Sets all mean forces to the present forces, which are the mean forces of a step of zero length.
+    /// If the present forces are unknown, for example because a load has no value, the first step reports the reason.
     pub(crate) fn start_means(&mut self) {
         let has_drives = self.supports.prescribed().count() > 0;
         if self.sliders.is_empty() && !has_drives && self.exchanged.impulses.is_none() {
@@ -134,7 +136,7 @@ impl System {
         }
     }
 
-    /// Ends a step of a duration [time]. Later substeps and impulses belong to the next one.
+    /// Ends a step of a duration [time]. Later impulses belong to the next step.
     pub(crate) fn end_step(&mut self, duration: f64) {
         self.sliders.iter_mut().for_each(SliderContact::end_step);
         self.supports.prescribed_mut().end_step();
@@ -147,8 +149,8 @@ impl System {
         }
     }
 
-    /// Mean forces of joints and supports in the last step, including impacts; before the first step the present forces. `None` if not
-    /// [enabled](Self::sum_up_impulses).
+    /// Mean forces of joints and supports in the last step, including impacts. Before the first step, the present forces are returned.
+    /// Returns `None` unless the accumulation is [enabled](Self::sum_up_impulses).
     pub fn mean_reactions(&self) -> Option<Reactions> {
         let Impulses { means, .. } = &**self.exchanged.impulses.as_ref()?;
         let (left, across) = means.split_at(means.len() - self.links.all_rollers().len());
@@ -185,8 +187,8 @@ impl System {
         self.exchanged.impulses = Some(impulses);
     }
 
-    /// Adds the impulses of an impact. They follow from the changes of the rates (with the impulses of rigid links), the impulses of section
-    /// forces, and the impulses on slaves.
+    /// Adds the impulses of an impact.
+    /// The impulses follow from the changes of the rates, the impulses of rigid links and section forces, and the impulses on slaves.
     pub(super) fn add_impact_impulses(
         &mut self,
         change: &[f64],
@@ -208,7 +210,7 @@ impl System {
         self.exchanged.impulses = Some(impulses);
     }
 
-    /// Copies `count` values of the unknowns to the separate numbers of control points and rigid links.
+    /// Copies `count` values of the unknowns to the separate numbering of control points and rigid links.
     fn separate_values(&self, impulses: &mut Impulses, value: impl Fn(usize) -> f64, count: usize) {
         let Impulses { numbers, links, values, .. } = impulses;
         let of = |at: usize| if at < count { value(at) } else { 0.0 };

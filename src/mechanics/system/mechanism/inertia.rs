@@ -33,23 +33,28 @@ impl System {
         })
     }
 
-    /// Forces at the unknowns divided by the diagonal of the inertia matrix, that is, without the coupling by inertia; zero where there is no
-    /// inertia [length/time², 1/time²].
+    /// Forces at the unknowns divided by the diagonal of the inertia matrix [length/time², 1/time²]. The coupling by inertia is ignored.
+    /// Zero for unknowns without inertia.
     pub fn uncoupled_accelerations(&self, forces: &[f64]) -> Vec<f64> {
         let inertia = self.diagonal_of_inertia();
         let of = |(force, inertia): (&f64, f64)| if inertia > 0.0 { force / inertia } else { 0.0 };
         forces.iter().zip(inertia).map(of).collect()
     }
 
-    /// Band matrix of the inertia, bordered by the constraints of rigid links [mass, mass·length, mass·length²]. Solving with it gives
-    /// accelerations and link forces.
+    /// Band matrix of the inertia, bordered by the constraints of rigid links [mass, mass·length, mass·length²].
+    /// A solution of this matrix contains accelerations and link forces.
     pub(super) fn banded_inertia(&self) -> BandedMatrix {
         let mut inertia =
             BandedMatrix::zeros(self.unknowns.count(), self.unknowns.half_bandwidth());
-        self.add_inertia_tangent(1.0, &mut inertia);
-        self.links.add_coupling(&self.bodies, self.unknowns.count(), &mut inertia);
-        inertia.weigh_rows();
+        self.fill_banded_inertia(&mut inertia);
         inertia
+    }
+
+    /// Adds the entries of [`banded_inertia`](Self::banded_inertia) to a zero matrix.
+    pub(super) fn fill_banded_inertia(&self, inertia: &mut BandedMatrix) {
+        self.add_inertia_tangent(1.0, inertia);
+        self.links.add_coupling(&self.bodies, self.unknowns.count(), inertia);
+        inertia.weigh_rows();
     }
 
     /// Diagonal of the inertia matrix of the unknown degrees of freedom [mass, mass·length²].

@@ -1,12 +1,15 @@
 //! Solution of the equations of motion at the present time: accelerations, and forces of supports, joints and contacts.
 //!
 //! ```text
-//! M a + F(x) - f(t) - Gᵀ λ = r        G a = 2 ξ̇ u·Σ B_i' v_i + ξ̇² u·Σ B_i'' x_i        r = 0 except at supported degrees of freedom
+//! equation of motion:      M a + F(x) - f(t) - Gᵀ λ = r
+//! closed contact:          G a = 2 ξ̇ u·Σ B_i' v_i + ξ̇² u·Σ B_i'' x_i
+//! forces of the supports:  r, zero at unknown degrees of freedom
 //! ```
 //!
-//! If the master has a kink under a slider, `λ` follows from the kink. Every method gives configuration and rates at the end of a step with
-//! second-order accuracy, and these results have the same order. They depend on the present state only, so they are the same after a rewind, in a
-//! copy and in a simulation read from a file. They contain unresolved vibrations, which the mean of two consecutive steps does not.
+//! If the master has a kink under a slider, the contact force `λ` follows from the kink.
+//! For every method, the computed accelerations and forces are accurate to second order, like configuration and rates at the end of a step.
+//! Accelerations and forces depend on the present state only. They are the same after a rewind, in a copy and in a simulation read from a file.
+//! Accelerations and forces contain unresolved vibrations. The mean of two consecutive steps does not contain them.
 
 use super::impact::{ImpactDirection, ImpulseResponse};
 use super::{Reactions, System};
@@ -21,28 +24,28 @@ use crate::system::{SliderState, SystemError};
 /// Accelerations and forces at one time.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Instant {
-    /// Accelerations of the unknowns [length/time², 1/time²], and the forces of rigid links at their unknowns.
+    /// Accelerations of the unknowns [length/time², 1/time²], with the forces of rigid links at their unknowns.
     accelerations: Vec<f64>,
     reactions: Reactions,
     /// Force of each slave on its master [force].
     contacts: Vec<Vec2>,
 }
 
-/// Force of a contact on its slave, and the accelerations that it causes.
+/// Force of a contact on its slave, with the resulting accelerations.
 struct UnitForce {
-    /// Force on the slave; of unit length without friction [-].
+    /// Force on the slave. Without friction, it has unit length [-].
     direction: Vec2,
-    /// Accelerations of the unknowns per force.
+    /// Accelerations of the unknowns per unit of the contact force.
     rates: Vec<f64>,
 }
 
 impl Instant {
-    /// Accelerations of the unknowns [length/time², 1/time²], and the forces of rigid links and rollers at their unknowns [force].
+    /// Accelerations of the unknowns [length/time², 1/time²], with the forces of rigid links and rollers at their unknowns [force].
     pub fn accelerations(&self) -> &[f64] {
         &self.accelerations
     }
 
-    /// Forces of joints and supports at this time.
+    /// Forces of joints and supports at the present time.
     pub fn reactions(&self) -> &Reactions {
         &self.reactions
     }
@@ -116,11 +119,11 @@ impl System {
         })
     }
 
-    /// Calls a function while the model stores the present forces of its rigid links instead of the forces of the last step, which are zero before
-    /// the first step.
+    /// Calls a function while the model stores the present forces of its rigid links.
+    /// During other calls, the model stores the forces of the last step, which are zero before the first step.
     ///
     /// # Errors
-    /// Errors of [`instant`](Self::instant), if the model has rigid links.
+    /// Fails in the same cases as [`instant`](Self::instant), if the model has rigid links.
     pub(crate) fn with_present_link_forces<T>(
         &mut self,
         look: impl FnOnce(&Self) -> T,
@@ -197,8 +200,8 @@ impl System {
         Ok((accelerations, contacts))
     }
 
-    /// Adds the friction of sliders that slip to unit forces across their masters. Its direction depends on the sign of the force across, which is
-    /// that of the given forces without friction. Returns true if a slider slips.
+    /// Adds the friction of sliders that slip to unit forces across their masters.
+    /// The direction of friction depends on the sign of the force across the master in the solution without friction. Returns true if a slider slips.
     fn add_slip_friction(
         &self,
         inertia: &BandedLu<'_>,

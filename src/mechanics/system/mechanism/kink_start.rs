@@ -1,7 +1,8 @@
-//! Consistent starts of kinks: a kink begins with the contact force that a rigid contact transmits at that moment.
+//! Consistent initial kinks: a kink begins with the contact force of a rigid contact at that moment.
 //!
-//! A kink is an undamped spring `GA/g` under the slider. If it began without load while the contact force acts at once, it would oscillate between
-//! zero and twice that force. Derived in docs/theory.md, section 10.1.
+//! A kink acts like an undamped spring `GA/g` under the slider.
+//! If the kink began without load, its force would oscillate between zero and twice the contact force.
+//! Derivation: docs/theory.md, section 10.1.
 
 use super::System;
 use super::impact::ImpactDirection;
@@ -14,13 +15,13 @@ use crate::system::SystemError;
 use crate::system::sliders::{KinkedAxis, SliderContact};
 
 impl System {
-    /// Starts all kinks of a scene as drawn, with the contact forces of rigid contacts at the start. Slaves and masters amid spans are moved apart
-    /// by `g a`. Velocities at ends are rotated from the axis onto the kinked axis.
+    /// Starts all kinks of a scene in its initial configuration, with the contact forces of rigid contacts.
+    /// Slaves and masters are moved apart by `g a`. At ends of masters, velocities are rotated from the axis onto the kinked axis.
     ///
-    /// Kinks begin without load if the contact forces are unknown, for example because a load has no value; the first step reports the reason.
+    /// If the contact forces are unknown, for example because a load has no value, kinks begin without load. The first step reports the reason.
     ///
     /// # Errors
-    /// Fails if velocities after the rotation are not determined.
+    /// Fails if velocities after the rotation are undetermined.
     pub(in crate::system) fn start_kinks(&mut self) -> Result<(), SystemError> {
         let (bodies, rates) = (&self.bodies, &self.motion.rates);
         let slow = |slider: &SliderContact| slider.has_kink() && slider.is_slow(bodies, rates);
@@ -29,7 +30,7 @@ impl System {
         if starting.is_empty() {
             return Ok(());
         }
-        // Without its kink, a contact is rigid.
+        // A contact without its kink is rigid.
         let axes: Vec<Option<KinkedAxis>> =
             starting.iter().map(|at| self.sliders[*at].exchange_kinked_axis(None)).collect();
         let now = self.instant();
@@ -48,10 +49,10 @@ impl System {
         self.rotate_onto_kinks(&starting)
     }
 
-    /// Starts the kinks of sliders that begin to slide at an end of their masters, where kinks have no energy.
+    /// Starts the kinks of sliders that begin to slide at an end of their masters. Kinks have no energy at the ends.
     ///
     /// # Errors
-    /// Fails if velocities after the rotation are not determined.
+    /// Fails if velocities after the rotation are undetermined.
     pub fn restart_kinks_at_ends(&mut self) -> Result<(), SystemError> {
         let (bodies, rates) = (&self.bodies, &self.motion.rates);
         let starting = |at: &usize| self.sliders[*at].is_straight_at_end(bodies, rates);
@@ -66,7 +67,8 @@ impl System {
         self.rotate_onto_kinks(&starting)
     }
 
-    /// Rotates the relative velocities of sliders at ends from the axis onto the kinked axis, without work. Kinks get the speeds of their sliders.
+    /// Rotates the relative velocities of sliders at ends from the axis onto the kinked axis, without work.
+    /// Kinks receive the speeds of their sliders.
     fn rotate_onto_kinks(&mut self, starting: &[usize]) -> Result<(), SystemError> {
         let at_ends = starting.iter().filter(|at| !self.sliders[**at].is_compliant());
         let corners = at_ends.map(|&at| {
@@ -82,10 +84,12 @@ impl System {
         Ok(())
     }
 
-    /// Moves slaves and masters apart by the offsets of their kinks with the smallest `Δq·M Δq`: `Δq = M⁻¹ Gᵀ P`, `G Δq = g a`. This is the mean
-    /// position of an oscillation from an unloaded kink, so it does not change the later motion in the mean.
+    /// Moves slaves and masters apart by the offsets of their kinks.
+    /// The displacement with the smallest `Δq·M Δq` is used: `Δq = M⁻¹ Gᵀ P`, `G Δq = g a`.
+    /// The position with open gaps is the mean of the oscillation that an unloaded kink would cause.
+    /// Hence the mean of the later motion does not change.
     ///
-    /// `None` if contacts cannot be opened independently of each other, or if points of rigid bodies would have to follow nonlinear constraints.
+    /// Returns `None` if contacts cannot be opened independently, or if points of rigid bodies would have to follow nonlinear constraints.
     fn open_gaps(&mut self) -> Option<()> {
         if !self.sliders.iter().any(|slider| slider.is_compliant()) {
             return Some(());

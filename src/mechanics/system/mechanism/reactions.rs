@@ -5,10 +5,10 @@ use crate::beams::{BodyPoint, Movement};
 use crate::geometry::Vec2;
 use crate::integrators::Mechanism;
 
-/// Forces of joints and supports. They are the residuals of the balance of each control point, evaluated without joints.
+/// Forces of joints and supports: the residuals of the balance of each control point, evaluated without joints.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Reactions {
-    /// Residual at each degree of freedom, which is the support force at supported ones [force, force·length].
+    /// Residual at each degree of freedom [force, force·length]. At supported degrees of freedom, it is the support force.
     residual: Vec<f64>,
     /// Forces of joints and supports on each control point of each body [force, force·length].
     nodes: Vec<Vec<Movement>>,
@@ -22,7 +22,7 @@ impl Reactions {
         self.nodes[body][point]
     }
 
-    /// Residual at each degree of freedom: the support forces [force, force·length].
+    /// Support forces: the residual at each degree of freedom [force, force·length].
     pub(super) fn residual(&self) -> &[f64] {
         &self.residual
     }
@@ -39,8 +39,8 @@ impl Reactions {
 }
 
 impl System {
-    /// Computes the forces of joints and supports. `left` contains the residuals of all control points, and `across` the multipliers of all
-    /// inclined rollers.
+    /// Computes the forces of joints and supports.
+    /// The argument `left` contains the residuals of all control points, and `across` the multipliers of all inclined rollers.
     pub(super) fn reactions_from_residuals(&self, left: &[f64], across: &[f64]) -> Reactions {
         let mut residual = vec![0.0; self.degrees_of_freedom()];
         let mut forces = left.chunks_exact(3).map(|force| [force[0], force[1], force[2]]);
@@ -63,13 +63,13 @@ impl System {
         nodes.iter().map(|(body, _)| *body).filter(is_rigid).collect()
     }
 
-    /// Reaction of supports at a place: force [force] and moment [force·length]; `None` without a support there.
+    /// Reaction of supports at a point: force [force] and moment [force·length]; `None` without a support at the point.
     pub fn reaction(&self, given: &Reactions, place: &BodyPoint) -> Option<(Vec2, f64)> {
         self.held_by(place, &given.residual, |roller| given.roller_forces[roller])
     }
 
-    /// Returns the reaction of supports and inclined rollers at a place; `None` if there is no support. `residual` contains the residual at all
-    /// degrees of freedom, and `of_roller` returns the force of a roller.
+    /// Returns the reaction of supports and inclined rollers at a point; `None` if there is no support.
+    /// The argument `residual` contains the residual at all degrees of freedom. The callback `of_roller` returns the force of a roller.
     pub(super) fn held_by(
         &self,
         place: &BodyPoint,

@@ -1,6 +1,6 @@
-//! Releases of joints and drives. A joint ties degrees of freedom by giving them a common number; a release gives them separate numbers.
+//! Releases of joints and drives. Degrees of freedom that are tied by a joint have a common number. A release gives them separate numbers.
 //!
-//! A release changes neither positions nor rates. Energy and momenta of the bodies remain the same to the last bit.
+//! A release changes neither positions nor rates. Energy and momenta of the bodies are unchanged to the last bit.
 
 use super::System;
 use crate::beams::BodyPoint;
@@ -23,7 +23,7 @@ pub struct DofNumbers {
     pub held: Vec<Support>,
     pub unknowns: Unknowns,
     pub joined: Vec<(BodyPoint, BodyPoint)>,
-    /// Blocks in which contacts of sliders are eliminated; `None` if contacts are eliminated together.
+    /// Blocks for the separate elimination of contacts; `None` if all contacts are eliminated together.
     pub contacts: Option<BlockLayout>,
 }
 

@@ -1,7 +1,7 @@
 //! Statics of a mechanism: residual of the static equations, and its derivatives.
 //!
-//! Displacements are relative to the present configuration. Rotation increments are increments of the angle, so that the stiffness is the Hessian
-//! of the potential energy.
+//! Displacements are relative to the present configuration.
+//! Rotation increments are increments of the angle, so that the stiffness is the Hessian of the potential energy.
 
 use super::System;
 use crate::beams::{BodyPoint, RotationIncrement};
@@ -14,11 +14,11 @@ use crate::system::sliders::{AtRest, MasterEnd};
 /// Scales of the forces in a static iterate.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct StaticForces {
-    /// Largest force, of a section or a load [force].
+    /// Largest section force or load [force].
     pub force: f64,
-    /// Largest moment, of a section or a load [force·length].
+    /// Largest section moment or moment of a load [force·length].
     pub moment: f64,
-    /// Largest difference between the strains of the section forces and the strains of the configuration [-].
+    /// Largest difference between the strains of the configuration and the strains that belong to the section forces [-].
     pub strain_mismatch: f64,
 }
 
@@ -36,8 +36,8 @@ impl System {
         self.sliders.predict_unchanged(&mut unknowns[self.unknowns.count()..]);
     }
 
-    /// Adds the internal forces of the current section forces, minus `load_factor` times the loads, and then the contact equations. The unknowns
-    /// are displacements followed by contact unknowns.
+    /// Adds the internal forces for the present section forces, minus `load_factor` times the loads. Adds also the contact equations.
+    /// The unknowns are displacements followed by contact unknowns.
     pub fn add_static_forces(
         &mut self,
         unknowns: &[f64],
@@ -57,8 +57,8 @@ impl System {
         }
     }
 
-    /// Adds the internal forces with strain mismatches condensed out, minus `load_factor` times the loads, and their derivatives with respect to
-    /// the displacements.
+    /// Adds the internal forces with strain mismatches condensed out, minus `load_factor` times the loads.
+    /// Adds also the derivatives of all added forces with respect to the displacements.
     pub fn add_linearised_static_forces(
         &mut self,
         unknowns: &[f64],
@@ -76,15 +76,15 @@ impl System {
         sliders.add_linearised::<AtRest>(bodies, count, movements, contacts, out, border);
     }
 
-    /// Largest violation of a rigid link or contact equation in a static iterate, as a fraction of a force scale or of the lengths involved [-].
+    /// Largest violation of a rigid link or contact equation in a static iterate [-]. It is a fraction of a force scale or of the lengths involved.
     pub(crate) fn violation_at_rest(&self, residual: &[f64], force: f64) -> f64 {
         let equations = &residual[self.unknowns.count()..];
         let relative = |off: f64| if off == 0.0 { 0.0 } else { off / force };
         larger(self.sliders.violation(equations, relative), self.links.violation(residual))
     }
 
-    /// Holds sliders that a displacement moves beyond stops, and frees sliders with tensile stop forces. Returns true if the state of a slider has
-    /// changed.
+    /// Holds sliders that a displacement moves beyond stops, and releases sliders whose stop force is tensile.
+    /// Returns true if the state of a slider has changed.
     ///
     /// # Errors
     /// Returns the slider and the end of its master, if a slider would leave its master.
@@ -108,8 +108,9 @@ impl System {
         self.subtract_loads(Stage::End, movements, load_factor, out)
     }
 
-    /// Accepts a static solution: applies its displacements and rotations [length, rad], its contact unknowns and the prescribed positions under a
-    /// fraction of the load. Afterwards all velocities are zero.
+    /// Accepts a static solution.
+    /// The solution contains displacements and rotations [length, rad], contact unknowns, and the prescribed positions for a fraction of the load.
+    /// After a static solution, all velocities are zero.
     pub(crate) fn move_by(&mut self, unknowns: &[f64], load_factor: f64) {
         let (movements, contacts) = unknowns.split_at(self.unknowns.count());
         let movements = self.supports.prescribed().at_rest(movements, load_factor);
@@ -128,9 +129,9 @@ impl System {
         self.supports.prescribed().has_positions()
     }
 
-    /// Support reaction at a place in equilibrium: force [force] and moment [force·length]; `None` without a support there.
+    /// Support reaction at a point in equilibrium: force [force] and moment [force·length]; `None` without a support at the point.
     ///
-    /// If several bodies are joined at the place, the reaction acts on all of them together.
+    /// If several bodies are joined at the point, the reaction acts on all of them together.
     pub(crate) fn support_force(&self, place: &BodyPoint, forces: &[f64]) -> Option<(Vec2, f64)> {
         self.held_by(place, forces, |roller| self.links.all_rollers()[roller].force())
     }

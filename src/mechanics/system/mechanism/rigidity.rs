@@ -1,15 +1,19 @@
-//! Response of beams to an impulse, if only selected deformations take part.
+//! Response of beams to an impulse, with only selected deformations.
 //!
-//! The velocity response `a` to a unit impulse `Gᵀ`, and the impulses `n` of the section forces, satisfy
+//! The equations below give the velocity response `a` to a unit impulse `Gᵀ`, and the impulses `n` of the section forces.
 //!
 //! ```text
-//! M a + Bᵀ n = Gᵀ        B a = n/(s C)        f = Gᵀ - Bᵀ n        a = M⁻¹ f
+//! balance of impulses:  M a + Bᵀ n = Gᵀ
+//! strains:              B a = n/(s C)
+//! resulting impulses:   f = Gᵀ - Bᵀ n
+//! velocity response:    a = M⁻¹ f
 //! ```
 //!
-//! Here `B` is the strain–rate matrix and `C` the section stiffness. For strains that steps of a length `h` resolve, `s = h²/4`; for suppressed
-//! strains, `1/s = 0`. `f` is the unit impulse together with the impulses of section forces. `n` is a separate unknown and `Bᵀ n` has no resultant,
-//! so momenta are conserved in spite of rounding. Springs and dampers do not take part: their forces are bounded, so their impulse during an impact
-//! is zero.
+//! Here `B` is the strain–rate matrix and `C` the section stiffness.
+//! For strains that steps of a length `h` resolve, `s = h²/4`; for suppressed strains, `1/s = 0`.
+//! The vector `f` is the unit impulse together with the impulses of section forces.
+//! The impulses `n` are separate unknowns and `Bᵀ n` has no resultant. Momenta are therefore conserved in spite of rounding.
+//! Springs and dampers are ignored: their forces are bounded, so their impulse during an impact is zero.
 
 use super::System;
 use crate::beams::StrainKind;
@@ -18,8 +22,8 @@ use crate::geometry::larger;
 use crate::integrators::{Inertia, Mechanism};
 use crate::linalg::{BandedLu, BandedMatrix};
 
-/// Largest ratio of weighted stiffness to inertia. Larger ratios are reduced to this value, for which the deformation is rigid to at least five
-/// digits.
+/// Largest ratio of weighted stiffness to inertia.
+/// Larger ratios are reduced to this value, for which the deformation is rigid to at least five digits.
 const MOST: f64 = 1e10;
 
 /// Smallest number of corrections of a solution. Each correction multiplies the error by `MOST` times the machine precision.
@@ -31,22 +35,22 @@ const MOST_CORRECTIONS: usize = 60;
 /// Energy of the suppressed strains that counts as zero, as a fraction of the energy of the impulse [-].
 const NO_STRAIN: f64 = 1e-20;
 
-/// Deformations that take part in an impact.
+/// Deformations that an impact includes.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Deformation {
     /// All deformations: only inertia resists the impulse.
     All,
     /// Deformations that steps of the given length resolve [time].
     Resolved(f64),
-    /// Deformations that steps of the given length resolve [time], except axial strain.
+    /// Deformations that steps of the given length resolve [time], without axial strain.
     Inextensible(f64),
 }
 
 struct StrainResistance {
     degrees: Vec<usize>,
     strain: Vec<f64>,
-    /// Resistance of the strain to an impulse: its stiffness times the integration length times `s = h²/4`, for steps of length `h`. For a
-    /// suppressed strain it is a penalty weight.
+    /// Resistance of the strain to an impulse: its stiffness times the integration length times `s = h²/4`, for steps of length `h`.
+    /// For a suppressed strain, the field is a penalty weight.
     weight: f64,
     is_rigid: bool,
 }
@@ -106,7 +110,7 @@ impl Rigidity {
 
     /// Adds the impulses of section forces to a unit impulse. `factors` are the factors of the [`matrix`](Self::matrix).
     ///
-    /// Suppressed strains are reduced to zero by the method of multipliers (Hestenes 1969). Returns the impulses `n` of the section forces.
+    /// The method of multipliers reduces suppressed strains to zero (Hestenes 1969). Returns the impulses `n` of the section forces.
     pub(super) fn transmit_unit_impulse(
         &self,
         model: &mut System,
@@ -169,7 +173,7 @@ fn fastest<'r>(inertia: &[f64], resistances: impl Iterator<Item = &'r StrainResi
     with_inertia.map(|(k, m)| k / m).fold(0.0, larger)
 }
 
-/// Calls `take` for every strain with a nonzero stiffness, with degrees of freedom, coefficients, stiffness and type.
+/// Calls `take` for every strain with a nonzero stiffness. Arguments: degrees of freedom, coefficients, stiffness and type.
 fn for_each_stiff_strain(model: &System, mut take: impl FnMut(&[usize], &[f64], f64, StrainKind)) {
     model.each_span_of_bodies(&mut |degrees, span| {
         let rows = span.stiffness.iter().zip(&span.kinds).zip(span.strains.chunks(degrees.len()));
@@ -178,7 +182,7 @@ fn for_each_stiff_strain(model: &System, mut take: impl FnMut(&[usize], &[f64], 
     });
 }
 
-/// Adds the impulses `Bᵀ n` of section forces in an impact, in the current numbering. `passed` is empty if no strain resists the impulse.
+/// Adds the impulses `Bᵀ n` of section forces in an impact, in the present numbering. `passed` is empty if no strain resists the impulse.
 pub(super) fn add_transmitted_impulses(model: &System, passed: &[f64], out: &mut [f64]) {
     let mut passed = passed.iter();
     for_each_stiff_strain(model, |degrees, row, _, _| {

@@ -1,16 +1,20 @@
-//! Sliders that pass from beam to beam of a track: effect of a corner at the seam on the velocities.
+//! Impacts of sliders at corners of a track, where they pass from beam to beam.
 //!
-//! The corner is treated as the limit of a rounded corner. Let `w` be the velocity of the slave relative to the contact point of the master. While
-//! the tangent rotates, the contact acts by impulses normal to the tangent, which do no work and conserve the component of `w` along the tangent.
-//! Hence `½ w·W⁻¹w` is constant, with `W = G M⁻¹ Gᵀ` as in an impact, and `w` rotates with the tangent in the metric `W⁻¹`:
+//! The corner is treated as the limit of a rounded corner. Let `w` be the velocity of the slave relative to the contact point of the master.
+//! While the tangent rotates, the contact acts by impulses normal to the tangent.
+//! The impulses do no work and conserve the component of `w` along the tangent.
+//! Hence `½ w·W⁻¹w` is constant with `W = G M⁻¹ Gᵀ`, and `w` rotates with the tangent in the metric `W⁻¹`:
 //!
 //! ```text
-//! w⁺ = w⁻ + W P        P = γ J ½ (w⁻ + w⁺)        γ = 2 tan(θ/2)/√det W
+//! velocity after the impact:  w⁺ = w⁻ + W P
+//! impulse of the corner:      P = γ J ½ (w⁻ + w⁺)
+//! factor of the impulse:      γ = 2 tan(θ/2)/√det W
 //! ```
 //!
-//! Here `θ` is the angle between the tangents before and after the corner in that metric. The rotation has two parts. The first is the rotation
-//! from the section direction on one side to the section direction on the other. It acts on the part `G v` of the velocity that the steps resolve,
-//! in one impact with all simultaneous impacts. The remaining angle is the difference of the shear on both sides; it rotates the full velocity.
+//! Here `θ` is the angle between the tangents before and after the corner in the metric `W⁻¹`. The rotation consists of two parts.
+//! The first part is the rotation from the section direction on one side to the section direction on the other side.
+//! The first part rotates the velocity `G v` that the steps resolve, in one impact with all simultaneous impacts.
+//! The second part is the difference of the shear angles on both sides of the corner. It rotates the full velocity.
 //! Derivation: docs/theory.md, section 10.3.
 
 use super::System;
@@ -21,23 +25,23 @@ use crate::geometry::{Vec2, cross, perpendicular};
 use crate::linalg::{BandedMatrix, LinearError, Pairing, complementary};
 use crate::system::sliders::{MasterEnd, MasterLimit, Seam};
 
-/// Angle below which two tangents are equal within rounding [rad].
+/// Angle below which two tangents count as parallel [rad].
 const STRAIGHT: f64 = 1e-13;
 
-/// Determinant of the velocity response, as a fraction of its squared trace, below which an impulse can change the velocity of the slider in one
-/// direction only. Such a velocity is not rotated at corners.
+/// Smallest determinant of the velocity response `W`, as a fraction of its squared trace.
+/// With a smaller determinant, an impulse changes the velocity in only one direction, and the velocity of the slider is not rotated.
 const ONE_WAY: f64 = 1e-20;
 
 /// Largest number of corrections of the rotation angles, for coupled sliders that pass corners simultaneously.
 const CORRECTIONS: usize = 40;
 
-/// Tolerance of a rotation angle [rad].
+/// Tolerance of the rotation angle at a corner [rad].
 const RIGHT: f64 = 1e-12;
 
-/// Range within which an estimated derivative of the rotation angle with respect to its parameter is plausible. Other estimates are not used.
+/// Plausible range for the estimated derivative of the rotation angle with respect to its parameter. Estimates outside the range are not used.
 const SLOPES: std::ops::Range<f64> = 0.2..5.0;
 
-/// Corner that a slider passes: its directions before and after the corner [-].
+/// Corner that a slider passes, with the directions before and after the corner [-].
 #[derive(Debug, Clone, Copy)]
 pub(super) struct SeamCorner {
     pub(super) slider: usize,
@@ -69,13 +73,13 @@ pub(super) struct SeamCrossings {
 }
 
 impl SeamCrossings {
-    /// Corners at which the section direction changes; empty if it changes at none of the seams.
+    /// Corners at which the section direction changes; empty if it changes at no seam.
     pub(super) fn corners_of_sections(&self) -> &[SeamCorner] {
         if self.sections.iter().all(SeamCorner::is_straight) { &[] } else { &self.sections }
     }
 }
 
-/// Relative velocity of a slider caused by an impulse: the symmetric matrix `W`, given by rows [1/mass].
+/// Relative velocity of a slider due to an impulse: the symmetric matrix `W`, given by rows [1/mass].
 #[derive(Debug, Clone, Copy)]
 struct Response([Vec2; 2]);
 
@@ -98,7 +102,7 @@ impl Response {
 
     /// Rotation angle between two velocities in the metric `W⁻¹` [rad].
     fn angle(&self, from: Vec2, to: Vec2) -> f64 {
-        // Scalar product in the metric, times `det W`.
+        // Scalar product in the metric `W⁻¹`, times `det W`.
         let along = perpendicular(from).dot(&self.times(perpendicular(to)));
         atan2(self.determinant().sqrt() * cross(from, to), along)
     }
@@ -115,7 +119,7 @@ impl System {
         self.sliders[slider].crossed_seam_at(self.motion.time)
     }
 
-    /// Crossings of sliders that are at seams of their tracks.
+    /// Crossings of sliders that are at the seams of their tracks.
     pub(super) fn passages(&self, limits: &[MasterLimit]) -> SeamCrossings {
         let passing = limits.iter().filter_map(|&MasterLimit { slider, end }| {
             Some((slider, end, self.sliders[slider].seam(&self.bodies, end)?))
@@ -143,8 +147,8 @@ impl System {
         Ok(())
     }
 
-    /// Adjusts the velocities of sliders that are at ends of masters with a kink. The velocity along the kinked axis is rotated to the smooth axis.
-    /// The kink has no energy at an end, and its motion becomes motion along the axis.
+    /// Adjusts the velocities of sliders at the ends of masters with a kink. The velocity along the kinked axis is rotated to the smooth axis.
+    /// The kink has no energy at an end. The motion of the kink becomes motion along the axis.
     pub(super) fn straighten_kinks(&mut self, limits: &[MasterLimit]) -> Result<(), LinearError> {
         let rates = &self.motion.rates;
         let corner = |&MasterLimit { slider, end }: &MasterLimit| {
@@ -168,7 +172,7 @@ impl System {
         Some([along(slider.connection.master, end)?, -beyond])
     }
 
-    /// Rotates the relative velocities of sliders at corners. Only the given deformations take part.
+    /// Rotates the relative velocities of sliders at corners. The impact includes only the given deformations.
     pub(super) fn deflect(
         &mut self,
         corners: &[SeamCorner],
@@ -198,15 +202,16 @@ fn turned(direction: Vec2, [from, to]: [Vec2; 2]) -> Vec2 {
     direction * from.dot(&to) + perpendicular(direction) * cross(from, to)
 }
 
-/// Computes the impulses of an impact in which corners rotate the velocities of sliders. A corner has two components of impulse; all other contacts
-/// have laws.
+/// Computes the impulses of an impact in which corners rotate the velocities of sliders.
+/// A corner has two components of impulse. All other contacts have impact laws.
 ///
-/// At a corner the impulse is `P = γ J ½ (w⁻ + w⁺)`, with the velocities `w⁻` before and `w⁺` after the impact. The factor `γ` is such that the
-/// velocity rotates by the angle of the corner, to 1e-12 or as accurately as the last correction allows. The result is `None` if sliders also strike
-/// stops and the angles are not reached.
+/// At a corner the impulse is `P = γ J ½ (w⁻ + w⁺)`, with the velocities `w⁻` before and `w⁺` after the impact.
+/// The factor `γ` is determined so that the velocity rotates by the angle of the corner, to 1e-12 or as accurately as possible.
+/// Returns `None` if the angles are not reached in a case where sliders also strike stops.
 ///
-/// For any `γ` the impulses solve one complementarity problem. Its rows for corners are `cos(θ/2) √det W P - sin(θ/2) J W P = sin(θ/2) J 2 w̄`,
-/// with the mean velocity `w̄` without impulses. The solution is unique (docs/theory.md, section 10.3).
+/// For any `γ`, the impulses are the solution of a complementarity problem.
+/// The rows for corners are `cos(θ/2) √det W P - sin(θ/2) J W P = sin(θ/2) J 2 w̄`, with the mean velocity `w̄` without impulses.
+/// The solution of the complementarity problem is unique (docs/theory.md, section 10.3).
 pub(super) fn deflect_at_corners(
     encounter: &ImpactProblem,
     corners: &[SeamCorner],
@@ -228,7 +233,7 @@ pub(super) fn deflect_at_corners(
         for (at, bend) in bends.iter().enumerate() {
             let [x, y] = [2 * at, 2 * at + 1];
             let (keeps, swings) = bend.row();
-            // J maps (x, y) to (-y, x).
+            // The operator J maps (x, y) to (-y, x).
             for (row, from, sign) in [(x, y, swings), (y, x, -swings)] {
                 matrix[row] = encounter.response[from].iter().map(|w| w * sign).collect();
                 matrix[row][row] += keeps;
@@ -251,8 +256,8 @@ pub(super) fn deflect_at_corners(
     Ok(last.filter(|_| !strikes).map(|impulses| encounter.with_works(impulses)))
 }
 
-/// Returns the velocity response `W` of each slider at a corner to its own impulse. The response includes the reactions of the contacts that keep
-/// slaves on their masters.
+/// Velocity response `W` of each slider at a corner to its own impulse.
+/// The response includes the reactions of the contacts that keep slaves on their masters.
 fn own_responses(
     encounter: &ImpactProblem,
     corners: &[SeamCorner],
@@ -280,12 +285,12 @@ fn own_responses(
     (0..corners.len()).map(own).collect()
 }
 
-/// Iterative search for the factor `γ` that rotates the velocity of a slider at a corner by the required angle.
+/// Iterative search for the factor `γ` for which the velocity of a slider at a corner rotates by the required angle.
 struct TurnSearch {
     own: Response,
     /// Required angle [rad].
     required_angle: f64,
-    /// Angle that parametrises `γ` [rad]. The next field holds the previous parameter and its error of the rotation angle.
+    /// Angle that parametrises `γ` [rad]. The next field contains the previous parameter and the error of its rotation angle.
     angle: f64,
     before: Option<(f64, f64)>,
 }
@@ -312,7 +317,7 @@ impl TurnSearch {
         }
         let off = self.own.angle(before, after) - self.required_angle;
         let slope = self.before.map(|(angle, other)| (off - other) / (self.angle - angle));
-        // Secant method if the estimated slope is plausible, otherwise the slope 1.
+        // The secant method is used if the estimated slope is plausible, otherwise the slope 1.
         let slope = slope.filter(|slope| SLOPES.contains(slope)).unwrap_or(1.0);
         self.before = Some((self.angle, off));
         self.angle -= off / slope;

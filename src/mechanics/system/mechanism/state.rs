@@ -8,8 +8,8 @@ use crate::system::SystemError;
 use crate::system::sliders::SliderState;
 use crate::system::state::Prediction;
 
-/// State of a [`System`] that can be restored in the same system. It contains everything that determines the later motion, and the accumulated work
-/// and impulse.
+/// State of a [`System`], which can be restored in the same system.
+/// The state contains everything that determines the later motion, and the accumulated work and impulse.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct SystemState {
     numbers: Vec<f64>,
@@ -28,7 +28,7 @@ impl SystemState {
         }
     }
 
-    /// Returns true if both states have the same numbers of values and sliders.
+    /// Returns true if both states contain the same numbers of values and sliders.
     pub(crate) fn is_shaped_like(&self, other: &Self) -> bool {
         self.numbers.len() == other.numbers.len() && self.sliders.len() == other.sliders.len()
     }
@@ -43,7 +43,7 @@ impl SystemState {
         sliders.extend_from_slice(&from.sliders);
     }
 
-    /// Writes the difference between the values of this state and of `other`, divided by `distance`, to `change`.
+    /// Writes the difference between this state and `other`, divided by `distance`, to `change`.
     pub(crate) fn change_from(&self, other: &Self, distance: f64, change: &mut Vec<f64>) {
         let per_unit = |(own, other): (&f64, &f64)| match own == other || own.is_nan() {
             true => 0.0,
@@ -90,7 +90,7 @@ impl System {
     /// Restores a [`state`](Self::state) of this model bit for bit.
     ///
     /// # Panics
-    /// Panics if the state belongs to another model.
+    /// Panics if the state does not belong to this model.
     pub fn restore(&mut self, state: &SystemState) {
         let mut numbers = state.numbers.iter().copied();
         let next = &mut || numbers.next().expect("the state is one of this model");

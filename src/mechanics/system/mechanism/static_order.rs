@@ -1,15 +1,15 @@
-//! Order of unknowns in the matrices of small vibrations and static increments.
+//! Order of unknowns in the matrices for small vibrations and static increments.
 
 use super::System;
 use crate::linalg::reverse_cuthill_mckee;
 
-/// Order of the unknowns in static and modal matrices. Without sliders it is their order in time steps. With sliders, the positions of the sliders
-/// are additional unknowns, and all unknowns are reordered for a narrow band.
+/// Order of the unknowns in static and modal matrices. Without sliders, it is the order in time steps.
+/// With sliders, the positions of the sliders are additional unknowns, and all unknowns are reordered for a small bandwidth.
 #[derive(Debug, Clone)]
 pub struct StaticOrder {
     count: usize,
     half_bandwidth: usize,
-    /// Position of each unknown in this order; `None` if the order is the same as in time steps.
+    /// Position of each unknown in the order; `None` if the order is that of time steps.
     position: Option<Vec<usize>>,
 }
 
@@ -33,12 +33,12 @@ impl StaticOrder {
         }
     }
 
-    /// Returns true if the order is the same as in time steps.
+    /// Returns true if the order is that of time steps.
     pub(crate) fn is_step_order(&self) -> bool {
         self.position.is_none()
     }
 
-    /// Converts values from this order to the order of time steps, and truncates them to `unknowns` entries.
+    /// Converts values from this order to the order of time steps. Only the first `unknowns` entries are returned.
     pub(crate) fn to_step_order(&self, values: Vec<f64>, unknowns: usize) -> Vec<f64> {
         match &self.position {
             None => values,

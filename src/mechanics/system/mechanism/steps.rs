@@ -1,4 +1,4 @@
-//! Implementation of the interface [`Mechanism`] for a model. Integrators call it.
+//! Implementation of the interface [`Mechanism`] for a model, for use by integrators.
 
 use super::System;
 use crate::beams::{Collocation, ForceSummary};
@@ -13,8 +13,8 @@ use crate::system::elements::{TrialState, WorkAndImpulse, collocation};
 use crate::system::links::ArmRule;
 use crate::system::sliders::InStep;
 
-/// Rule for the lever arms of the forces of rigid links. They are taken at the fraction of the step at which the method balances forces. Any other
-/// fraction would reduce the method to first order.
+/// Rule for the lever arms of the forces of rigid links. Arms are evaluated at the fraction of the step at which the method evaluates the balance.
+/// Arms at any other fraction would reduce the method to first order.
 fn arm_rule(stage: Stage, weight: f64) -> ArmRule {
     let Collocation { rotations, configuration, .. } = collocation(stage);
     let share = if stage == Stage::End { weight } else { configuration };
@@ -50,7 +50,7 @@ impl System {
         self.elements.subtract_from(at, out)
     }
 
-    /// Adds the internal forces with mismatches condensed out, minus `share` times the external forces, and their derivatives.
+    /// Adds the internal forces with residuals condensed out, minus `share` times the external forces, and their derivatives.
     pub(super) fn add_linearised(
         &mut self,
         stage: Stage,
@@ -77,7 +77,7 @@ impl System {
         let mut sum = self.elements.exchange(&self.bodies, duration);
         sum += self.supports.exchange(&self.bodies, residual, duration);
         for (unknown, roller) in self.links.rollers() {
-            // In a time step the unknown is an impulse.
+            // In a time step, the unknown of a roller is an impulse.
             let impulse = roller.force_of(increments[unknown]);
             sum +=
                 WorkAndImpulse::of(0.0, impulse, cross(roller.mean_place(&self.bodies), impulse));
@@ -85,8 +85,7 @@ impl System {
         if duration < 0.0 { sum.negated() } else { sum }
     }
 
-    /// Evaluates the entries of `M Δv` and `M v̄` for the prescribed degrees of freedom in a step, with the change `Δv` and the mean `v̄` of the
-    /// rates.
+    /// Evaluates the entries of `M Δv` and `M v̄` for the prescribed degrees of freedom. `Δv` is the change and `v̄` the mean of the rates in a step.
     fn add_prescribed_inertia(&mut self, rates: &[f64]) {
         let Self { bodies, elements, supports, motion, step, .. } = self;
         let movements = supports.prescribed_mut();

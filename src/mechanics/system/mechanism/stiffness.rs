@@ -11,13 +11,14 @@ use crate::linalg::{PreciseBand, SymmetricSparse};
 use crate::system::links::RigidLink;
 use crate::system::state::UnknownKind;
 
-/// Penalty stiffness of rigid links, as a multiple of the largest stiffness at their degrees of freedom. The penalty lowers frequencies by a
-/// relative amount that is smaller than the inverse of this number. With 32 digits, all other stiffnesses remain resolved.
+/// Penalty stiffness of rigid links, as a multiple of the largest stiffness at their degrees of freedom.
+/// The penalty changes frequencies by a relative amount below the inverse of this number.
+/// All other stiffnesses remain resolved, because the matrices have 32 digits.
 const RIGID: f64 = 1e8;
 
 impl System {
-    /// Calls `take` with the static stiffness of every span and spring, and the positions of its unknowns in `order`. Supported degrees of freedom
-    /// follow all unknowns.
+    /// Calls `take` with the static stiffness of every span and spring, and the positions of its unknowns in `order`.
+    /// Supported degrees of freedom follow all unknowns.
     pub(crate) fn for_each_static_span(
         &self,
         order: &StaticOrder,
@@ -42,15 +43,15 @@ impl System {
         }
     }
 
-    /// Power that dampers, damped materials and drag dissipate at given rates of the unknowns in the present configuration [energy/time].
+    /// Power that dampers, damped materials and drag dissipate at the given rates of the unknowns in the present configuration [energy/time].
     pub(crate) fn dissipation(&self, rates: &[f64]) -> f64 {
         let mut power = 0.0;
         self.each_damped_rate(rates, &mut |damping, rate| power += damping * square(rate));
         power
     }
 
-    /// Calls `take` with each damped rate and its damping coefficient for small rates, in the present configuration. The coefficient times the
-    /// squared rate is the dissipated power [energy/time]. The number and order of calls do not depend on the rates.
+    /// Calls `take` with each damped rate and its damping coefficient for small rates, in the present configuration.
+    /// The coefficient times the squared rate is the dissipated power [energy/time]. The number and order of calls do not depend on the rates.
     pub(crate) fn each_damped_rate(&self, rates: &[f64], take: &mut dyn FnMut(f64, f64)) {
         self.elements.each_damped_rate(&self.bodies, rates, take);
     }
@@ -71,8 +72,9 @@ impl System {
         reaches.fold(self.unknowns.half_bandwidth(), usize::max)
     }
 
-    /// Calls `take` with the penalty stiffness of every rigid link and contact. It is `RIGID` times the largest stiffness at its degrees of
-    /// freedom. `stiffness` returns that value for a position in `order` [force/length, force·length].
+    /// Calls `take` with the penalty stiffness of every rigid link and contact.
+    /// The penalty stiffness is `RIGID` times the largest stiffness at the degrees of freedom of the link or contact.
+    /// The callback `stiffness` returns the largest stiffness for a position in `order` [force/length, force·length].
     pub(crate) fn for_each_static_constraint(
         &self,
         order: &StaticOrder,
@@ -99,7 +101,7 @@ impl System {
         self.sliders.for_each_static_stiffness(&self.bodies, self.unknowns.count(), rigid, take);
     }
 
-    /// Number of degrees of freedom with mass that the constraints of rigid links and contacts remove.
+    /// Number of degrees of freedom with mass that rigid links and contacts remove by their constraints.
     pub(crate) fn constrained_movements(
         &self,
         order: &StaticOrder,
@@ -119,8 +121,8 @@ impl System {
         self.links.forces().saturating_sub(kinds.filter(is_light).count())
     }
 
-    /// Estimate of the square of the lowest bending frequency, as if all beams formed a single beam: the smallest `EI`, divided by the largest `ρA`
-    /// and by the fourth power of the total length; `None` without a beam [1/time²].
+    /// Estimate of the square of the lowest bending frequency [1/time²]; `None` without a beam.
+    /// The estimate is the smallest `EI`, divided by the largest `ρA` and by the fourth power of the total length of the beams.
     pub(crate) fn slowest_bending(&self) -> Option<f64> {
         let extents = || self.bodies.iter().filter_map(|body| body.dynamics.extent());
         let length: f64 = extents().map(|(_, length)| length).sum();
@@ -130,7 +132,7 @@ impl System {
         (length > 0.0).then(|| bending / mass / square(square(length)))
     }
 
-    /// Number of negative eigenvalues of the stiffness, for loads of fixed direction.
+    /// Number of negative eigenvalues of the stiffness for loads of fixed direction.
     pub(crate) fn negative_stiffness_count(&self) -> usize {
         self.negative_stiffness_count_with_inertia(0.0)
     }

@@ -1,7 +1,8 @@
-//! Impacts at the ends of masters: simultaneous impacts, energy stored in stops, and sliders that leave a stop.
+//! Impacts at the ends of masters: simultaneous impacts, energy stored in stops, and release of sliders from stops.
 //!
-//! When a slider comes to rest at a stop that then holds it, an impulse reduces its speed along the master to zero. The stop acts as an elastic
-//! body: it stores the lost kinetic energy and returns it when the slider leaves. With a coefficient of restitution below one the energy is lost.
+//! When a slider comes to rest at a stop and is held there, an impulse reduces its speed along the master to zero.
+//! The stop acts like an elastic body: it stores the lost kinetic energy and returns it when the slider leaves.
+//! With a coefficient of restitution below one, the lost kinetic energy is not returned.
 
 use super::System;
 use super::impact::{GIVES, ImpactDirection, ImpactLaw};
@@ -14,31 +15,31 @@ use crate::linalg::LinearError;
 use crate::system::SystemError;
 use crate::system::sliders::{AxialImpact, MasterLimit, SliderState};
 
-/// Distance of a slider from the end of its master that counts as simultaneous arrival with another slider, as a fraction of the parameter range.
+/// Largest distance of two sliders from the ends of their masters that counts as simultaneous arrival. Its unit is the parameter range.
 const TOGETHER: f64 = 1e-12;
 
-/// Number of steps per period. Vibrations with fewer steps per period count as rigid in an impact.
+/// Smallest number of steps per period of a vibration that an impact includes. Faster vibrations count as rigid.
 pub(super) const RIGID: f64 = 4.0;
 
-/// Largest ratio of step length to impact duration at which the steps resolve the impact [-].
+/// Largest ratio of step length to impact duration for which the steps resolve the impact [-].
 pub const RESOLVED_IMPACT: f64 = 0.125;
 
 /// Smallest approach speed, as a fraction of the speed of the fastest point of the model.
 const APPROACHES: f64 = 1e-12;
 
-/// Direction of a contact impulse, and the law of the contact.
+/// Direction of a contact impulse, with the law of the contact.
 #[derive(Debug, Clone, Copy)]
 struct ImpactContact {
     direction: ImpactDirection,
     law: ImpactLaw,
 }
 
-/// Sliders that reach an end of their master at the same time, grouped by their behaviour there.
+/// Sliders that reach an end of their master at the same time, grouped by their behaviour at the end.
 #[derive(Debug, Clone, Default)]
 pub struct Arriving {
     /// Limits at which sliders bounce.
     pub strike: Vec<MasterLimit>,
-    /// Limits that sliders strike without rebound. The stop has zero restitution, and the steps do not resolve the impact.
+    /// Limits that sliders strike without rebound: the stop has zero restitution, and the steps do not resolve the impact.
     pub plastic: Vec<MasterLimit>,
     /// Limits at which the stop holds sliders.
     pub held: Vec<MasterLimit>,
@@ -65,8 +66,8 @@ impl Arriving {
 }
 
 impl System {
-    /// Limits that sliders reach simultaneously with the given limit, in the order of the scene. These sliders are at an end within rounding and
-    /// move beyond it.
+    /// Limits that sliders reach simultaneously with the given limit, in the order of the scene.
+    /// Sliders that arrive simultaneously are at an end within rounding, and move beyond it.
     pub(crate) fn simultaneous_arrivals(&self, limit: MasterLimit) -> Vec<MasterLimit> {
         let limits = (0..self.sliders.len()).flat_map(MasterLimit::both);
         let arrives = |other: &MasterLimit| {
@@ -77,11 +78,11 @@ impl System {
         limits.filter(arrives).collect()
     }
 
-    /// Returns true if the velocity of a slider at an end points beyond the end. Only deformations that take part in an impact with steps of length
-    /// `dt` contribute to this velocity [time].
+    /// Returns true if the velocity of a slider at an end points beyond the end.
+    /// The velocity contains only deformations that an impact with steps of length `dt` includes [time].
     ///
     /// # Errors
-    /// Fails if the impulse is not determined.
+    /// Fails if the impulse is undetermined.
     pub(crate) fn approaches(&mut self, limit: MasterLimit, dt: f64) -> Result<bool, SystemError> {
         let direction = (limit.slider, self.stop_direction(limit));
         let approach = |model: &mut Self| -> Result<f64, LinearError> {
@@ -95,11 +96,12 @@ impl System {
         Ok(speed < -APPROACHES * self.fastest_speed())
     }
 
-    /// Returns true if steps of length `dt` [time] resolve the impact of a slider at a limit. The impact duration is computed from wave speeds if
-    /// at least one of the bodies is deformable and light enough. The ratio of step length to impact duration is recorded.
+    /// Returns true if steps of length `dt` [time] resolve the impact of a slider at a limit.
+    /// The impact duration follows from wave speeds if at least one of the bodies is deformable and light enough.
+    /// The ratio of step length to impact duration is recorded.
     ///
     /// # Errors
-    /// Fails if the impulse is not determined.
+    /// Fails if the impulse is undetermined.
     pub(crate) fn resolves_impact(
         &mut self,
         limit: MasterLimit,
@@ -123,8 +125,9 @@ impl System {
         Ok(self.sliders[limit.slider].impact_duration(&self.bodies, AxialImpact { slave, master }))
     }
 
-    /// Deformations that take part in an impact at limits, for steps of length `dt` [time]. With a coefficient of restitution, axial waves and all
-    /// vibrations faster than the impact are suppressed. In an elastic contact, the deformations that the steps resolve take part.
+    /// Deformations that an impact at limits includes, for steps of length `dt` [time].
+    /// With a coefficient of restitution, axial waves and all vibrations faster than the impact are suppressed.
+    /// In an elastic contact, the deformations that the steps resolve are included.
     fn deformation_at(&self, limits: &[MasterLimit], dt: f64) -> Result<Deformation, LinearError> {
         let mut longest = None;
         for limit in limits.iter().filter(|at| self.end_action(at.slider) != EndAction::Contact) {
@@ -136,17 +139,17 @@ impl System {
         }))
     }
 
-    /// Holds the kinks at all contact points constant in the following steps. Returns true if this changes the equations of the next step.
+    /// Keeps the kinks at all contact points constant in the following steps. Returns true if this changes the equations of the next step.
     pub(crate) fn freeze_kinks(&mut self) -> bool {
         self.sliders.freeze_kinks()
     }
 
-    /// Lets the kinks follow the contact forces again.
+    /// Makes the kinks variable: they follow the contact forces in the following steps.
     pub(crate) fn unfreeze_kinks(&mut self) {
         self.sliders.unfreeze_kinks();
     }
 
-    /// Returns true if a kink under a contact force is fixed.
+    /// Returns true if a kink under a contact force is kept constant.
     pub(crate) fn has_frozen_kinks(&self) -> bool {
         self.sliders.iter().any(|slider| slider.is_frozen())
     }
@@ -156,14 +159,16 @@ impl System {
         self.sliders[limit.slider].along_contact(&self.bodies) * -limit.end.outward()
     }
 
-    /// Computes the impact of all sliders that arrive at ends of masters and at seams at the present time, for steps of length `dt` [time].
+    /// Computes the impact of all sliders that are at ends of masters or at seams at the present time. The length of the steps is `dt` [time].
     ///
-    /// All stops have the law `0 ≤ P ⟂ w⁺ + e w⁻ ≥ 0` with the impulse `P`, the coefficient of restitution `e`, and the relative velocities `w⁻`
-    /// before and `w⁺` after the impact. This includes stops at which sliders are held. A corner at a seam rotates the velocity of the slider. All
-    /// other contacts are constraints. Afterwards, a slider that passes a seam is on its other side.
+    /// All stops have the law `0 ≤ P ⟂ w⁺ + e w⁻ ≥ 0` with the impulse `P` and the coefficient of restitution `e`.
+    /// The relative velocities are `w⁻` before and `w⁺` after the impact.
+    /// Stops that hold sliders have the same law as other stops. A corner at a seam rotates the velocity of the slider.
+    /// All other contacts are constraints.
+    /// After the impact, a slider that passes a seam is on the other side of the seam.
     ///
     /// # Errors
-    /// Fails if the impulses are not determined.
+    /// Fails if the impulses are undetermined.
     pub fn solve_impact(&mut self, arriving: &Arriving, dt: f64) -> Result<(), SystemError> {
         self.sliders.iter_mut().for_each(|slider| slider.impulse = Vec2::zeros());
         let met = self.solve_simultaneous_impacts(arriving, dt);
@@ -190,8 +195,9 @@ impl System {
             self.apply_impulses(&hits, corners, [Deformation::Resolved(RIGID * dt), at_stops])?;
         }
         if !arriving.plastic.is_empty() {
-            // The impact above suppressed some deformations of the struck body. After it, rounding may have left a velocity of the slider against
-            // the stop. A second impact with all deformations removes this velocity.
+            // The first impact suppressed some deformations of the struck body.
+            // After the first impact, rounding may have left a velocity of the slider towards the stop.
+            // A second impact with all deformations removes the remaining velocity.
             let hits = self.impulse_directions(|_, limit| {
                 arriving.plastic.contains(&limit).then_some(ImpactLaw::Ends)
             });
@@ -201,8 +207,9 @@ impl System {
         self.pass_seams(&passages)
     }
 
-    /// Applies impulses at several contacts at once. Corners rotate the velocities of the sliders that pass them, and all other contacts follow
-    /// their impact laws. All deformations take part in the impulses that hold sliders at a stop.
+    /// Applies impulses at several contacts at once.
+    /// Corners rotate the velocities of the sliders that pass them. All other contacts follow their impact laws.
+    /// Impulses that hold sliders at a stop include all deformations.
     fn apply_impulses(
         &mut self,
         hits: &[ImpactContact],
@@ -221,7 +228,7 @@ impl System {
         let met = [(&turned[..], at_corners), (others, at_stops), (held, Deformation::All)];
         let encounter = self.impact_problem(&met, -2.0)?;
         let Some(impulses) = deflect_at_corners(&encounter, corners, &laws)? else {
-            // The rotation angles were not reached, so the impacts at stops are applied first and the corners afterwards.
+            // The rotation angles were not reached. The impacts at stops are therefore applied first, and the corners afterwards.
             self.apply_impulses(hits, &[], [Deformation::All, at_stops])?;
             return self.deflect(corners, at_corners);
         };
@@ -244,10 +251,10 @@ impl System {
         self.sliders[slider].impulse
     }
 
-    /// Frees all sliders with tensile stop forces, and gives them the energy stored in the stops.
+    /// Releases all sliders whose stop force is tensile, and returns the energy stored in the stops to them.
     ///
     /// # Errors
-    /// Fails if the impulses are not determined.
+    /// Fails if the impulses are undetermined.
     pub fn leave_tensile_stops(&mut self) -> Result<(), SystemError> {
         let leaving = |slider: &usize| self.sliders[*slider].is_pulled_off();
         let leaving: Vec<usize> = (0..self.sliders.len()).filter(leaving).collect();
@@ -268,11 +275,11 @@ impl System {
         Ok(())
     }
 
-    /// Returns the energy stored in stops to the sliders that leave them. The speeds of the sliders are proportional to the square roots of their
-    /// stored energies.
+    /// Returns the energy stored in stops to the sliders that leave them.
+    /// The speeds of the sliders are proportional to the square roots of their stored energies.
     ///
-    /// While the set of active contacts is the same, the impulses are proportional to the common factor of these speeds, and the returned energy to
-    /// its square.
+    /// While the set of active contacts does not change, the impulses are proportional to a common factor of the speeds.
+    /// The returned energy is proportional to the square of the common factor of the speeds.
     fn return_stop_energy(&mut self) -> Result<(), LinearError> {
         let hits = self.impulse_directions(|model, limit| {
             let slider = &model.sliders[limit.slider];
@@ -317,8 +324,9 @@ impl System {
         Ok(())
     }
 
-    /// Returns the directions of all contact impulses with their laws [-]. For a slider that is held or has an impact law at a limit, they are the
-    /// directions along and across the master. For any other slider on a master without a kink, it is the direction across the master.
+    /// Returns the directions of all contact impulses with their laws [-].
+    /// For a slider that is held or has an impact law at a limit, the directions are along and across the master.
+    /// For any other slider on a master without a kink, the direction is across the master.
     fn impulse_directions(
         &self,
         law: impl Fn(&Self, MasterLimit) -> Option<ImpactLaw>,
@@ -346,10 +354,10 @@ impl System {
     }
 }
 
-/// Nonnegative root of `a x² + b x + c`, if there is one.
+/// Nonnegative root of `a x² + b x + c`; `None` if there is none.
 fn nonnegative_root(a: f64, b: f64, c: f64) -> Option<f64> {
     let root = (square(b) - 4.0 * a * c).sqrt();
-    // Each form of the quotient avoids cancellation for its sign of `b`.
+    // The form of the quotient depends on the sign of `b`, so that no cancellation occurs.
     let x = if b > 0.0 { -2.0 * c / (b + root) } else { (root - b) / (2.0 * a) };
     (x.is_finite() && x >= 0.0).then_some(x)
 }

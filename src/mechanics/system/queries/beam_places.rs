@@ -1,4 +1,4 @@
-//! Repeated sampling of beams at the same places.
+//! Repeated sampling of beams at the same positions.
 
 use std::f64::consts::PI;
 
@@ -7,19 +7,19 @@ use crate::elementary::atan2;
 use crate::geometry::{Vec2, corresponding};
 use crate::system::{Scene, System, SystemError};
 
-/// Places along a beam, precomputed for repeated sampling: its knots, and equally spaced places between consecutive knots.
-///
-/// At a joint inside the beam there are two places with the same arc length: the end of one part and the start of the next.
+/// Positions along a beam, precomputed for repeated sampling: its knots, and equally spaced positions between consecutive knots.
+/// A joint inside the beam has two positions with the same arc length.
+/// The first position is the end of the part before the joint, the second the start of the part after the joint.
 #[derive(Debug, Clone, PartialEq)]
 pub struct BeamPlaces {
     beam: usize,
     places: Vec<(f64, BodyPoint, SectionPlace)>,
 }
 
-/// State of a beam at one of its places.
+/// State of a beam at a sampled position.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct BeamSample {
-    /// Arc length in the scene as drawn [length].
+    /// Arc length in the initial configuration [length].
     pub arc_length: f64,
     /// Position [length].
     pub position: Vec2,
@@ -34,29 +34,29 @@ pub struct BeamSample {
 }
 
 impl BeamPlaces {
-    /// Number of places between two knots that is enough to show the variation of section forces.
+    /// Number of positions between two knots that shows the variation of section forces sufficiently.
     pub const WITHIN_A_SPAN: usize = 3;
 
-    /// Removes, at a joint inside the beam, the first of the two places with the same arc length.
+    /// Removes, at each joint inside the beam, the first of the two positions with the same arc length.
     pub fn deduplicate_places(mut self) -> Self {
         let mut behind = self.arc_lengths().skip(1).collect::<Vec<_>>().into_iter();
         self.places.retain(|(arc_length, ..)| behind.next() != Some(*arc_length));
         self
     }
 
-    /// Increasing arc lengths of the places in the scene as drawn [length].
+    /// Increasing arc lengths of the positions in the initial configuration [length].
     pub fn arc_lengths(&self) -> impl Iterator<Item = f64> + '_ {
         self.places.iter().map(|(arc_length, ..)| *arc_length)
     }
 
-    /// Positions of the places, computed from control points of the beam [length].
+    /// Coordinates of the positions, computed from control points of the beam [length].
     pub fn positions(&self, control_points: &[Vec2]) -> impl Iterator<Item = Vec2> {
         self.places.iter().map(|(_, place, _)| place.interpolate(control_points))
     }
 }
 
 impl System {
-    /// Places of a beam for [`sample_along`](Self::sample_along): its knots and `within` places between consecutive knots.
+    /// Positions along a beam for [`sample_along`](Self::sample_along): its knots and `within` positions between consecutive knots.
     ///
     /// # Errors
     /// Fails if an axis has a point without a tangent.

@@ -9,18 +9,18 @@ impl System {
         self.supports().prescribed().state(drive)
     }
 
-    /// Finds the first drive whose position under a fraction of the load differs from its function just after a time. Returns its name and both
-    /// positions [length, rad].
+    /// Finds the first drive whose position under a fraction of the load differs from the value of its function just after a time.
+    /// Returns the name of the drive and both positions [length, rad].
     pub(crate) fn drive_elsewhere(&self, load_factor: f64, time: f64) -> Option<(&str, [f64; 2])> {
         self.supports().prescribed().first_displaced_drive(load_factor, time)
     }
 
-    /// Drives whose motion has a kink within a step, each with its largest kink.
+    /// Drives whose motion has a kink within a step, with the largest kink of each drive.
     pub fn bends(&self) -> impl Iterator<Item = (&str, MotionCurvature)> {
         self.supports().prescribed().bends()
     }
 
-    /// Loads and drives with changes of their schedule within a step that the method misses. Each name comes with its largest missed change.
+    /// Loads and drives whose schedule changes within a step between the samples, with the largest such change of each.
     pub(crate) fn missed_changes(&self) -> impl Iterator<Item = (&str, UnsampledChange)> {
         let loads = self.elements().forces();
         let loads = loads.filter_map(|load| Some((load.name(), load.missed_change()?)));

@@ -11,21 +11,21 @@ use crate::system::elements::{ExternalForce, InternalForce};
 use crate::system::errors::{MOST, in_words, plural};
 use crate::system::{BeamDefinition, Drive, Scene, System, SystemError};
 
-/// Part of the mechanics, and whether a simulation uses it.
+/// Feature of the mechanics, with its use in a simulation.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct SystemFeature {
-    /// Description of the part.
+    /// Description of the feature.
     pub name: String,
-    /// Use of the part.
+    /// Use of the feature.
     pub usage: Usage,
 }
 
-/// Use of a part of the mechanics.
+/// Use of a feature in a simulation.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Usage {
-    /// The part is used; the text describes how.
+    /// The feature is used. The text describes its use.
     Used(String),
-    /// The part is omitted; the text describes the saved effort.
+    /// The feature is omitted. The text describes the saved effort.
     Omitted(String),
 }
 
@@ -35,7 +35,7 @@ impl SystemFeature {
         Self { name: name.into(), usage: Usage::Used(how.into()) }
     }
 
-    /// Describes the time steps: their size, and the times at which they are shortened to end exactly.
+    /// Describes the time steps: their size, and the times at which steps must end.
     pub fn steps(size: &str, cuts: &[f64]) -> Self {
         let cut = in_words(cuts).map(|times| format!("steps will end at t = {times}"));
         Self::used(
@@ -51,7 +51,7 @@ impl SystemFeature {
 }
 
 impl Scene {
-    /// Parts of the mechanics that a simulation of this scene uses and omits, whatever the integrator.
+    /// Features of the mechanics that simulations of this scene use and omit, for any integrator.
     ///
     /// # Errors
     /// Fails if the scene cannot be assembled.
@@ -62,7 +62,7 @@ impl Scene {
 }
 
 impl System {
-    /// Parts of the mechanics that this model of a scene uses and omits. `methods` are the integrators that may advance it.
+    /// Features of the mechanics that this model of a scene uses and omits. `methods` are the integrators that may advance the model.
     pub fn explain(&self, scene: &Scene, methods: &[Method]) -> Vec<SystemFeature> {
         let mut parts = vec![self.explain_matrix()];
         parts.extend(self.explain_beams(scene));

@@ -1,8 +1,9 @@
 //! Forces transmitted by joints.
 //!
-//! A joint connects two sets of nodes at one place. Joints within one side exert forces that cancel in the sum over its nodes. Hence the force of
-//! the joint on one side is the sum of the forces of joints and supports on all nodes of this side. If one side is the ground, its force is the
-//! opposite of the force on the other side. Scenes reject redundant joints, so no other joint connects both sides.
+//! A joint connects two sets of nodes at one point. The forces of other joints within one set cancel in the sum over its nodes.
+//! Hence the force of the joint on one side is the sum of the forces of joints and supports on all nodes of this side.
+//! If one side is the ground, the force on it is opposite to the force on the other side.
+//! Scenes reject redundant joints, so no other joint connects both sides.
 
 use crate::geometry::Vec2;
 use crate::joints::{Component, Joint, JointKind, Partner, Releasable};
@@ -10,7 +11,7 @@ use crate::system::{Reactions, Scene, System, SystemError};
 
 type Node = Option<(usize, usize)>;
 
-/// Nodes on one side of a joint, and the sign of the force.
+/// Nodes on one side of a joint, and the sign with which their forces are added.
 #[derive(Debug, Clone, PartialEq)]
 struct JointSide {
     nodes: Vec<(usize, usize)>,
@@ -26,7 +27,7 @@ pub struct Transmission {
 }
 
 impl Transmission {
-    /// Force [force] and moment [force·length] of the joint on its first station, at the time of the reactions or averaged over their step.
+    /// Force [force] and moment [force·length] of the joint on its first station, for the given reactions.
     pub fn read(&self, given: &Reactions) -> (Vec2, f64) {
         let sum = |component: Component| {
             let at = component as usize;
@@ -41,10 +42,10 @@ impl Transmission {
 }
 
 impl System {
-    /// Locates the nodes on both sides of a joint. A released joint has none.
+    /// Locates the nodes on both sides of a joint. A released joint has no nodes.
     ///
     /// # Errors
-    /// Fails if a station lies off its beam, which cannot occur in a checked scene.
+    /// Fails if a station lies outside its beam, which cannot occur in a checked scene.
     pub fn transmission(&self, scene: &Scene, joint: usize) -> Result<Transmission, SystemError> {
         let ends = |joint: &Joint| -> Result<(Node, Node), SystemError> {
             let node = |station| -> Result<Node, SystemError> {
@@ -61,7 +62,7 @@ impl System {
         let has_let_go = |hold: Releasable| unknowns.are_free_of(hold);
         let all = scene.joints.iter().map(|joint| Ok((joint.kind, ends(joint)?)));
         let all = all.collect::<Result<Vec<_>, SystemError>>()?;
-        // All points of a rigid body together transmit its force and moment.
+        // All points of a rigid body together transmit the force and moment of the joint.
         let links = self.links().iter();
         let turning = links.map(|link| (Some((link.body, 0)), Some((link.body, link.point))));
         let turning: Vec<(Node, Node)> = turning.collect();
@@ -100,7 +101,7 @@ impl System {
     }
 }
 
-/// Nodes connected to `from` by chains of pairs that do not contain the ground.
+/// Nodes that are connected to `from` by chains of pairs without the ground.
 fn connected_nodes(from: Node, pairs: &[(Node, Node)]) -> Vec<Node> {
     let mut found = vec![from];
     let mut next = 0;

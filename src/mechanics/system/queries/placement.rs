@@ -1,17 +1,17 @@
-//! Configurations of a model, and the distance between two of them.
+//! Configurations of a model, and the distance between two configurations.
 
 use crate::elementary::atan2;
 use crate::geometry::{Vec2, cross, larger};
 use crate::system::System;
 
-/// Control points and section normals of a model.
+/// Configuration of a model: its control points and section normals.
 #[derive(Debug, Clone, Default)]
 pub struct Placement {
     points: Vec<Vec2>,
     normals: Vec<Vec2>,
 }
 
-/// Distance between two placements of a model.
+/// Distance between two configurations of a model.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Distance {
     /// Largest distance between control points [length].
@@ -21,7 +21,7 @@ pub struct Distance {
 }
 
 impl Placement {
-    /// Largest distances between this and another placement of the same model; NaN if any is NaN.
+    /// Largest distances between this configuration and another configuration of the same model; NaN if a distance is NaN.
     pub fn distance(&self, other: &Self) -> Distance {
         let points = self.points.iter().zip(&other.points);
         let normals = self.normals.iter().zip(&other.normals);

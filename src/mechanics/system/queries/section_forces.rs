@@ -12,20 +12,20 @@ pub struct CrossSection {
     place: SectionPlace,
 }
 
-/// Section forces at a place along a beam.
+/// Section forces at a position along a beam.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SectionSample {
-    /// Arc length in the scene as drawn [length].
+    /// Arc length in the initial configuration [length].
     pub arc_length: f64,
-    /// Section forces and strains at the place.
+    /// Section forces and strains at this position.
     pub forces: SectionForces,
 }
 
 impl System {
-    /// Locates a station of a beam for queries of section forces. At a joint inside the beam, the place is the start of the second part.
+    /// Locates a station of a beam for queries of section forces. At a joint inside the beam, the position after the joint is used.
     ///
     /// # Errors
-    /// Fails if the station lies outside its beam or on a particle.
+    /// Fails if the station lies outside its beam, or if it belongs to a particle.
     pub(crate) fn cross_section(
         &self,
         scene: &Scene,
@@ -45,10 +45,10 @@ impl System {
 
     /// Section forces in the present configuration. They follow from the strains by the material law: see [`SectionPlace`].
     ///
-    /// A step of the energy–momentum method balances loads and inertia with the mean of the section forces at its start and end. In a stiff beam
-    /// the section forces may oscillate from step to step; this mean does not.
+    /// In a step of the energy–momentum method, loads and inertia are balanced by the mean of the section forces at its start and end.
+    /// In a stiff beam, the section forces may oscillate from step to step, but the mean of the section forces at start and end does not oscillate.
     ///
-    /// Forces of material damping are included. They follow from the present rates.
+    /// Forces of material damping are included. They are computed from the present rates.
     pub fn section_forces(&self, at: &CrossSection) -> SectionForces {
         let of_strains = self.bodies()[at.body].dynamics.section_forces(&at.place);
         self.with_damping(of_strains, at.body, &at.place)
@@ -68,8 +68,8 @@ impl System {
         viscous.fold(of_strains, SectionForces::with_viscous)
     }
 
-    /// Section forces along a beam from start to end, at the knots and at three places between consecutive knots. A joint inside the beam has two
-    /// rows with the same arc length, one for each part.
+    /// Section forces along a beam from start to end, at the knots and at three positions between consecutive knots.
+    /// A joint inside the beam has two rows with the same arc length, one before and one after the joint.
     ///
     /// # Errors
     /// Fails if an axis has a point without a tangent.

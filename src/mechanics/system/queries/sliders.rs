@@ -37,47 +37,46 @@ impl System {
         self.slider(slider).steps_per_impact
     }
 
-    /// Largest speed along the master at which the kink under a slider follows the contact force [length/time]; `None` for rules without a kink.
+    /// Largest speed along the master for which the kink follows the contact force [length/time]; `None` for rules without a kink.
     pub(crate) fn kink_speed_limit(&self, slider: usize) -> Option<f64> {
         self.slider(slider).kink_speed_limit()
     }
 
-    /// Mean force of a slider on its master over the last step [force].
+    /// Mean force of a slider on its master in the last step [force].
     ///
-    /// Before the first step it is the present force; zero after a release.
+    /// Before the first step, the present force is returned. After a release, the force is zero.
     pub fn contact_force(&self, slider: usize) -> Vec2 {
         self.slider(slider).contact_force()
     }
 
-    /// Present force at the kink under a slider, if the kink follows the contact force; otherwise the [`contact_force`](Self::contact_force)
-    /// [force].
+    /// Present force of the kink under a slider, if the kink follows the contact force [force].
+    /// Otherwise, the [`contact_force`](Self::contact_force) of the slider is returned.
     pub fn kink_force(&self, slider: usize) -> Vec2 {
         self.slider(slider).force_of_state()
     }
 
-    /// Friction force of a slider on its master as the mean over the last step, positive towards the end of the master [force]; `None` without
-    /// friction.
+    /// Mean friction force of a slider on its master in the last step [force], positive towards the end of the master; `None` without friction.
     pub fn friction_force(&self, slider: usize) -> Option<f64> {
         self.slider(slider).friction_force()
     }
 
-    /// Position of a slider along its master or track as drawn, from 0 at the start to 1 at the end [-]. On closed tracks whole rounds are counted.
+    /// Position of a slider along its initial master or track, from 0 at the start to 1 at the end [-]. On closed tracks, completed rounds are added.
     pub fn slider_position(&self, slider: usize) -> f64 {
         self.slider(slider).position()
     }
 
-    /// Arc length of a slider from the start of its master or track as drawn [length]. On closed tracks whole rounds are counted.
+    /// Arc length of a slider from the start of its initial master or track [length]. On closed tracks, completed rounds are added.
     pub fn slider_arc_length(&self, slider: usize) -> f64 {
         self.slider(slider).arc_length()
     }
 
-    /// Speed of a slider along its master or track as drawn, positive towards the end [length/time]. It is computed from the present velocities,
-    /// and zero for a slider that is held or released.
+    /// Speed of a slider along its initial master or track, positive towards the end [length/time].
+    /// The speed is computed from the present velocities. It is zero for a slider that is held or released.
     pub fn slider_speed(&self, slider: usize) -> f64 {
         self.slider(slider).speed(self.bodies(), self.rates())
     }
 
-    /// Speed of the slip of a slider with friction at the start of the last attempted step [length/time].
+    /// Slip speed of a slider with friction at the start of the last attempted step [length/time].
     pub(crate) fn slip_speed(&self, slider: usize) -> f64 {
         self.slider(slider).slip_speed()
     }

@@ -12,8 +12,8 @@ const ROUNDING: f64 = 1e-14;
 pub struct SpringState {
     /// Length [length], or angle of a torsion spring [rad].
     pub elongation: f64,
-    /// Force (positive in tension) or moment [force, force·length], averaged over the last step. For methods with forces at the ends of steps, it
-    /// is the value at the end of the step.
+    /// Mean force (positive in tension) or moment in the last step [force, force·length].
+    /// For methods with forces at the ends of steps, the field contains the value at the end of the step.
     pub force: f64,
     /// Stored energy [energy].
     pub stored: f64,
@@ -31,7 +31,7 @@ impl System {
         })
     }
 
-    /// Returns true if a spring has a force that is larger than rounding.
+    /// Returns true if the force of a spring exceeds rounding.
     pub(crate) fn is_strung(&self) -> bool {
         let all = self.elements().resistances();
         all.filter_map(|one: &dyn InternalForce| one.stretched()).any(|spring| {
@@ -51,7 +51,7 @@ impl System {
         self.elements().resistances().filter_map(|one| Some((one.name(), one.short_bounce()?)))
     }
 
-    /// Elongations and rates of springs and dampers outside the range of their laws, with the indices of the springs in the scene.
+    /// Elongations and rates of springs and dampers beyond the range of their laws, with the indices of the springs in the scene.
     pub(crate) fn outside_laws(&self) -> Vec<(usize, OutsideLaw)> {
         let mut found = Vec::new();
         let all = self.elements().resistances().filter(|one| one.stretched().is_some());
@@ -68,7 +68,7 @@ impl System {
         all.filter(|(_, stiffness)| *stiffness > 0.0).max_by(|a, b| a.1.total_cmp(&b.1))
     }
 
-    /// Name of the element with the largest dissipation or work of the wind, and that energy [energy].
+    /// Name of the element with the largest dissipation or work of the wind, and this energy [energy].
     pub(crate) fn most_damping(&self) -> Option<(&str, f64)> {
         let turned_over =
             |one: &dyn InternalForce| one.dissipated() + one.wind_work().map_or(0.0, f64::abs);
@@ -76,8 +76,8 @@ impl System {
         all.filter(|(_, energy)| *energy > 0.0).max_by(|a, b| a.1.total_cmp(&b.1))
     }
 
-    /// Dissipated energies of other elements since the start, in the order of the scene: material damping, drag, impacts of sliders with restitution
-    /// below 1, and friction [energy].
+    /// Dissipated energies of other elements since the start, in the order of the scene [energy].
+    /// Other elements are material damping, drag, impacts of sliders with restitution below 1, and friction.
     pub(crate) fn dissipations(&self) -> impl Iterator<Item = f64> {
         let others = self.elements().resistances().filter(|other| other.stretched().is_none());
         let losing = self.sliders().iter().filter(|slider| slider.dissipates());

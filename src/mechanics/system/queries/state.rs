@@ -1,4 +1,4 @@
-//! Queries of places, velocities and angles.
+//! Queries of positions, velocities and angles.
 
 use crate::beams::{BodyIndex, BodyPoint, Mesh, Station};
 use crate::geometry::Vec2;
@@ -17,7 +17,7 @@ impl System {
         self.bodies().iter().map(|body| body.dynamics.control_points())
     }
 
-    /// Body, control point and component (x, y or angle) that belong to an unknown. If several share the unknown, the first is returned.
+    /// Body, control point and component (x, y or angle) of an unknown. If several components share the unknown, the first is returned.
     pub(crate) fn movement(&self, unknown: usize) -> Option<(usize, usize, usize)> {
         self.bodies().iter().enumerate().find_map(|(body, one)| {
             let all = one.degrees_of_freedom.as_flattened();
@@ -48,17 +48,17 @@ impl System {
         Vec2::new(x, y)
     }
 
-    /// Section angle at a station, with whole turns [rad]; `None` if the angle is not tracked.
+    /// Section angle at a station, counted over full turns [rad]; `None` if the angle is not tracked.
     pub fn angle(&self, scene: &Scene, station: &Station) -> Option<f64> {
         self.section_angle(self.tracked_section(scene, station)?)
     }
 
-    /// Angle of a tracked section, with whole turns [rad].
+    /// Angle of a tracked section, counted over full turns [rad].
     pub fn section_angle(&self, section: usize) -> Option<f64> {
         self.bodies().angle(section)
     }
 
-    /// Index of the tracked section at a station; `None` if it is not tracked.
+    /// Index of the tracked section at a station; `None` if the station is not tracked.
     pub(crate) fn tracked_section(&self, scene: &Scene, station: &Station) -> Option<usize> {
         let beam = match station.body {
             BodyIndex::Beam(beam) => beam,
@@ -79,7 +79,7 @@ impl System {
         })
     }
 
-    /// Section angles at the start and end of a beam, with whole turns [rad].
+    /// Section angles at the start and end of a beam, counted over full turns [rad].
     pub fn end_angles(&self, beam: usize) -> (f64, f64) {
         let angle = |section| self.bodies().angle(section).unwrap_or(f64::NAN);
         (angle(2 * beam), angle(2 * beam + 1))
@@ -98,7 +98,7 @@ impl System {
         self.bodies().iter().map(of_body).collect()
     }
 
-    /// Name of the first follower load, if there is one. Follower loads have no potential.
+    /// Name of the first follower load; `None` without follower loads. Follower loads have no potential.
     pub fn follower(&self) -> Option<&str> {
         self.elements().forces().find(|element| element.turns()).map(|element| element.name())
     }

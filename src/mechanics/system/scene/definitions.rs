@@ -1,4 +1,4 @@
-//! Beams, particles, rigid bodies and start velocities as described by a scene.
+//! Definitions of beams, particles, rigid bodies and start velocities in a scene.
 
 use serde::{Deserialize, Serialize};
 
@@ -13,7 +13,7 @@ pub struct StartMotion {
     pub velocity: Vec2,
     /// Angular velocity [1/time].
     pub spin: f64,
-    /// Centre of rotation; the centre of mass if not given [length].
+    /// Centre of rotation [length]; the centre of mass if not given.
     pub centre: Option<Vec2>,
 }
 
@@ -28,7 +28,7 @@ impl Default for StartMotion {
 pub struct BeamDefinition {
     /// Name in messages and reports.
     pub name: String,
-    /// Stress-free axis as drawn [length].
+    /// Initial axis, which is free of stress [length].
     pub axis: Curve,
     /// Mesh: basis and quadrature.
     pub mesh: Mesh,
@@ -50,7 +50,7 @@ impl BeamDefinition {
         Self { name: name.into(), axis, mesh, section: section.into(), motion }
     }
 
-    /// Length of the axis on the mesh, from which the mass in a run is computed [length].
+    /// Length of the axis on the mesh [length]. The mass in a run is computed from this length.
     ///
     /// # Errors
     /// Fails if the mesh cannot interpolate the axis.
@@ -67,7 +67,7 @@ impl BeamDefinition {
         Ok(basis.spans().iter().map(of_span).sum())
     }
 
-    /// Mass of the beam, excluding attached masses [mass].
+    /// Mass of the beam, without attached masses [mass].
     pub fn mass(&self) -> f64 {
         self.section.mean().mass_per_length * self.axis.length()
     }
@@ -111,7 +111,7 @@ impl RigidBodyDefinition {
         Some(if *place == Vec2::zeros() { 0 } else { at + 1 })
     }
 
-    /// Control points at the start: the centre of mass, then the other points [length].
+    /// Initial control points: the centre of mass, followed by the other points [length].
     pub fn control_points(&self) -> Vec<Vec2> {
         let frame = Rotation::by(self.angle);
         let points = self.points.iter().map(|(_, place)| self.position + frame.to_space(*place));
@@ -124,8 +124,8 @@ impl RigidBodyDefinition {
         points.filter(|(_, (_, place))| *place != Vec2::zeros()).map(|(at, _)| at + 1)
     }
 
-    /// Reason for rejecting the outline; `None` if it is accepted. A polygon needs at least three corners. The body also needs a point off the
-    /// centre of mass, to show its rotation.
+    /// Reason for rejecting the outline; `None` if it is accepted. The outline must be a polygon with at least three corners.
+    /// The body also needs a point off the centre of mass, to show its rotation.
     pub(crate) fn outline_refused(&self) -> Option<&'static str> {
         match self.outline.len() {
             0 => None,
@@ -155,6 +155,6 @@ pub struct StationVelocity {
     pub station: Station,
     /// Velocity of the node [length/time].
     pub velocity: Vec2,
-    /// Angular velocity of the node [1/time]; `None` for the angular velocity of the beam.
+    /// Angular velocity of the node [1/time]; `None` if the node has the angular velocity of the beam.
     pub spin: Option<f64>,
 }

@@ -1,4 +1,4 @@
-//! Editable description of a scene, which [`System`](crate::system::System) assembles.
+//! Editable definition of a scene, which [`System`](crate::system::System) assembles.
 
 use std::collections::HashSet;
 
@@ -27,7 +27,7 @@ pub struct Scene {
     pub particles: Vec<ParticleDefinition>,
     /// Rigid bodies, in the order of addition.
     pub rigid_bodies: Vec<RigidBodyDefinition>,
-    /// Stations whose section angle is tracked, in addition to the ends of beams.
+    /// Stations with tracked section angles, in addition to the ends of beams.
     pub stations: Vec<Station>,
     /// Supports, and joints between bodies.
     pub joints: Vec<Joint>,
@@ -45,7 +45,7 @@ pub struct Scene {
     pub elements: Vec<Element>,
     /// Gravitational acceleration [length/time²].
     pub gravity: Vec2,
-    /// Recorded quantities in addition to the standard ones.
+    /// Recorded quantities in addition to the standard columns.
     pub sensors: Vec<Sensor>,
 }
 
@@ -55,7 +55,7 @@ impl Scene {
         self.beams.iter().map(|beam| beam.axis.length()).reduce(f64::max)
     }
 
-    /// Returns the scene with about `ratio` times as many spans in each beam. Between two breaks of reduced continuity there is at least one span.
+    /// Returns the scene with about `ratio` times as many spans in each beam. At least one span remains between two breaks of reduced continuity.
     ///
     /// # Errors
     /// Fails if a beam has too many or too short spans.
@@ -115,7 +115,7 @@ impl Scene {
         })
     }
 
-    /// Schedules of elements and drives, each with the name of its element or drive.
+    /// Schedules of elements and drives, with the name of the element or drive.
     pub fn schedules(&self) -> impl Iterator<Item = (&str, &Schedule)> {
         let of_elements = self.elements.iter();
         let of_elements = of_elements.filter_map(|element| element.description().schedule());
@@ -176,8 +176,8 @@ impl Scene {
     /// Adds a sliding joint and returns its index.
     ///
     /// # Errors
-    /// Fails if the name is taken. Fails if the slave is a station of the master, does not lie on it, or already slides on it. Fails if the sliding
-    /// rule does not allow the track or the friction, or if a coefficient of restitution or friction is outside its range.
+    /// Fails if the name is taken. Fails if the slave is a station of the master, does not lie on it, or already slides on it.
+    /// Fails if the sliding rule does not allow the track or the friction, or if a coefficient of restitution or friction is outside its range.
     pub fn add_slider(&mut self, slider: Slider) -> Result<usize, SystemError> {
         self.check_name("slider", &slider.name)?;
         self.check_slider(&slider)?;
@@ -211,7 +211,7 @@ impl Scene {
         }
     }
 
-    /// First free name among `kind1`, `kind2`, ….
+    /// First unused name among `kind1`, `kind2`, ….
     pub fn free_name(&self, kind: &str) -> String {
         let numbered = self.names().filter_map(|(_, name)| name.strip_prefix(kind)?.parse().ok());
         let taken: HashSet<u64> = numbered.collect();
@@ -236,7 +236,7 @@ impl Scene {
     /// Joins a station to the ground or to another station.
     ///
     /// # Errors
-    /// Fails if the stations are equal or not at the same place, or if one of them is joined already.
+    /// Fails if the stations are equal or not at the same position, or if one of them is joined already.
     pub fn join(
         &mut self,
         kind: JointKind,
@@ -298,7 +298,7 @@ impl Scene {
         self.add_element(Element::Spring(spring))
     }
 
-    /// Length of the beam, or size of the rigid body, that a station belongs to; zero for particles [length].
+    /// Length of the beam, or size of the rigid body, to which a station belongs [length]; zero for particles.
     pub fn length_at(&self, station: &Station) -> f64 {
         match station.body {
             BodyIndex::Beam(beam) => self.beams[beam].axis.length(),
@@ -307,7 +307,7 @@ impl Scene {
         }
     }
 
-    /// Position of a station in the scene as drawn [length].
+    /// Initial position of a station [length].
     ///
     /// # Errors
     /// Fails if the station lies outside its beam.
@@ -323,7 +323,7 @@ impl Scene {
         }
     }
 
-    /// Place of a station on its body, for given meshes of the beams.
+    /// Position of a station on its body, for given meshes of the beams.
     ///
     /// # Errors
     /// Fails if the station lies outside its beam.
@@ -347,7 +347,7 @@ impl Scene {
         }
     }
 
-    /// Description of the body that a station belongs to, such as `beam 'arm'`.
+    /// Description of the body to which a station belongs, such as `beam 'arm'`.
     pub(crate) fn name_of_body(&self, station: &Station) -> String {
         match station.body {
             BodyIndex::Beam(beam) => format!("beam '{}'", self.beams[beam].name),

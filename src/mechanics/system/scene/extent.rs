@@ -1,4 +1,4 @@
-//! Size of a scene without beams, which does not depend on its location, and rounding error of its energy.
+//! Size of a scene without beams, and rounding error of the energy of a scene. The size does not depend on the location of the scene.
 
 use super::{Scene, Ties};
 use crate::beams::{BodyIndex, Station};
@@ -7,10 +7,10 @@ use crate::joints::Partner;
 use crate::loads::LoadKind;
 use crate::system::elements::{Anchor, Origin, Spring, SpringKind, SpringLaw};
 
-/// Distance of two places that counts as zero, as a fraction of their coordinates.
+/// Distance of two points that counts as zero, as a fraction of their coordinates.
 const ROUNDED: f64 = 1e-9;
 
-/// Particles and rigid bodies that springs and joints connect, and the ground anchors of these springs.
+/// Particles and rigid bodies connected by springs and joints, and the ground anchors of these springs.
 #[derive(Default)]
 struct Group {
     points: Vec<Vec2>,
@@ -19,8 +19,8 @@ struct Group {
 }
 
 impl Group {
-    /// The larger of two lengths: twice the largest distance of a point from the mean of all points, and the longest natural length. Distances
-    /// within rounding count as zero [length].
+    /// Larger of two lengths [length]. They are twice the largest distance of a point from the mean of all points, and the longest natural length.
+    /// Distances within rounding count as zero in the extent.
     fn extent(&self) -> f64 {
         let count = self.points.len().max(1) as f64;
         let centre = self.points.iter().sum::<Vec2>() / count;
@@ -33,8 +33,8 @@ impl Group {
 }
 
 impl Scene {
-    /// Largest extent of a group of connected particles and rigid bodies as drawn [length]. It does not depend on the location of the scene, and is
-    /// zero for isolated particles without size.
+    /// Largest initial extent of a group of connected particles and rigid bodies [length].
+    /// The extent does not depend on the location of the scene. It is zero for isolated particles without size.
     pub fn extent(&self) -> f64 {
         let mut groups = self.groups();
         for (index, particle) in self.particles.iter().enumerate() {
@@ -61,8 +61,9 @@ impl Scene {
         self.longest_beam().or_else(extent)
     }
 
-    /// Rounding error of strain energies [energy]. For beams of length `L` with the stiffnesses `EA` and `EI` it is `ε Σ (EA L + EI/L)`, with the
-    /// machine precision `ε`. Without beams, it is the work that the initial forces do on the rounding errors of positions.
+    /// Rounding error of strain energies [energy].
+    /// With beams, the rounding error is `ε Σ (EA L + EI/L)`, with the machine precision `ε`, the lengths `L` and the stiffnesses `EA` and `EI`.
+    /// Without beams, it is the work of the initial forces on the rounding errors of positions.
     pub(crate) fn rounding_energy(&self) -> f64 {
         if self.beams.is_empty() {
             return f64::EPSILON * self.rounded_work();
@@ -126,7 +127,7 @@ impl Scene {
     }
 }
 
-/// Natural length of a spring; zero for angles and for laws without a natural length [length].
+/// Natural length of a spring [length]; zero for angles and for laws without a natural length.
 fn natural_length(spring: &Spring) -> f64 {
     match (&spring.kind, &spring.law) {
         (SpringKind::Torsion(_), _) | (_, None) => 0.0,
@@ -140,7 +141,7 @@ fn natural_length(spring: &Spring) -> f64 {
     }
 }
 
-/// Particles and rigid bodies, divided into sets of connected ones. `ties` finds the set of a body, and `all` contains the data of each set.
+/// Particles and rigid bodies, divided into connected sets. `ties` finds the set of a body. `all` contains the data of each set.
 struct Groups {
     ties: Ties,
     all: Vec<Group>,

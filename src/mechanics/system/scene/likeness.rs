@@ -8,16 +8,17 @@ use super::Scene;
 use crate::geometry::larger;
 use crate::system::Element;
 
-/// Relative tolerance for equal numbers. They may have been computed by different formulas.
+/// Relative tolerance for equal numbers, which may have been computed by different formulas.
 const TOLERANCE: f64 = 1e-9;
 
-/// Absolute tolerance for equal numbers, as a fraction of the largest number of the same field in both scenes. It is needed for numbers that are
-/// zero except for rounding.
+/// Absolute tolerance for equal numbers, as a fraction of the largest number of the same field in both scenes.
+/// The absolute tolerance is needed for numbers that are zero except for rounding.
 const ROUNDING: f64 = 64.0 * f64::EPSILON;
 
 impl Scene {
-    /// Returns true if both scenes have equal beams, particles, rigid bodies, joints, tracks, sliders, masses, velocities and loads, in the same
-    /// order. Names and observed stations are ignored. Script functions cannot be compared, so scenes that contain them are never equal.
+    /// Returns true if both scenes have equal objects, start velocities and loads in the same order.
+    /// Objects are beams, particles, rigid bodies, joints, tracks, sliders and masses.
+    /// Names and observed stations are ignored. Script functions cannot be compared, so scenes that contain them are never equal.
     pub fn is_like(&self, other: &Self) -> bool {
         match (self.without_names(), other.without_names()) {
             (Ok(own), Ok(others)) => {
@@ -44,7 +45,7 @@ impl Scene {
             .chain(plain.elements.iter_mut().filter_map(Element::name_mut));
         names.for_each(String::clear);
         plain.rigid_bodies.iter_mut().for_each(|body| body.outline.clear());
-        // The order of elements of different types is irrelevant.
+        // The order of elements of different types does not matter.
         plain.elements.sort_by_key(Element::kind);
         serde_json::to_value(plain)
     }

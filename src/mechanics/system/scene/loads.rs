@@ -12,7 +12,7 @@ impl Scene {
         self.elements.push(Element::Load(Load { name, kind, schedule, title: None }));
     }
 
-    /// Adds a named load. The history has a column with its work.
+    /// Adds a named load. The history contains a column for the work of the load.
     ///
     /// # Errors
     /// Fails if the name is taken or a number is out of range.
@@ -27,8 +27,8 @@ impl Scene {
         self.add_element(Element::Load(Load { name, kind, schedule, title: Some(title) }))
     }
 
-    /// Description of the element or drive with a schedule, from its name in [`schedules`](Self::schedules). For a load, the description contains
-    /// its title.
+    /// Description of the element or drive to which a schedule belongs, from its name in [`schedules`](Self::schedules).
+    /// The description of a load contains its title.
     pub fn source_of_schedule(&self, name: &str) -> String {
         let titles = self.loads().filter(|load| load.name == name);
         let title = titles.filter_map(|load| load.title.as_ref()).next();

@@ -1,4 +1,4 @@
-//! Description of the system that is simulated, and checks of this description.
+//! Definition of the simulated system, and checks of this definition.
 
 mod columns;
 mod definitions;

@@ -45,7 +45,7 @@ impl Scene {
         })
     }
 
-    /// Name of a releasable object; joints are named as in [`joint_names`](Self::joint_names).
+    /// Name of a releasable object. Joints are named as in [`joint_names`](Self::joint_names).
     pub fn releasable_name(&self, hold: Releasable) -> String {
         let name = match hold {
             Releasable::Joint(index) => self.joint_names().into_iter().nth(index),

@@ -18,11 +18,11 @@ impl Scene {
 
     /// Adds a rigid body with a mass [mass] and an inertia about its centre of mass [mass·length²], and returns its index.
     ///
-    /// Either the mass or the inertia may be zero. Movements without inertia must then be restrained by another element.
+    /// Either the mass or the inertia may be zero. Another object must then restrain the motions without inertia.
     ///
     /// # Errors
-    /// Fails if the name is taken, two points share a name, a number is not finite or is negative, or mass and inertia are both zero. It also fails
-    /// if the outline is not a polygon, or the body has no point that shows its rotation.
+    /// Fails if the name is taken, two points share a name, a number is not finite or is negative, or mass and inertia are both zero.
+    /// Also fails if the outline is not a polygon, or if the body has no point that shows its rotation.
     pub fn add_rigid_body(
         &mut self,
         body: RigidBodyDefinition,

@@ -8,11 +8,11 @@ use crate::joints::{Slider, SlidingRule};
 use crate::system::SystemError;
 use crate::system::errors::{Approach, SliderError, SliderParts, written};
 
-/// Largest initial distance of a slave from its master, as a fraction of the length of the master plus the distance from the origin. It admits
-/// coordinates with six digits. The slave is then moved exactly onto its master.
+/// Largest initial distance of a slave from its master, as a fraction of the length of the master plus the distance from the origin.
+/// The tolerance admits coordinates with six digits. The slave is then moved exactly onto its master.
 const CLOSED: f64 = 1e-6;
 
-/// Reason why a sliding rule cannot be used on tracks; `None` if it can.
+/// Reason why a sliding rule cannot be used on tracks; `None` if it can be used.
 fn at_seams(rule: SlidingRule) -> Option<&'static str> {
     match rule {
         SlidingRule::Conserving | SlidingRule::Exact => None,
@@ -24,7 +24,7 @@ fn at_seams(rule: SlidingRule) -> Option<&'static str> {
 }
 
 impl Scene {
-    /// Arc length of the point of a beam that is nearest to a station in the scene as drawn [length].
+    /// Initial arc length of the point of a beam that is nearest to a station [length].
     ///
     /// # Errors
     /// Fails if the station lies outside its beam.

@@ -1,4 +1,4 @@
-//! Loading of scenes from files, with the same checks as for scenes that a script builds.
+//! Loading of scenes from files, with the same checks as for scenes built by a script.
 
 use serde::Deserialize;
 
@@ -125,7 +125,7 @@ impl TryFrom<StoredScene> for Scene {
 }
 
 impl Scene {
-    /// Adds an element from a file. The name of a load is not read from the file but derived from the place of the load.
+    /// Adds an element from a file. The name of a load is not stored, but derived from the station of the load.
     fn add_stored_element(&mut self, element: Element) -> Result<(), SystemError> {
         match element {
             Element::PointMass(mass) => self.add_mass(mass),

@@ -1,4 +1,4 @@
-//! Places that joints connect to each other or to the ground.
+//! Stations that joints connect to each other or to the ground.
 
 use super::Scene;
 use crate::beams::{BodyIndex, Station};
@@ -7,14 +7,13 @@ use crate::joints::{Component, JointKind, Partner};
 use crate::system::SystemError;
 use crate::system::errors::{Turning, written};
 
-/// Largest initial gap of a joint, relative to the sum of the length of its beam and the distance of the joint from the origin.
+/// Largest initial gap of a joint, as a fraction of the length of its beam plus the distance of the joint from the origin.
 const CLOSED: f64 = 1e-12;
 
 /// Angle below which two inclined rollers count as parallel [rad].
 const PARALLEL: f64 = 1e-9;
 
-/// Disjoint sets, implemented by union–find with path halving (R. E. Tarjan, Efficiency of a good but not linear set union algorithm, J. ACM 22
-/// (1975) 215–225).
+/// Disjoint sets, implemented by union–find with path halving (R. E. Tarjan, J. ACM 22 (1975) 215–225).
 pub struct Ties {
     parent: Vec<usize>,
 }
@@ -32,10 +31,10 @@ impl Ties {
         at
     }
 
-    /// Unites two sets. Returns false if they are already one set.
+    /// Unites two sets. Returns false if they already are the same set.
     pub fn unite(&mut self, a: usize, b: usize) -> bool {
         let (a, b) = (self.root(a), self.root(b));
-        // The smaller index stays the root, so that the ground, index 0, is always a root.
+        // The smaller index remains the root, so that the ground (index 0) is always a root.
         self.parent[a.max(b)] = a.min(b);
         a != b
     }
@@ -179,8 +178,8 @@ impl Scene {
         })
     }
 
-    /// Stations that joints connect to a station in one component, including the station itself. The second value is true if the ground fixes this
-    /// component. The search ends when it reaches the ground.
+    /// Stations that joints connect to a station in one component, including the station itself.
+    /// The second value is true if the ground fixes the component. The search ends at the ground.
     fn held_with(&self, station: &Station, component: Component) -> (Vec<Station>, bool) {
         let mut places = vec![*station];
         let mut next = 0;
@@ -213,7 +212,7 @@ pub fn same_place(a: &Station, b: &Station, scene: &Scene) -> bool {
     a.body == b.body && (a.arc_length - b.arc_length).abs() <= 1e-10 * scene.length_at(a)
 }
 
-/// Returns true if a gap at a place of a beam of the given length is within the tolerance [length].
+/// Returns true if a gap at a point of a beam of the given length is within the tolerance [length].
 pub fn is_closed(gap: f64, length: f64, at: Vec2) -> bool {
     gap <= CLOSED * (length + at.norm())
 }

@@ -1,4 +1,4 @@
-//! Tracks of a scene: connections of their beams, and places along them.
+//! Tracks of a scene: connections of their beams, and positions along them.
 
 use super::Scene;
 use super::ties::is_closed;
@@ -9,11 +9,11 @@ use crate::system::SystemError;
 use crate::system::errors::{TrackError, written};
 
 impl Scene {
-    /// Adds a track along consecutive beams and returns its index. The direction of the track on each beam follows from the ends that touch. If the
-    /// first beam could have either direction, the track leads from its start to its end.
+    /// Adds a track along consecutive beams and returns its index. The direction of the track on each beam follows from the ends that touch.
+    /// If both directions of the first beam are possible, the track leads from the start to the end of the beam.
     ///
     /// # Errors
-    /// Fails if the name is taken, or if a beam does not start where the previous one ends or is not joined to it.
+    /// Fails if the name is taken, or if a beam does not start at the end of the previous beam or is not joined to it.
     pub fn add_track(
         &mut self,
         name: String,
@@ -26,12 +26,12 @@ impl Scene {
         Ok(self.tracks.len() - 1)
     }
 
-    /// Length of a track as drawn [length].
+    /// Initial length of a track [length].
     pub fn track_length(&self, track: usize) -> f64 {
         self.tracks[track].beams().map(|beam| self.beams[beam].axis.length()).sum()
     }
 
-    /// Place at an arc length along a track: the beam, and the arc length along the beam [length].
+    /// Position at an arc length along a track, given by the beam and the arc length along the beam [length].
     pub fn place_on_track(&self, track: usize, arc_length: f64) -> (usize, f64) {
         let mut left = arc_length;
         let (last, before) = self.tracks[track].beams.split_last().expect("a track has beams");
@@ -46,7 +46,7 @@ impl Scene {
         (last.beam, last.heading.along(length, left.min(length)))
     }
 
-    /// Place of a track that is nearest to a station in the scene as drawn: the beam, and the arc length along the beam [length].
+    /// Initial position on a track nearest to a station, given by the beam and the arc length along the beam [length].
     ///
     /// # Errors
     /// Fails if the station lies outside its beam.
@@ -58,7 +58,7 @@ impl Scene {
         self.nearest_of(self.tracks[track].beams(), station)
     }
 
-    /// Arc length along a track of a place on one of its beams [length].
+    /// Arc length along a track of a position on one of its beams [length].
     pub fn length_along_track(&self, track: usize, beam: usize, arc_length: f64) -> f64 {
         let legs = &self.tracks[track].beams;
         let length = |leg: &TrackBeam| self.beams[leg.beam].axis.length();
@@ -192,7 +192,7 @@ impl Scene {
         is_closed((there - here).norm(), self.beams[next.beam].axis.length(), here)
     }
 
-    /// End of a beam where a track leaves it, and its position as drawn [length].
+    /// End of a beam where a track leaves the beam, with its initial position [length].
     fn end(&self, leg: TrackBeam) -> (Station, Vec2) {
         self.begin(TrackBeam { heading: leg.heading.reversed(), ..leg })
     }
@@ -201,7 +201,7 @@ impl Scene {
         self.end(leg).1
     }
 
-    /// End of a beam where a track enters it, and its position as drawn [length].
+    /// End of a beam where a track enters the beam, with its initial position [length].
     fn begin(&self, leg: TrackBeam) -> (Station, Vec2) {
         let axis = &self.beams[leg.beam].axis;
         let station = Station::on_beam(leg.beam, leg.heading.along(axis.length(), 0.0));

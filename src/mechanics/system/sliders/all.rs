@@ -219,7 +219,7 @@ impl Sliders {
             let event = SliderEvent::SlipEnd(index);
             let (number, is_aim) = (event.number(), aim == Some(event));
             if is_aim {
-                if let Some(distance) = slider.missed_slip_end() {
+                if let Some(distance) = slider.missed_slip_end(unknowns) {
                     return Some(Overshoot { event: number, distance });
                 }
                 continue;

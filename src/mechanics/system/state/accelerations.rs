@@ -1,4 +1,4 @@
-//! Accelerations of a mechanism, for integrators that have them in their state.
+//! Accelerations of a mechanism, for integrators whose state contains accelerations.
 
 /// Accelerations of the unknowns at the start of a step; empty if the method does not need them.
 #[derive(Debug, Clone, Default)]

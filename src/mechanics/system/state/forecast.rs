@@ -1,10 +1,10 @@
-//! Selection of the rates from which the next step is predicted.
+//! Selection of the rates for the prediction of the next step.
 
 use serde::{Deserialize, Serialize};
 
 use super::resolution::GuessErrors;
 
-/// Basis of the prediction of the next step.
+/// Rates for the prediction of the next step.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 pub enum Prediction {
     /// No step has been taken, so only the start rates are available.
@@ -12,15 +12,14 @@ pub enum Prediction {
     Unknown,
     /// Prediction from the rates at the start of the step.
     Smooth,
-    /// Prediction from the mean rates of the last step, because the rates at its end alternate from step to step.
+    /// Prediction from the mean rates of the last step, because the rates at the ends of steps alternate from step to step.
     FromMeanRates,
 }
 
-/// Squared error of the prediction from mean rates, as a fraction of the squared error of the prediction from start rates, below which mean rates
-/// are selected.
+/// Ratio of the squared errors of two predictions, below which mean rates are selected instead of start rates.
 const SELECTION_RATIO: f64 = 0.8;
 
-/// Mean rates of the last step, and the selected basis of the prediction.
+/// Mean rates of the last step, and the selected rates for the prediction.
 #[derive(Debug, Clone)]
 pub struct IncrementPrediction {
     mean_rates: Vec<f64>,
@@ -33,7 +32,7 @@ impl IncrementPrediction {
         Self { mean_rates: rates.to_vec(), prediction: Prediction::Unknown, inertia }
     }
 
-    /// Rates from which the next step is predicted. `at_start` contains the rates at its start [length/time, 1/time].
+    /// Rates for the prediction of the next step. `at_start` contains the rates at the start of the step [length/time, 1/time].
     pub fn rates<'a>(&'a self, at_start: &'a [f64]) -> &'a [f64] {
         match self.prediction {
             Prediction::Unknown | Prediction::Smooth => at_start,
@@ -41,8 +40,8 @@ impl IncrementPrediction {
         }
     }
 
-    /// Selects the better prediction. Both predictions are compared with the increments of a step, in the norm of the diagonal inertia. Returns
-    /// their errors.
+    /// Selects the better prediction. Both predictions are compared with the increments of a step, in the norm of the diagonal inertia.
+    /// Returns the errors of both predictions.
     pub fn update(&mut self, at_start: &[f64], increments: &[f64], duration: f64) -> GuessErrors {
         let inverse = 1.0 / duration;
         let mut missed = GuessErrors::default();
@@ -53,7 +52,7 @@ impl IncrementPrediction {
             *mean = found;
         }
         self.prediction = match self.prediction {
-            // The start velocities may belong to a few nodes only, so the mean rates of the first step are the better prediction.
+            // The start velocities may belong to a few nodes only. The mean rates of the first step are therefore the better prediction.
             Prediction::Unknown => Prediction::FromMeanRates,
             _ if missed.by_mean < SELECTION_RATIO * missed.by_start => Prediction::FromMeanRates,
             _ => Prediction::Smooth,
@@ -66,7 +65,7 @@ impl IncrementPrediction {
         self.mean_rates.iter_mut().zip(change).for_each(|(rate, change)| *rate += change);
     }
 
-    /// Prediction errors at selected degrees of freedom, for the selection before its update.
+    /// Prediction errors at selected degrees of freedom, computed before the selection is updated.
     pub fn prediction_errors(
         &self,
         movements: &[usize],

@@ -4,7 +4,7 @@ use super::accelerations::Accelerations;
 use super::forecast::{IncrementPrediction, Prediction};
 use super::{MonitoredBody, Resolution, StepMeasures};
 
-/// Present time and rates, with measures of how well the steps resolve the motion.
+/// Present time and rates, with measures of the temporal resolution of the motion.
 pub struct MotionState {
     /// Present time, which is the end of the last step [time].
     pub time: f64,
@@ -18,7 +18,7 @@ pub struct MotionState {
 }
 
 impl MotionState {
-    /// Starts at t = 0. Kinetic energies below `noise` are attributed to rounding [energy].
+    /// Starts the motion at t = 0. Kinetic energies below `noise` are attributed to rounding [energy].
     pub fn new(rates: Vec<f64>, noise: f64) -> Self {
         Self {
             time: 0.0,
@@ -30,12 +30,12 @@ impl MotionState {
         }
     }
 
-    /// Starts with a prediction from the present rates. Errors of predictions are measured in the norm of the diagonal inertia.
+    /// Starts the prediction with the present rates. Errors of predictions are measured in the norm of the diagonal inertia.
     pub fn begin(&mut self, inertia: Vec<f64>) {
         self.forecast = IncrementPrediction::new(&self.rates, inertia);
     }
 
-    /// Starts separate measures of resolution for the given bodies (index and degrees of freedom).
+    /// Starts separate resolution measures for the given bodies, which are specified by index and degrees of freedom.
     pub fn measure_resolution_of(&mut self, bodies: impl Iterator<Item = (usize, Vec<usize>)>) {
         let noise = self.resolution.noise();
         self.monitored = bodies.map(|(body, at)| MonitoredBody::new(body, at, noise)).collect();
@@ -45,8 +45,8 @@ impl MotionState {
         &self.monitored
     }
 
-    /// Continues the motion after the unknowns have been renumbered, with their rates and diagonal inertia. Only the accelerations are lost.
-    /// `movements` returns the degrees of freedom of a body.
+    /// Continues the motion with renumbered unknowns, with their rates and diagonal inertia. The accelerations are discarded.
+    /// The callback `movements` returns the degrees of freedom of a body.
     pub fn renumber(
         &mut self,
         rates: Vec<f64>,
@@ -88,7 +88,7 @@ impl MotionState {
         self.accelerations.mark_unknown();
     }
 
-    /// Selected basis of the prediction, which is the only part of the state that is not a number.
+    /// Selected rates for the prediction. This selection is the only part of the state that is not a number.
     pub fn trend(&self) -> Prediction {
         self.forecast.trend()
     }

@@ -1,16 +1,16 @@
-//! Measures of how well time steps resolve the motion, from quantities that each step computes.
+//! Measures of the temporal resolution of the motion, computed from quantities of each step.
 
 use crate::beams::RotationIncrement;
 use crate::elementary::square;
 
-/// Squared prediction errors of a step in the norm of the diagonal inertia. Each is twice an energy [energy].
+/// Squared prediction errors of a step in the norm of the diagonal inertia. Each value is twice an energy [energy].
 #[derive(Debug, Clone, Copy, Default)]
 pub struct GuessErrors {
     /// Error `Σ m (v̄ - v0)²` of the rates `v0` at the start of the step, where `v̄` are the mean rates of the step [energy].
     pub by_start: f64,
-    /// Error `Σ m (v̄ - v̄₋)²` of the mean rates `v̄₋` of the previous step [energy].
+    /// Error `Σ m (v̄ - v̄₋)²` of the mean rates `v̄₋` of the previous step, where `v̄` are the mean rates of this step [energy].
     pub by_mean: f64,
-    /// Size `Σ m v̄²` of the mean rates, with which the errors are compared [energy].
+    /// Scale `Σ m v̄²` of the errors, with the mean rates `v̄` of the step [energy].
     pub motion: f64,
 }
 
@@ -22,22 +22,23 @@ impl GuessErrors {
     }
 }
 
-/// Relative difference of two step lengths below which they count as equal.
+/// Relative difference of two step lengths, below which they count as equal.
 const EQUALLY_LONG: f64 = 1e-3;
 
-/// Measures of how well the steps so far resolve the motion. They are part of the state, so that undone steps do not count.
+/// Measures of the temporal resolution of the motion in the steps so far. They are part of the state, so that undone steps are not included.
 ///
-/// A vibration `v = a cos ωt` advances by a phase `φ` in each step of length `h` of the energy–momentum method, with `tan(φ/2) = ω h/2`. Averaged
-/// over the phases, `Σ m v̄² = ½ m a² cos²(φ/2)`, `S = Σ m (v̄ - v0)² = ½ m a² sin²(φ/2)` and `M = Σ m (v̄ - v̄₋)² = ½ m a² sin²φ`. Hence `S - M/4
-/// = ½ m a² sin⁴(φ/2)`. This is the energy of unresolved motion, because resolved motion contributes a negligible amount. For motions with several
-/// frequencies, the sums add up (theory.md, section 13).
+/// In each step of length `h` of the energy–momentum method, a vibration `v = a cos ωt` advances by a phase `φ` with `tan(φ/2) = ω h/2`.
+/// Averaged over the phases, `Σ m v̄² = ½ m a² cos²(φ/2)`, `S = Σ m (v̄ - v0)² = ½ m a² sin²(φ/2)` and `M = Σ m (v̄ - v̄₋)² = ½ m a² sin²φ`.
+/// Hence `S - M/4 = ½ m a² sin⁴(φ/2)` is the energy of unresolved motion. The contribution of resolved motion is negligible.
+/// For a motion with several frequencies, the energies of all frequencies are added (theory.md, section 13).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Resolution {
-    /// Measure of the kinetic energy: sum of `m v̄² + S` over all steps that are as long as the step before them [energy].
+    /// Measure of the kinetic energy: sum of `m v̄² + S` over all steps that have the same length as the previous step [energy].
     kinetic: f64,
-    /// Sum of `S - M/4` over the same steps [energy].
+    /// Sum of `S - M/4` over the steps that have the same length as the previous step [energy].
     unresolved: f64,
-    /// Sum of `h² M/16` over the same steps [energy·time²]. The squared frequency is `ω² = unresolved / bent`.
+    /// Sum of `h² M/16` over the steps that have the same length as the previous step [energy·time²].
+    /// The squared frequency is `ω² = unresolved / bent`.
     bent: f64,
     /// Length of the last step [time].
     last: f64,
@@ -75,7 +76,7 @@ impl Resolution {
         increment: f64,
         rotations: RotationIncrement,
     ) {
-        // The increment is an upper bound of the angle, and is cheaper to compare.
+        // The increment is an upper bound of the angle, and is faster to compare.
         if increment > self.rotation {
             let angle = rotations.angle(increment);
             if angle > self.rotation {
@@ -92,7 +93,7 @@ impl Resolution {
         }
     }
 
-    /// Unresolved fraction of the kinetic energy, averaged over all steps; `sin⁴(φ/2)` for a single vibration [-].
+    /// Unresolved fraction of the kinetic energy, averaged over all steps [-]. For a single vibration, it is `sin⁴(φ/2)`.
     pub fn unresolved_share(&self) -> f64 {
         if self.kinetic > 0.0 { (self.unresolved / self.kinetic).max(0.0) } else { 0.0 }
     }
@@ -102,8 +103,8 @@ impl Resolution {
         self.kinetic
     }
 
-    /// Angular frequency `ω`, as a mean over all vibrations weighted by accelerations [rad/time]. It is exact for a single vibration, infinite if
-    /// the period is lost in rounding, and zero without vibration.
+    /// Angular frequency `ω`, as a mean over all vibrations weighted by accelerations [rad/time].
+    /// The frequency is exact for a single vibration, infinite if the period is lost in rounding, and zero without vibration.
     pub fn angular_frequency(&self) -> f64 {
         if self.unresolved <= 0.0 { 0.0 } else { (self.unresolved / self.bent).sqrt() }
     }

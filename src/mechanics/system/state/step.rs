@@ -1,4 +1,4 @@
-//! Scales of force and moment in the present step. The residual of the step is compared with them.
+//! Scales of force and moment in the present step, with which the residual of the step is compared.
 
 use crate::beams::{ForceSummary, RotationIncrement};
 use crate::integrators::Interval;
@@ -67,7 +67,7 @@ impl StepMeasures {
     }
 }
 
-/// Quotient of residual and scale. A zero residual gives zero also for a zero scale.
+/// Quotient of residual and scale. If the residual is zero, the quotient is zero even for a zero scale.
 fn relative(residual: f64, scale: f64) -> f64 {
     if residual == 0.0 { 0.0 } else { residual / scale }
 }

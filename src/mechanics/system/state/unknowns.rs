@@ -9,7 +9,7 @@ pub enum UnknownKind {
     Position,
     /// Rotation [rad], with a moment balance.
     Rotation,
-    /// Constraint force, or its impulse in a time step [force, force·time]. Its equation is a length.
+    /// Constraint force, or impulse of this force in a time step [force, force·time]. The equation is a length.
     Force,
 }
 
@@ -33,7 +33,7 @@ impl Unknowns {
         self.half_bandwidth
     }
 
-    /// Returns true if the numbering was made after the given joint or drive had been released.
+    /// Returns true if the unknowns were numbered after the release of the given joint or drive.
     pub fn are_free_of(&self, hold: Releasable) -> bool {
         self.released.contains(&hold)
     }
@@ -43,7 +43,7 @@ impl Unknowns {
     }
 
     pub fn largest(&self, values: &[f64]) -> (f64, f64) {
-        // The bit patterns of magnitudes, read as integers, have the same order as the magnitudes. NaN is the largest.
+        // The bit patterns of magnitudes, read as integers, are ordered like the magnitudes. NaN is the largest.
         let magnitude = |value: &f64| value.abs().to_bits();
         let (mut position, mut rotation) = (0, 0);
         for (value, kind) in values.iter().zip(&self.kinds) {

@@ -1,10 +1,10 @@
-//! Measures of resolution for single bodies. In a scene with a large body, the unresolved motion of a small body is negligible in the total.
+//! Resolution measures of single bodies. In the measures of a whole scene, the unresolved motion of a small body would be negligible.
 
 use super::Resolution;
 use super::forecast::IncrementPrediction;
 use crate::beams::RotationIncrement;
 
-/// Body with its degrees of freedom and its measures of resolution.
+/// Body with its degrees of freedom and its resolution measures.
 #[derive(Debug, Clone)]
 pub struct MonitoredBody {
     pub body: usize,
@@ -25,7 +25,7 @@ impl MonitoredBody {
         &self.resolution
     }
 
-    /// Records the increments of a step of a duration [time] and the rates at its start. Called before the prediction is updated.
+    /// Records the increments of a step of a duration [time] and the rates at the start of the step. Called before the prediction is updated.
     pub(super) fn add(
         &mut self,
         forecast: &IncrementPrediction,

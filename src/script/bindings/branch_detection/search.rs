@@ -1,5 +1,5 @@
-//! Search for branches that depend on a parameter of a scene. The search covers the syntax tree of a function, the functions that it calls, and
-//! captured functions.
+//! Search for branches that depend on a parameter of a scene.
+//! The search covers the syntax tree of a function, the called functions, and captured functions.
 
 use std::cell::Cell;
 use std::collections::{BTreeMap, BTreeSet};
@@ -18,13 +18,13 @@ const JUMPS: &[&str] = &[
     "to_int", "fraction", "quotient", "sign", "is_zero",
 ];
 
-/// Functions that create a schedule that jumps at given times.
+/// Functions that create a schedule with jumps at given times.
 const JUMPING_SCHEDULES: &[&str] = &["pulse", "hold_for", "table"];
 
-/// Maximum depth of nested calls that are searched.
+/// Maximum depth of nested calls in the search.
 const DEEPEST: usize = 8;
 
-/// Maximum number of functions that are searched, so that the search of recursive functions ends.
+/// Maximum number of functions in the search, so that the search of recursive functions ends.
 const MOST: usize = 100;
 
 /// Position at which a function branches on an expression of its argument and of a variable that depends on a parameter.
@@ -40,7 +40,7 @@ struct VariableFacts {
     varied: BTreeSet<String>,
     /// Variables that depend on the argument of the function.
     asked: BTreeSet<String>,
-    /// Variables that contain schedules which jump at times that depend on a parameter.
+    /// Variables that contain schedules with jumps at times that depend on a parameter.
     jumping: BTreeSet<String>,
     functions: BTreeMap<String, FnPtr>,
 }
@@ -117,8 +117,8 @@ impl VariableFacts {
         }
     }
 
-    /// First variable in an expression that contains a schedule whose jumps depend on a parameter, or from which the expression creates such a
-    /// schedule.
+    /// First variable in an expression with a jumping schedule whose jump times depend on a parameter.
+    /// Either the variable contains the schedule, or the expression creates the schedule from the variable.
     fn jumping_in(&self, expression: &Expr) -> Option<String> {
         first_in(expression, |node| match node {
             Expr::Variable(variable, ..) => self.jumping.get(variable.1.as_str()).cloned(),
@@ -192,7 +192,7 @@ impl BranchSearch<'_, '_> {
         if JUMPS.contains(&sign) {
             return known.by(call.args.iter(), sign, at);
         }
-        // This call creates a closure. Its first arguments are the captured variables.
+        // The call creates a closure. Its first arguments are the captured variables.
         if let Some((function, captured)) = written_within(call) {
             return self.within(&function, captured, known);
         }
@@ -249,7 +249,7 @@ impl BranchSearch<'_, '_> {
         }
     }
 
-    /// Searches a function that is the value of a variable and is called with arguments.
+    /// Searches a function that is stored in a variable and called with arguments.
     fn held(
         &self,
         function: &FnPtr,
@@ -264,7 +264,7 @@ impl BranchSearch<'_, '_> {
         self.deeper().function(&definition, own)
     }
 
-    /// Searches a closure inside another function. Its arguments are treated like those of the outer function.
+    /// Searches a closure inside another function. The arguments of the closure are treated like those of the outer function.
     fn within(
         &self,
         function: &FnPtr,

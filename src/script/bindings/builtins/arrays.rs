@@ -1,4 +1,4 @@
-//! Methods of arrays that access elements or change the array.
+//! Methods of arrays for access to elements and for changes of the array.
 
 use crate::script::bindings::built_in::{BuiltInTable, built_in};
 use crate::script::bindings::returns::Returns;

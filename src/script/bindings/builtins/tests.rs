@@ -93,7 +93,7 @@ fn every_function_of_the_engine_has_help() {
         let refused =
             REFUSED.iter().any(|refused| refused.name == name && refused.counts.contains(&count));
         let has_help = match name.split_once('$') {
-            // x.floor is floor(x), because Rhai lets functions of one value be read as properties.
+            // The property x.floor equals floor(x), because Rhai lets functions of one value be read as properties.
             Some(("get", property)) => is_documented(property, 1),
             Some(("set", property)) => language().named(property).any(|row| row.setter.is_some()),
             Some(("index", _)) => true,
@@ -134,7 +134,7 @@ fn every_number_of_arguments_that_help_allows_exists() {
                 let exists = known
                     .iter()
                     .any(|function| function.name == form.name && function.count == count)
-                    // The engine provides these functions for any number of arguments.
+                    // The engine provides `print`, `debug` and `type_of` for any number of arguments.
                     || ["print", "debug", "type_of"].contains(&form.name);
                 assert!(exists, "there is no {} of {count}", form.name);
             }

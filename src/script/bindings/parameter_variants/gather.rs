@@ -10,8 +10,9 @@ use crate::geometry::Vec2;
 use crate::script::messages::error::ScriptError;
 use crate::script::messages::numbers::as_number;
 
-/// Combines the results of all variants, variant 0 first, to one value. Results that are equal stay plain values, and scene objects (`is_thing`)
-/// contain their variants already. Of booleans, texts and integers, only the result of variant 0 is kept.
+/// Combines the results of all variants to one value. Variant 0 is first.
+/// Equal results stay plain values. Scene objects (`is_thing`) already contain their variants.
+/// For booleans, texts and integers, only the result of variant 0 is kept.
 ///
 /// # Errors
 /// Fails if arrays or maps differ between variants in more than numbers.

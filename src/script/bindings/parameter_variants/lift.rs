@@ -14,7 +14,7 @@ use crate::script::bindings::parameter::Parameter;
 use crate::script::bindings::table::{CallSyntax, FunctionBinding};
 use crate::script::messages::error::{CallPart, ScriptError};
 
-/// Hint for an error that occurs only with a perturbed parameter.
+/// Hint for an error that occurs only for a perturbed parameter.
 const BESIDE: &str = "derivatives are computed from values on both sides of a parameter: choose it inside the \
     allowed range, or use value_of(x) here, which has no derivatives";
 
@@ -23,7 +23,7 @@ type Make<'m> = &'m mut dyn FnMut(Option<&mut Dynamic>, &[Dynamic]) -> Result<Dy
 /// Evaluates a binding for each variant of its receiver and arguments, by the rule for its domain.
 ///
 /// # Errors
-/// Errors of the call, or an error if derivatives would be lost or parameters of two scenes are combined.
+/// Fails if the call fails, if derivatives would be lost, or if parameters of two scenes are combined.
 pub fn evaluate_variants(
     (row, lifting): (&FunctionBinding, Lifting),
     mut receiver: Option<&mut Dynamic>,
@@ -80,7 +80,7 @@ pub fn evaluate_variants(
         match at(variant) {
             Ok(made) => results.push(made),
             Err(error) if variant == 0 => return Err(error),
-            // If the call fails in variant 0 too, the error in variant 0 is reported.
+            // If the call also fails in variant 0, the error in variant 0 is reported.
             Err(beside) => {
                 return Err(at(0).err().unwrap_or(beside.with_variant_context(&family, variant)));
             }
@@ -112,7 +112,7 @@ fn evaluate_at(
     }
 }
 
-/// Rejects values that depend on parameters where an integer is required, because integers have no derivative.
+/// Rejects a value that depends on parameters if an integer is required, because integers have no derivative.
 fn expect_plain_whole_numbers(
     row: &FunctionBinding,
     parameters: &[Parameter],
@@ -135,8 +135,8 @@ fn expect_plain_whole_numbers(
     }
 }
 
-/// Error for an argument that must not depend on parameters. If the argument is a map of options, the error refers to the option that depends on
-/// them.
+/// Error for an argument that must not depend on parameters.
+/// If the argument is a map of options, the error refers to the option that depends on parameters.
 fn refusal(
     row: &FunctionBinding,
     parameter: Option<&Parameter>,
@@ -195,7 +195,7 @@ fn families(
 }
 
 impl ParameterSet {
-    /// Set of parameters that some values have in common; `None` if none of them depends on a parameter.
+    /// Common parameter set of several values; `None` if no value depends on a parameter.
     ///
     /// # Errors
     /// Fails if the values depend on parameters of two scenes.
@@ -224,7 +224,7 @@ impl ParameterSet {
     }
 }
 
-/// Combines the results of all variants. `from` are the values from which they were computed.
+/// Combines the results of all variants. `from` contains the values from which the results were computed.
 ///
 /// # Errors
 /// Fails if arrays or maps differ between variants in more than numbers.
@@ -238,7 +238,7 @@ pub fn combined(
     combine_variants(family, results, lost.as_ref(), &|_| false)
 }
 
-/// Combines the results of all variants to one value without derivatives, and stores the reason for their absence.
+/// Combines the results of all variants to one value without derivatives. The value stores the reason for the missing derivatives.
 ///
 /// # Errors
 /// Fails if arrays or maps differ between variants in more than numbers.

@@ -1,7 +1,7 @@
-//! Evaluation of calls for variants of the parameters of a scene. A call with an argument that depends on a parameter is evaluated at the parameter
-//! values, and again for every perturbed variant.
+//! Evaluation of calls for variants of the parameters of a scene.
+//! If an argument of a call depends on a parameter, the call is evaluated at the parameter values, and again for every perturbed variant.
 //!
-//! By this, derivatives are computed through sections, loads, simulations, and functions of their results.
+//! Evaluation in variants passes derivatives through sections, loads, simulations, and functions of their results.
 
 mod gather;
 mod lift;

@@ -11,8 +11,8 @@ use crate::geometry::Vec2;
 use crate::script::bindings::accept::as_point;
 use crate::script::messages::numbers::as_number;
 
-/// Minimum distance of an argument from a point of infinite slope, as a multiple of the perturbation of the argument. The relative error of the
-/// difference quotient is about the inverse square of this number, 1e-5.
+/// Minimum distance of an argument from a point of infinite slope, as a multiple of the perturbation of the argument.
+/// The relative error of the difference quotient is about the inverse square of this number, 1e-5.
 const NEAR: f64 = 300.0;
 
 /// Arguments of a call: at the parameter values, and with a positive and a negative perturbation of one parameter.
@@ -34,7 +34,7 @@ pub enum NoDerivative {
 /// Check of a function for kinks, jumps and infinite slopes between the perturbed arguments.
 pub type NonsmoothCheck = fn(&Sides) -> Option<NoDerivative>;
 
-/// Error message if the function has no derivative at the given arguments; `None` if it has one.
+/// Error message if the function has no derivative at the given arguments; `None` if the derivative exists.
 pub fn corner_of(
     (name, corner): (&str, NonsmoothCheck),
     family: &ParameterSet,

@@ -11,18 +11,18 @@ use super::variant_value::VariantValue;
 use crate::output::significant;
 use crate::script::messages::error::{CallPart, ScriptError};
 
-/// Default perturbation, as a fraction of the parameter. The relative error of the difference quotient is about the square of this number, plus the
-/// rounding error divided by it.
+/// Default perturbation, as a fraction of the parameter.
+/// The relative error of the difference quotient is about the square of this number, plus the rounding error divided by this number.
 pub const RELATIVE_DISTANCE: f64 = 1e-5;
 
-/// Parameters of a scene. Variant 0 has their values. Variants 1 and 2 perturb the first parameter positively and negatively, variants 3 and 4 the
-/// second one, and so on.
+/// Parameters of a scene. Variant 0 contains their unperturbed values.
+/// Variants 1 and 2 perturb the first parameter positively and negatively, variants 3 and 4 the second parameter, and so on.
 #[derive(Default)]
 pub struct ParameterSet {
     parameters: RefCell<Vec<DeclaredParameter>>,
-    /// True if variants have been used. No parameter may be added afterwards.
+    /// True if variants have been used. No parameter may be added after that.
     is_in_use: Cell<bool>,
-    /// Script positions (line and column) for which a branch that depends on a parameter has been reported.
+    /// Script positions (line and column) of reported branches that depend on a parameter.
     reported: RefCell<BTreeSet<(usize, usize)>>,
 }
 
@@ -41,10 +41,10 @@ pub struct CurrentVariant {
 thread_local! {
     /// True if a parameter set has been created in this thread.
     static ANY: Cell<bool> = const { Cell::new(false) };
-    /// Names of the types of scene objects, with functions that return the parameter sets of objects of these types.
+    /// Type names of scene objects, with functions that return the parameter sets of these objects.
     static THINGS: RefCell<HashMap<TypeId, (&'static str, SceneParameters)>> = RefCell::default();
     static PRESENT: RefCell<Option<CurrentVariant>> = const { RefCell::new(None) };
-    /// Reason why the present call has no results for the perturbed variants of the parameters; `None` if it has them.
+    /// Reason why the present call has no results for perturbed variants; `None` if the results exist.
     static LOST: RefCell<Option<Rc<str>>> = const { RefCell::new(None) };
 }
 
@@ -65,12 +65,12 @@ pub(super) fn of_thing(value: &Dynamic) -> Option<Rc<ParameterSet>> {
     known.and_then(|(_, family_of)| family_of(value))
 }
 
-/// Variant in which the present call is evaluated; `None` if it is not evaluated for variants.
+/// Variant in which the present call is evaluated; `None` without evaluation in variants.
 pub fn present() -> Option<CurrentVariant> {
     PRESENT.with_borrow(Clone::clone)
 }
 
-/// Index of the variant in which the present call is evaluated; 0 if it is not evaluated for variants.
+/// Index of the variant in which the present call is evaluated; 0 without evaluation in variants.
 pub fn present_variant() -> usize {
     present().map_or(0, |present| present.variant)
 }
@@ -84,7 +84,7 @@ pub(super) fn take_unavailable() -> Option<Rc<str>> {
     LOST.take()
 }
 
-/// Guard for the evaluation of a call in a variant. The evaluation ends when the guard is dropped.
+/// Guard for the evaluation of a call in a variant. Dropping the guard ends the evaluation.
 pub(super) struct VariantGuard;
 
 impl VariantGuard {
@@ -106,15 +106,15 @@ impl ParameterSet {
         Rc::default()
     }
 
-    /// Returns false if there is no parameter set. Calls then need no handling of variants.
+    /// Returns false if there is no parameter set. Variants then need no handling.
     pub fn is_any() -> bool {
         ANY.get()
     }
 
-    /// Adds a parameter with its value and a perturbation. If none is given, it has the default perturbation. Returns the index of the parameter.
+    /// Adds a parameter with its value and an optional perturbation, which has a default. Returns the index of the parameter.
     ///
     /// # Errors
-    /// Fails if the name is used already, or if variants have been used.
+    /// Fails if the name is already used, or if variants have been used.
     pub fn declare(
         self: &Rc<Self>,
         name: &str,
@@ -137,7 +137,7 @@ impl ParameterSet {
         }
         let size = if value == 0.0 { 1.0 } else { value.abs() };
         let distance = distance.unwrap_or(RELATIVE_DISTANCE * size);
-        // Rounds the perturbation so that the perturbed values have no rounding error.
+        // The perturbation is rounded so that the perturbed values have no rounding error.
         let distance = 0.5 * ((value + distance) - (value - distance));
         let mut values = vec![Dynamic::from(value); self.variants()];
         values.extend([value + distance, value - distance].map(Dynamic::from));
@@ -145,12 +145,12 @@ impl ParameterSet {
         Ok(VariantValue::new(self, values, None))
     }
 
-    /// Returns true when it is called for the first time for a position of the script.
+    /// Returns true at the first call for a position of the script.
     pub fn is_first_report(&self, line: usize, column: usize) -> bool {
         self.reported.borrow_mut().insert((line, column))
     }
 
-    /// Returns true if a function of the scene branches on a parameter, so that derivatives are wrong where it jumps.
+    /// Returns true if a function of the scene branches on a parameter. Derivatives are wrong at the resulting jumps.
     pub fn branches_on_parameter(&self) -> bool {
         !self.reported.borrow().is_empty()
     }
@@ -174,7 +174,7 @@ impl ParameterSet {
         self.parameters.borrow().get(parameter).map(|of| of.distance)
     }
 
-    /// Index of the parameter with a name, from 0.
+    /// Index of the parameter with a name, counted from 0.
     pub fn number_of(&self, name: &str) -> Option<usize> {
         self.parameters.borrow().iter().position(|of| of.name == name)
     }

@@ -1,4 +1,4 @@
-//! Rules for calls whose arguments depend on parameters. For each domain, a rule determines how such calls are evaluated.
+//! Rules for calls whose arguments depend on parameters. Each domain of the language has a rule for such calls.
 
 use crate::script::bindings::table::{BindingTable, CallSyntax, FunctionBinding};
 
@@ -9,7 +9,7 @@ pub enum Lifting {
     Each,
     /// The call is evaluated once, with the values of variant 0.
     AtValues,
-    /// The call is evaluated once, because its receiver contains the data of all variants. An argument that depends on parameters is rejected.
+    /// The call is evaluated once, because its receiver contains the data of all variants. Arguments that depend on parameters are rejected.
     Once,
     /// The call is rejected, because the result would have no derivatives.
     Refused,
@@ -59,7 +59,7 @@ const REFUSED: &[&str] = &["equilibrium", "modes"];
 
 const WHOLE: &[&str] = &["quotient"];
 
-/// Methods that advance a simulation together with its variants, or return values that are the same in all variants, such as the time.
+/// Methods that advance a simulation together with its variants, and methods whose return value is the same in all variants, such as the time.
 const ONCE: &[&str] = &["start", "step", "run_to", "at", "t", "dt", "invariants", "parameter"];
 
 pub fn lifting_of(table: &BindingTable, row: &FunctionBinding) -> Lifting {
@@ -79,6 +79,6 @@ pub fn lifting_of(table: &BindingTable, row: &FunctionBinding) -> Lifting {
     }
 }
 
-/// Lists of all domains for which a rule is given.
+/// Lists of all domains with a rule.
 #[cfg(test)]
 pub const NAMED: [&[&str]; 3] = [EACH, AT_VALUES, REFUSED];

@@ -1,4 +1,4 @@
-//! Values that depend on parameters of a scene. They are stored for each variant.
+//! Values that depend on parameters of a scene. A value is stored for each variant.
 
 use std::rc::Rc;
 
@@ -17,7 +17,7 @@ const DIGITS: usize = 5;
 #[derive(Clone)]
 pub struct VariantValue {
     family: Rc<ParameterSet>,
-    /// Value in each variant, starting with variant 0. In variants after the last stored one, the value is that of variant 0.
+    /// Value in each variant, starting with variant 0. Variants that are not stored have the value of variant 0.
     values: Rc<[Dynamic]>,
     lost: Option<Rc<str>>,
 }
@@ -27,7 +27,7 @@ impl VariantValue {
         Self { family: Rc::clone(family), values: values.into(), lost }
     }
 
-    /// Value in a variant. This applies also to elements of arrays and maps and to captured values.
+    /// Value in a variant. Elements of arrays and maps, and captured values, are also replaced.
     pub fn project(value: &Dynamic, variant: usize) -> Dynamic {
         project(value, variant)
     }
@@ -55,7 +55,7 @@ impl VariantValue {
     /// Derivative with respect to the parameter with this index.
     ///
     /// # Errors
-    /// Fails if there is no such parameter, or the value is not differentiable.
+    /// Fails if the parameter does not exist, or if the value is not differentiable.
     pub fn derivative(&self, parameter: usize) -> Result<Dynamic, ScriptError> {
         if let Some(reason) = &self.lost {
             return Err(ScriptError::new(reason.to_string()));
@@ -74,12 +74,12 @@ impl VariantValue {
     }
 }
 
-/// Set of the parameters on which a value depends. Elements of arrays and maps and captured values are searched.
+/// Set of the parameters on which a value depends. The search includes elements of arrays and maps, and captured values.
 pub fn parameter_set_of(value: &Dynamic) -> Option<Rc<ParameterSet>> {
     find(value, &|varied| Some(Rc::clone(&varied.family)))
 }
 
-/// Reason why a value, one of its elements or a captured value has no derivatives; `None` if all have them.
+/// Reason why a value, one of its elements or a captured value has no derivatives; `None` if all derivatives exist.
 pub fn unavailable_reason_in(value: &Dynamic) -> Option<Rc<str>> {
     find(value, &|varied| varied.unavailable_reason().cloned())
 }

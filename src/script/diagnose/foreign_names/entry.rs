@@ -1,4 +1,4 @@
-//! Tables of names from other languages and programs, and the search in them.
+//! Tables of names from other languages and programs, and search in these tables.
 
 use super::{languages, mechanics};
 
@@ -10,7 +10,7 @@ pub struct ForeignName {
     pub see: &'static [&'static str],
 }
 
-/// Entry for a name from another language; `None` if there is none. Case matters only between names that differ only in case.
+/// Entry for a name from another language; `None` if there is none. Upper and lower case are distinguished only between names that otherwise agree.
 pub fn find(name: &str) -> Option<&'static ForeignName> {
     find_exactly(name).or_else(|| {
         let lower = name.to_lowercase();
@@ -32,7 +32,7 @@ impl ForeignName {
     }
 }
 
-/// Hint for a call with as many arguments as the function with the same name has in other languages.
+/// Hint for a call with the number of arguments that the function has in other languages.
 pub fn called_with(name: &str, count: usize) -> Option<&'static str> {
     Some(match (name, count) {
         ("print" | "debug", 2..) => "print takes one value: print(`a = ${a}, b = ${b}`)",

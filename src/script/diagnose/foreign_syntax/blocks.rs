@@ -118,7 +118,7 @@ fn case(spot: &TokenWindow) -> Option<SyntaxFix> {
     )
 }
 
-/// Recognises a block that is not closed, an `end` in place of a closing brace, and a superfluous bracket.
+/// Recognises an unclosed block, an `end` in place of a closing brace, and a superfluous bracket.
 fn end(spot: &TokenWindow) -> Option<SyntaxFix> {
     if matches!(
         spot.word(0),

@@ -14,10 +14,10 @@ pub struct SyntaxFix {
     pub at: Position,
 }
 
-/// Pattern of syntax from another language. It examines the tokens around the error, and returns an explanation if it matches.
+/// Pattern of syntax from another language. It examines the tokens around the error. If they match, it returns an explanation.
 pub(super) type ForeignSyntax = fn(&TokenWindow) -> Option<SyntaxFix>;
 
-/// All patterns. Patterns that need more context come first.
+/// All patterns. Patterns with more context come first.
 const PATTERNS: &[&[ForeignSyntax]] = &[
     signs::PATTERNS,
     blocks::PATTERNS,
@@ -26,7 +26,7 @@ const PATTERNS: &[&[ForeignSyntax]] = &[
     brackets::PATTERNS,
 ];
 
-/// Explanation for a source in which the parser reports `error` at `at`; `None` if no pattern matches.
+/// Explanation for a source with the syntax error `error` at `at`; `None` if no pattern matches.
 pub fn explain(
     program: &Program,
     catalog: &Catalog,

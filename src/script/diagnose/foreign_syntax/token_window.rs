@@ -58,7 +58,7 @@ impl<'s> TokenWindow<'s> {
         }
         let here = found - start;
         let gap = here.checked_sub(1).and_then(|last| {
-            // Within a string that is not closed, token positions need not increase.
+            // In an unclosed string, token positions need not increase.
             program.text.get(ends[last]..ends[last + 1])
         });
         let gap = gap.unwrap_or_default().to_owned();
@@ -66,7 +66,7 @@ impl<'s> TokenWindow<'s> {
         Self { catalog, error, words, here, first, place, gap }
     }
 
-    /// Token at the given offset from the position of the error; empty if there is none.
+    /// Token at the given offset from the position of the error; empty if it does not exist.
     pub fn word(&self, from_here: isize) -> &str {
         self.find(from_here).map_or("", |word| word.text.as_str())
     }
@@ -102,7 +102,7 @@ impl<'s> TokenWindow<'s> {
         self.word(from_here).starts_with(['"', '`', '\''])
     }
 
-    /// Offset and text of the first token of the statement that is in `sought`. The search ends two tokens after the error.
+    /// Offset and text of the first token of the statement that is contained in `sought`. The search ends two tokens after the error.
     pub fn find_word(&self, sought: &[&str]) -> Option<(isize, &str)> {
         let last = (self.here + 3).min(self.words.len());
         let mut words = self.words.get(self.first..last)?.iter().enumerate();

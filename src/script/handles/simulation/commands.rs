@@ -1,5 +1,5 @@
-//! Outputs of the controllers of a simulation. The cells of the scene that contain them may be shared with other simulations. Hence each simulation
-//! restores its own values before it is used.
+//! Outputs of the controllers of a simulation. Other simulations may share the cells of the scene that contain these outputs.
+//! Hence each simulation restores its output values before it is used.
 
 use std::cell::RefCell;
 
@@ -23,7 +23,7 @@ impl Commands {
         spoken.checked_sub(1).map_or(0.0, |last| own[last].1)
     }
 
-    /// Records the output from a time on. Outputs for later times are dropped, because they were computed before a rewind.
+    /// Records the output after a time. Outputs for later times are dropped, because they were computed before a rewind.
     pub(super) fn record(&self, controller: usize, time: f64, command: f64) {
         let mut all = self.0.borrow_mut();
         let Some(own) = all.get_mut(controller) else { return };

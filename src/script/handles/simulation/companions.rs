@@ -1,4 +1,4 @@
-//! Companion runs. They repeat a simulation from its start, with its scene and functions, but on another mesh or with other steps.
+//! Companion runs. A companion repeats a simulation from its start with the same scene and functions, but on another mesh or with other steps.
 
 use std::rc::Rc;
 
@@ -22,11 +22,11 @@ pub enum RunStart {
     Scene,
     /// Equilibrium.
     Equilibrium(EquilibriumHandle),
-    /// Saved simulation. Its start is not stored.
+    /// Saved simulation, whose start is not stored.
     Loaded,
 }
 
-/// Discretisation of a companion run, in comparison with the simulation.
+/// Discretisation of a companion run relative to the simulation.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Companion {
     /// Ratio of the numbers of spans.
@@ -54,7 +54,7 @@ impl SimulationHandle {
         Ok(handle)
     }
 
-    /// Runs to a time. Output that the functions of the simulation print is discarded, and their checks do not count.
+    /// Runs to a time. Output printed by functions of the simulation is discarded, and their checks are ignored.
     pub fn run_silently(&self, end: f64, context: &Context) -> Result<(), ScriptError> {
         let checks = context.with_checks(|checks| checks.clone());
         let ran = context.without_output_or_files(NO_FILES, || self.run_to(context, end));
@@ -101,7 +101,7 @@ impl SimulationHandle {
         SimulationSettings { dt, ..settings }
     }
 
-    /// Runs a companion to the present time of this simulation. Script functions are called again; what they print is discarded.
+    /// Runs a companion to the present time of this simulation. Script functions are called again, and their output is discarded.
     ///
     /// # Errors
     /// Fails if the companion cannot be started or does not reach the time, or if the result of a function depends on its earlier calls.
@@ -135,14 +135,14 @@ impl SimulationHandle {
         let captured = CapturedVariables::of(self)?;
         let ran =
             handle.evaluate_columns().and_then(|()| handle.run_silently(self.time(), context));
-        // The companion has changed the outputs of controllers, which it shares with this simulation. They are restored here.
+        // The companion has changed the outputs of controllers, which it shares with this simulation. The call restores them.
         self.with_simulation_mut(|_| ());
         captured.expect_unchanged()?;
         ran.map(|()| handle)
     }
 }
 
-/// Values of the variables that the functions of a simulation have captured, stored before a companion run.
+/// Values of the variables captured by the functions of a simulation, stored before a companion run.
 struct CapturedVariables(Vec<CapturedVariable>);
 
 struct CapturedVariable {
@@ -176,8 +176,8 @@ impl CapturedVariables {
         Ok(Self(values))
     }
 
-    /// Restores the variables. Fails if a function has changed a variable, because a companion run would need its value from the start of the
-    /// simulation.
+    /// Restores the variables.
+    /// Fails if a function has changed a variable, because a companion run would need the value at the start of the simulation.
     fn expect_unchanged(self) -> Result<(), ScriptError> {
         let mut changed = None;
         for CapturedVariable { role, mut shared, value } in self.0 {

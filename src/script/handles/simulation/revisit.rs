@@ -1,4 +1,4 @@
-//! Temporary replacement of a simulation by a copy in an earlier state. Meanwhile all handles refer to the copy.
+//! Temporary replacement of a simulation by a copy in an earlier state. During the replacement, all handles refer to the copy.
 
 use std::cell::{Ref, RefCell};
 use std::rc::Rc;
@@ -9,10 +9,10 @@ use crate::script::messages::error::ScriptError;
 use crate::script::state::context::Context;
 use crate::simulation::Simulation;
 
-/// Replacement of a simulation by a copy. The original is put back when this object is dropped.
+/// Replacement of a simulation by a copy. Dropping this object restores the original.
 pub struct Revisit {
     handle: SimulationHandle,
-    /// The original simulation, while its handles refer to the copy. While the original is being used itself, this field contains the copy.
+    /// Original simulation, while its handles refer to the copy. While the original is in use, this field contains the copy.
     original: RefCell<Simulation>,
     events: Events<Rc<StoredFunction>>,
     is_ending_told: bool,
@@ -68,7 +68,7 @@ impl Revisit {
     /// Advances the copy to a row in the history of the original. Returns true if energies and momenta are equal.
     ///
     /// # Errors
-    /// Fails if a step fails that did not fail in the original run, or if the run is stopped.
+    /// Fails if a step fails although it did not fail in the original run, or if the run is stopped.
     pub fn run_again(&self, row: usize, context: &Context) -> Result<bool, ScriptError> {
         loop {
             self.handle.command()?;
@@ -86,7 +86,7 @@ impl Revisit {
 impl Drop for Revisit {
     fn drop(&mut self) {
         self.handle.0.simulation.swap(&self.original);
-        // The expression may have advanced the copy and called scheduled functions, so these are reset.
+        // The expression may have advanced the copy and called scheduled functions, so the scheduled functions are reset.
         self.handle.0.events.replace(self.events.clone());
         self.handle.0.is_ending_told.set(self.is_ending_told);
     }

@@ -1,4 +1,4 @@
-//! Columns, controllers and release conditions, which script functions evaluate between steps.
+//! Columns, controllers and release conditions that script functions evaluate between steps.
 
 use std::cell::{Cell, RefCell};
 use std::collections::BTreeMap;
@@ -23,7 +23,7 @@ pub(super) struct ColumnReader {
     /// Number of steps at the last evaluation of the columns.
     evaluated_at: Cell<Option<usize>>,
     controllers: Vec<Rc<Controller>>,
-    /// Outputs of sampled controllers, by number of the sample. Those up to the present time are kept in a rewind.
+    /// Outputs of sampled controllers, by sample number. A rewind keeps the outputs up to the present time.
     commands: RefCell<Vec<BTreeMap<u64, f64>>>,
     /// Outputs of all controllers as functions of time.
     outputs: Commands,
@@ -48,7 +48,7 @@ impl ColumnReader {
         self.outputs.copy_from(&other.outputs);
     }
 
-    /// All script functions that are called between steps.
+    /// All script functions called between steps.
     pub(super) fn all_functions(&self) -> impl Iterator<Item = &StoredFunction> {
         let columns = self.functions.iter().map(|function| &**function);
         let conditions = self.conditions.iter().map(|condition| &*condition.function);
@@ -73,7 +73,7 @@ impl ColumnReader {
         }
     }
 
-    /// Rejects a call that would advance or rewind the simulation, if it is made by a function that may only read it.
+    /// Rejects a call that would advance or rewind the simulation if it is made by a function that may only read the simulation.
     pub fn expect_idle(&self) -> Result<(), ScriptError> {
         match self.is_looking.get() {
             false => Ok(()),
@@ -86,7 +86,7 @@ impl ColumnReader {
 }
 
 impl SimulationHandle {
-    /// Calls a function that needs write access to the simulation for a short time, in the variant of the present call.
+    /// Calls a function with brief write access to the simulation, in the variant of the present call.
     pub fn with_simulation_mut<T>(&self, look: impl FnOnce(&mut Simulation) -> T) -> T {
         let run = &mut *self.0.simulation.borrow_mut();
         self.0.sensing.recall(run.time());
@@ -98,10 +98,10 @@ impl SimulationHandle {
         look(run)
     }
 
-    /// Evaluates the functions of the columns for the last row, unless this has been done.
+    /// Evaluates the functions of the columns for the last row, unless they have already been evaluated.
     ///
     /// # Errors
-    /// Errors of the functions, or an error if a function does not return a number.
+    /// Fails if a function fails, or if it does not return a number.
     pub fn evaluate_columns(&self) -> Result<(), ScriptError> {
         let ColumnReader { functions, evaluated_at, is_looking, .. } = &self.0.sensing;
         let steps = self.simulation().counts().steps;
@@ -125,10 +125,10 @@ impl SimulationHandle {
         Ok(())
     }
 
-    /// Executes releases whose condition is met, before the next step.
+    /// Executes releases with a satisfied condition before the next step.
     ///
     /// # Errors
-    /// Errors of the functions, or an error if a function does not return a boolean.
+    /// Fails if a function fails, or if it does not return a boolean.
     fn release_due(&self) -> Result<(), ScriptError> {
         let ColumnReader { conditions, is_looking, .. } = &self.0.sensing;
         for Condition { function, release } in conditions {
@@ -158,7 +158,7 @@ impl SimulationHandle {
     /// Evaluates release conditions and controllers for the next step or half step.
     ///
     /// # Errors
-    /// Errors of the functions, or an error if a function does not return a finite number.
+    /// Fails if a function fails, or if it does not return a finite number.
     pub(super) fn command(&self) -> Result<(), ScriptError> {
         if !self.simulation().is_paused_in_step() {
             self.release_due()?;
@@ -171,12 +171,12 @@ impl SimulationHandle {
             };
             sensing.outputs.record(number, time, value);
         }
-        // All outputs change at the same time, so that every controller reads the previous outputs of the others.
+        // All outputs change at the same time, so that every controller reads the previous outputs of the other controllers.
         sensing.recall(time.next_up());
         Ok(())
     }
 
-    /// Output of a sampled controller. It is computed at the times of samples, and constant between them. It is zero before the first output.
+    /// Output of a sampled controller. It is computed at the sample times and constant between them. Before the first output, it is zero.
     fn sampled_command(
         &self,
         number: usize,
@@ -236,8 +236,7 @@ impl SimulationHandle {
         !controllers.is_empty() || conditions.iter().any(waits)
     }
 
-    /// Runs to a time. If functions fill columns, the run pauses at recorded steps. If functions control the simulation, it pauses before every
-    /// step.
+    /// Runs to a time. If functions fill columns, the run pauses at recorded steps. If functions control the simulation, it pauses before every step.
     pub(super) fn run_with_callbacks(
         &self,
         context: &Context,

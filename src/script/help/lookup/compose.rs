@@ -17,7 +17,7 @@ use crate::script::messages::numbers::format_number;
 /// Help page for `name`, or the overview if the name is empty.
 ///
 /// # Errors
-/// Fails if there is no help for this name. The error contains suggestions.
+/// Fails if no help exists for this name. The error contains suggestions.
 pub fn page(catalog: &Catalog, name: &str) -> Result<HelpPage, UnknownTopic> {
     if name.trim().is_empty() {
         return Ok(overview(catalog));

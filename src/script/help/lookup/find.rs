@@ -13,13 +13,13 @@ use crate::script::library::{ModuleFunction, ModulePage, page_of, pages};
 #[derive(Clone, Copy)]
 pub enum HelpSubject {
     Topic(&'static Topic),
-    /// A function, method, property or operator of a domain.
+    /// Function, method, property or operator of a domain.
     Row(&'static BindingTable, &'static FunctionBinding),
     BuiltIn(&'static BuiltIn),
     Type(Type),
     Constant(&'static Constant),
     Option(&'static FunctionBinding, &'static Parameter),
-    /// A domain.
+    /// Domain of the language.
     Table(&'static BindingTable),
     /// Functions of Rhai for one type of value.
     BuiltIns(&'static BuiltInTable),
@@ -27,10 +27,10 @@ pub enum HelpSubject {
     ModuleFunction(&'static ModuleFunction),
 }
 
-/// All subjects that `name` may refer to, the most likely one first.
+/// All subjects with the name `name`, the most likely subject first.
 ///
-/// `simulation.run_to` refers to the method of the type `simulation`. If the text before the dot is not a type, as in `sim.run_to`, the methods of
-/// all types are returned.
+/// The name `simulation.run_to` refers to the method of the type `simulation`.
+/// If the text before the dot is not a type, as in `sim.run_to`, the methods of all types are returned.
 pub fn find(catalog: &Catalog, name: &str) -> Vec<HelpSubject> {
     let name = name.trim();
     let name = name.strip_suffix("()").filter(|name| !name.is_empty()).unwrap_or(name);

@@ -14,16 +14,16 @@ pub struct HelpPage {
 
 #[derive(Clone, Debug, PartialEq)]
 pub enum HelpSection {
-    /// An empty line.
+    /// Empty line.
     Gap,
-    /// Text to be wrapped. The first line starts at `indent`, the following lines at `hang`.
+    /// Text that is wrapped. The first line starts at `indent`, the following lines at `hang`.
     Words {
         indent: usize,
         /// Indentation of further lines.
         hang: usize,
         spans: Vec<StyledText>,
     },
-    /// Script. Long lines are broken at places where this does not change the meaning.
+    /// Script. Long lines are broken at positions where this does not change the meaning.
     Code(String),
 }
 
@@ -142,7 +142,7 @@ fn wrap(
     text.push('\n');
 }
 
-/// Splits spans into words. Two consecutive spans are joined if there is no blank between them.
+/// Splits spans into words. Two consecutive spans are joined if no blank separates them.
 fn words(spans: &[StyledText]) -> Vec<Vec<StyledText>> {
     let mut words = vec![Vec::new()];
     for span in spans {
@@ -161,8 +161,8 @@ fn words(spans: &[StyledText]) -> Vec<Vec<StyledText>> {
     words
 }
 
-/// Breaks a line of a script at `width`. Possible places are blanks outside strings after a comma, semicolon, brace, && or ||. A line with a
-/// comment is not broken.
+/// Breaks a line of a script at `width`. Possible breaks are blanks outside strings after a comma, semicolon, brace, && or ||.
+/// A line with a comment is not broken.
 pub(super) fn wrapped_code(line: &str, width: usize) -> Vec<String> {
     let mut pieces = Vec::new();
     let mut rest = line.to_owned();
@@ -176,7 +176,7 @@ pub(super) fn wrapped_code(line: &str, width: usize) -> Vec<String> {
     pieces
 }
 
-/// Byte index of the last place within `width` characters at which the line can be broken.
+/// Byte index of the last possible break of the line within `width` characters.
 fn last_break(line: &str, width: usize) -> Option<usize> {
     let mut quote = None;
     let mut previous = ' ';

@@ -58,7 +58,7 @@ pub fn see(page: &mut HelpPage, names: &[&str]) {
     }
 }
 
-/// Appends the description of a parameter or key. If it is an option map, its keys are described too.
+/// Appends the description of a parameter or key. For an option map, the descriptions of its keys are added.
 pub fn parameter(page: &mut HelpPage, parameter: &Parameter, indent: usize) {
     let mut spans = vec![StyledText::name(parameter.name), StyledText::plain(": ")];
     spans.extend(expectation(parameter));
@@ -94,7 +94,7 @@ pub fn presence(presence: Presence) -> String {
     }
 }
 
-/// Option maps that are allowed by a type.
+/// Option maps allowed by a type.
 pub fn maps(kind: &Kind) -> Vec<&'static [Parameter]> {
     match kind {
         Kind::Options(keys) => vec![*keys],

@@ -1,4 +1,4 @@
-//! Names for which there is no help, with suggestions.
+//! Unknown help topics, with suggestions of similar names.
 
 use std::fmt;
 

@@ -131,7 +131,7 @@ const KEYS: &[Parameter] = &[
         .optional(),
 ];
 
-/// Number of knots above which a knot vector is abbreviated in print.
+/// Largest number of knots for which all knots of a vector are printed.
 const PRINTED: usize = 16;
 
 impl Scripted for Rc<KnotVector> {
@@ -191,7 +191,7 @@ fn uniform(call: &mut Call) -> Result<Dynamic, ScriptError> {
         }
         None => (call.count("spans")?, 3, 2),
     };
-    // The numbers of spans and the degree are in range, so only the continuity can be invalid.
+    // The number of spans and the degree are in range, so only the continuity can be invalid.
     let knots = KnotVector::uniform(spans, degree, continuity)
         .map_err(|error| ScriptError::from(error).at(CallPart::Key("continuity".into())))?;
     Ok(shared(knots))

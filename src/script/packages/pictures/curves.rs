@@ -100,7 +100,7 @@ fn chart(
     with_options(options, named.fold(chart, LineChart::series))
 }
 
-/// Chart of curves that the prompt draws over the quantity `over`. The options are those of `plot`.
+/// Chart of curves over the quantity `over` for the prompt. The options are those of `plot`.
 ///
 /// # Errors
 /// Fails if an option is unknown or invalid.

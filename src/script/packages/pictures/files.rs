@@ -11,7 +11,7 @@ use crate::script::messages::error::ScriptError;
 
 pub const FILE: Parameter = text("file").doc("file name in the output folder");
 
-/// Writes a picture to the output folder, in the format that the file extension determines. Returns the unit value.
+/// Writes a picture to the output folder in the format of its file extension. Returns the unit value.
 pub fn write_picture(call: &Call, picture: &dyn Panel) -> Result<Dynamic, ScriptError> {
     let file = call.text("file")?;
     let kind = PictureKind::of(Path::new(file.as_str()))?;

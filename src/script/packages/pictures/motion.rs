@@ -38,7 +38,7 @@ pub const MOTION: &[Parameter] = &[
     text("title").doc("title; default: the name of the simulation").optional(),
 ];
 
-/// Draws one motion or several side by side.
+/// Draws one motion, or several motions side by side.
 pub fn plot_motion(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let simulations = simulations(call)?;
     let options = call.options_or_defaults("options")?;
@@ -67,8 +67,8 @@ pub fn plot_motion(call: &mut Call) -> Result<Dynamic, ScriptError> {
     }
 }
 
-/// Picture as text for a terminal, with options that were typed at the prompt. It shows only the present configuration unless other times are
-/// requested.
+/// Picture as text for a terminal, with options typed at the prompt.
+/// The picture shows only the present configuration unless other times are requested.
 ///
 /// # Errors
 /// Fails if an option is unknown or invalid, or the interval is empty.

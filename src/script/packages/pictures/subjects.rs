@@ -1,4 +1,4 @@
-//! Simulations, histories and stations that are shown in pictures and written to files.
+//! Simulations, histories and stations shown in pictures and written to files.
 
 use rhai::{Array, Dynamic};
 
@@ -47,7 +47,7 @@ pub fn simulations(call: &Call) -> Result<Vec<SimulationHandle>, ScriptError> {
     things(call, as_simulation)
 }
 
-/// Histories in the argument. Fails if one of them is empty.
+/// Histories in the argument. Fails if a history is empty.
 pub fn histories(call: &Call) -> Result<Vec<HistoryHandle>, ScriptError> {
     let histories = things(call, as_history)?;
     match histories.iter().find(|of| of.read(|rows| rows.samples().is_empty())) {
@@ -56,7 +56,7 @@ pub fn histories(call: &Call) -> Result<Vec<HistoryHandle>, ScriptError> {
     }
 }
 
-/// Histories in the argument. Fails if one of them is empty or has rows only at the ends of runs.
+/// Histories in the argument. Fails if a history is empty or has rows only at the ends of runs.
 pub fn histories_over_time(call: &Call) -> Result<Vec<HistoryHandle>, ScriptError> {
     let histories = histories(call)?;
     histories.iter().try_for_each(|history| expect_rows_between(call, &history.of))?;
@@ -67,7 +67,7 @@ fn as_simulation(value: &Dynamic) -> Option<SimulationHandle> {
     value.clone().try_cast()
 }
 
-/// History of a value: a history, or the whole history of a simulation.
+/// History of a value, which is a history or a simulation. For a simulation, it is the whole history.
 pub fn as_history(value: &Dynamic) -> Option<HistoryHandle> {
     let whole = |of| HistoryHandle { of, from: f64::NEG_INFINITY, to: f64::INFINITY };
     value.clone().try_cast::<HistoryHandle>().or_else(|| as_simulation(value).map(whole))

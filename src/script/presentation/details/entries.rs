@@ -5,7 +5,7 @@ use crate::output::significant;
 
 const DIGITS: usize = 6;
 
-/// Component that is due to rounding, as a fraction of the length of the vector.
+/// Component that is attributed to rounding, as a fraction of the length of the vector.
 const ROUNDING: f64 = 1e-12;
 
 const LISTED: usize = 4;
@@ -18,7 +18,7 @@ pub(super) fn number(x: f64) -> String {
     significant(x, DIGITS)
 }
 
-/// Formats a point or vector with few digits. A component that is below the rounding error of the other is shown as 0.
+/// Formats a point or vector with few digits. A component below the rounding error of the other component is shown as 0.
 pub(super) fn pair(of: Vec2) -> String {
     let [x, y] = [of.x, of.y].map(|x| if x.abs() < ROUNDING * of.norm() { 0.0 } else { x });
     format!("({}, {})", number(x), number(y))
@@ -33,7 +33,7 @@ pub(super) fn listed(things: impl ExactSizeIterator<Item = String>) -> String {
     }
 }
 
-/// Formats numbers in one line. In a long list, the total count replaces the middle.
+/// Formats numbers on one line. In a long list, the total count replaces the middle.
 pub(super) fn numbers(all: &[f64]) -> String {
     let texts = |part: &[f64]| part.iter().copied().map(number).collect::<Vec<_>>().join(", ");
     match all {

@@ -117,7 +117,7 @@ pub fn of_section(section: &Section) -> Details {
     properties.into_iter().map(|(label, value)| line(label, number(value))).chain(speeds).collect()
 }
 
-/// Description of the beam or track of a slider, and the place at which the slider starts, as a fraction of the length.
+/// Description of the beam or track of a slider, and the start position of the slider as a fraction of the length.
 pub fn guide_of(scene: &Scene, slider: &Slider) -> (String, f64) {
     let Slider { master, arc_length, track, .. } = *slider;
     match track {

@@ -1,4 +1,4 @@
-//! Quantities by which the viewer colours beams, computed from recorded configurations or from complete states.
+//! Quantities for the colours of beams in the viewer, computed from recorded configurations or from complete states.
 
 use super::FrameSelection;
 use crate::geometry::Vec2;
@@ -8,15 +8,15 @@ use crate::simulation::{Axes, AxisStation, Outline, Simulation};
 use crate::system::{BeamPlaces, SystemError};
 
 enum FieldSource {
-    /// Speed of the axis, computed from the configurations before and after a frame [length/time].
+    /// Speed of the axis, computed from the configurations of the previous and the next frame [length/time].
     AdjacentFrames,
-    /// Function of the axis in the configuration of a frame, and the dimension of its value.
+    /// Function of the axis in the configuration of a frame, with the dimension of its value.
     Axis(fn(&AxisStation, &[Vec2]) -> f64, &'static str),
     State,
 }
 
-/// All fields, in the order of [`FIELDS`]. The stretch is the relative elongation of the axis [-]. The curvature is the change of the axis
-/// curvature since the start [1/length].
+/// All fields, in the order of [`FIELDS`]. The stretch is the relative elongation of the axis [-].
+/// The field `curvature` is the change of the axis curvature from the start [1/length].
 const KINDS: [(&str, FieldSource); 7] = [
     ("speed", FieldSource::AdjacentFrames),
     ("M", FieldSource::State),
@@ -37,7 +37,7 @@ pub struct FieldReader {
 }
 
 impl FieldReader {
-    /// Creates storage for the named fields in this number of frames. `None` if none of the fields needs states.
+    /// Creates storage for the named fields in the given number of frames. `None` if no field needs states.
     ///
     /// # Errors
     /// Fails if an axis has a point without a tangent.

@@ -8,7 +8,7 @@ use crate::script::messages::error::ScriptError;
 use crate::script::state::files::WrittenFile;
 use crate::script::state::settings::RunMode;
 
-/// Memory needed for each byte of a file, which includes the content and its parsed form.
+/// Memory needed for each byte of a file, for the content and its parsed form.
 const TIMES_ITS_LENGTH: u64 = 4;
 
 /// File whose written bytes are counted. Writing fails as soon as the run must end.
@@ -33,8 +33,8 @@ impl Write for CountedFile<'_> {
 }
 
 impl Context {
-    /// Writes a file in the output folder. If a file with this name exists and was not written by this program, it is kept under another name, and
-    /// the user gets a message.
+    /// Writes a file in the output folder.
+    /// If a file with this name was not written by this program, it is kept under another name, and a message is printed.
     ///
     /// # Errors
     /// Fails if the file cannot be written, or a limit of the run is exceeded.
@@ -43,7 +43,7 @@ impl Context {
         self.output().write(name, content).map(|written| self.report_kept(written))
     }
 
-    /// Writes a file in the output folder piece by piece, and counts the bytes. An existing file is kept as described for [`Self::write_file`].
+    /// Writes a file in the output folder in pieces, and counts the bytes. An existing file is treated as in [`Self::write_file`].
     ///
     /// # Errors
     /// Fails if the file cannot be written or a limit of the run is exceeded.
@@ -55,13 +55,13 @@ impl Context {
         self.account_for(&[])?;
         let written =
             self.output().write_by(name, |file| write(&mut CountedFile { file, context: self }));
-        // A run that must end has refused to write. Its reason is reported.
+        // A run that must end does not write. The reason for the end is reported.
         self.proceed()?;
         Ok(self.report_kept(written?))
     }
 
-    /// Writes a file that the script may [read](Self::read_file) later, also in a dry run. An existing file is kept as described for
-    /// [`Self::write_file`].
+    /// Writes a file that the script may [read](Self::read_file) later, also in a dry run.
+    /// An existing file is treated as in [`Self::write_file`].
     ///
     /// # Errors
     /// Fails if the file cannot be written, or a limit of the run is exceeded.
@@ -100,7 +100,7 @@ impl Context {
         written.path
     }
 
-    /// Writes a rescue file of a run that was stopped, if the limit of written bytes allows it.
+    /// Writes a rescue file of a stopped run, if the limit of written bytes allows it.
     pub(super) fn write_remains(&self, name: &str, content: &[u8]) -> Result<PathBuf, ScriptError> {
         let bytes = content.len() as u64;
         if self.mode() == RunMode::Run && bytes > self.meter().rescue_budget() {

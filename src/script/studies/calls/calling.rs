@@ -11,16 +11,16 @@ const LONGEST_REASON: usize = 300;
 
 pub enum CallOutcome {
     Returned(Dynamic),
-    /// Reason of a failure: the function threw an error, it took too long, or a check failed.
+    /// Reason of a failure: the function threw an error, exceeded its time, or a check failed.
     Failed(String),
-    /// Reason for which the script seems to be wrong.
+    /// Reason why the script seems to be wrong.
     Wrong(String),
 }
 
 /// Processed result of a call, with the steps of its simulations.
 pub struct CallWork<R> {
     pub result: R,
-    /// Simulation steps, including failed ones.
+    /// Number of simulation steps, including failed steps.
     pub steps: u64,
 }
 
@@ -85,7 +85,7 @@ pub fn thrown(error: &EvalAltResult) -> Option<String> {
     }
 }
 
-/// A reason, shortened to one line of a table.
+/// Reason, shortened to one line of a table.
 pub fn shortened(reason: &str) -> String {
     let line = brief(reason.replace(['\n', '\r'], " "));
     match line.char_indices().nth(LONGEST_REASON) {

@@ -1,4 +1,4 @@
-//! Evaluation of a function of parameters at several points: by worker threads if there is a complete script, otherwise on this thread.
+//! Evaluation of a function of parameters at several points. Worker threads are used if there is a complete script, otherwise this thread.
 
 use std::time::Duration;
 
@@ -18,7 +18,7 @@ const NO_FILES: &str = "a run of a study cannot write files: return the data as 
 pub enum FunctionResult {
     Numbers(Vec<f64>),
     Failed(String),
-    /// Reason for which the script seems to be wrong.
+    /// Reason why the script seems to be wrong.
     Wrong(String),
 }
 
@@ -45,7 +45,7 @@ enum Executor<'w> {
     ThisThread,
 }
 
-/// Evaluator of the function of a query, by worker threads or on this thread.
+/// Evaluates the function of a query. The evaluation uses worker threads or this thread.
 pub struct Evaluator<'w> {
     call: &'w Call<'w, 'w>,
     question: &'w FunctionQuery<'w>,
@@ -82,7 +82,7 @@ impl FunctionQuery<'_> {
     /// Calls `drive` with the evaluator.
     ///
     /// # Errors
-    /// Fails if there is no worker; errors of `drive`.
+    /// Fails if there is no worker, or if `drive` fails.
     pub fn with_evaluator<T>(
         &self,
         calling: &Call,
@@ -122,7 +122,7 @@ impl FunctionQuery<'_> {
     /// Value of the function at a point, in the engine of the script.
     ///
     /// # Errors
-    /// Errors of the function with their positions.
+    /// Fails if the function fails. The error contains its position.
     pub fn here(&self, calling: &Call, point: &[f64]) -> Result<Dynamic, ScriptError> {
         self.call_here(calling, &QueryPoint::Value(point.to_vec()))
     }
@@ -131,7 +131,7 @@ impl FunctionQuery<'_> {
         self.function.call_here(calling, self.key, self.values(point))
     }
 
-    /// Error of a function that fails at a required point. The function is called again in the script's engine, to find the position of the error.
+    /// Error of a function that fails at a required point. The function is called again in the engine of the script to find the error position.
     pub fn located_error(&self, calling: &Call, point: &[f64], reason: &str) -> ScriptError {
         let found =
             calling.context().without_output_or_files(NO_FILES, || self.here(calling, point));
@@ -173,8 +173,8 @@ impl<'w> Evaluator<'w> {
         Ok(found)
     }
 
-    /// Values and derivatives with respect to all parameters at a point, from one call with values that depend on parameters. `point` contains the
-    /// value and the perturbation of each parameter. The inner error is the reason for missing derivatives.
+    /// Values and derivatives with respect to all parameters at a point, from one call with values that depend on parameters.
+    /// The argument `point` contains the value and the perturbation of each parameter. The inner error is the reason for missing derivatives.
     ///
     /// # Errors
     /// Fails if the run is stopped.

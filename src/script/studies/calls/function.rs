@@ -1,4 +1,4 @@
-//! A function that a study calls with named values: captured variables and used names.
+//! Function that a study calls with named values, with its captured variables and used names.
 
 use std::collections::BTreeSet;
 
@@ -9,16 +9,16 @@ use crate::script::bindings::call::{Call, written_within};
 use crate::script::messages::error::{CallPart, Failure, ScriptError};
 use crate::script::messages::nouns::with_article;
 
-/// A script function in a form that can be sent to other threads.
+/// Script function in a form that can be sent to other threads.
 #[derive(Clone, Debug)]
 pub struct RunFunction {
     pub name: String,
     pub captured: Vec<(String, Portable)>,
-    /// Further arguments, which follow the map of values.
+    /// Arguments that follow the map of values.
     pub besides: Vec<Portable>,
 }
 
-/// Error of a function that changes a captured variable.
+/// Error for a function that changes a captured variable.
 pub fn changes(name: &str) -> String {
     format!(
         "it changes the variable '{name}' from outside, which is separate in every run: return \
@@ -28,7 +28,7 @@ pub fn changes(name: &str) -> String {
 
 struct ParameterReading {
     names: BTreeSet<String>,
-    /// True if the map is used as a whole, so that any name may be read.
+    /// True if the map is used as a whole, so that the function may read any name.
     is_whole: bool,
 }
 
@@ -36,7 +36,7 @@ impl RunFunction {
     /// Reads the function given for an option key.
     ///
     /// # Errors
-    /// Fails if it has captured a value that cannot be sent to other threads. The error has the position at which the value is used.
+    /// Fails if the function has captured a value that cannot be sent to other threads. The error has the position at which the value is used.
     pub fn read(call: &Call, key: &str, function: &FnPtr) -> Result<Self, ScriptError> {
         let Some(definition) = call.definition(function) else {
             let message = format!(
@@ -102,9 +102,9 @@ impl RunFunction {
         Ok(())
     }
 
-    /// Captured values and arguments on this thread. `function_of` finds functions.
+    /// Captured values and arguments of the function on this thread. The callback `function_of` finds functions.
     ///
-    /// `None` if a function is not found.
+    /// Returns `None` if a function is not found.
     pub fn arguments(
         &self,
         values: Map,
@@ -118,16 +118,16 @@ impl RunFunction {
         Some((captured, given))
     }
 
-    /// First captured variable that has changed.
+    /// First captured variable whose value has changed.
     pub fn changed(&self, captured: &[Dynamic]) -> Option<&str> {
         let pairs = self.captured.iter().zip(captured);
         pairs.into_iter().find(|((_, was), is)| !was.is(is)).map(|((name, _), _)| name.as_str())
     }
 
-    /// Calls the function in the engine of the script, with its own copies of captured values.
+    /// Calls the function in the engine of the script, with copies of captured values.
     ///
     /// # Errors
-    /// Errors of the function with their positions; also if it changes a captured variable.
+    /// Fails if the function fails (with the position of the error), or if it changes a captured variable.
     pub fn call_here(&self, call: &Call, key: &str, values: Map) -> Result<Dynamic, ScriptError> {
         let function_of = |name: &str, parameters| call.function_named(name, parameters);
         let lost = || ScriptError::internal_error("the function of a study is not found again");
@@ -148,7 +148,7 @@ impl RunFunction {
     /// Rejects parameters that the function never reads, if this can be determined.
     ///
     /// # Errors
-    /// Fails if there is one.
+    /// Fails if there is a parameter that the function never reads.
     pub fn expect_read<'n>(
         call: &Call,
         (key, function): (&str, &FnPtr),
@@ -163,7 +163,7 @@ impl RunFunction {
         Err(call.error(message).hint(hint).at(CallPart::Key(unread.to_owned())))
     }
 
-    /// First name that the function does not read from its map. A function that passes on the map may read any name.
+    /// First name that the function does not read from its map. A function that passes its map on may read any name.
     fn unread<'n>(
         call: &Call,
         function: &FnPtr,

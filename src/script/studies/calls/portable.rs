@@ -13,10 +13,10 @@ use crate::loads::Schedule;
 use crate::script::handles::section::SectionHandle;
 use crate::simulation::StepControl;
 
-/// A value that can be sent to another thread.
+/// Value that can be sent to another thread.
 #[derive(Clone, Debug)]
 pub enum Portable {
-    /// Unit, `()`.
+    /// Unit value `()`.
     Nothing,
     Boolean(bool),
     Integer(INT),
@@ -26,7 +26,7 @@ pub enum Portable {
     Vector(Vec2),
     Array(Vec<Self>),
     Map(Vec<(String, Self)>),
-    /// A script function: name, number of parameters, and captured values.
+    /// Script function: name, number of parameters, and captured values.
     Function(String, usize, Vec<Self>),
     /// Serialised native data: type and bytes.
     Data(DataKind, Vec<u8>),
@@ -35,21 +35,21 @@ pub enum Portable {
 /// Native types that are data.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum DataKind {
-    /// A constant or tapered section.
+    /// Constant or tapered section.
     Section,
     Mesh,
     Curve,
     Knots,
     Method,
-    /// An adaptive step size.
+    /// Adaptive step size.
     Control,
-    /// A schedule given by a formula or a table.
+    /// Schedule given by a formula or a table.
     Schedule,
 }
 
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct NotPortable {
-    /// Name of its type.
+    /// Name of the type of the rejected value.
     pub kind: String,
 }
 
@@ -59,7 +59,7 @@ impl Portable {
     /// Converts a value. `parameters_of` returns the number of parameters of a script function, including captured variables.
     ///
     /// # Errors
-    /// Fails if it or a part of it cannot be converted.
+    /// Fails if the value or one of its elements cannot be converted.
     pub fn of(
         engine: &Engine,
         value: &Dynamic,
@@ -137,7 +137,7 @@ impl Portable {
         })
     }
 
-    /// Returns true if a value still equals this one, bit by bit.
+    /// Returns true if a value equals this value bit by bit.
     pub fn is(&self, value: &Dynamic) -> bool {
         let value = value.flatten_clone();
         match self {

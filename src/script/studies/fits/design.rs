@@ -22,9 +22,9 @@ const DIGITS: usize = 6;
 
 #[derive(Clone, Debug, PartialEq)]
 pub enum Objective {
-    /// Minimise the result of this name.
+    /// The result with this name is to be minimised.
     Least(String),
-    /// Maximise the result of this name.
+    /// The result with this name is to be maximised.
     Largest(String),
 }
 
@@ -51,11 +51,11 @@ pub struct DesignRequest<'o> {
 #[derive(Clone)]
 pub struct BestDesign {
     pub parameters: Vec<(String, f64)>,
-    /// Results with these parameters.
+    /// Results with the best parameters.
     pub results: Vec<(String, f64)>,
     /// True if the search converged within the allowed number of runs.
     pub is_settled: bool,
-    /// Index of an unbounded parameter that diverged, because the objective decreases without limit.
+    /// Index of an unbounded parameter that diverged because the objective decreases without limit.
     pub runaway: Option<usize>,
     /// Number of calls of the function.
     pub runs: usize,
@@ -118,13 +118,13 @@ impl Limit {
         map.iter().map(limit).collect()
     }
 
-    /// Scaled distances of a result from its bounds; negative if violated.
+    /// Scaled distances of a result from its bounds; negative if a bound is violated.
     pub(super) fn distances(&self, value: f64) -> impl Iterator<Item = f64> {
         let low = self.low.map(|low| (value - low) / self.size());
         low.into_iter().chain(self.high.map(|high| (high - value) / self.size()))
     }
 
-    /// Derivatives of these distances, from the derivatives of the result.
+    /// Derivatives of the scaled distances, computed from the derivatives of the result.
     pub(super) fn slopes(&self, slopes: &[f64]) -> impl Iterator<Item = Vec<f64>> {
         let along = |sign: f64| slopes.iter().map(|slope| sign * slope / self.size()).collect();
         let low: Option<Vec<f64>> = self.low.map(|_| along(1.0));
@@ -147,7 +147,7 @@ impl Limit {
     }
 }
 
-/// Values of a map of numbers in the order of [`names`].
+/// Values of a map of numbers. Their order is that of [`names`].
 fn values(given: &Dynamic) -> FunctionResult {
     let Some(map) = given.read_lock::<Map>() else {
         return FunctionResult::Wrong(
@@ -191,7 +191,7 @@ impl DesignRequest<'_> {
     /// Finds the best design.
     ///
     /// # Errors
-    /// Fails if the function is wrong or fails at the start, a result is missing, or no run meets the constraints.
+    /// Fails if the function is wrong or fails at the start, if a result is missing, or if no run satisfies the constraints.
     pub fn run(self, call: &Call) -> Result<BestDesign, ScriptError> {
         let function = RunFunction::read(call, "run", self.function)?;
         let question = FunctionQuery {
@@ -202,7 +202,7 @@ impl DesignRequest<'_> {
             wall: self.wall,
         };
         let start: Vec<f64> = self.ranges.ranges.iter().map(|range| range.first()).collect();
-        // Finds the names of the results, and reports errors of the first run.
+        // The first run gives the names of the results, and reports its errors.
         let results = names(&call.context().silently(|| question.here(call, &start))?);
         let place = |name: &str| {
             results.iter().position(|known| known == name).ok_or_else(|| {
@@ -287,10 +287,10 @@ impl DesignRequest<'_> {
 }
 
 impl DesignRequest<'_> {
-    /// Result of a dry run: the start values, at which the function is called once.
+    /// Result of a dry run: the start values. The function is called once with these values.
     ///
     /// # Errors
-    /// Errors of the function.
+    /// Fails if the function fails.
     pub fn dry_run(self, call: &Call) -> Result<BestDesign, ScriptError> {
         let function = RunFunction::read(call, "run", self.function)?;
         let start: Vec<f64> = self.ranges.ranges.iter().map(|range| range.first()).collect();

@@ -37,10 +37,10 @@ pub struct FitRequest<'o> {
     /// Option key of the function.
     pub key: &'static str,
     pub function: &'o FnPtr,
-    /// Second argument of the function, if it has one. The first argument is the map of parameters.
+    /// Second argument of the function, if any. The first argument is the map of parameters.
     pub data: Option<Dynamic>,
     pub compared: Compared,
-    /// Weights of the squares; `None` if all are one.
+    /// Weights of the squares; `None` if all weights are one.
     pub weights: Option<Vec<f64>>,
     pub confidence: f64,
     /// Perturbation for finite differences, relative to the size of a parameter.
@@ -52,7 +52,7 @@ pub struct FitRequest<'o> {
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Derivatives {
-    /// Derivatives from the runs; finite differences if a run provides none.
+    /// Derivatives from the runs. Finite differences are used if a run provides no derivatives.
     Known,
     /// Finite differences of runs, or a derivative-free search.
     Unknown,
@@ -81,7 +81,7 @@ impl FitRequest<'_> {
     /// Finds the parameters.
     ///
     /// # Errors
-    /// Fails if the function is wrong, fails at the start, or its number of values does not match the data.
+    /// Fails if the function is wrong, fails at the start, or returns a number of values that does not match the data.
     pub fn run(self, call: &Call) -> Result<Fit, ScriptError> {
         let mut function = RunFunction::read(call, self.key, self.function)?;
         if let Some(data) = &self.data {
@@ -166,10 +166,10 @@ impl FitRequest<'_> {
         Err(at_key(call, self.key, message, hint))
     }
 
-    /// Result of a dry run: the start values, at which the function is called once.
+    /// Result of a dry run: the start values. The function is called once with these values.
     ///
     /// # Errors
-    /// Errors of the function.
+    /// Fails if the function fails.
     pub fn dry_run(self, call: &Call) -> Result<Fit, ScriptError> {
         let mut function = RunFunction::read(call, self.key, self.function)?;
         if let Some(data) = &self.data {
@@ -253,7 +253,7 @@ fn numbers(given: &Dynamic) -> FunctionResult {
 }
 
 impl Fit {
-    /// Half width of the confidence interval of a parameter, if it is known.
+    /// Half width of the confidence interval of a parameter; `None` if unknown.
     pub fn half_width(&self, parameter: usize) -> Option<f64> {
         let estimate = self.fitted.estimate.as_ref()?;
         estimate.half_width(parameter, self.confidence)
@@ -313,7 +313,7 @@ impl Fit {
         )
     }
 
-    /// Data and model curve, if there is a model, with the residuals below.
+    /// Page with the data and the model curve, if any, and the residuals below.
     pub fn page(&self) -> Page {
         let count = self.residuals.len();
         let places: Vec<f64> = match &self.compared {
@@ -347,7 +347,7 @@ impl Fit {
     /// Page as an SVG picture.
     ///
     /// # Errors
-    /// Fails if it cannot be drawn.
+    /// Fails if the page cannot be drawn.
     pub fn picture(&self) -> Result<String, ScriptError> {
         Ok(self.page().figure()?.to_svg()?)
     }

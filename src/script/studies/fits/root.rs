@@ -13,7 +13,7 @@ use crate::script::state::settings::RunMode;
 /// Finds a root of `function` between `from` and `to` within `tolerance`.
 ///
 /// # Errors
-/// Errors of the function; also if it is not finite, or has the same sign at both ends.
+/// Fails if the function fails, is not finite, or has the same sign at both ends.
 pub fn find_root(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let (function, from, to) =
         (call.callback("function")?, call.number("from")?, call.number("to")?);

@@ -1,4 +1,4 @@
-//! Scaling of the results of a design for the optimiser: values of order one, an objective to be minimised, and non-negative constraints.
+//! Scaling of the results of a design for the optimiser. Scaled values are of order one, the objective is minimised, and constraints are nonnegative.
 
 use std::cell::Cell;
 
@@ -21,7 +21,7 @@ impl<'s> ResultScales<'s> {
 
     /// Divisor of the objective; negative for maximisation.
     fn divisor(&self, goal: f64) -> f64 {
-        // If the objective is zero in the first run, it has no magnitude.
+        // An objective that is zero in the first run has no magnitude.
         let own = Some(goal.abs()).filter(|size| *size > 0.0).unwrap_or(1.0);
         let size = self.size.get().unwrap_or(own);
         self.size.set(Some(size));

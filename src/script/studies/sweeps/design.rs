@@ -54,7 +54,7 @@ enum Spread {
 /// Design of a sweep, and the level values passed to the function.
 pub struct SweepPlan {
     pub design: SweepDesign,
-    /// Level values of each parameter; empty if each row has its own value.
+    /// Level values of each parameter; empty if each row has a separate value.
     levels: Vec<Vec<Portable>>,
     /// Parameters whose logarithms have the given distributions.
     spread_by_ratios: Vec<String>,
@@ -149,7 +149,7 @@ impl SweepPlan {
         rows.into_iter().chain(all).collect()
     }
 
-    /// Returns true if the distribution of a parameter is that of its logarithm.
+    /// Returns true if the logarithm of a parameter has the given distribution.
     pub fn is_spread_by_ratios(&self, name: &str) -> bool {
         self.spread_by_ratios.iter().any(|of| of == name)
     }
@@ -219,7 +219,7 @@ impl ParameterInput {
 }
 
 impl Spread {
-    /// Values of a parameter: at sample points, or on a grid, on which the previous parameters repeat after `repeats` rows.
+    /// Values of a parameter at sample points or on a grid. On the grid, the previous parameters repeat after `repeats` rows.
     fn values(self, points: Option<Vec<f64>>, repeats: &mut usize) -> (SweptValues, Vec<Portable>) {
         match self {
             Self::Distribution(distribution) => {

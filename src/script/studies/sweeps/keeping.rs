@@ -1,4 +1,4 @@
-//! Storage of a sweep: its journal, the part to be computed, or the parts to be merged.
+//! Storage of a sweep: its journal, the computed part, or the parts to be merged.
 
 use std::path::PathBuf;
 
@@ -13,8 +13,8 @@ use crate::script::state::parts::{StudyPart, find_parts};
 use crate::script::studies::calls::function::RunFunction;
 
 impl SweepRequest<'_> {
-    /// Opens the journal of the sweep, if the run uses journals, and reads its entries. If parts are merged, all their rows are read and no journal
-    /// is opened.
+    /// Opens the journal of the sweep, if the run uses journals, and reads its entries.
+    /// If parts are merged, all their rows are read and no journal is opened.
     ///
     /// # Errors
     /// Fails if a file cannot be read or written, or if the parts are not the whole sweep.
@@ -84,7 +84,7 @@ impl SweepRequest<'_> {
         Ok(())
     }
 
-    /// Fingerprint of everything on which the rows depend: program, script and imports, captured values, and parameters.
+    /// Fingerprint of all data that determine the rows: program, script and imports, captured values, and parameters.
     fn fingerprint(&self, call: &Call, function: &RunFunction) -> u64 {
         let captured = format!("{:?} {:?}", function.captured, self.wall);
         let script = call.context().program().map(|program| program.text.to_string());

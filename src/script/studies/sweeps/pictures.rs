@@ -10,23 +10,23 @@ use crate::output::{
 };
 use crate::sampling::Random;
 
-/// Maximum number of curves. A larger number is replaced by mean, smallest and largest values.
+/// Maximum number of curves. More curves are replaced by mean, smallest and largest values.
 const MOST_CURVES: usize = 8;
-/// Maximum number of points in a scatter plot. From a larger number, a random subset is drawn.
+/// Maximum number of points in a scatter plot. If there are more points, a random subset is drawn.
 const MOST_POINTS: usize = 2000;
 const MOST_POINTS_AMONG: usize = 500;
 /// Cells per axis for binning points.
 const CELLS: usize = 20;
 /// Maximum number of columns in a scatter matrix.
 pub const MOST_COLUMNS: usize = 6;
-/// Maximum number of distinct values with their own bins in a histogram. On average, each must occur twice.
+/// Maximum number of distinct values with separate bins in a histogram. On average, each value must occur twice.
 const MOST_VALUES: usize = 64;
 /// Smallest ratio of the ends of a logarithmic axis.
 const DECADE: f64 = 10.0;
 
 /// Source of pictures of a sweep.
 pub struct Picture<'t> {
-    /// Rows that are drawn.
+    /// Rows in the pictures.
     pub table: &'t SweepTable,
     pub title: String,
 }
@@ -51,14 +51,15 @@ fn mean(numbers: &[f64]) -> f64 {
     numbers.iter().sum::<f64>() / numbers.len() as f64
 }
 
-/// Row indices and values of two columns, where both are finite.
+/// Row indices and values of two columns in rows with finite values.
 fn pairs(table: &SweepTable, x: SweepColumn, y: SweepColumn) -> Vec<(usize, f64, f64)> {
     let all = table.rows().map(|row| (row, x.number(row), y.number(row)));
     all.filter(|(_, x, y)| x.is_finite() && y.is_finite()).collect()
 }
 
-/// Random subset of at most `most` items, in order, with equal probability and the same in every run (C. T. Fan, M. E. Muller, I. Rezucha, 1962). A
-/// regular subset of a grid or a Sobol' sequence could cover only a part of the range.
+/// Random subset of at most `most` items, in order. All items have equal probability.
+/// The subset is the same in every run (C. T. Fan, M. E. Muller, I. Rezucha, 1962).
+/// A regular subset of a grid or a Sobol' sequence could cover only a part of the range.
 fn thinned<T: Copy>(all: &[T], most: usize) -> Vec<T> {
     let mut random = Random::seeded(0);
     let mut wanted = most.min(all.len());
@@ -76,7 +77,7 @@ impl Picture<'_> {
         self.table.sweep().column(name)
     }
 
-    /// Scale of a column. It is logarithmic if its values have equal ratios, or its logarithm has a distribution, over at least a decade.
+    /// Scale of a column. It is logarithmic if its values cover at least a decade and have equal ratios or a distribution of the logarithm.
     fn scale(&self, name: &str, column: SweepColumn) -> AxisScale {
         let by_ratios = match levels(column) {
             Some(middles) => {
@@ -91,13 +92,13 @@ impl Picture<'_> {
         }
     }
 
-    /// Returns true if some row has numbers in all of these columns.
+    /// Returns true if at least one row has numbers in all of the given columns.
     pub fn has_rows(&self, names: &[&str]) -> bool {
         let columns: Vec<_> = names.iter().filter_map(|name| self.column(name)).collect();
         self.table.rows().any(|row| columns.iter().all(|column| column.number(row).is_finite()))
     }
 
-    /// One column over another: curves for values on a grid, otherwise points. `None` if a column is missing.
+    /// Chart of a column over another column: curves for values on a grid, otherwise points. `None` if a column is missing.
     pub fn over(&self, x_name: &str, y_name: &str) -> Option<LineChart> {
         let (x, y) = (self.column(x_name)?, self.column(y_name)?);
         let found = pairs(self.table, x, y);
@@ -170,7 +171,7 @@ impl Picture<'_> {
             .caption(format!("over {count} combinations of the other parameters"))
     }
 
-    /// A column as colours over two others: for values on a grid, or for binned points with the mean of each cell. `None` if a column is missing.
+    /// Column as colours over two other columns: on a grid, or as the mean of binned points in each cell. `None` if a column is missing.
     pub fn map(&self, x_name: &str, y_name: &str, z_name: &str) -> Option<LevelMap> {
         let [x, y, z] = [self.column(x_name)?, self.column(y_name)?, self.column(z_name)?];
         let rows: Vec<[f64; 3]> =
@@ -274,7 +275,7 @@ struct Class {
     count: usize,
 }
 
-/// Bins of a histogram. If few values repeat often, each value has a bin, bounded halfway between neighbours; otherwise all bins have equal widths.
+/// Bins of a histogram. If few values repeat often, each value has a bin, bounded halfway between neighbours. Otherwise all bins have equal widths.
 fn classes(mut numbers: Vec<f64>) -> Vec<Class> {
     numbers.sort_by(f64::total_cmp);
     let (Some(low), Some(high)) = (numbers.first().copied(), numbers.last().copied()) else {

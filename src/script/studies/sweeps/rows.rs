@@ -13,7 +13,7 @@ pub enum RowOutcome {
     Computed(Arc<[String]>, Vec<f64>),
     /// Reason of a failure: the function threw an error, or returned a value that is not a number.
     Failed(String),
-    /// Reason for which the script seems to be wrong.
+    /// Reason why the script seems to be wrong.
     Wrong(String),
 }
 

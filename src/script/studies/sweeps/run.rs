@@ -21,7 +21,7 @@ use crate::script::studies::plan::at_key;
 
 const NO_FILES: &str = "a run of a sweep cannot write files: return the data in its map";
 
-/// Number of rows queued per worker, enough that workers do not wait while results are collected.
+/// Number of queued rows per worker. It is so large that workers do not wait while results are collected.
 const AHEAD: usize = 4096;
 
 pub struct SweepRequest<'o> {
@@ -36,8 +36,8 @@ impl SweepRequest<'_> {
     /// Runs all rows.
     ///
     /// # Errors
-    /// Fails if the function cannot be sent to workers, is wrong, or fails in all rows. Also fails if the run is stopped; finished rows are then in
-    /// the journal.
+    /// Fails if the function cannot be sent to workers, is wrong, or fails in all rows.
+    /// Also fails if the run is stopped. The journal then contains the finished rows.
     pub fn run(self, call: &Call) -> Result<FinishedSweep, ScriptError> {
         let context = call.context();
         let function = RunFunction::read(call, "run", self.function)?;
@@ -113,7 +113,7 @@ impl SweepRequest<'_> {
         driven.map_err(SweepError::Other)?
     }
 
-    /// Runs the rows one by one in the engine of the script, if workers cannot be used because there is no complete script.
+    /// Runs the rows one by one in the engine of the script. Used without a complete script, because workers need one.
     fn on_this_thread(
         &self,
         call: &Call,
@@ -147,14 +147,14 @@ impl SweepRequest<'_> {
     /// Runs a row in the engine of the script.
     ///
     /// # Errors
-    /// Errors of the function with their positions.
+    /// Fails if the function fails. The error contains its position.
     pub fn invoked(&self, call: &Call, row: usize) -> Result<Dynamic, ScriptError> {
         let values = self.plan.values(row, &|name, count| call.function_named(name, count));
         RunFunction::read(call, "run", self.function)?.call_here(call, "run", values)
     }
 
-    /// Error of a row for which the function seems to be wrong. The function is called again in the script's engine, to find the position of the
-    /// error.
+    /// Error of a row that indicates a wrong function.
+    /// The function is called again in the engine of the script to find the position of the error.
     fn located_error(
         &self,
         call: &Call,
@@ -192,8 +192,9 @@ impl SweepRequest<'_> {
     }
 }
 
-/// Sends the unknown rows to the workers, a limited number in advance, and receives results until all are known or the run is stopped. The first
-/// completed row defines the names of the results. Until then, results are processed in the order of the rows, so that the outcome is deterministic.
+/// Sends the unknown rows to the workers, a limited number in advance. Receives results until all are known or the run is stopped.
+/// The first completed row defines the names of the results.
+/// Until the first completed row, results are processed in the order of the rows, so that the outcome is deterministic.
 fn drive(
     crew: &WorkerPool<usize, CallWork<RowOutcome>>,
     context: &Context,

@@ -1,4 +1,4 @@
-//! State of the rows while a sweep is running.
+//! State of the rows of a running sweep.
 
 use super::rows::RowOutcome;
 use crate::analysis::{RowEntry, SweepResults};
@@ -9,7 +9,7 @@ pub struct SweepProgress {
     pub results: SweepResults,
     /// True for rows with a result, and for rows of other parts.
     is_known: Vec<bool>,
-    /// Number of rows with a result or of other parts.
+    /// Number of rows that have a result or belong to other parts.
     pub done: usize,
     pub rows: usize,
     /// First completed row, which defines the names of the results.
@@ -17,7 +17,7 @@ pub struct SweepProgress {
 }
 
 pub enum SweepError {
-    /// The function seems to be wrong: row and message.
+    /// The function seems to be wrong. The fields are the row and the message.
     Row(usize, String),
     Other(ScriptError),
 }
@@ -61,7 +61,7 @@ impl SweepProgress {
         is_new
     }
 
-    /// Reads a journal entry. Entries that do not match are ignored.
+    /// Reads a journal entry. Entries with a wrong number of values are ignored.
     pub fn recall(&mut self, entry: RowEntry) {
         match entry {
             RowEntry::Sweep { .. } => (),
@@ -112,7 +112,7 @@ impl SweepProgress {
                 entries.push(RowEntry::Computed(number, values));
                 Ok(entries)
             }
-            // Before the first completed row, the function may be wrong for all rows.
+            // No row has been completed yet, so the function may be wrong for all rows.
             RowOutcome::Wrong(message) if self.model.is_none() => Err(SweepError::Row(at, message)),
             RowOutcome::Failed(reason) | RowOutcome::Wrong(reason) => {
                 self.restore_row(at);

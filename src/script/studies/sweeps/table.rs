@@ -17,7 +17,7 @@ pub const FAILURE: &str = "failure";
 const SHOWN: (usize, usize) = (12, 4);
 const DIGITS: usize = 6;
 
-/// A finished sweep, with the values with which its function was called.
+/// Finished sweep, with the values passed to its function.
 pub struct FinishedSweep {
     pub sweep: Sweep,
     pub plan: SweepPlan,
@@ -48,7 +48,7 @@ impl SweepTable {
         self.chosen.is_some()
     }
 
-    /// Returns true if the distribution of a parameter is that of its logarithm.
+    /// Returns true if the logarithm of a parameter has the given distribution.
     pub fn is_spread_by_ratios(&self, name: &str) -> bool {
         self.swept.plan.is_spread_by_ratios(name)
     }
@@ -77,7 +77,7 @@ impl SweepTable {
         (0..self.length()).map(move |at| chosen.map_or(at, |chosen| chosen[at] as usize))
     }
 
-    /// Row as a script map: parameters, results, and `failure` if it failed.
+    /// Row as a script map: parameters, results, and the reason `failure` of a failed row.
     pub fn row(&self, row: usize) -> Map {
         let FinishedSweep { sweep, plan } = &*self.swept;
         let mut map = plan.values(row, &|_, _| None);
@@ -91,7 +91,7 @@ impl SweepTable {
         map
     }
 
-    /// Column as numbers, NaN if missing; `None` for an unknown column.
+    /// Column as numbers, with NaN for missing values; `None` for an unknown column.
     pub fn numbers(&self, name: &str) -> Option<Vec<f64>> {
         let column = self.sweep().column(name)?;
         Some(self.rows().map(|row| column.number(row)).collect())
@@ -135,10 +135,10 @@ impl SweepTable {
         NpzArchive { arrays: self.sweep().names().filter_map(column).collect() }
     }
 
-    /// Writes the table as CSV, row by row. The memory does not depend on the number of rows.
+    /// Writes the table as CSV, row by row. The required memory does not depend on the number of rows.
     ///
     /// # Errors
-    /// Fails if it cannot be written.
+    /// Fails if the table cannot be written.
     pub fn write_csv(&self, file: &mut dyn io::Write) -> io::Result<()> {
         let sweep = self.sweep();
         let columns: Vec<_> = sweep.names().filter_map(|name| sweep.column(name)).collect();
@@ -156,7 +156,7 @@ impl SweepTable {
         writer.flush()
     }
 
-    /// Table as text: first and last rows.
+    /// Table as text, with the first and last rows.
     pub fn text(&self) -> String {
         let sweep = self.sweep();
         let columns: Vec<_> = sweep.names().filter_map(|name| sweep.column(name)).collect();
@@ -192,7 +192,7 @@ impl FinishedSweep {
             let Some(column) = results.column(name) else { continue };
             let found = || column.iter().copied().enumerate().filter(|(_, x)| x.is_finite());
             let least = found().min_by(|a, b| a.1.total_cmp(&b.1));
-            // Of equal values, the first is used.
+            // Among equal values, the first value is used.
             let largest = found().rev().max_by(|a, b| a.1.total_cmp(&b.1));
             let count = found().count().max(1);
             let mean = found().map(|(_, x)| x / count as f64).sum::<f64>();

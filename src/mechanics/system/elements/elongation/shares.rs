@@ -1,4 +1,4 @@
-//! Coefficients that express the coordinates of an elongation by the degrees of freedom: the basis functions at its terminals.
+//! Coefficients that express the coordinates of an elongation by the degrees of freedom. They are basis functions at the terminals.
 
 use super::{Elongation, ElongationEnd};
 use crate::linalg::BandRows;
@@ -38,8 +38,8 @@ impl Elongation {
         combine(&self.shares, values, &mut self.movements);
     }
 
-    /// Returns the first-order change of the elongation due to a correction of the increments [length, rad]. `slope` contains the derivatives of
-    /// the elongation.
+    /// Returns the first-order change of the elongation due to a correction of the increments [length, rad].
+    /// The argument `slope` contains the derivatives of the elongation with respect to its coordinates.
     pub fn along(&mut self, slope: &[f64], correction: &[f64]) -> f64 {
         let Self { shares, corrected, .. } = self;
         combine(shares, correction, corrected);
@@ -56,7 +56,7 @@ impl Elongation {
         }
     }
 
-    /// Adds the derivative of a force with respect to the coordinates, given row by row, to the rows and columns of the unknowns.
+    /// Adds the derivative of a force with respect to the coordinates to the rows and columns of the unknowns. The derivative is given row by row.
     pub fn scatter_tangent(&self, derivative: &[f64], unknowns: usize, rows: &mut BandRows<'_>) {
         let known = || self.shares.iter().filter(|share| share.degree < unknowns);
         let width = self.secant.len();

@@ -1,19 +1,18 @@
-//! Terms of an elongation in an iterate: the length of one segment of a path, or the relative rotation of two sections.
+//! Terms of an elongation in an iterate: the lengths of the segments of a path, or the relative rotation of two sections.
 
 use crate::beams::RotationIncrement;
 use crate::elementary::atan;
 use crate::geometry::Vec2;
 
-/// Difference of two rotation increments below which the mean derivative between them replaces the difference quotient. The error is of second
-/// order [rad].
+/// Difference of two rotation increments, below which the mean derivative replaces the difference quotient [rad]. The error is of second order.
 const SAME_TURN: f64 = 1e-5;
 
 pub(super) struct ElongationTerm {
     pub(super) change: f64,
     pub(super) secant: Vec2,
     pub(super) slope: Vec2,
-    /// Factor `inverse` in the derivative of the secant `e`: `∂e/∂d₁ = (I - e⊗s) · inverse`, where `d₁` is the connecting vector at the end and `s`
-    /// its direction [1/length].
+    /// Factor `inverse` in the derivative of the secant `e`: `∂e/∂d₁ = (I - e⊗s) · inverse` [1/length].
+    /// The vector `d₁` connects the ends of the segment at the end of the step, and `s` is its direction.
     inverse: f64,
 }
 
@@ -26,8 +25,7 @@ impl ElongationTerm {
         let both = before + after;
         let mean = direction(start + end, both);
         let slope = direction(end, after);
-        // In methods with forces at the end of a step, rotation increments are increments of the angle, and the direction of the force is that at
-        // the end.
+        // If forces act at the end of a step, rotation increments are increments of the angle, and the force has the direction at the end.
         let (secant, inverse) = match rotations {
             RotationIncrement::TangentScaled => (mean, both),
             RotationIncrement::Angle => (slope, after),
@@ -42,8 +40,8 @@ impl ElongationTerm {
     }
 }
 
-/// Relative rotation of two sections. It contains the ratio `r = (Δθ_b - Δθ_a)/(Δω_b - Δω_a)`, and the derivatives of `r` with respect to `Δω_a`
-/// and `Δω_b`.
+/// Relative rotation of two sections.
+/// The relative rotation contains the ratio `r = (Δθ_b - Δθ_a)/(Δω_b - Δω_a)`, and the derivatives of `r` with respect to `Δω_a` and `Δω_b`.
 pub(super) struct RelativeTurn {
     pub(super) ratio: f64,
     pub(super) derivatives: [f64; 2],
@@ -56,11 +54,11 @@ impl RelativeTurn {
         }
         let (difference, mean) = (b - a, 0.5 * (a + b));
         if difference.abs() < SAME_TURN {
-            // The mean of dθ/dω between both increments is approximated by its value in the middle.
+            // The mean of dθ/dω between both increments is approximated by the value at their mean.
             let (rate, slope) = rotations.rates(mean);
             return Self { ratio: rate, derivatives: [0.5 * slope; 2] };
         }
-        // 2 atan x - 2 atan y = 2 atan((x - y)/(1 + x y)), up to a full turn.
+        // Identity up to a full turn: 2 atan x - 2 atan y = 2 atan((x - y)/(1 + x y)).
         let product = 1.0 + 0.25 * a * b;
         let turned = match product > 0.0 {
             true => 2.0 * atan(0.5 * difference / product),

@@ -1,4 +1,4 @@
-//! Prescribed positions in statics. They are applied together with the loads of an equilibrium.
+//! Prescribed positions in statics, which are applied together with the loads of an equilibrium.
 
 use std::borrow::Cow;
 
@@ -10,7 +10,7 @@ use crate::loads::{LimitSide, LoadError, PrescribedMotion};
 const SAME_PLACE: f64 = 1e-12;
 
 impl PrescribedMovements {
-    /// Evaluates the prescribed positions at a time. Static solutions apply them together with their loads.
+    /// Evaluates the prescribed positions at a time. Static solutions apply the positions together with the loads.
     ///
     /// # Errors
     /// Returns the name of the drive whose function has no finite value, and the reason.
@@ -25,12 +25,12 @@ impl PrescribedMovements {
         Ok(())
     }
 
-    /// Finds the first drive whose position under a fraction of the load differs from its function just after a time. Returns its name and both
-    /// positions.
+    /// Finds the first drive whose position under a fraction of the load differs from the value of its function just after a time.
+    /// Returns the name of the drive and both positions.
     pub fn first_displaced_drive(&self, load_factor: f64, time: f64) -> Option<(&str, [f64; 2])> {
         self.movements.iter().zip(&self.present).find_map(|(movement, present)| {
             let PrescribedMotion::Position(schedule) = &movement.motion else { return None };
-            // A function without a value has been rejected earlier: when the scene was built, or when the position was applied.
+            // A function without a value has been rejected earlier, either when the scene was built or when the position was applied.
             let (rests, wanted) =
                 (load_factor * present.goal, schedule.value(time, LimitSide::After).ok()?);
             let size = larger(wanted.abs(), rests.abs());
@@ -44,7 +44,8 @@ impl PrescribedMovements {
         self.present.iter().any(|present| present.goal != 0.0)
     }
 
-    /// Appends the increments of the prescribed degrees of freedom, under a fraction of the load, to the static increments of the unknowns.
+    /// Appends increments of the prescribed degrees of freedom to the static increments of the unknowns.
+    /// The increments belong to a fraction of the load.
     pub fn at_rest<'m>(&self, movements: &'m [f64], load_factor: f64) -> Cow<'m, [f64]> {
         if self.movements.is_empty() {
             return Cow::Borrowed(movements);
@@ -55,7 +56,7 @@ impl PrescribedMovements {
         Cow::Owned(all)
     }
 
-    /// Records that the prescribed positions under a fraction of the load have been applied.
+    /// Records that the prescribed positions for a fraction of the load have been applied.
     pub fn accept_positions(&mut self, load_factor: f64) {
         for present in &mut self.present {
             present.placed = load_factor * present.goal;

@@ -1,4 +1,4 @@
-//! Forces that the laws of a spring and a damper require in a configuration (target forces).
+//! Target forces: the forces that the laws of a spring and a damper require in a configuration.
 
 use super::SpringDamper;
 use crate::integrators::Stage;
@@ -6,7 +6,7 @@ use crate::system::elements::damping_law::DampingLaw;
 use crate::system::elements::mixed_force::ForceTarget;
 use crate::system::elements::{SpringLaw, TrialState};
 
-/// Largest number of bisections, enough to exhaust the precision.
+/// Largest number of bisections, after which the result is accurate to rounding.
 const MOST_TRIES: usize = 120;
 
 impl SpringDamper {
@@ -14,8 +14,8 @@ impl SpringDamper {
         self.law.as_ref().map_or(0.0, |law| law.force(self.elongation.grown()))
     }
 
-    /// Returns true if the force is zero in a segment of the law. The result does not change when the spring is released, so the size of the saved
-    /// state is constant.
+    /// Returns true if the force is zero in a segment of the law.
+    /// The result does not change when the spring is released, so the size of the saved state is constant.
     pub(super) fn may_be_slack(&self) -> bool {
         let law = self.released.as_ref().map_or(&self.law, |(law, _)| law);
         law.as_ref().is_some_and(SpringLaw::may_be_slack)
@@ -25,7 +25,7 @@ impl SpringDamper {
         self.restoring_after(stage, self.elongation.change)
     }
 
-    /// Force and stiffness by the law of the spring, if its elongation changes by `change` in the step [length, rad].
+    /// Force and stiffness by the spring law for an elongation change of `change` in the step [length, rad].
     fn restoring_after(&self, stage: Stage, change: f64) -> ForceTarget {
         let Some(law) = &self.law else { return ForceTarget::default() };
         let q = self.elongation.grown();
@@ -41,8 +41,8 @@ impl SpringDamper {
             }
             Stage::DampedMidpoint(chi) => {
                 let mean = law.mean(q, change);
-                // Numerical damping needs a positive slope; with a negative slope it would add energy. It is not applied to single components of a
-                // vector, because that would rotate the direction of the damping force.
+                // Numerical damping needs a positive slope. With a negative slope, it would add energy.
+                // Numerical damping is not applied to single components of a vector, because it would rotate the direction of the damping force.
                 let late = match law {
                     _ if self.elongation.is_component() => 0.0,
                     SpringLaw::Linear { stiffness, .. } => 0.5 * chi * stiffness.max(0.0),
@@ -53,17 +53,19 @@ impl SpringDamper {
         }
     }
 
-    /// Target force of the spring for a linearisation. After several iterations, the point of linearisation is the intersection of the law with a
-    /// straight line that represents the impedance of the rest of the system. Otherwise Newton's method would alternate between segments at a
-    /// corner of a stiff law. The intersection is unique if the law is increasing.
+    /// Target force of the spring for a linearisation.
+    /// After several iterations, the linearisation uses the intersection of the law with a straight line.
+    /// The straight line represents the impedance of the rest of the system.
+    /// Without the intersection, Newton's method would alternate between segments at a corner of a stiff law.
+    /// The intersection is unique if the law is increasing.
     pub(super) fn spring_target(&mut self, stage: Stage) -> ForceTarget {
         let (asked, change) = (self.restoring(stage), self.elongation.change);
         let impedance = self.spring.impedance(change);
         let Some(impedance) = impedance.filter(|_| self.rises) else { return asked };
         let force = self.spring.force;
         let above = |at: f64, of: ForceTarget| of.force - force + impedance * (at - change);
-        // A law of zero slope would intersect the straight line at the elongation change `reach`. An increasing law intersects it between `change`
-        // and `reach`.
+        // A law of zero slope would intersect the straight line at the elongation change `reach`.
+        // An increasing law intersects the straight line between `change` and `reach`.
         let reach = change - above(change, asked) / impedance;
         let (mut low, mut high) = (change.min(reach), change.max(reach));
         let (mut at, mut met) = (change, asked);
@@ -114,11 +116,12 @@ impl SpringDamper {
         }
     }
 
-    /// Factor for extrapolating the rate beyond the middle of the step. It multiplies the difference between the rates of this step and the last
-    /// one. `None` if the force does not depend on rates.
+    /// Extrapolation factor for the rate at a time after the middle of the step.
+    /// The extrapolation factor multiplies the difference between the rates of this step and the previous step.
+    /// Returns `None` if the force does not depend on rates.
     ///
-    /// A method with forces at both ends of the step balances forces at the fraction `at.weight` of the step. The rate at that time is extrapolated
-    /// from the rates at the middle of this step and of the last one.
+    /// A method with forces at both ends of the step evaluates the balance at the fraction `at.weight` of the step.
+    /// The rate at this fraction of the step is extrapolated from the rates at the middle of this step and of the previous step.
     fn lateness(&self, at: TrialState<'_>) -> Option<f64> {
         match at.stage {
             Stage::Start => None,

@@ -6,8 +6,9 @@ use crate::integrators::Interval;
 use crate::joints::{Friction, FrictionForces, FrictionMode};
 use crate::system::bodies::Body;
 
-/// Velocity along the master at which slip ends, relative to that at the start of the step.
-const STOPPED: f64 = 1e-9;
+/// Velocity along the master that counts as zero at the end of a slip, relative to that at the start of the step. An impulse removes it. Without this
+/// tolerance, the rest of a step after the end of the slip could be too short for an accurate energy balance.
+const STOPPED: f64 = 1e-6;
 
 /// Rounding error of velocities, relative to the size of the master over the duration of the step.
 const ROUNDING: f64 = 1e-14;
@@ -205,12 +206,17 @@ impl SliderContact {
         }
     }
 
-    /// Velocity along the master at the end of the attempted step, positive against the slip [length/time]; `None` if it counts as zero.
-    pub fn missed_slip_end(&self) -> Option<f64> {
+    /// Velocity along the master at the end of the attempted step, positive against the slip [length/time]; `None` if it counts as zero. It is
+    /// positive for an increment against the slip, because such a step would gain energy.
+    pub fn missed_slip_end(&self, unknowns: &[f64]) -> Option<f64> {
         let friction = self.friction_in_step()?;
         let FrictionMode::Slip(sign) = friction.mode else { return None };
-        let reversed = -sign * friction.forces.end_velocity;
-        (reversed.abs() > self.negligible_slip(friction)).then_some(reversed)
+        let (reversed, negligible) =
+            (-sign * friction.forces.end_velocity, self.negligible_slip(friction));
+        if sign * self.read(unknowns).increment < 0.0 {
+            return Some(reversed.abs().max(negligible));
+        }
+        (reversed.abs() > negligible).then_some(reversed)
     }
 
     /// Velocity along the master that counts as zero [length/time].
