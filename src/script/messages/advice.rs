@@ -78,7 +78,7 @@ fn simulation_hint(error: &SimulationError) -> Option<String> {
                 as fit does".into()
             }
             DerivativeError::Mean { sensor } => match sensor.strip_suffix(".power") {
-                Some(name) => format!("use the rate of the column work.{name}").into(),
+                Some(name) => format!("use the rate of the column work.{name}"),
                 None => "record the present force".into(),
             },
             DerivativeError::Adaptive => "give dt a number".into(),
