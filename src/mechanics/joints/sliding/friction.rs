@@ -6,9 +6,11 @@
 //! slip with the sign σ:   T - σ μ |N*| = 0          stick:   Δξ = 0,   |T| ≤ μ |N*|          N* = N + (w1 - w0)/(W Δt)
 //! ```
 //!
-//! The bodies lose the energy `Δξ |τ| T` in the step. `w` is the velocity of the slave across the master at the ends of the step, and `W` is the
-//! velocity change that a unit impulse across the master causes. The second part of `N*` removes the alternating part of `N`: a velocity error
-//! across the master changes its sign from step to step without moving anything, and the force that reverses it grows with `1/Δt`.
+//! The bodies lose the energy `Δξ |τ| T` in the step.
+//! The velocity of the slave across the master is `w0` at the start and `w1` at the end of the step.
+//! A unit impulse across the master changes this velocity by `W`. The second term of `N*` removes the alternating part of `N`.
+//! A velocity error across the master changes its sign from step to step without moving anything.
+//! The force that reverses the error grows with `1/Δt`.
 
 use super::{Contact, Equation};
 use crate::geometry::{Vec2, cross, perpendicular};
@@ -18,7 +20,7 @@ use crate::geometry::{Vec2, cross, perpendicular};
 pub enum FrictionMode {
     /// The slave moves along the master in the direction of this sign.
     Slip(f64),
-    /// The slave keeps its place on the master.
+    /// The slave does not move along the master.
     Stick,
 }
 
@@ -27,15 +29,15 @@ pub enum FrictionMode {
 pub struct Friction<'a> {
     /// Coefficient of friction `μ` [-].
     pub coefficient: f64,
-    /// State in this step.
+    /// Friction state of the contact in this step.
     pub mode: FrictionMode,
     /// Velocity of the slave at the start of the step [length/time].
     pub slave_velocity: Vec2,
-    /// Velocities of the control points of the master in the window of the path at the start of the step [length/time].
+    /// Velocities, at the start of the step, of the control points of the master whose basis functions are nonzero on the path [length/time].
     pub master_velocities: &'a [Vec2],
     /// Velocity `w0` across the master at the start of the step [length/time].
     pub start_velocity_across: f64,
-    /// `1/W` [mass].
+    /// Inertia `1/W`: the inverse of the velocity change that a unit impulse across the master causes [mass].
     pub inertia_across: f64,
     /// Duration of the step [time].
     pub duration: f64,
@@ -65,14 +67,14 @@ struct EndMotion {
 }
 
 impl Friction<'_> {
-    /// `1/(W Δt)` [mass/time].
+    /// Quotient `1/(W Δt)` of the inertia across the master and the step duration [mass/time].
     fn impedance_across(&self) -> f64 {
         self.inertia_across / self.duration
     }
 }
 
 impl Contact<'_> {
-    /// Motion at the end of the step if the mean velocity of the step is that of the increments, as with the midpoint rule.
+    /// Motion at the end of the step, if the mean velocity of the step is the increment divided by the duration, as with the midpoint rule.
     fn end_motion(&self, friction: &Friction<'_>) -> EndMotion {
         let rate = 2.0 / friction.duration;
         let (_, moved) = self.master;
@@ -105,9 +107,9 @@ impl Contact<'_> {
         }
     }
 
-    /// Sliding equation with friction instead of the `frictionless` one, whose value is `T |τ|/ℓ`.
+    /// Sliding equation with friction. It replaces the equation `frictionless`, whose value is `T |τ|/ℓ`.
     ///
-    /// Its derivatives omit the rotation of the tangent at the end of the step, which changes `N*` by a small part only.
+    /// The derivatives of the sliding equation omit the rotation of the tangent at the end of the step, which has little effect on `N*`.
     pub fn with_friction(&self, friction: &Friction<'_>, frictionless: Equation) -> Equation {
         let FrictionMode::Slip(sign) = friction.mode else { return self.no_increment() };
         let (tangent, force) = (self.tangent(), self.unknowns.force);

@@ -1,4 +1,4 @@
-//! Location of arrivals of sliders at the ends of their masters and of transitions of friction, and the resulting events.
+//! Location of the arrivals of sliders at the ends of their masters and of friction transitions, and execution of these events.
 
 use super::Simulation;
 use crate::elementary::whole_power;
@@ -10,21 +10,21 @@ use crate::simulation::first_step::shortest_wave_time;
 use crate::simulation::{Arrival, ArrivalKind, SimulationError, StepSize};
 use crate::system::{Arriving, MasterEnd, MasterLimit, SliderEvent, SliderState};
 
-/// Largest number of attempts to find the time of an arrival. A few are usual.
+/// Largest number of attempts to find the time of an arrival. A few attempts are usual.
 const MOST_TRIES: usize = 60;
 
-/// Distance from an end, relative to the master, below which an approaching slider has reached the end. A step over a shorter distance would convert
-/// rounding errors of positions to velocities.
+/// Distance from an end, as a fraction of the length of the master, below which an approaching slider has reached the end.
+/// A step over a shorter distance would convert rounding errors of positions to velocities.
 const NEAR: f64 = 1e-10;
 
-/// Duration relative to the step within which the end of a slip is moved to the start of the step. Rounding errors of positions become velocities in
-/// a short step, and their square limits the accuracy of the energy balance.
+/// Fraction of a step. An end of slip within this fraction of the start of the step is moved to the start.
+/// In a shorter step, rounding errors of positions would become velocities, and the energy balance would be inaccurate.
 const SHORT: f64 = 1e-6;
 
 /// Number of halvings of a step in the test whether a slider at an end leaves it temporarily.
 const PROBES: i32 = 12;
 
-/// Number of impacts at the same end, within as many steps, after which the slider is held at the stop.
+/// Number of impacts at the same end, within as many steps, after which the stop holds the slider.
 const CHATTER: usize = 3;
 
 /// Largest number of arrivals within one step of the grid. More arrivals are an error.
@@ -39,7 +39,7 @@ pub(super) struct EventStep {
 
 enum Event {
     Slider(SliderEvent),
-    /// A slider would jump past a limit, so the step ends just before it.
+    /// A slider would pass a limit within the step, so the step ends just before the limit.
     JustBefore,
     /// Sliders leave stops because of tensile stop forces.
     StopRelease,
@@ -47,12 +47,12 @@ enum Event {
 
 enum ArrivalEstimate {
     Between(TimeBracket),
-    /// A step that ends with the event was taken, or no step is needed.
+    /// A step that ends at the event was taken, or no step is needed.
     Located(EventStep),
 }
 
-/// Bracket of an event in time: a step that ends before the limit is reached and one that ends after it, each as its duration [time] and the signed
-/// distance beyond the limit.
+/// Two steps that bracket an event: one ends before the slider reaches the limit, the other one after.
+/// Each step is given by its duration [time] and the signed distance of the slider beyond the limit.
 struct TimeBracket {
     before: (f64, f64),
     after: (f64, f64),
@@ -70,7 +70,7 @@ impl TimeBracket {
         Self { before, after, last: None }
     }
 
-    /// Replaces the duration on the same side of the arrival.
+    /// Replaces the step on the same side of the arrival.
     fn narrow(&mut self, duration: f64, distance: f64) {
         let side = if distance > 0.0 { BracketSide::After } else { BracketSide::Before };
         let is_again = self.last == Some(side);
@@ -89,17 +89,17 @@ impl TimeBracket {
         self.after.0 - self.before.0 <= 4.0 * f64::EPSILON * self.after.0
     }
 
-    /// Next duration: false position, where the weight of a retained end is halved (Illinois; Dowell & Jarratt 1971).
+    /// Next duration, by the method of false position with halved weight of a retained end (Illinois method; Dowell & Jarratt 1971).
     fn next_duration(&self) -> f64 {
         let ((t0, f0), (t1, f1)) = (self.before, self.after);
         let t = t1 - f1 * (t1 - t0) / (f1 - f0);
-        // Rounding may give one of the ends.
+        // Because of rounding, the computed duration may equal one of the ends.
         if t > t0 && t < t1 { t } else { 0.5 * (t0 + t1) }
     }
 }
 
 impl Simulation {
-    /// Takes a step that ends at the arrival of the slider that passes its limit in the whole interval.
+    /// Takes a step that ends at the arrival of a slider. Over the whole interval, the slider would pass its limit.
     pub(super) fn locate_arrival(
         &mut self,
         interval: Interval,
@@ -113,7 +113,7 @@ impl Simulation {
     fn search(&mut self, interval: Interval, first: Overshoot) -> Result<EventStep, StepError> {
         let (mut cut, mut overshoot) = (interval, first);
         let mut tries = 0..MOST_TRIES;
-        // One pass for each slider that arrives before the current target.
+        // Each pass handles a slider that arrives before the current target.
         loop {
             let target = SliderEvent::of(overshoot.event);
             self.model.set_target(Some(target));
@@ -167,7 +167,7 @@ impl Simulation {
         }
     }
 
-    /// Searches for a step that ends before the arrival, given a step that ends after it.
+    /// Searches for a step that ends before the arrival. A step that ends after the arrival is given.
     fn bracket_arrival(
         &mut self,
         interval: Interval,
@@ -213,7 +213,7 @@ impl Simulation {
         Ok(ArrivalEstimate::Located(at_once))
     }
 
-    /// Brackets the end of the slip of a slider with friction, given a step that ends after it.
+    /// Brackets the end of slip of a slider with friction. A step that ends after the end of slip is given.
     fn bracket_slip_end(&self, interval: Interval, slider: usize, beyond: f64) -> ArrivalEstimate {
         let speed = self.model.slip_speed(slider);
         let bracket = TimeBracket::new((0.0, -speed), (interval.duration(), beyond));
@@ -244,7 +244,7 @@ impl Simulation {
         }
     }
 
-    /// Returns true if a slider at a limit strikes it, for velocities that the steps resolve. Otherwise it can only be held.
+    /// Returns true if a slider strikes its limit, judged by the velocities that the steps resolve. A slider that does not strike can only be held.
     fn has_impact(&mut self, limit: MasterLimit) -> bool {
         let dt = self.dt();
         !self.model.end_action(limit.slider).has_stop()
@@ -276,7 +276,7 @@ impl Simulation {
             let strikes = self.model.leads_beyond(limit);
             let kind = match self.model.end_action(limit.slider) {
                 _ if self.model.continues_beyond(limit) => {
-                    // The slider only touched the seam, or its velocity was reversed exactly there.
+                    // The slider only touched the seam, or its velocity was reversed exactly at the seam.
                     if landing.step.is_some() && !strikes {
                         continue;
                     }
@@ -292,7 +292,7 @@ impl Simulation {
                     self.model.release_slider(limit.slider);
                     ArrivalKind::Released
                 }
-                // The slider only touched the stop, or its velocity was reversed exactly there.
+                // The slider only touched the stop, or its velocity was reversed exactly at the stop.
                 _ if landing.step.is_some() && !strikes => ArrivalKind::Bounced,
                 _ if self.stays_held(limit, landing, dt)? => {
                     arriving.held.push(limit);
@@ -322,8 +322,8 @@ impl Simulation {
         Ok(())
     }
 
-    /// Starts kinks at ends with the present contact forces. If the previous impact was less than a step ago, they stay unloaded, because the forces
-    /// between such impacts belong to vibrations that the steps do not resolve.
+    /// Starts kinks at ends with the present contact forces. If the previous impact was less than a step ago, the kinks start without load.
+    /// The forces between such impacts belong to vibrations that the steps do not resolve.
     fn restart_kinks(&mut self) -> Result<(), SimulationError> {
         let last = self.progress.arrivals.last();
         if last.is_some_and(|last| self.time() - last.time < self.dt() - self.slack()) {
@@ -332,8 +332,9 @@ impl Simulation {
         Ok(self.model.restart_kinks_at_ends()?)
     }
 
-    /// Returns true if a slider at a limit stays at its stop instead of bouncing. This is the case for repeated impacts within few steps, for an
-    /// elastic contact that the next steps resolve, and if steps pass the limit although the slider does not approach it.
+    /// Returns true if a stop holds a slider at a limit instead of letting it bounce.
+    /// The stop holds the slider after repeated impacts within few steps, and for an elastic contact that the next steps resolve.
+    /// The stop also holds the slider if steps pass the limit although the slider does not approach the limit.
     fn stays_held(
         &mut self,
         limit: MasterLimit,
@@ -347,14 +348,15 @@ impl Simulation {
         Ok(landing.step.is_none() && !self.model.approaches(limit, dt)?)
     }
 
-    /// Returns true if a slider at a seam becomes held instead of passing it: both sides lead it back at once, or it oscillates within few steps.
+    /// Returns true if a slider is held at a seam instead of passing it.
+    /// Either both sides return the slider to the seam at once, or the slider oscillates about the seam within few steps.
     fn is_held_at_seam(&self, limit: MasterLimit, landing: &EventStep, dt: f64) -> bool {
         let is_led_back = landing.step.is_none() && self.model.is_at_seam_event(limit.slider);
         is_led_back || self.oscillates_at_seam(limit, dt)
     }
 
-    /// Time within which repeated impacts or oscillations are not resolved by steps of length `dt` [time]. Variable steps become longer between
-    /// impacts. For them, the time in which a wave passes a span replaces the step length.
+    /// Time within which repeated impacts or oscillations are not resolved by steps of length `dt` [time].
+    /// Between impacts, variable steps become longer. For variable steps, the time in which a wave passes a span replaces the step length.
     fn unresolved(&self, dt: f64) -> f64 {
         CHATTER as f64
             * match self.settings.dt {
@@ -365,7 +367,7 @@ impl Simulation {
             }
     }
 
-    /// Returns true if a slider has passed a seam back and forth several times within as many steps, so that the motion in between is not resolved.
+    /// Returns true if the steps do not resolve the motion of a slider at a seam: the slider has passed the seam several times within as many steps.
     fn oscillates_at_seam(&self, limit: MasterLimit, dt: f64) -> bool {
         let since = self.time() - self.unresolved(dt);
         let own = self.progress.arrivals.iter().rev();
@@ -386,7 +388,7 @@ impl Simulation {
         Arrival { time: self.model.time(), limit, beam, kind, impulse: Vec2::zeros() }
     }
 
-    /// Returns true if a slider has struck an end several times within as many steps, so that the motion in between is not resolved.
+    /// Returns true if the steps do not resolve the impacts of a slider at an end: the slider has struck the end several times within as many steps.
     fn chatters(&self, limit: MasterLimit, dt: f64) -> bool {
         let own = self.progress.arrivals.iter().rev();
         let mut last = own.filter(|arrival| arrival.limit.slider == limit.slider).take(CHATTER);
@@ -422,7 +424,7 @@ impl Simulation {
         self.progress.stopped().is_some()
     }
 
-    /// Description of the arrival that has ended the run, if any.
+    /// Description of the arrival that has ended the run; `None` if no arrival has ended the run.
     pub fn ending(&self) -> Option<String> {
         self.progress.stopped().map(|stopped| self.describe(stopped))
     }

@@ -8,7 +8,7 @@ use crate::integrators::Mechanism;
 use crate::linalg::{BandedMatrix, LinearError};
 use crate::system::SystemError;
 
-/// Velocity along the master, relative to the fastest point of the model, below which a slider sticks at the start.
+/// Velocity along the master, as a fraction of the velocity of the fastest point of the model, below which a slider sticks at the start.
 const AT_REST: f64 = 1e-9;
 
 /// Factorised inertia matrix with the memory for responses to unit impulses.
@@ -62,7 +62,7 @@ impl System {
         self.sliders.iter().any(|slider| slider.active_friction().is_some())
     }
 
-    /// Chooses slip or stick for all sliders by their present velocities.
+    /// Selects slip or stick for all sliders according to their present velocities.
     pub(in crate::system) fn choose_friction_modes(&mut self) {
         if !self.has_friction() {
             return;
@@ -74,7 +74,7 @@ impl System {
         }
     }
 
-    /// Determines the inertia of all sliders with friction across their masters. Without a response to an impulse it is zero.
+    /// Computes the inertia across the master of every slider with friction. The inertia is zero if the slider does not respond to an impulse.
     pub(super) fn measure_inertia_across(&mut self) {
         let mut solver = self.inertia_solver.take().unwrap_or_else(|| InertiaSolver::new(self));
         if solver.factorise(self).is_ok() {
@@ -90,7 +90,7 @@ impl System {
         self.inertia_solver = Some(solver);
     }
 
-    /// Lets sliders slip that stick with a present force along their masters above the friction limit. Returns true if there is one.
+    /// Starts the slip of sticking sliders whose present force along the master exceeds the friction limit. Returns true if a slider starts to slip.
     pub(super) fn start_overloaded_slips(&mut self, now: &Instant) -> bool {
         let mut starts = false;
         for at in 0..self.sliders.len() {
@@ -100,7 +100,7 @@ impl System {
         starts
     }
 
-    /// Lets a slider stick. Its remaining velocity along the master is removed by an impulse, whose work is lost.
+    /// Starts the sticking of a slider. An impulse removes its remaining velocity along the master. The work of the impulse is lost.
     ///
     /// # Errors
     /// Fails if the impulse is not determined.
@@ -109,13 +109,13 @@ impl System {
         self.stop_along(&[slider]).map_err(|_| self.sliders.overdetermined())
     }
 
-    /// Lets a slider slip in the direction of the force along its master.
+    /// Starts the slip of a slider in the direction of the force along its master.
     pub(crate) fn start_slip(&mut self, slider: usize) {
         self.sliders[slider].slip();
         self.motion.accelerations.mark_unknown();
     }
 
-    /// Lets all sliders stick whose velocity along the master is opposite to their slip.
+    /// Starts the sticking of all sliders whose velocity along the master is opposite to their slip.
     ///
     /// # Errors
     /// Fails if the impulses are not determined.
@@ -130,7 +130,7 @@ impl System {
         self.stop_along(&reversed).map_err(|_| self.sliders.overdetermined())
     }
 
-    /// Removes the velocities of sliders along their masters by impulses along the masters. Their work is lost.
+    /// Removes the velocities of sliders along their masters by impulses along the masters. The work of the impulses is lost.
     fn stop_along(&mut self, stopping: &[usize]) -> Result<(), LinearError> {
         let along = stopping.iter().map(|&at| (at, self.sliders[at].along(&self.bodies)));
         let along: Vec<ImpactDirection> = along.collect();

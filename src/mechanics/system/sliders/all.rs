@@ -13,7 +13,7 @@ use crate::linalg::{BlockLayout, Border, BorderShape};
 use crate::system::bodies::Body;
 use crate::system::errors::{SliderError, SystemError};
 
-/// Sliders of a model in the order of the scene. Dereferences to the slice of them.
+/// Sliders of a model, in the order of the scene. The type dereferences to a slice of sliders.
 #[derive(Default)]
 pub struct Sliders {
     all: Vec<SliderContact>,
@@ -49,7 +49,7 @@ impl Sliders {
         self.blocks.as_ref()
     }
 
-    /// Makes steps end at an event; `None` for regular steps.
+    /// Sets the event at which steps must end; `None` for regular steps.
     pub fn set_target(&mut self, event: Option<SliderEvent>) {
         self.target = event;
     }
@@ -66,7 +66,7 @@ impl Sliders {
         self.iter_mut().for_each(|slider| slider.begin_step(bodies, rates, interval));
     }
 
-    /// Fixes the kinks of all masters for the following steps. Returns true if this changes the equations of the next step.
+    /// Keeps the kinks of all masters constant in the following steps. Returns true if this changes the equations of the next step.
     pub fn freeze_kinks(&mut self) -> bool {
         self.iter_mut().fold(false, |any, slider| slider.freeze_kink() | any)
     }
@@ -114,13 +114,14 @@ impl Sliders {
         }
     }
 
-    /// Predicts unchanged contacts for a displacement between two equilibria.
+    /// Predicts unchanged contact forces for a displacement between two equilibria.
     pub fn predict_unchanged(&self, unknowns: &mut [f64]) {
         self.iter().for_each(|slider| slider.predict_unchanged(unknowns));
     }
 
-    /// Holds sliders that the displacement takes beyond stops, and frees sliders with tensile stop forces. Returns true if the state of a slider
-    /// changed. If a slider would leave its master, slider and end are the error.
+    /// Holds sliders that the displacement moves beyond stops, and releases sliders whose stop force is tensile.
+    /// Returns true if the state of a slider has changed.
+    /// If a slider would leave its master, the error contains the slider and the end of the master.
     pub fn update_stop_contacts(
         &mut self,
         bodies: &[Body],
@@ -145,7 +146,7 @@ impl Sliders {
         Ok(changed)
     }
 
-    /// Accepts the positions of sliders after a displacement between two equilibria. The bodies must be moved first.
+    /// Accepts the positions of sliders after a displacement between two equilibria. The caller must move the bodies before this call.
     pub fn accept_static_positions(&mut self, unknowns: &[f64]) {
         self.iter_mut().for_each(|slider| slider.accept_static_position(unknowns));
     }
@@ -154,8 +155,8 @@ impl Sliders {
         self.iter().map(SliderContact::movements_held).sum()
     }
 
-    /// Calls the callback with the static stiffness of all contacts, with a penalty stiffness for rigid contacts [force/length]. The position
-    /// unknowns of sliders follow the degrees of freedom.
+    /// Calls `take` with the static stiffness of all contacts. Rigid contacts have a penalty stiffness [force/length].
+    /// The position unknowns of sliders follow the degrees of freedom.
     pub fn for_each_static_stiffness(
         &self,
         bodies: &[Body],
@@ -168,7 +169,7 @@ impl Sliders {
         }
     }
 
-    /// Largest violation of a contact equation [-]. Length equations are relative to the lengths involved; `relative` scales force equations.
+    /// Largest violation of a contact equation [-]. Length equations are divided by the lengths involved; `relative` scales force equations.
     pub fn violation(&self, equations: &[f64], relative: impl Fn(f64) -> f64) -> f64 {
         self.iter().fold(0.0, |largest, slider| {
             let (length, force) = slider.violation(equations);
@@ -176,11 +177,11 @@ impl Sliders {
         })
     }
 
-    /// Checks that a step with these unknowns may be accepted. Tensile stop forces are recorded.
+    /// Checks that a step with the given unknowns may be accepted. Tensile stop forces are recorded.
     ///
     /// # Errors
-    /// Fails if a slider passes an end of its master, if it misses the event at which the step has to end, if a stop force becomes tensile, or if a
-    /// slider with friction begins to slip or to stick.
+    /// Fails if a slider passes an end of its master, or if it misses the event at which the step has to end.
+    /// Also fails if a stop force becomes tensile, or if a slider with friction begins to slip or to stick.
     pub fn check(&mut self, unknowns: &[f64], ending: IntervalEnd) -> Result<(), Overshoot> {
         let mut furthest: Option<Overshoot> = None;
         let aim = self.target.filter(|_| ending == IntervalEnd::Step);
@@ -210,9 +211,10 @@ impl Sliders {
         furthest.or(leaves).map_or(Ok(()), Err)
     }
 
-    /// Transition of a slider with friction in the attempted step. For an end of slip, the distance is the velocity beyond zero at the end of the
-    /// step [length/time]. If `aim` is an end of slip, the step must end there, and a velocity of either sign is returned. An end of slip comes
-    /// before a start of slip.
+    /// Friction transition of a slider in the attempted step.
+    /// For an end of slip, the returned distance is the velocity beyond zero at the end of the step [length/time].
+    /// If `aim` is an end of slip, the step must end at this event, and a velocity of either sign is returned.
+    /// An end of slip precedes a start of slip.
     fn friction_overshoot(&self, unknowns: &[f64], aim: Option<SliderEvent>) -> Option<Overshoot> {
         let mut starts = None;
         for (index, slider) in self.iter().enumerate() {
@@ -238,12 +240,12 @@ impl Sliders {
         starts
     }
 
-    /// Shortest chord of the path of a slider, relative to the path [-].
+    /// Shortest chord of the path of a slider, as a fraction of the length of the path [-].
     pub fn shortest_chord(&self) -> f64 {
         self.iter().map(SliderContact::chord).fold(f64::INFINITY, f64::min)
     }
 
-    /// Evaluates all contacts at the end of an accepted step. The bodies must not be moved yet.
+    /// Evaluates all contacts at the end of an accepted step. The caller must not move the bodies before this call.
     pub fn evaluate_end(&mut self, bodies: &[Body], increments: &[f64], unknowns: &[f64]) {
         self.iter_mut().for_each(|slider| slider.evaluate_end(bodies, increments, unknowns));
     }
@@ -271,8 +273,8 @@ impl Sliders {
         self.iter().filter(move |slider| body.is_none_or(|body| slider.connection.master == body))
     }
 
-    /// Directions [-] of the present contact forces, with the index of the slider: across masters without a compliant axis, and along masters for
-    /// sliders that are held or stick.
+    /// Directions [-] of the present contact forces, with the index of the slider.
+    /// The directions are across masters without a compliant axis, and along masters for sliders that are held or stick.
     pub fn directions(&self, bodies: &[Body]) -> Vec<(usize, Vec2)> {
         let of_slider = |(at, slider): (usize, &SliderContact)| {
             let (across, along) = (slider.across(bodies), slider.along(bodies));

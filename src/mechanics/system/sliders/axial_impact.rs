@@ -1,9 +1,9 @@
-//! Durations of impacts at the end of a master, from the waves in beams. The steps must resolve them.
+//! Durations of impacts at the end of a master, computed from the waves in beams. The steps must resolve these durations.
 
 use crate::beams::Section;
 use crate::elementary::square;
 
-/// Masses that an impact along a master accelerates immediately; `None` if a body is fixed, or too heavy to be accelerated.
+/// Masses that an impact along a master accelerates immediately; `None` if a body is fixed, or if it is too heavy to be accelerated.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct AxialImpact {
     /// Mass of the slave [mass].
@@ -14,16 +14,16 @@ pub struct AxialImpact {
 
 #[derive(Debug, Clone, Copy)]
 pub struct ImpactBar {
-    /// Length as drawn [length].
+    /// Length of the beam as drawn [length].
     pub length: f64,
     pub section: Section,
 }
 
 impl ImpactBar {
-    /// Travel time of the wave of an impact through the beam [time], or the stopping time `m/(c ρA)` of a striking mass, if that is shorter.
-    /// `cosine` is that of the angle `α` between impact and axis.
+    /// Time in which the wave of an impact passes the beam [time], or the stopping time `m/(c ρA)` of a striking mass if this is shorter.
+    /// The argument `cosine` is the cosine of the angle `α` between impact and axis.
     ///
-    /// The wave is axial for an impact along the axis, and a shear wave for one across it: `c² ρA = EA cos²α + GA sin²α`.
+    /// An impact along the axis causes an axial wave, an impact across the axis a shear wave: `c² ρA = EA cos²α + GA sin²α` with the wave speed `c`.
     pub fn wave_travel_time(&self, cosine: f64, mass: Option<f64>) -> f64 {
         let Self { length, section } = self;
         let along = square(cosine).min(1.0);

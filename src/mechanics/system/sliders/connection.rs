@@ -5,11 +5,11 @@ use crate::joints::{CONTACT_UNKNOWNS, Contact, Equation, Unit};
 use crate::linalg::{Border, BorderUnit};
 use crate::system::bodies::Body;
 
-/// Connection of a slider: places of its unknowns in the vectors of the model.
+/// Connection of a slider to a model: positions of its unknowns in the vectors of the model.
 #[derive(Debug, Clone, Copy)]
 pub struct Connection {
     pub master: usize,
-    /// Index of the slave body, and of its control point.
+    /// Index of the slave body, and index of the control point of the slave.
     pub slave: (usize, usize),
     /// Index of the slider in the model.
     pub index: usize,
@@ -55,7 +55,7 @@ impl Connection {
         rows.iter_mut().zip(values).for_each(|(row, value)| *row += value);
     }
 
-    /// Adds the derivatives of [`add_values`](Self::add_values), including those of the forces on the master, restricted to unknowns.
+    /// Adds the derivatives of [`add_values`](Self::add_values) with respect to the unknowns. Derivatives of the forces on the master are included.
     pub fn add_derivatives(
         &self,
         bodies: &[Body],

@@ -1,4 +1,4 @@
-//! Axis of a master with the kink under the contact force of a slider, which the mesh of the master does not represent.
+//! Axis of a master with the kink under the contact force of a slider. The mesh of the master does not represent the kink.
 
 use std::sync::Arc;
 
@@ -6,30 +6,31 @@ use crate::beams::Section;
 use crate::geometry::{ContactPath, PiecewisePolynomial, Vec2};
 use crate::joints::{Kink, KinkMotion, KinkState};
 
-/// Kink length, relative to the length of the master, below which the axis counts as rigid at the slider.
+/// Kink length below which the axis counts as rigid at the slider, as a fraction of the length of the master.
 const RIGID: f64 = 1e-14;
 
-/// Largest speed at which a kink follows its force, relative to the speed of shear waves. At larger speeds the stiffness `GA - ρA v²` is nearly
-/// zero.
+/// Largest speed at which a kink follows its force, as a fraction of the speed of shear waves.
+/// At larger speeds the stiffness `GA - ρA v²` is nearly zero.
 const FASTEST: f64 = 0.8;
 
-/// Largest speed at which a kink follows its force, relative to `√(GA/μρA)`, where the stiffness on the mesh of the master vanishes.
+/// Largest speed at which a kink follows its force, as a fraction of `√(GA/μρA)`. At the speed `√(GA/μρA)` the stiffness on the mesh vanishes.
 const FASTEST_ON_MESH: f64 = 0.9;
 
-/// Kink length, relative to the largest in the middle of the master, below which the kink is fixed. This is the case near the ends.
+/// Kink length below which the kink is kept constant, as a fraction of the largest kink length in the middle of the master.
+/// Kink lengths near the ends are below this limit.
 const BESIDE_END: f64 = 0.1;
 
-/// Largest speed, relative to the largest at which a kink follows its force, with which a kink begins loaded at an end.
+/// Largest speed at which a kink begins with a load at an end, as a fraction of the largest speed at which a kink follows its force.
 const SLOW: f64 = 0.25;
 
-/// Fraction of the length by [`BESIDE_END`] below which also a loaded kink that moves away from an end is fixed. Rounding errors of positions would
-/// determine it there.
+/// Fraction of the limit [`BESIDE_END`], below which even a loaded kink that moves away from an end is kept constant.
+/// So close to the end, rounding errors of positions would determine the kink.
 const FROM_END: f64 = 0.01;
 
-/// Largest contact force relative to `GA` with which a kink begins [-]. Forces that are larger come from vibrations that the steps do not resolve.
+/// Largest contact force with which a kink begins, as a fraction of `GA` [-]. Larger forces belong to vibrations that the steps do not resolve.
 const LARGEST_START: f64 = 0.02;
 
-/// Kink under a contact force that the mesh of a master misses, shared by all sliders on it.
+/// Data of the kink that the mesh of a master does not represent, shared by all sliders on the master.
 #[derive(Debug, Clone)]
 pub struct MasterKink {
     /// Kink length `g(ξ)` [length].
@@ -47,9 +48,9 @@ pub struct KinkedAxis {
     length: Arc<PiecewisePolynomial>,
     /// Arc length `s(ξ)` of the master [length].
     arc: Arc<PiecewisePolynomial>,
-    /// `1/GA` of the master [1/force].
+    /// Compliance `1/GA` of the master [1/force].
     compliance: f64,
-    /// `μ ρA/GA` of the master [time²/length²].
+    /// Factor `μ ρA/GA` of the master [time²/length²].
     inverse_square_speed: f64,
     /// Speed up to which the kink follows its force [length/time].
     fastest: f64,
@@ -57,7 +58,7 @@ pub struct KinkedAxis {
     none: f64,
     /// Smallest kink length at which the kink follows its force [length].
     least: f64,
-    /// True if the kink is fixed in the present step, because the step has no solution with a moving kink.
+    /// True if the kink is kept constant in the present step, because the step has no solution with a variable kink.
     is_frozen: bool,
     /// Kink length `g` and its first and second derivatives with respect to `ξ`, at the slider [length].
     compliance_derivatives: [f64; 3],
@@ -105,8 +106,8 @@ impl KinkedAxis {
         self.fastest
     }
 
-    /// Returns true if the kink is fixed: close to an end, at speeds close to that of shear waves, or on request. A loaded kink that moves slowly
-    /// away from an end is fixed only very close to the end.
+    /// Returns true if the kink is kept constant: close to an end, at speeds close to the speed of shear waves, or on request.
+    /// A loaded kink that moves slowly away from an end is kept constant only very close to the end.
     pub fn is_frozen(&self) -> bool {
         let [length, slope, _] = self.compliance_derivatives;
         let leaves =
@@ -115,18 +116,18 @@ impl KinkedAxis {
         self.is_frozen || length < least || self.speed.abs() > self.fastest
     }
 
-    /// Returns true if a kink with this speed along the master [length/time] begins with the contact force. At larger speeds unresolved waves
-    /// beside the end would load it.
+    /// Returns true if a kink that moves along the master with this speed [length/time] begins with the contact force.
+    /// At larger speeds, unresolved waves beside the end would determine the load of the kink.
     pub fn is_slow(&self, speed: f64) -> bool {
         speed.abs() < SLOW * self.fastest
     }
 
-    /// Rate `dξ/dt` [1/time] times the length of the master per unit of ξ [length/time].
+    /// Rate `dξ/dt` [1/time], multiplied by the length of the master per unit of ξ [length/time].
     pub fn speed_of(&self, rate: f64) -> f64 {
         self.stretch * rate
     }
 
-    /// Fixes the kink for the following steps. Returns true if this changes the equations of the next step.
+    /// Keeps the kink constant in the following steps. Returns true if this changes the equations of the next step.
     pub fn freeze(&mut self) -> bool {
         let changes = !self.is_frozen();
         self.is_frozen = true;
@@ -141,7 +142,7 @@ impl KinkedAxis {
         self.is_compliant() && self.jump != Vec2::zeros()
     }
 
-    /// Kink of the master in a step, for the path of the slave.
+    /// Kink of the master in a step, as needed by the sliding laws.
     pub fn along(&self, passage: &ContactPath) -> Kink {
         let motion = KinkMotion {
             arc: passage.along(&self.arc),
@@ -158,14 +159,14 @@ impl KinkedAxis {
         self.stretch = passage.at_end(&self.arc)[1];
     }
 
-    /// Accepts the state of the kink at the end of a step with a mean contact force `λ` [force], after [`accept_end`](Self::accept_end). The jump of
-    /// the tangent is stored as the force that causes it statically; on a rigid axis it is the mean force of the step.
+    /// Accepts the state of the kink at the end of a step with a mean contact force `λ` [force], after [`accept_end`](Self::accept_end).
+    /// The jump of the tangent is stored as the force that would cause it statically. On a rigid axis, the mean force of the step is stored.
     pub fn advance(&mut self, mean: Vec2, KinkState { jump, speed }: KinkState) {
         self.jump = if self.is_compliant() { jump } else { mean };
         self.speed = speed;
     }
 
-    /// Accepts the state of the kink at the end of a step with a fixed kink.
+    /// Accepts the state of the kink at the end of a step in which the kink was kept constant.
     pub fn accept_frozen_jump(&mut self, KinkState { jump, speed }: KinkState) {
         (self.jump, self.speed) = (jump, speed);
     }
@@ -193,29 +194,29 @@ impl KinkedAxis {
         self.jump * (1.0 - self.inverse_square_speed * self.speed * self.speed)
     }
 
-    /// Removes from the contact force the force of a stop, along the tangent `x'` of the axis [length].
+    /// Removes the force of a stop from the contact force. The stop force acts along the tangent `x'` of the axis [length].
     ///
-    /// If the axis is compliant there, as within rounding of the end, the force is kept, because positions determine it.
+    /// Within rounding of the end, the axis may be compliant. The force is then kept, because positions determine it.
     pub fn remove_stop_force(&mut self, tangent: Vec2) {
         if !self.is_compliant() {
             self.keep_force_across(tangent);
         }
     }
 
-    /// Begins with the kink of a contact force [force] across the tangent `x'` of the axis [length]. If the force is too large for a kink that
-    /// begins, the kink begins without load.
+    /// Starts the kink with a contact force [force] across the tangent `x'` of the axis [length].
+    /// If the force is too large for a new kink, the kink starts without load.
     pub fn load(&mut self, force: Vec2, tangent: Vec2) {
         let is_small = force.norm() * self.compliance < LARGEST_START;
         self.jump = if is_small { force } else { Vec2::zeros() };
         self.keep_force_across(tangent);
     }
 
-    /// Sets the speed of the kink along the master to that of a rate `dξ/dt` [1/time].
+    /// Sets the speed of the kink along the master to the speed that belongs to a rate `dξ/dt` [1/time].
     pub fn start_speed(&mut self, rate: f64) {
         self.speed = self.stretch * rate;
     }
 
-    /// Keeps the force across a tangent `x'` of the axis [length] such that `p·x' + ½ g' |p|²/GA = 0` up to the third power of `p`.
+    /// Keeps the force across a tangent `x'` of the axis [length], so that `p·x' + ½ g' |p|²/GA = 0` holds up to the third power of `p`.
     fn keep_force_across(&mut self, tangent: Vec2) {
         let along = |force: Vec2| tangent * (force.dot(&tangent) / tangent.norm_squared());
         let across = self.jump - along(self.jump);
@@ -233,16 +234,16 @@ impl KinkedAxis {
         self.jump * (self.compliance_derivatives[0] * self.compliance)
     }
 
-    /// Derivative of [`offset`](Self::offset) with respect to `ξ`, and half of the scalar product of offset and second derivative,
-    /// `½ g g'' |p|²/GA²`.
+    /// Derivative of [`offset`](Self::offset) with respect to `ξ`.
+    /// The second value is half the product of the offset and its second derivative, `½ g g'' |p|²/GA²`.
     pub fn slopes(&self) -> (Vec2, f64) {
         let [length, slope, bend] = self.compliance_derivatives;
         let force = self.jump * self.compliance;
         (force * slope, 0.5 * length * bend * force.norm_squared())
     }
 
-    /// Compliance `g/GA` [length/force], derivative of [`offset`](Self::offset) with respect to `ξ` [length], and second derivative of the energy at
-    /// constant force, `½ g'' |p|²/GA` [energy].
+    /// Compliance `g/GA` [length/force], followed by the derivative of [`offset`](Self::offset) with respect to `ξ` [length].
+    /// The last value is the second derivative of the energy for a constant force, `½ g'' |p|²/GA` [energy].
     pub fn static_compliance(&self) -> (f64, Vec2, f64) {
         let [length, slope, bend] = self.compliance_derivatives;
         let force = self.jump * self.compliance;

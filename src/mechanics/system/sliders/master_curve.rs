@@ -1,10 +1,10 @@
-//! Master of a slider: a beam with its ends, and the states of a slider.
+//! Master of a slider, which is a beam with two ends, and the states of a slider.
 
 use serde::{Deserialize, Serialize};
 
 use crate::geometry::{Curve, corresponding};
 
-/// Distance of a slider from the end of its master, relative to the parameter range, below which it is at the end [-].
+/// Distance from an end of the master below which a slider is at the end, as a fraction of the parameter range [-].
 pub const END_TOLERANCE: f64 = 4e-15;
 
 /// End of the master of a slider.
@@ -32,7 +32,7 @@ impl MasterEnd {
         }
     }
 
-    /// Sign of `dξ/dt` towards this end [-].
+    /// Sign of `dξ/dt` for a motion towards this end [-].
     pub(in crate::system) fn outward(self) -> f64 {
         match self {
             Self::Start => -1.0,
@@ -53,7 +53,7 @@ pub enum SliderState {
 }
 
 impl SliderState {
-    /// Name for reports.
+    /// Name of the state for reports.
     pub fn name(self) -> &'static str {
         match self {
             Self::Sliding => "sliding",
@@ -63,7 +63,7 @@ impl SliderState {
     }
 }
 
-/// End of the master of a slider, as a limit of its motion.
+/// End of the master of a slider, which is a limit of its motion.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub struct MasterLimit {
     /// Index of the slider.
@@ -90,7 +90,7 @@ pub enum SliderEvent {
 }
 
 impl SliderEvent {
-    /// Number of this event among the events of all sliders.
+    /// Index of this event among the events of all sliders.
     pub fn number(self) -> usize {
         match self {
             Self::Limit(MasterLimit { slider, end }) => 4 * slider + end as usize,
@@ -99,7 +99,7 @@ impl SliderEvent {
         }
     }
 
-    /// Event with this number.
+    /// Event with the given index.
     pub fn of(number: usize) -> Self {
         let slider = number / 4;
         match number % 4 {
@@ -139,13 +139,13 @@ impl MasterCurve {
         }
     }
 
-    /// Distance of a parameter from an end, relative to the parameter range [-].
+    /// Distance of a parameter from an end, as a fraction of the parameter range [-].
     pub fn distance(&self, parameter: f64, end: MasterEnd) -> f64 {
         let (first, last) = self.domain;
         (self.end(end) - parameter).abs() / (last - first)
     }
 
-    /// Distance of a parameter beyond an end, relative to the parameter range [-]; negative before it.
+    /// Distance of a parameter beyond an end, as a fraction of the parameter range [-]; negative for a parameter inside the range.
     pub fn overshoot(&self, parameter: f64, end: MasterEnd) -> f64 {
         let (first, last) = self.domain;
         let distance = match end {
@@ -162,13 +162,13 @@ impl MasterCurve {
         (first - slack..=last + slack).contains(&parameter)
     }
 
-    /// Fraction of the length as drawn before a parameter [-].
+    /// Fraction of the length as drawn that lies before a parameter [-].
     pub fn part_before(&self, parameter: f64) -> f64 {
         let along = self.axis.length_to(self.drawn(parameter));
         along.map_or(f64::NAN, |along| along / self.axis.length())
     }
 
-    /// Length as drawn per unit of the parameter [length].
+    /// Length of the master as drawn per unit of the parameter [length].
     pub fn stretch(&self, parameter: f64) -> f64 {
         let (start, end) = self.axis.domain();
         let (first, last) = self.domain;

@@ -1,4 +1,4 @@
-//! Sliders of a model: positions, and contributions to the equations of a step.
+//! Sliders of a model: their positions, and their contributions to the equations of a step.
 
 use super::{Connection, ImpactBar, KinkedAxis, MasterCurve, MasterEnd, SliderState, TrackPath};
 use crate::geometry::{Basis, ContactPath, Vec2, larger};
@@ -40,7 +40,7 @@ pub struct SliderContact {
     pub impulse: Vec2,
     /// Time at which the slider last left a stop [time]; [`NEVER`] if it has not left one.
     pub stop_left_at: f64,
-    /// True if the stop force may be tensile in the next step. The slider has just left the stop, but every step leads it back.
+    /// True if the stop force may be tensile in the next step, because the slider has just left the stop but every step returns it to the stop.
     pub stop_may_pull: bool,
     /// True if the stop force was tensile in the last attempted step.
     pub is_pulled: bool,
@@ -64,25 +64,25 @@ pub struct SliderContact {
     /// Kinked axis of the master, for rules with a kink.
     kinked_axis: Option<KinkedAxis>,
     kink_at_end: KinkState,
-    /// Length of the master per unit of parameter [length].
+    /// Length of the master per unit of its parameter [length].
     length: f64,
-    /// Path of length zero at the start of the step.
+    /// Path of zero length at the start of the step.
     start_path: ContactPath,
     path: ContactPath,
-    /// Control points of the master in the window of the path, relative to the slave, at the start of the step. The list is empty if they must be
-    /// read again.
+    /// Control points of the master whose basis functions are nonzero on the path, relative to the slave, at the start of the step.
+    /// The list is empty if the control points must be read again.
     before: Vec<Vec2>,
-    /// Index of the first of them.
+    /// Index of the first control point in `before`.
     before_first: usize,
     movements: Vec<Vec2>,
     units: [Unit; CONTACT_UNKNOWNS],
-    /// Scale of rounding errors: length of the master plus path of the slave in the iterate [length].
+    /// Scale of rounding errors: length of the master plus length of the path of the slave in the iterate [length].
     size: f64,
-    /// Chord of the path in the mean configuration of the iterate, relative to the length of the path.
+    /// Chord of the path in the mean configuration of the iterate, as a fraction of the length of the path.
     chord: f64,
-    /// Compressive stop force times the length of the tangent, in the iterate of a held slider [force·length].
+    /// Compressive stop force times the length of the tangent, in the iterate of a slider that is held at a stop [force·length].
     push: f64,
-    /// The same product for the beam on the other side of the seam at which the slider is held [force·length].
+    /// Compressive stop force times the length of the tangent, on the other side of the seam at which the slider is held [force·length].
     push_beyond: f64,
     /// True if the contact force pulls the slider onto the beam on the other side of the seam.
     pub crosses_seam: bool,
@@ -90,14 +90,15 @@ pub struct SliderContact {
     contact_force: f64,
 }
 
-/// Time of a stop departure that has not occurred. It is finite, because states are saved to files [time].
+/// Placeholder time for a slider that has not left a stop. The number is finite, because states are saved to files [time].
 pub(super) const NEVER: f64 = f64::MAX;
 
-/// Tensile stop force, relative to the contact force, below which it counts as zero.
+/// Tensile stop force that counts as zero, as a fraction of the contact force.
 const PULL: f64 = 1e-9;
 
-/// Returns true if a stop force is tensile beyond the tolerance. `push` is the compressive force times the length of the tangent [force·length],
-/// `force` the contact force [force], `length` that of the master per unit of parameter [length].
+/// Returns true if a stop force is tensile beyond the tolerance.
+/// The argument `push` is the compressive stop force times the length of the tangent [force·length]. The contact force is `force` [force].
+/// The length of the master per unit of its parameter is `length` [length].
 pub(super) fn is_tensile(push: f64, force: f64, length: f64) -> bool {
     push < -PULL * force * length
 }
@@ -161,13 +162,13 @@ impl SliderContact {
         CONTACT_UNKNOWNS * 2 * (1 + self.most_of_masters(Basis::functions))
     }
 
-    /// Number of entries for steps in which the slider passes at most two spans of its master.
+    /// Number of entries of the contact equations for steps in which the slider passes at most two spans of its master.
     pub fn usual_entries(&self) -> usize {
         let usual = |basis: &Basis| (basis.degree() + 3).min(basis.functions());
         CONTACT_UNKNOWNS * 2 * (1 + self.most_of_masters(usual))
     }
 
-    /// Moves the slider to a parameter of its master.
+    /// Moves the slider to a position on its master, given by the parameter.
     fn set_parameter(&mut self, parameter: f64) {
         self.parameter = parameter;
         self.before.clear();
@@ -184,7 +185,7 @@ impl SliderContact {
         }
     }
 
-    /// Replaces the kinked axis of the master; without one the contact is rigid. Returns the previous one.
+    /// Replaces the kinked axis of the master, and returns the previous kinked axis. Without a kinked axis the contact is rigid.
     pub fn exchange_kinked_axis(&mut self, axis: Option<KinkedAxis>) -> Option<KinkedAxis> {
         std::mem::replace(&mut self.kinked_axis, axis)
     }
@@ -203,16 +204,16 @@ impl SliderContact {
         self.lost_energy += std::mem::take(&mut self.stop_energy);
         self.unknowns = ContactUnknowns::zeros();
         self.mean_force = StepMean::default();
-        // At an end of the master the kink has no energy.
+        // At an end of the master, the kink has no energy.
         self.kinked_axis.iter_mut().for_each(KinkedAxis::straighten);
     }
 
-    /// Contact force on the master as the mean of the last step [force].
+    /// Mean contact force on the master in the last step [force].
     pub fn contact_force(&self) -> Vec2 {
         self.mean_force.value
     }
 
-    /// Sets the mean contact force of a step of zero length [force].
+    /// Sets the mean contact force for a step of zero length [force].
     pub fn start_mean_force(&mut self, force: Vec2) {
         self.mean_force = StepMean::at_start(force);
     }
@@ -221,8 +222,8 @@ impl SliderContact {
         self.mean_force.end_step();
     }
 
-    /// Contact force on the master at the present time as far as the state determines it: with a kink that follows the force, otherwise the mean of
-    /// the last step [force].
+    /// Contact force on the master at the present time [force]. If a kink follows the force, its force is returned.
+    /// Otherwise, the mean force of the last step is returned.
     pub fn force_of_state(&self) -> Vec2 {
         let axis = self.kinked_axis.as_ref().filter(|_| !self.is_frozen());
         axis.map_or(self.unknowns.force, KinkedAxis::force)
@@ -232,12 +233,12 @@ impl SliderContact {
         self.is_sliding() && self.kinked_axis.as_ref().is_some_and(KinkedAxis::is_frozen)
     }
 
-    /// Speed along the master up to which its kink follows the contact force [length/time]; `None` without a kink.
+    /// Largest speed along the master at which its kink follows the contact force [length/time]; `None` without a kink.
     pub fn kink_speed_limit(&self) -> Option<f64> {
         self.kinked_axis.as_ref().map(KinkedAxis::fastest)
     }
 
-    /// Fixes the kink of the master for the following steps. Returns true if this changes the equations of the next step.
+    /// Keeps the kink of the master constant in the following steps. Returns true if this changes the equations of the next step.
     pub fn freeze_kink(&mut self) -> bool {
         let sliding = self.is_sliding();
         self.kinked_axis.as_mut().is_some_and(|axis| axis.freeze() && sliding)
@@ -252,7 +253,7 @@ impl SliderContact {
         self.kinked_axis.as_ref().is_some_and(KinkedAxis::is_compliant)
     }
 
-    /// Energy of the kink, and of the stop that holds the slider [energy].
+    /// Energy of the kink and of the stop that holds the slider [energy].
     pub fn strain_energy(&self) -> f64 {
         self.kinked_axis.as_ref().map_or(0.0, KinkedAxis::energy) + self.stop_energy
     }
@@ -354,7 +355,7 @@ impl SliderContact {
         let friction = contact.friction.as_ref().map(|friction| contact.friction_forces(friction));
         let force = pressing.norm();
         let push = match state {
-            // With an infinite tensile force, the stop releases the slider at once.
+            // A stop with an infinite tensile force releases the slider at once.
             SliderState::Held(_) if leans_on_nothing => f64::NEG_INFINITY,
             SliderState::Held(end) => contact.outward_push(end.outward()),
             SliderState::Sliding | SliderState::Released => 0.0,
@@ -367,7 +368,8 @@ impl SliderContact {
         force
     }
 
-    /// Adds forces and equations of the contact to a residual, and their derivatives with respect to increments and contact unknowns to the tangent.
+    /// Adds the forces and equations of the contact to a residual.
+    /// Adds their derivatives with respect to increments and contact unknowns to the tangent.
     pub fn add_linearised<P: Passing>(
         &mut self,
         bodies: &[Body],
@@ -385,7 +387,7 @@ impl SliderContact {
         connection.add_derivatives(bodies, &contact, slopes, &equations, movements, border);
     }
 
-    /// Largest violations of the contact equations: of lengths, relative to the lengths involved [-], and of forces [force].
+    /// Largest violations of the contact equations: of length equations, as a fraction of the lengths involved [-], and of force equations [force].
     pub fn violation(&self, equations: &[f64]) -> (f64, f64) {
         let values = equations[self.connection.places()].iter().zip(self.units);
         values.fold((0.0, 0.0), |(length, force), (value, unit)| match unit {
@@ -394,17 +396,17 @@ impl SliderContact {
         })
     }
 
-    /// Chord of the path in the mean configuration, relative to the length of the master along it [-].
+    /// Chord of the path in the mean configuration, as a fraction of the length of the path along the master [-].
     pub fn chord(&self) -> f64 {
         if self.is_sliding() { self.chord } else { 1.0 }
     }
 
-    /// Distance of the slider beyond an end of the master for given contact unknowns, relative to the parameter range [-].
+    /// Distance of the slider beyond an end of the master for given contact unknowns, as a fraction of the parameter range [-].
     pub fn overshoot(&self, unknowns: &[f64], end: MasterEnd) -> f64 {
         self.master.overshoot(self.parameter + self.read(unknowns).increment, end)
     }
 
-    /// Evaluates the contact at the end of an accepted step. The bodies must not be moved yet.
+    /// Evaluates the contact at the end of an accepted step. The caller must not move the bodies before this call.
     pub fn evaluate_end(&mut self, bodies: &[Body], increments: &[f64], unknowns: &[f64]) {
         if self.active_friction().is_some() {
             let contact = self.evaluate(bodies, increments, unknowns);

@@ -7,7 +7,8 @@ use crate::geometry::{Basis, ContactPath, Vec2};
 use crate::joints::{TrackDirection, TrackEnd};
 use crate::system::bodies::Body;
 
-/// Distance between the ends of two beams, relative to the length of the beam and the distance from the origin, below which the ends coincide.
+/// Distance between the ends of two beams below which the ends coincide.
+/// It is a fraction of the length of the beam plus the distance from the origin.
 const SAME: f64 = 1e-9;
 
 /// Beam of a track with the data of its sliders.
@@ -26,13 +27,13 @@ pub struct TrackPathSegment {
 pub struct TrackPath {
     segments: Arc<[TrackPathSegment]>,
     end: TrackEnd,
-    /// Lengths of the track before each of its beams, and in total, as drawn [length].
+    /// Length of the track as drawn before each of its beams, followed by its total length [length].
     lengths: Arc<[f64]>,
     /// Index of the present beam in the track.
     segment: usize,
-    /// Number of passages from the last beam of a closed track to the first, minus the number of reverse passages.
+    /// Number of passages from the last beam of a closed track to its first beam, minus the number of reverse passages.
     turns: f64,
-    /// Time of the last passage of a seam; [`NEVER`](super::slider_contact::NEVER) before the first [time].
+    /// Time of the last passage of a seam [time]; [`NEVER`](super::slider_contact::NEVER) before the first passage.
     pub crossed_at: f64,
 }
 
@@ -75,7 +76,7 @@ impl TrackPath {
         self.lengths[self.segments.len()]
     }
 
-    /// Distance along the track, for a fraction `part` of the present beam before the slider in beam direction; unwrapped on closed tracks [length].
+    /// Distance along the track, for a slider after the fraction `part` of its present beam [length]. On closed tracks, completed rounds are added.
     pub fn arc_length(&self, part: f64) -> f64 {
         let leg = self.present();
         let along = leg.heading.along(leg.master.length(), part * leg.master.length());
@@ -87,12 +88,12 @@ impl TrackPath {
         self.segments.iter().map(|leg| leg.path.basis())
     }
 
-    /// Seam beyond an end of the present beam, if the track continues and the beams meet there.
+    /// Seam beyond an end of the present beam; `None` if the track does not continue, or if the beams do not meet there.
     pub fn seam(&self, bodies: &[Body], end: MasterEnd) -> Option<Seam> {
         self.seam_at(end).filter(|seam| self.evaluate_seam(bodies, end, *seam))
     }
 
-    /// Returns true if the track as drawn continues beyond an end of the present beam, but the beams are now separated.
+    /// Returns true if the track as drawn continues beyond an end of the present beam, but the beams have separated.
     pub fn is_torn(&self, bodies: &[Body], end: MasterEnd) -> bool {
         self.seam_at(end).is_some_and(|seam| !self.evaluate_seam(bodies, end, seam))
     }
@@ -122,7 +123,7 @@ impl TrackPath {
         (there - here).norm() <= SAME * (next.master.length() + here.norm())
     }
 
-    /// Moves to the other side of a seam.
+    /// Moves the slider to the other side of a seam.
     pub fn cross_seam(&mut self, seam: Seam) {
         self.segment = seam.segment;
         self.turns += seam.turns;
@@ -175,8 +176,8 @@ impl TrackPathSegment {
         }
     }
 
-    /// Derivative of the position on the beam with respect to its parameter at an end, after given increments of all bodies [length]. Empty
-    /// `increments` mean the present configuration.
+    /// Derivative of the position on the beam with respect to its parameter at an end, after given increments of all bodies [length].
+    /// If `increments` is empty, the present configuration is used.
     pub fn end_tangent(&self, bodies: &[Body], increments: &[f64], end: MasterEnd) -> Vec2 {
         let (first, slopes) = &self.slopes[end as usize];
         let body = &bodies[self.beam];
@@ -185,7 +186,7 @@ impl TrackPathSegment {
         slopes.iter().zip(*first..).map(|(slope, at)| place(at) * *slope).sum()
     }
 
-    /// Length of the beam per unit of parameter [length].
+    /// Length of the beam per unit of its parameter [length].
     pub fn length_of_parameter(&self) -> f64 {
         let (first, last) = self.master.domain();
         self.master.length() / (last - first)

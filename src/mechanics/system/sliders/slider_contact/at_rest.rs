@@ -1,4 +1,4 @@
-//! Statics of a slider: contact equations for the displacement from one equilibrium to the next, contact with stops, and stiffness.
+//! Statics of a slider: contact equations for a displacement between two equilibria, contact with stops, and stiffness.
 
 use super::passing::{AtRest, Passing};
 use super::{SliderContact, is_tensile};
@@ -38,7 +38,7 @@ impl Passing for AtRest {
 }
 
 impl SliderContact {
-    /// Predicts an unchanged contact for a displacement between two equilibria.
+    /// Predicts an unchanged contact force for a displacement between two equilibria.
     pub fn predict_unchanged(&self, unknowns: &mut [f64]) {
         let guess = ContactUnknowns { force: self.force_of_state(), ..ContactUnknowns::zeros() };
         unknowns[self.connection.places()].copy_from_slice(&guess.to_array());
@@ -65,7 +65,7 @@ impl SliderContact {
         }
     }
 
-    /// Static contact equations for the state of a slider. A held slider needs its path to the stop.
+    /// Static contact equations for the state of a slider. For a held slider, `way` is the sliding increment to the stop.
     fn static_equations(
         state: SliderState,
         way: Option<f64>,
@@ -94,7 +94,7 @@ impl SliderContact {
         self.crosses_seam || is_tensile(push, force.norm(), self.length)
     }
 
-    /// Accepts the position after a displacement between two equilibria. The bodies must be moved first.
+    /// Accepts the position after a displacement between two equilibria. The caller must move the bodies before this call.
     pub fn accept_static_position(&mut self, unknowns: &[f64]) {
         let found = self.read(unknowns);
         let place = self.distance_to_stop().map_or(found.increment, |way| way);
@@ -112,8 +112,7 @@ impl SliderContact {
         }
     }
 
-    /// Unknowns that the static contact couples: those of the slave, of the control points of the master at the slider, and the position unknown
-    /// `own`.
+    /// Unknowns that the static contact couples: the unknowns of the slave and of the master at the slider, and the position unknown `own`.
     pub fn static_coupling(&self, bodies: &[Body], own: usize) -> Vec<usize> {
         let (body, point) = self.connection.slave;
         let [x, y, _] = bodies[body].degrees_of_freedom[point];
@@ -123,8 +122,8 @@ impl SliderContact {
         [x, y].into_iter().chain(of_master).chain([own]).collect()
     }
 
-    /// Calls the callback with the static stiffness of the contact, with a penalty stiffness for a rigid axis [force/length]. `own` is the position
-    /// unknown.
+    /// Calls `take` with the static stiffness of the contact. A rigid axis has a penalty stiffness [force/length].
+    /// The position unknown of the slider is `own`.
     ///
     /// ```text
     /// r = x_s - Σ B_i x_i      s = δx_s - Σ B_i δx_i - (x' + g' λ/GA) δξ      k = GA/g

@@ -6,17 +6,19 @@ use crate::integrators::Interval;
 use crate::joints::{Friction, FrictionForces, FrictionMode};
 use crate::system::bodies::Body;
 
-/// Velocity along the master that counts as zero at the end of a slip, relative to that at the start of the step. An impulse removes it. Without this
-/// tolerance, the rest of a step after the end of the slip could be too short for an accurate energy balance.
+/// Velocity along the master that counts as zero at the end of a slip, as a fraction of the velocity at the start of the step.
+/// An impulse removes this velocity.
+/// Without the tolerance, the rest of a step after the end of the slip could be too short for an accurate energy balance.
 const STOPPED: f64 = 1e-6;
 
-/// Rounding error of velocities, relative to the size of the master over the duration of the step.
+/// Rounding error of velocities, as a fraction of the length of the master divided by the duration of the step.
 const ROUNDING: f64 = 1e-14;
 
-/// Duration of a step, relative to the longest one, below which friction does not act. The forces of such a step consist of rounding errors.
+/// Duration of a step below which friction does not act, as a fraction of the longest step.
+/// The forces of such a short step consist of rounding errors.
 const NEGLIGIBLE: f64 = 1e-7;
 
-/// Number of transitions in successive steps above which slip does not end within a step.
+/// Number of transitions in successive steps, above which slip does not end within a step.
 const MOST_TRANSITIONS: usize = 8;
 
 /// Transition of a slider with friction at the end of an attempted step.
@@ -24,7 +26,7 @@ const MOST_TRANSITIONS: usize = 8;
 pub enum FrictionTransition {
     /// Slip ends.
     SlipEnds {
-        /// Velocity along the master at the end of the step, positive against the slip [length/time].
+        /// Velocity along the master at the end of the step, positive if it is opposite to the slip [length/time].
         reversed: f64,
     },
     /// The force along the master exceeds the friction limit.
@@ -45,16 +47,16 @@ pub struct SliderFriction {
     start_velocity_along: f64,
     /// Velocity of the slave across the master at the start of the step [length/time].
     start_velocity_across: f64,
-    /// Reciprocal of the velocity across the master that a unit impulse across it causes [mass].
+    /// Inverse of the velocity change across the master that a unit impulse across the master causes [mass].
     pub inertia_across: f64,
     duration: f64,
     /// Duration of the longest step so far [time].
     longest: f64,
-    /// Forces of the last iterate.
+    /// Friction forces of the last iterate.
     forces: FrictionForces,
-    /// Mean force on the master along its tangent in the last step [force].
+    /// Mean force on the master along the tangent of the master in the last step [force].
     force: f64,
-    /// Number of transitions minus the number of steps, at least zero. It grows if transitions follow one another without steps in between.
+    /// Number of transitions minus the number of steps, but at least zero. The value grows if transitions occur without steps between them.
     transitions: usize,
 }
 
@@ -76,7 +78,7 @@ impl SliderFriction {
         }
     }
 
-    /// Friction of the contact in a step; `None` before the first step, and in steps in which friction does not act.
+    /// Friction of the contact in a step; `None` before the first step, and in steps that are too short for friction.
     pub(super) fn in_step(&self, window: std::ops::Range<usize>) -> Option<Friction<'_>> {
         let master_velocities = self.master_velocities.get(window).filter(|_| self.acts())?;
         Some(Friction {
@@ -98,7 +100,7 @@ impl SliderFriction {
         self.transitions < MOST_TRANSITIONS
     }
 
-    /// State as a number: the sign of the slip, or zero.
+    /// State of the friction as a number: the sign of the slip, or zero.
     fn mode_number(&self) -> f64 {
         match self.mode {
             FrictionMode::Slip(sign) => sign,
@@ -112,7 +114,7 @@ impl SliderFriction {
         self.transitions = 0;
     }
 
-    /// Numeric state: mode and mean force.
+    /// Numeric state of the friction: its state and its mean force.
     pub(super) fn numbers(&self) -> [f64; 2] {
         [self.mode_number(), self.force]
     }
@@ -129,7 +131,7 @@ impl SliderFriction {
 }
 
 impl SliderContact {
-    /// Mean friction force on the master in the last step, positive towards its end [force]; `None` for a slider without friction.
+    /// Mean friction force on the master in the last step, positive towards the end of the master [force]; `None` without friction.
     pub fn friction_force(&self) -> Option<f64> {
         let friction = self.friction.as_deref()?;
         Some(if self.is_sliding() { friction.force } else { 0.0 })
@@ -168,7 +170,7 @@ impl SliderContact {
         }
     }
 
-    /// Adds the work of the contact in an accepted step to the lost energy. The bodies must not be moved yet.
+    /// Adds the work of the contact in an accepted step to the lost energy. The caller must not move the bodies before this call.
     pub(super) fn dissipate(&mut self, increment: f64) {
         if self.friction_in_step().is_none() {
             return;
@@ -185,14 +187,14 @@ impl SliderContact {
         }
     }
 
-    /// Transition of the slider at the end of an attempted step with the given unknowns of all contacts.
+    /// Friction transition of the slider at the end of an attempted step with the given unknowns of all contacts.
     pub fn friction_transition(&self, unknowns: &[f64]) -> Option<FrictionTransition> {
         let friction = self.friction_in_step()?;
         let increment = self.read(unknowns).increment;
         let FrictionForces { along, across, end_velocity, .. } = friction.forces;
         match friction.mode {
             FrictionMode::Slip(sign) => {
-                // A slip against its sign would gain energy.
+                // A sliding increment opposite to the slip would gain energy.
                 let is_against = sign * increment < 0.0;
                 let reversed = -sign * end_velocity;
                 let ends = friction.cuts_steps() && reversed > self.negligible_slip(friction);
@@ -206,8 +208,8 @@ impl SliderContact {
         }
     }
 
-    /// Velocity along the master at the end of the attempted step, positive against the slip [length/time]; `None` if it counts as zero. It is
-    /// positive for an increment against the slip, because such a step would gain energy.
+    /// Velocity along the master at the end of the attempted step, positive if it is opposite to the slip [length/time]; `None` if it counts as zero.
+    /// The value is positive for an increment opposite to the slip, because such a step would gain energy.
     pub fn missed_slip_end(&self, unknowns: &[f64]) -> Option<f64> {
         let friction = self.friction_in_step()?;
         let FrictionMode::Slip(sign) = friction.mode else { return None };
@@ -241,28 +243,29 @@ impl SliderContact {
         self.active_friction().is_some_and(|friction| friction.mode == FrictionMode::Stick)
     }
 
-    /// Ratio `T/N` of the contact forces along and across the master of a slider that slips, for a force across it of the given sign [-]; zero
-    /// without friction.
+    /// Ratio `T/N` of the contact forces along and across the master for a slider that slips [-]; zero without friction.
+    /// The argument is the sign of the force across the master.
     pub fn slip_ratio(&self, sign: f64) -> f64 {
         let friction = self.active_friction();
         friction.map_or(0.0, |friction| sign * friction.mode_number() * friction.coefficient)
     }
 
-    /// Lets the slider stick to its master from now on.
+    /// Starts the sticking of the slider to its master.
     pub fn stick(&mut self) {
         if let Some(friction) = &mut self.friction {
             friction.change_mode(FrictionMode::Stick);
         }
     }
 
-    /// Lets the slider slip in the direction of the force along the master in the last attempted step.
+    /// Starts the slip of the slider in the direction of the force along the master in the last attempted step.
     pub fn slip(&mut self) {
         if let Some(friction) = &mut self.friction {
             friction.change_mode(FrictionMode::Slip(friction.forces.along.signum()));
         }
     }
 
-    /// Lets a slider that sticks slip if a force along the master exceeds the friction limit of a force across it [force]. Returns true if it does.
+    /// Starts the slip of a sticking slider if the given force along the master exceeds the friction limit for the force across it [force].
+    /// Returns true if the slider starts to slip.
     pub fn slip_if_overloaded(&mut self, along: f64, across: f64) -> bool {
         if !self.sticks() {
             return false;
@@ -280,7 +283,7 @@ impl SliderContact {
         self.friction.iter_mut().for_each(|friction| friction.force = force);
     }
 
-    /// Chooses slip or stick by the velocity along the master: slip above a negligible velocity [length/time].
+    /// Selects slip or stick by the velocity along the master. The slider slips if the velocity is not negligible [length/time].
     pub fn choose_friction_mode(&mut self, bodies: &[Body], rates: &[f64], negligible: f64) {
         if self.active_friction().is_none() {
             return;

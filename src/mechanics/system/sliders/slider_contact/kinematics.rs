@@ -6,7 +6,7 @@ use crate::system::bodies::Body;
 use crate::system::sliders::{Connection, KinkedAxis, MasterEnd, SliderState};
 
 impl SliderContact {
-    /// Control points of the master with their basis functions at the slider.
+    /// Control points of the master and their basis functions at the slider.
     fn weights(&self) -> impl Iterator<Item = (usize, f64)> + '_ {
         (self.start_path.first()..).zip(self.start_path.end().iter().copied())
     }
@@ -22,7 +22,7 @@ impl SliderContact {
         slope_of(self.start_path.change(), self.window(bodies)) * 2.0
     }
 
-    /// Control points of the master, beginning with that of the first basis function that is nonzero at the slider.
+    /// Control points of the master, starting with the first control point whose basis function is nonzero at the slider.
     fn window<'a>(&self, bodies: &'a [Body]) -> &'a [Vec2] {
         &bodies[self.connection.master].dynamics.control_points()[self.start_path.first()..]
     }
@@ -32,14 +32,14 @@ impl SliderContact {
         self.tangent(bodies).normalize()
     }
 
-    /// Unit direction of the slider along its master at an end, including the kink [-].
+    /// Direction in which the slider moves along its master at an end, including the kink [-].
     pub fn along_contact(&self, bodies: &[Body]) -> Vec2 {
         let kink = self.kinked_axis.as_ref().filter(|_| self.is_sliding());
         let slope = kink.map_or(Vec2::zeros(), |axis| axis.slopes().0);
         (self.tangent(bodies) + slope).normalize()
     }
 
-    /// Directions of the motion of a slider at an end of its kinked axis, with and without the kink [-]; `None` without a kink.
+    /// Directions of motion of a slider at an end of its kinked axis, with and without the kink [-]; `None` without a kink.
     pub fn off_kink(&self, bodies: &[Body], rates: &[f64], end: MasterEnd) -> Option<[Vec2; 2]> {
         let axis =
             self.kinked_axis.as_ref().filter(|axis| self.is_sliding() && !axis.is_compliant())?;
@@ -54,13 +54,13 @@ impl SliderContact {
         self.is_sliding() && self.kinked_axis.is_some()
     }
 
-    /// Returns true if the slider slides slowly enough for its kink to begin with a load.
+    /// Returns true if the slider is slow enough for its kink to begin with a load.
     pub fn is_slow(&self, bodies: &[Body], rates: &[f64]) -> bool {
         let rate = self.rate(bodies, rates);
         self.kinked_axis.as_ref().is_some_and(|axis| axis.is_slow(axis.speed_of(rate)))
     }
 
-    /// Returns true if the slider slides slowly enough for a loaded kink at an end of a master whose kink has no load.
+    /// Returns true if the slider is slow enough for a loaded kink at an end, although the kink of the master has no load.
     pub fn is_straight_at_end(&self, bodies: &[Body], rates: &[f64]) -> bool {
         let axis = self.kinked_axis.as_ref().filter(|_| self.is_sliding());
         axis.is_some_and(|axis| {
@@ -76,7 +76,7 @@ impl SliderContact {
         self.kinked_axis.iter_mut().for_each(|axis| axis.load(force, tangent));
     }
 
-    /// Sets the speed of the kink to that of the slider.
+    /// Sets the speed of the kink to the speed of the slider.
     pub fn start_kink_speed(&mut self, bodies: &[Body], rates: &[f64]) {
         let rate = self.rate(bodies, rates);
         self.kinked_axis.iter_mut().for_each(|axis| axis.start_speed(rate));
@@ -92,7 +92,7 @@ impl SliderContact {
         perpendicular(self.along(bodies))
     }
 
-    /// Adds `Gᵀ P` for an impulse or force `P` of the contact to `out`: `P` on the slave, and `-P` on the master.
+    /// Adds `Gᵀ P` for an impulse or force `P` of the contact to `out`. The slave receives `P`, and the master `-P`.
     pub fn transmit(&self, bodies: &[Body], impulse: Vec2, out: &mut [f64]) {
         let on_master = self.start_path.end().iter().map(|weight| impulse * -*weight);
         self.connection.add_forces(bodies, impulse, self.start_path.first(), on_master, out);
@@ -149,8 +149,8 @@ impl SliderContact {
         }
     }
 
-    /// Rate `dξ/dt` on a kinked axis, from the time derivative of `r·x' + ½ |r|² g'/g = 0`, where `r = g p/GA` is the offset of the slave from the
-    /// smooth axis.
+    /// Rate `dξ/dt` on a kinked axis. It follows from the time derivative of `r·x' + ½ |r|² g'/g = 0`.
+    /// The offset of the slave from the smooth axis is `r = g p/GA`.
     fn rate_on_kinked_axis(&self, axis: &KinkedAxis, bodies: &[Body], rates: &[f64]) -> f64 {
         let (offset, (slope, bend)) = (axis.offset(), axis.slopes());
         let (points, master) = (self.window(bodies), &bodies[self.connection.master]);
@@ -164,8 +164,8 @@ impl SliderContact {
     }
 }
 
-/// `Σ B_i' x_i`
+/// Sum `Σ B_i' x_i` over the control points of the master.
 fn slope_of(slopes: &[f64], points: &[Vec2]) -> Vec2 {
-    // The slopes sum to zero, so another origin changes nothing but rounding, which is smallest for a near origin.
+    // The derivatives `B_i'` sum to zero, so the origin affects rounding only. The rounding error is smallest for a near origin.
     slopes.iter().zip(points).map(|(slope, point)| (point - points[0]) * *slope).sum()
 }

@@ -1,13 +1,14 @@
-//! Kinds of contact iterates: in a time step, or between two equilibria.
+//! Types of contact iterates: in a time step, or between two equilibria.
 
 use super::SliderContact;
 use crate::geometry::Vec2;
 use crate::joints::{CONTACT_UNKNOWNS, Contact, Equation, Unit};
 use crate::system::bodies::Body;
 
-/// Kind of a contact iterate: [`InStep`] or [`AtRest`].
+/// Type of a contact iterate: [`InStep`] or [`AtRest`].
 pub trait Passing {
-    /// Contact of a slider in an iterate with its equations, from the increments of all degrees of freedom and the unknowns of all contacts.
+    /// Contact of a slider in an iterate, with its equations.
+    /// The iterate is given by the increments of all degrees of freedom and the unknowns of all contacts.
     fn iterate<'s>(
         slider: &'s mut SliderContact,
         bodies: &[Body],
@@ -15,7 +16,7 @@ pub trait Passing {
         unknowns: &[f64],
     ) -> (Contact<'s>, [Equation; CONTACT_UNKNOWNS]);
 
-    /// Contact with the values and units of its equations only.
+    /// Contact with the values and units of its equations, but without derivatives.
     fn iterate_values<'s>(
         slider: &'s mut SliderContact,
         bodies: &[Body],
@@ -26,13 +27,13 @@ pub trait Passing {
         (contact, equations.map(|equation| (equation.value, equation.unit)))
     }
 
-    /// Contact forces on the control points of the master in the window of the path [force].
+    /// Contact forces on the control points of the master whose basis functions are nonzero on the path [force].
     fn forces<'c>(contact: &'c Contact<'_>) -> impl Iterator<Item = Vec2> + 'c;
 
-    /// Derivatives of the contact forces on the master: factors with respect to `λ` and `η`, and a force with respect to `Δξ`.
+    /// Derivatives of the contact forces on the master: factors for `λ` and `η`, and a force for `Δξ`.
     fn slopes<'c>(contact: &'c Contact<'_>) -> impl Iterator<Item = (f64, f64, Vec2)> + 'c;
 
-    /// Chord of the path, relative to the path along the axis as drawn [-].
+    /// Chord of the path, as a fraction of the length of the path along the axis as drawn [-].
     fn chord(contact: &Contact<'_>) -> f64;
 }
 

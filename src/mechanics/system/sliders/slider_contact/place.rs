@@ -7,7 +7,7 @@ use crate::system::sliders::master_curve::END_TOLERANCE;
 use crate::system::sliders::{MasterEnd, SliderState, TrackPath};
 
 impl SliderContact {
-    /// Distance of the slider from an end of its master, relative to the parameter range [-].
+    /// Distance of the slider from an end of its master, as a fraction of the parameter range [-].
     pub fn distance_to(&self, end: MasterEnd) -> f64 {
         self.master.distance(self.parameter, end)
     }
@@ -16,20 +16,20 @@ impl SliderContact {
         self.distance_to(end) <= END_TOLERANCE
     }
 
-    /// Position along the master or track as drawn, from 0 at the start to 1 at the end; unwrapped on closed tracks [-].
+    /// Position along the master or track as drawn, from 0 at the start to 1 at the end [-]. On closed tracks, completed rounds are added.
     pub fn position(&self) -> f64 {
         let part = self.part_of_master();
         self.track.as_ref().map_or(part, |route| route.arc_length(part) / route.length())
     }
 
-    /// Distance from the start of the master or track as drawn; unwrapped on closed tracks [length].
+    /// Distance from the start of the master or track as drawn [length]. On closed tracks, completed rounds are added.
     pub fn arc_length(&self) -> f64 {
         let part = self.part_of_master();
         self.track.as_ref().map_or(part * self.master.length(), |route| route.arc_length(part))
     }
 
     fn part_of_master(&self) -> f64 {
-        // After an arrival, the position differs from the end by a few units in the last place.
+        // After an arrival, rounding errors separate the position from the end.
         if self.is_at(MasterEnd::Start) {
             return 0.0;
         }
@@ -58,7 +58,7 @@ impl SliderContact {
         Some(on_track.name())
     }
 
-    /// Direction of the track along the master; `None` without a track.
+    /// Direction of the track along the present master; `None` without a track.
     fn heading(&self) -> Option<TrackDirection> {
         self.track.as_deref().map(TrackPath::present).map(|leg| leg.heading)
     }

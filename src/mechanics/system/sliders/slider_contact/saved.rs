@@ -1,4 +1,4 @@
-//! Numeric state of a slider.
+//! State of a slider as a list of numbers.
 
 use super::SliderContact;
 use crate::geometry::Vec2;
@@ -6,10 +6,10 @@ use crate::joints::{CONTACT_UNKNOWNS, ContactUnknowns};
 use crate::system::sliders::{KinkedAxis, SliderState};
 use crate::system::step_mean::StepMean;
 
-/// Number of values of the path of a slider on a track.
+/// Number of values that the path of a slider on a track contributes to the state.
 const ROUTE: usize = 3;
 
-/// Number of values of the friction of a slider.
+/// Number of values that the friction of a slider contributes to the state.
 const FRICTION: usize = 2;
 
 impl SliderContact {

@@ -23,12 +23,13 @@ impl SliderContact {
         self.track.as_ref().map_or(own, |route| route.bases().map(of).fold(own, usize::max))
     }
 
-    /// Seam at an end of the present master; `None` unless the slider is on a track that continues there.
+    /// Seam at an end of the present master; `None` if the slider is not on a track, or if the track does not continue at this end.
     pub fn seam(&self, bodies: &[Body], end: MasterEnd) -> Option<Seam> {
         self.track.as_ref()?.seam(bodies, end)
     }
 
-    /// Returns true if the slider passed or left a seam at a time. A slider that is led back at once cannot leave again at that time.
+    /// Returns true if the slider passed or left a seam at the given time.
+    /// A slider that returns to the seam at once cannot leave it again at that time.
     pub fn crossed_seam_at(&self, time: f64) -> bool {
         self.stop_left_at == time
             || self.track.as_ref().is_some_and(|route| route.crossed_at == time)
@@ -40,7 +41,7 @@ impl SliderContact {
         !self.ends.has_stop() && self.track.as_ref().is_some_and(|route| route.is_torn(bodies, end))
     }
 
-    /// Directions in which the slider leaves one side of a seam and enters the other [-].
+    /// Directions in which the slider leaves one side of a seam and enters the other side [-].
     pub fn corner(&self, bodies: &[Body], end: MasterEnd, seam: Seam) -> Option<[Vec2; 2]> {
         let leg = self.track.as_ref()?.segment(seam.segment);
         let inward = -seam.end.outward();
@@ -57,7 +58,7 @@ impl SliderContact {
         self.track.as_ref().map(|route| route.segment(seam.segment).beam)
     }
 
-    /// Moves the slider from its end of the beam to the other side of a seam.
+    /// Moves the slider from an end of its beam to the other side of the seam.
     pub fn cross_seam(&mut self, seam: Seam) {
         let Some(route) = &mut self.track else { return };
         route.cross_seam(seam);
@@ -79,27 +80,27 @@ impl SliderContact {
         (self.path, self.start_path) = (leg.path.clone(), leg.path.clone());
     }
 
-    /// Force by which a seam keeps the slider from the beam on the other side, times the length of the tangent there, after given increments
-    /// [force·length]; zero unless the slider is held at a seam.
+    /// Force by which a seam prevents the slider from moving to the other side, after given increments [force·length].
+    /// The force is multiplied by the length of the tangent on the other side. It is zero unless the slider is held at a seam.
     pub(super) fn seam_push(&self, bodies: &[Body], increments: &[f64], force: Vec2) -> f64 {
         let SliderState::Held(end) = self.state else { return 0.0 };
         let Some(route) = &self.track else { return 0.0 };
         route.seam(bodies, end).map_or(0.0, |seam| {
             let leg = route.segment(seam.segment);
             let tangent = leg.end_tangent(bodies, increments, seam.end);
-            // Scaled to the length per unit of parameter on the present side, for comparison.
+            // The force is scaled to the length per unit of parameter on the present side, so that both sides can be compared.
             let scale = self.length / leg.length_of_parameter();
             force.dot(&tangent) * seam.end.outward() * scale
         })
     }
 
-    /// Returns true if the seam force is tensile on the other side, and more tensile than on the present side. The pushes are compressive forces
-    /// times lengths of tangents [force·length]; `force` is the contact force [force].
+    /// Returns true if the seam force is tensile on the other side, and more tensile than on the present side.
+    /// The arguments for the two sides are compressive forces times lengths of tangents [force·length]. The contact force is `force` [force].
     pub(super) fn is_pulled_across(&self, [push, push_beyond]: [f64; 2], force: f64) -> bool {
         push_beyond < push && is_tensile(push_beyond, force, self.length)
     }
 
-    /// Moves a slider that is held at a seam to the other side if the contact force pulls it there.
+    /// Moves a slider that is held at a seam to the other side, if the contact force pulls the slider to that side.
     pub fn change_sides(&mut self, bodies: &[Body]) {
         let SliderState::Held(end) = self.state else { return };
         if !std::mem::take(&mut self.crosses_seam) {

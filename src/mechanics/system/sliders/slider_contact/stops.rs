@@ -1,4 +1,4 @@
-//! Slider at the stops of its master: impacts, stored energy, holding and leaving.
+//! Slider at the stops of its master: impacts, stored energy, holding and release.
 
 use super::{SliderContact, is_tensile};
 use crate::integrators::IntervalEnd;
@@ -10,8 +10,8 @@ impl SliderContact {
         self.state = SliderState::Held(end);
     }
 
-    /// Subtracts the work of an impact on the bodies from the energy stored in the stop. If restitution is below one, the loss is added to the lost
-    /// energy instead.
+    /// Subtracts the work of an impact on the bodies from the energy stored in the stop.
+    /// If the coefficient of restitution is below one, the work is subtracted from the lost energy instead, which increases it.
     pub fn book_impact_work(&mut self, work: f64) {
         match self.restitution < 1.0 {
             true => self.lost_energy -= work,
@@ -29,7 +29,7 @@ impl SliderContact {
         self.kinked_axis.iter_mut().for_each(|axis| axis.remove_stop_force(tangent));
     }
 
-    /// Records a tensile stop force at the end of a step. Substeps record none.
+    /// Records a tensile stop force at the end of a step. No force is recorded at the end of a substep.
     pub fn record_tension(&mut self, ending: IntervalEnd) {
         let leans = matches!(self.state, SliderState::Held(_)) && !self.stop_may_pull;
         let is_drawn_off = self.is_pulled_across([self.push, self.push_beyond], self.contact_force);
@@ -45,12 +45,13 @@ impl SliderContact {
 
     /// Duration of an impact at the end of the master [time].
     ///
-    /// An impact on a beam lasts at least until its wave returns, after twice the length over `c` (Saint-Venant 1883). For a light slave it lasts
-    /// until the slave stops, after about `m/(c ρA)`. Between rigid bodies there are no waves to resolve, and the duration is infinite.
+    /// An impact on a beam lasts at least until the wave of the impact returns, after twice the length divided by `c` (Saint-Venant 1883).
+    /// With a light slave, the impact lasts until the slave stops, after about `m/(c ρA)`.
+    /// Between rigid bodies there are no waves, and the impact duration is infinite.
     pub fn impact_duration(&self, bodies: &[Body], blow: AxialImpact) -> f64 {
         let (master, slave) = &self.bars;
         let on_master = blow.master.is_some().then(|| {
-            // The mass of a striking beam that is accelerated immediately is limited by its waves.
+            // The waves in a striking beam limit the mass that is accelerated immediately.
             master.wave_travel_time(1.0, blow.slave.filter(|_| slave.is_none()))
         });
         let on_slave = slave.filter(|_| blow.slave.is_some()).map(|slave| {
