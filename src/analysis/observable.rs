@@ -35,12 +35,9 @@ pub const SYMBOLS: [(&str, &str); 6] = [
     ("Lz", "angular_momentum"),
 ];
 
-/// Columns of a history that describe the computation instead of the motion.
-const OF_THE_COMPUTATION: [&str; 5] = ["t", "gap", "dt", "newton_iterations", "retries"];
-
 /// Returns true if a column of the history describes the motion.
 pub fn is_of_the_motion(column: &str) -> bool {
-    !OF_THE_COMPUTATION.contains(&column)
+    History::COLUMNS.iter().all(|own| own.name != column || own.is_of_motion)
 }
 
 impl Observable {

@@ -10,22 +10,19 @@ use withy::geometry::Vec2;
 use withy::integrators::{INTEGRATORS, Method};
 use withy::joints::{JointKind, Partner, SlidingRule};
 use withy::simulation::{NoMonitor, Simulation};
-use withy::system::{Scene, SystemError};
+use withy::system::{Scene, SystemError, Timing};
 
 fn smooth(spans: usize) -> Mesh {
     Mesh::bspline(spans, 3, 2).unwrap()
 }
 
-/// Records everything that is ready, but for means of steps, of which the sums are a part of the state and which not all methods have.
+/// Records everything that is ready, but for means of steps, of which the sums are a part of the state and which not all methods have, and but for
+/// the angles of sections that are not followed yet.
 fn with_all_sensors(mut scene: Scene) -> Scene {
     let names = scene.sensor_names();
-    let of_joints = scene.joint_names();
-    let is_mean = |name: &str| {
-        let (object, quantity) = name.rsplit_once('.').unwrap();
-        of_joints.iter().any(|joint| joint == object) && !quantity.starts_with("present_")
-    };
-    let names = names.iter().filter(|name| !is_mean(name));
+    let names = names.iter().filter(|name| !name.ends_with(".middle.angle"));
     names.for_each(|name| scene.record(name).unwrap());
+    scene.sensors.retain(|sensor| sensor.quantity.timing != Timing::SummedMean);
     if let Some(beam) = scene.beams.first() {
         let (name, length) = (beam.name.clone(), beam.axis.length());
         scene.record(&format!("{name}[{}].M", 0.37 * length)).unwrap();
@@ -251,12 +248,142 @@ fn a_bead_accelerates_as_its_contact_force_says() {
     assert!(orders(&errors).iter().all(|order| *order > 1.2), "{errors:?}");
 }
 
+/// Records the quantities with this name of all objects and returns their sensors.
+fn recorded(scene: &mut Scene, quantity: &str) -> Vec<String> {
+    let names = scene.sensor_names().into_iter();
+    let names: Vec<String> = names.filter(|name| name.ends_with(quantity)).collect();
+    names.iter().for_each(|name| scene.record(name).unwrap());
+    names
+}
+
+#[test]
+fn powers_add_up_to_the_works_of_drives_and_loads() {
+    for entry in INTEGRATORS {
+        let mut scene = scenes::driven(&smooth(5));
+        let names = recorded(&mut scene, ".power");
+        assert_eq!(names, ["move1.power", "push.power"]);
+        let simulation = simulate(scene, entry.method, 0.02, 0.6);
+        let history = simulation.history();
+        assert_eq!(history.dimension("move1.power"), Some("energy/time"));
+        let dt = history.column("dt").unwrap();
+        for name in names {
+            let power = history.column(&name).unwrap();
+            let work = format!("work.{}", name.strip_suffix(".power").unwrap());
+            let work = history.column(&work).unwrap();
+            let largest = work.iter().fold(0.0_f64, |largest, work| largest.max(work.abs()));
+            assert!(largest > 1e-3, "{}, {name}", entry.name);
+            let mut sum = 0.0;
+            for row in 1..work.len() {
+                sum += power[row] * dt[row];
+                let off = (sum - work[row]).abs();
+                assert!(off < 1e-13 * largest, "{}, {name}, row {row}: {off:.1e}", entry.name);
+            }
+        }
+    }
+}
+
+/// Sum over the prescribed components: the mean force times the mean velocity, the mean moment times the mean spin.
+#[test]
+fn the_power_of_a_drive_is_force_times_velocity_and_moment_times_spin() {
+    let mut scene = scenes::driven(&smooth(5));
+    recorded(&mut scene, "move1.power");
+    let sensors = ["beam1.start.vx", "beam1.start.vy", "beam1.start.spin"];
+    sensors.iter().for_each(|name| scene.record(name).unwrap());
+    let simulation = simulate(scene, Method::default(), 1e-4, 0.02);
+    let column = |name: &str| simulation.history().column(name).unwrap();
+    let forces = ["move1.x", "move1.y", "move1.angle"].map(column);
+    let rates = sensors.map(column);
+    let power = column("move1.power");
+    let largest = power.iter().fold(0.0_f64, |largest, power| largest.max(power.abs()));
+    for row in 0..power.len() {
+        let before = row.saturating_sub(1);
+        let of_component = forces.iter().zip(&rates);
+        let told = of_component.map(|(force, rate)| force[row] * 0.5 * (rate[before] + rate[row]));
+        let off = (power[row] - told.sum::<f64>()).abs();
+        assert!(off < 1e-6 * largest, "row {row}: {off:.1e} of {largest:.1e}");
+    }
+}
+
+#[test]
+fn magnitude_and_angle_of_a_joint_force_are_those_of_its_components() {
+    let mut scene = scenes::curved_pendulum(&smooth(4));
+    let quantities = ["force", "force_angle", "fx", "fy"];
+    quantities.iter().for_each(|name| scene.record(&format!("hinge1.{name}")).unwrap());
+    let simulation = simulate(scene, Method::default(), 0.02, 2.0);
+    let column = |name: &str| simulation.history().column(&format!("hinge1.{name}")).unwrap();
+    let [force, angle, fx, fy] = quantities.map(column);
+    assert_eq!(simulation.history().dimension("hinge1.force_angle"), Some("rad"));
+    for row in 0..force.len() {
+        let found = at(angle[row].cos(), angle[row].sin()) * force[row];
+        let off = (found - at(fx[row], fy[row])).norm();
+        assert!(off <= 4.0 * f64::EPSILON * force[row] && force[row] > 0.0, "{row}: {off:.1e}");
+    }
+}
+
+#[test]
+fn the_arc_length_of_a_slider_is_its_position_times_the_length() {
+    for mut scene in sliding_scenes::all(&smooth(5), SlidingRule::Conserving) {
+        let names = recorded(&mut scene, ".arc_length");
+        assert_eq!(names.len(), scene.sliders.len());
+        let guide = |slider: &withy::joints::Slider| match slider.track {
+            Some(track) => scene.track_length(track),
+            None => scene.beams[slider.master].axis.length(),
+        };
+        let lengths: Vec<f64> = scene.sliders.iter().map(guide).collect();
+        let simulation = simulate(scene, Method::default(), 0.02, 0.2);
+        for (name, length) in names.iter().zip(lengths) {
+            let along = simulation.history().column(name).unwrap();
+            let position = name.replace("arc_length", "position");
+            let position = simulation.history().column(&position).unwrap();
+            for (along, position) in along.iter().zip(position) {
+                assert!((along - position * length).abs() < 1e-13 * length, "{name}");
+            }
+        }
+    }
+}
+
+#[test]
+fn every_station_of_a_beam_has_the_same_quantities() {
+    let scene = scenes::curved_pendulum(&smooth(4));
+    let names = scene.sensor_names();
+    let of_place = |place: &str| -> Vec<String> {
+        let prefix = format!("beam1.{place}.");
+        names.iter().filter_map(|name| name.strip_prefix(&prefix)).map(str::to_owned).collect()
+    };
+    assert_eq!(of_place("middle"), of_place("start"));
+    assert_eq!(of_place("middle"), of_place("end"));
+    assert_eq!(of_place("middle").len(), 15);
+    let mut watched = scene;
+    let middle = format!("[{}]", 0.5 * watched.beams[0].axis.length());
+    for quantity in of_place("middle") {
+        watched.record(&format!("beam1.middle.{quantity}")).unwrap();
+        watched.record(&format!("beam1{middle}.{quantity}")).unwrap();
+    }
+    let simulation = simulate(watched, Method::default(), 0.02, 0.2);
+    for quantity in of_place("middle") {
+        let [one, other] = [".middle".to_owned(), middle.clone()]
+            .map(|place| simulation.history().column(&format!("beam1{place}.{quantity}")).unwrap());
+        assert_eq!(one, other, "{quantity}");
+        assert!(one.iter().all(|value| value.is_finite()), "{quantity}");
+    }
+}
+
 #[test]
 fn sensors_are_stored_by_their_names_and_go_back_with_the_run() {
+    let mut bead = sliding_scenes::bead_on_an_arc(&smooth(4), SlidingRule::Conserving);
+    recorded(&mut bead, ".arc_length");
+    let mut driven = scenes::driven(&smooth(4));
+    recorded(&mut driven, ".power");
+    recorded(&mut driven, ".force_angle");
     let mut scene = scenes::curved_pendulum(&smooth(4));
     for name in ["beam1.end.x", "beam1[1].M", "beam1.energy", "hinge1.present_force", "hinge1.fx"] {
         scene.record(name).unwrap();
     }
+    [bead, driven, scene].into_iter().for_each(goes_back_and_on);
+}
+
+/// Stores a run, goes back, forks it, and compares all columns.
+fn goes_back_and_on(scene: Scene) {
     let mut simulation = Simulation::start(scene, settings(Method::default(), 0.02)).unwrap();
     simulation.enable_snapshots(1 << 24);
     run(&mut simulation, 0.4).unwrap();
@@ -286,6 +413,7 @@ fn a_quantity_that_there_is_not_is_refused_with_what_there_is() {
         ("beam1[99].x", &format!("s from 0 to {length}")[..]),
         ("hinge1.x", "one of force, fx, fy, moment"),
         ("hinge2.fx", "begin with the name of a beam"),
+        ("beam1.middle.z", "one of x, y, vx"),
     ] {
         let error = scene.record(name).unwrap_err();
         assert!(matches!(error, SystemError::NoSensor { .. }), "{error}");

@@ -47,12 +47,11 @@ pub enum LoadKind {
 }
 
 impl LoadKind {
-    /// Name, dimension and magnitude of the load at a schedule factor of 1, for columns.
-    pub fn measure(&self) -> (&'static str, &'static str, f64) {
+    /// Magnitude of the load at a schedule factor of 1 [force, force·length, force/length].
+    pub fn magnitude(&self) -> f64 {
         match self {
-            Self::Force { force, .. } => ("force", "force", force.norm()),
-            Self::Moment { moment, .. } => ("torque", "force·length", *moment),
-            Self::Line { force, .. } => ("force", "force/length", force.norm()),
+            Self::Force { force, .. } | Self::Line { force, .. } => force.norm(),
+            Self::Moment { moment, .. } => *moment,
         }
     }
 }

@@ -2,11 +2,11 @@
 
 use std::collections::HashSet;
 
-use super::columns::{ExtraColumn, FIXED, extra_columns, extra_values};
+use super::columns::{ExtraColumn, FIXED};
 use super::progress::StepTaken;
 use super::{DriftScales, History, Recording, Sample, Trajectory};
 use crate::geometry::Vec2;
-use crate::system::{Scene, SensorReader, System, SystemError};
+use crate::system::{Scene, Sensor, SensorReader, System, SystemError};
 
 /// Recorded results of a run, and the rule that selects the recorded states.
 #[derive(Debug, Clone)]
@@ -16,6 +16,8 @@ pub(super) struct RunRecord {
     pub(super) recording: Recording,
     /// Number of permanent rows of the history. An additional temporary row may describe the present state.
     pub(super) permanent_rows: usize,
+    /// Sensors of the columns after the standard ones.
+    pub(super) sensors: Vec<Sensor>,
     reader: SensorReader,
 }
 
@@ -25,7 +27,12 @@ impl RunRecord {
     /// # Errors
     /// Fails if a sensor cannot be located, or two columns share a name.
     pub(super) fn new(scene: &Scene, model: &mut System) -> Result<Self, SystemError> {
-        let columns = extra_columns(scene);
+        let sensors = scene.history_sensors();
+        let columns = sensors.iter().map(|sensor| ExtraColumn {
+            name: sensor.name.clone(),
+            dimension: sensor.quantity.dimension,
+        });
+        let columns: Vec<ExtraColumn> = columns.collect();
         check_names(&columns)?;
         let points = model.control_points().map(<[Vec2]>::len).sum::<usize>();
         let mut record = Self {
@@ -33,11 +40,10 @@ impl RunRecord {
             trajectory: Trajectory::new(2 * points),
             recording: Recording::default(),
             permanent_rows: 0,
-            reader: SensorReader::of(scene, model)?,
+            reader: SensorReader::of(&sensors, scene, model)?,
+            sensors,
         };
-        if record.reader.need_mean_forces() {
-            model.sum_up_impulses();
-        }
+        model.sum_up_for(&record.sensors);
         model.start_means();
         record.store_row(model, StepTaken::default());
         Ok(record)
@@ -52,7 +58,7 @@ impl RunRecord {
         scene: &Scene,
         model: &System,
     ) -> Result<(), SystemError> {
-        self.reader = SensorReader::of(scene, model)?;
+        self.reader = SensorReader::of(&self.sensors, scene, model)?;
         Ok(())
     }
 
@@ -80,8 +86,7 @@ impl RunRecord {
         let StepTaken { dt, newton_iterations, retries, returned } = last_step;
         let measures = model.measure();
         let sample = Sample { measures, dt, newton_iterations, retries, returned };
-        let sensed = self.reader.read(model);
-        self.history.push(sample, extra_values(model).chain(sensed.iter().copied()));
+        self.history.push(sample, self.reader.read(model).iter().copied());
         self.trajectory.push(model.time(), coordinates(model));
     }
 

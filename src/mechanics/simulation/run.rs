@@ -153,7 +153,7 @@ impl Simulation {
         let grid = grid.with_beats(beats());
         let step_size = adaptive.as_ref().map(|adaptive| adaptive.controller.start());
         if !settings.method.entry().claims.momentum
-            && let Some(sensor) = scene.sensors.iter().find(|sensor| sensor.is_of_step())
+            && let Some(sensor) = scene.sensors.iter().find(|sensor| sensor.is_mean_of_joint())
         {
             let (sensor, method) = (sensor.name.clone(), settings.method.entry().name);
             return Err(SimulationError::NoMeanForces { sensor, method });

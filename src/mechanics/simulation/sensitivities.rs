@@ -74,7 +74,7 @@ impl Sensitivities {
         if let Some(name) = steered.map(|(name, _)| name.to_owned()) {
             return Err(DerivativeError::Controlled { name }.into());
         }
-        if let Some(sensor) = run.scene().sensors.iter().find(|sensor| sensor.is_of_step()) {
+        if let Some(sensor) = run.scene().sensors.iter().find(|sensor| sensor.is_summed()) {
             return Err(DerivativeError::Mean { sensor: sensor.name.clone() }.into());
         }
         let name = settings.method.entry().name;

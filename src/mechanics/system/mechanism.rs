@@ -17,6 +17,7 @@ mod rigidity;
 mod seam_impact;
 mod state;
 mod static_order;
+mod step_power;
 mod steps;
 mod stiffness;
 mod stop_impact;

@@ -8,6 +8,7 @@ mod links;
 mod mechanism;
 mod queries;
 mod scene;
+mod sensors;
 mod sliders;
 mod state;
 mod step_mean;
@@ -31,8 +32,10 @@ pub use queries::{
     SpringState, SystemFeature, Transmission, Usage,
 };
 pub use scene::{
-    BeamDefinition, ParticleDefinition, Quantity, RigidBodyDefinition, Scene, Sensor, SensorSource,
-    StartMotion, StationVelocity, Value,
+    BeamDefinition, ParticleDefinition, RigidBodyDefinition, Scene, StartMotion, StationVelocity,
+};
+pub use sensors::{
+    Quantity, RECORDABLE, Sensor, SensorSource, Timing, body_energies, section_values,
 };
 pub use sliders::{AxialImpact, MasterEnd, MasterLimit, SliderEvent, SliderState};
 pub use state::{Resolution, UnknownKind};

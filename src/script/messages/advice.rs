@@ -77,7 +77,10 @@ fn simulation_hint(error: &SimulationError) -> Option<String> {
                 "give plain numbers in place of scene.parameter(…) and use central differences, \
                 as fit does".into()
             }
-            DerivativeError::Mean { .. } => "record the present force".into(),
+            DerivativeError::Mean { sensor } => match sensor.strip_suffix(".power") {
+                Some(name) => format!("use the rate of the column work.{name}"),
+                None => "record the present force".into(),
+            },
             DerivativeError::Adaptive => "give dt a number".into(),
             _ => return None,
         },

@@ -30,7 +30,7 @@ pub const TABLE: BindingTable = BindingTable {
         of every drive and every named load, NAME.torque of a motor, and NAME.x, NAME.y and \
         NAME.angle of a drive made by scene.move: its force in x and y and its moment, as \
         means of each step. The product of the moment and the rotation is exactly the work, \
-        for any rotation.",
+        for any rotation. scene.record(\"NAME.power\") adds the mean power of each step.",
     types: &[],
     setup: super::scenes::ROD,
     constants: &[],

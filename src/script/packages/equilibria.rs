@@ -1,12 +1,13 @@
 //! Equilibrium of a scene: solution, results, and start of a simulation from it.
 
-use rhai::{Array, Dynamic, INT, Map};
+use rhai::{Array, Dynamic, INT};
 
 use super::modes::MODES;
 use super::modes::{
     COUNT, ModesHandle, damped_modes, expect_room, undamped_modes as look_for_modes,
 };
 use super::scenes::{SCENE, STATION};
+use super::sensors::{force_and_moment, holds_nothing};
 use super::simulations::SIMULATION;
 use super::simulations::{START, begin, tracked_angle};
 use super::sliding::{SliderHandle, WHICH};
@@ -398,12 +399,6 @@ fn angle(call: &mut Call) -> Result<Dynamic, ScriptError> {
 fn reaction(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let (handle, place) = place(call)?;
     let reaction = handle.equilibrium_mut().reaction(&place);
-    let Some((force, moment)) = reaction else {
-        let station = call.get::<StationHandle>("station")?;
-        return Err(call
-            .error(format!("nothing holds the scene at {}", station.show()))
-            .hint("use a station with scene.clamp(…) or scene.hinge(…) to the ground"));
-    };
-    let map = [("force", Dynamic::from(force)), ("moment", moment.into())];
-    Ok(map.into_iter().map(|(name, value)| (name.into(), value)).collect::<Map>().into())
+    let station = call.get::<StationHandle>("station")?;
+    reaction.map(force_and_moment).ok_or_else(|| holds_nothing(call, &station))
 }

@@ -6,7 +6,6 @@ use super::equilibria::EQUILIBRIUM;
 use super::scenes::{BEAM, JOINT, SCENE, STATION};
 use super::simulations::SIMULATION;
 use super::sliding::{SLIDER, SliderHandle};
-use super::statistics::map;
 use super::vectors::VECTOR;
 use crate::beams::{SectionForces, Station};
 use crate::geometry::{Vec2, is_on_length};
@@ -24,21 +23,23 @@ use crate::script::handles::station::StationHandle;
 use crate::script::messages::error::{CallPart, ScriptError};
 use crate::script::messages::suggest::nearest;
 use crate::simulation::History;
-use crate::system::{Reactions, Scene, SectionSample, SystemError};
+use crate::system::{Reactions, Scene, SectionSample, SystemError, body_energies, section_values};
 
 pub const TABLE: BindingTable = BindingTable {
     name: "sensors",
     doc: "Sensors record quantities: scene.record(\"rod.end.x\") adds a column to the history, \
         which is printed, plotted, saved and evaluated like every other. The name of a \
         built-in sensor consists of an object, a place and a quantity. Places of a beam: \
-        rod.start, rod.end, rod[0.5] (undeformed arc length), with x, y, vx, vy, speed, ax, \
-        ay, angle, spin, N, Q, M, axial_strain, shear_strain, curvature. Particles: x to ay. \
+        rod.start, rod.middle, rod.end, rod[0.5] (undeformed arc length), with x, y, vx, vy, \
+        speed, ax, ay, angle, spin, N, Q, M, axial_strain, shear_strain, curvature. Particles: x to ay. \
         Rigid bodies: x to ay, angle and spin, of the centre of mass and of points: hub.x, \
         hub.pin.y. Whole beams, particles and bodies: energy, kinetic, strain, axial, shear, \
         bending, potential. Joints, numbered by kind in the order of creation (hinge1, hinge2, \
-        clamp1, rigid1): force, fx, fy, moment, on the first station, and present_force, \
-        present_fx, present_fy, present_moment. Sliders: present_force, present_force_x, \
-        present_force_y, on the beam. Scenes without sensors have no extra cost. \
+        clamp1, rigid1): force, fx, fy, moment, force_angle (the direction of the force), on the \
+        first station, and present_force, present_fx, present_fy, present_moment. Sliders: \
+        present_force, present_force_x, present_force_y, on the beam, and arc_length, from the \
+        start of the undeformed beam or track. Drives, motors and named loads: power, the work \
+        of the last step divided by the step size. Scenes without sensors have no extra cost. \
         Forces are means of the last step unless their name begins with present_: contact_force \
         and the columns NAME.force of sliders, springs, drives and loads; joint_force, \
         reaction and the columns force, fx, fy, moment of joints. The mean times the step size \
@@ -241,15 +242,7 @@ pub const TABLE: BindingTable = BindingTable {
             let index = beam.index_in(handle.scene())?;
             known(call, handle.simulation().scene(), index, &beam)?;
             let energy = handle.with_simulation_mut(|simulation| simulation.energy_of(index));
-            Ok(map(&[
-                ("energy", energy.total()),
-                ("kinetic", energy.kinetic),
-                ("strain", energy.strain()),
-                ("axial", energy.axial),
-                ("shear", energy.shear),
-                ("bending", energy.bending),
-                ("potential", energy.potential),
-            ]))
+            Ok(named_numbers(body_energies(&energy)).into())
         })
         .returns(Returns::MAP.unit("energy"))
         .summary("Returns the energy of a beam, including the masses attached to it, by kind.")
@@ -348,7 +341,7 @@ fn mean_reactions(call: &Call, handle: &SimulationHandle) -> Result<Reactions, S
     })
 }
 
-fn holds_nothing(call: &Call, station: &StationHandle) -> ScriptError {
+pub(super) fn holds_nothing(call: &Call, station: &StationHandle) -> ScriptError {
     call.error(format!("nothing holds the scene at {}", station.show()))
         .hint("use a station with scene.clamp(…) or scene.hinge(…) to the ground")
 }
@@ -387,21 +380,17 @@ fn wanted(call: &Call, scene: &Scene, beam: usize) -> Result<Option<Station>, Sc
     Ok(Some(Station::on_beam(beam, station.clamp(0.0, length))))
 }
 
-fn force_and_moment((force, moment): (Vec2, f64)) -> Dynamic {
+pub(super) fn force_and_moment((force, moment): (Vec2, f64)) -> Dynamic {
     let map = [("force", Dynamic::from(force)), ("moment", moment.into())];
     map.into_iter().map(|(name, value)| (name.into(), value)).collect::<Map>().into()
 }
 
 fn section_forces_map(forces: &SectionForces) -> Map {
-    let entries = [
-        ("N", forces.axial),
-        ("Q", forces.shear),
-        ("M", forces.moment),
-        ("axial_strain", forces.axial_strain),
-        ("shear_strain", forces.shear_strain),
-        ("curvature", forces.curvature),
-    ];
-    entries.into_iter().map(|(name, value)| (name.into(), value.into())).collect()
+    named_numbers(section_values(forces))
+}
+
+fn named_numbers(numbers: impl Iterator<Item = (&'static str, f64)>) -> Map {
+    numbers.map(|(name, value)| (name.into(), value.into())).collect()
 }
 
 fn along(samples: &[SectionSample]) -> Dynamic {
@@ -411,4 +400,19 @@ fn along(samples: &[SectionSample]) -> Dynamic {
         Dynamic::from(row)
     };
     samples.iter().map(row).collect::<Array>().into()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::system::RECORDABLE;
+
+    #[test]
+    fn all_quantities_that_can_be_recorded_are_documented() {
+        let words: Vec<&str> = TABLE.doc.split([' ', ',', '.', ':', ';']).collect();
+        for (object, quantities) in RECORDABLE {
+            let missing = quantities.iter().find(|quantity| !words.contains(&quantity.name));
+            assert!(missing.is_none(), "{missing:?} of {object}");
+        }
+    }
 }

@@ -149,6 +149,7 @@ pub const TABLE: BindingTable = BindingTable {
         .returns(Returns::NUMBER.unit("length"))
         .summary("Returns the undeformed arc length from the start of the beam or track to the \
             slider, including all turns of a closed track; its rate is slider_speed.")
+        .doc("As a column: scene.record(\"NAME.arc_length\").")
         .example(
             "check_close(sim.slider_arc_length(ring), 0.5, 1e-12);\n\
              check_close(sim.slider_arc_length(ring) / rod.length, sim.slider_position(ring), 1e-12);",

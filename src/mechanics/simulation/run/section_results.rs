@@ -2,9 +2,7 @@
 
 use super::Simulation;
 use crate::beams::{SectionForces, Station};
-use crate::system::{
-    BeamPlaces, BeamSample, BodyEnergy, Instant, SectionSample, SensorSource, SystemError,
-};
+use crate::system::{BeamPlaces, BeamSample, BodyEnergy, Instant, SectionSample, SystemError};
 
 impl Simulation {
     /// Section forces and strains at a station in the present configuration: see [`System::section_forces`](crate::system::System::section_forces).
@@ -57,14 +55,14 @@ impl Simulation {
     /// Number of columns whose values the caller provides after every row.
     pub fn outside_columns(&self) -> usize {
         let sensors = self.scene.sensors.iter();
-        sensors.filter(|sensor| sensor.probe == SensorSource::External).count()
+        sensors.filter(|sensor| !sensor.can_be_stored()).count()
     }
 
     /// Sets, in the last row of the history, the columns whose values the caller provides.
     pub fn fill_in(&mut self, values: &[f64]) {
         let first = self.record.history.extra_width() - self.scene.sensors.len();
         let sensors = self.scene.sensors.iter().enumerate();
-        let outside = sensors.filter(|(_, sensor)| sensor.probe == SensorSource::External);
+        let outside = sensors.filter(|(_, sensor)| !sensor.can_be_stored());
         for ((column, _), value) in outside.zip(values) {
             self.record.history.fill_in(first + column, *value);
         }

@@ -4,7 +4,6 @@ use super::Simulation;
 use crate::beams::{BodyPoint, Station};
 use crate::geometry::Vec2;
 use crate::joints::Releasable;
-use crate::simulation::columns;
 use crate::simulation::{Arrival, ArrivalKind, Configuration, Outline, ReleaseEvent};
 use crate::system::SystemError;
 use crate::vibration::{Modes, VibrationError};
@@ -20,7 +19,9 @@ impl Simulation {
 
     /// Returns true if a column of the history contains means over the last step, such as contact forces. False if it contains present values.
     pub fn is_step_mean(&self, column: &str) -> bool {
-        columns::is_step_mean(&self.scene, self.settings.method, column)
+        let mut sensors = self.record.sensors.iter();
+        let sensor = sensors.find(|sensor| sensor.name == column);
+        sensor.is_some_and(|sensor| sensor.is_step_mean(self.settings.method))
     }
 
     /// Lowest natural modes about the present configuration, which is treated as an equilibrium with its section forces and constraint forces.

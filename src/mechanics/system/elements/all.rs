@@ -50,6 +50,14 @@ impl Elements {
         self.forces.iter().map(|force| &**force)
     }
 
+    pub fn external_force(&self, at: usize) -> &dyn ExternalForce {
+        &*self.forces[at]
+    }
+
+    pub fn internal_force(&self, at: usize) -> &dyn InternalForce {
+        &*self.resistances[at]
+    }
+
     /// Springs, dampers, material damping and drag, in the order of the scene.
     pub fn resistances(&self) -> impl Iterator<Item = &dyn InternalForce> + Clone {
         self.resistances.iter().map(|resistance| &**resistance)

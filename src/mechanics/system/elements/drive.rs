@@ -44,11 +44,6 @@ impl Drive {
         self.motions[component as usize].is_some()
     }
 
-    /// Flags for x, y and angle, true if the component is prescribed.
-    pub fn prescribed(&self) -> [bool; 3] {
-        Component::ALL.map(|component| self.drives(component))
-    }
-
     /// Prescribed components with their motions.
     pub fn motions(&self) -> impl Iterator<Item = (Component, &PrescribedMotion)> {
         let all = Component::ALL.into_iter().zip(&self.motions);

@@ -87,7 +87,7 @@ impl ElementDef for Load {
             weighted_factors: 0.0,
             current: 0.0,
             account: self.title.as_ref().map(|_| LoadAccount::default()),
-            size: self.kind.measure().2,
+            size: self.kind.magnitude(),
         })))
     }
 }

@@ -35,7 +35,6 @@ pub struct PrescribedMovement {
 
 struct Driven {
     name: String,
-    prescribed: [bool; 3],
     /// Work since the start [energy].
     work: f64,
 }
@@ -73,11 +72,7 @@ impl PresentMotion {
 
 /// Work and reactions of a drive.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct DriveState<'a> {
-    /// Name of the drive.
-    pub name: &'a str,
-    /// Prescribed components x, y and angle.
-    pub prescribed: [bool; 3],
+pub struct DriveState {
     /// Work since the start [energy].
     pub work: f64,
     /// Mean force on the station in the last step [force].
@@ -117,11 +112,7 @@ impl PrescribedMovements {
         unknowns: usize,
         constraints: usize,
     ) -> Result<(Self, Vec<f64>), (String, LoadError)> {
-        let driven = |drive: &Drive| Driven {
-            name: drive.name.clone(),
-            prescribed: drive.prescribed(),
-            work: 0.0,
-        };
+        let driven = |drive: &Drive| Driven { name: drive.name.clone(), work: 0.0 };
         let drives: Vec<Driven> = drives.map(driven).collect();
         let prescribed = PrescribedKinematics::new(constraints, movements.len());
         let present = movements.iter().map(PresentMotion::of).collect();
@@ -201,19 +192,27 @@ impl PrescribedMovements {
         self.largest_rotation
     }
 
-    /// States of the drives, in the order of the scene.
-    pub fn states(&self) -> impl Iterator<Item = DriveState<'_>> {
-        self.drives.iter().enumerate().map(|(index, drive)| {
-            let own = self.movements.iter().zip(&self.present);
-            let own = own.filter(|(movement, _)| movement.drive == index);
-            let (mut force, mut moment) = (Vec2::zeros(), 0.0);
-            for (movement, present) in own {
-                let (by, turning) = movement.support.reaction(present.reaction.value);
-                (force, moment) = (force + by, moment + turning);
-            }
-            let Driven { name, prescribed, work } = drive;
-            DriveState { name, prescribed: *prescribed, work: *work, force, moment }
-        })
+    /// Works of the drives since the start, in the order of the scene [energy].
+    pub fn works(&self) -> impl ExactSizeIterator<Item = f64> {
+        self.drives.iter().map(|drive| drive.work)
+    }
+
+    /// Power of each prescribed movement, as the product of its reaction and its rate, with the index of its drive [energy/time].
+    pub fn powers(&self, rates: &[f64]) -> impl Iterator<Item = (usize, f64)> {
+        let own = self.movements.iter().zip(&self.present).zip(rates.iter().skip(self.first));
+        own.map(|((movement, present), rate)| (movement.drive, present.reaction.value * rate))
+    }
+
+    /// State of a drive of the scene.
+    pub fn state(&self, drive: usize) -> DriveState {
+        let own = self.movements.iter().zip(&self.present);
+        let own = own.filter(|(movement, _)| movement.drive == drive);
+        let (mut force, mut moment) = (Vec2::zeros(), 0.0);
+        for (movement, present) in own {
+            let (by, turning) = movement.support.reaction(present.reaction.value);
+            (force, moment) = (force + by, moment + turning);
+        }
+        DriveState { work: self.drives[drive].work, force, moment }
     }
 
     /// Drives whose motion has a kink within a step, with the largest kink of each drive.

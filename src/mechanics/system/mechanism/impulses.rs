@@ -26,6 +26,9 @@ pub struct ExchangeLedger {
     pub total: WorkAndImpulse,
     /// Impulses of joints and supports; `None` unless requested.
     pub impulses: Option<Box<Impulses>>,
+    /// Power over the last step [energy/time] and work at its end [energy] of each drive, then of each load; `None` unless requested. Before the
+    /// first step, powers of drives are the present ones.
+    pub powers: Option<Vec<[f64; 2]>>,
 }
 
 /// Impulses on all control points, with preallocated buffers.
@@ -73,11 +76,13 @@ impl ExchangeLedger {
     pub fn save(&self, numbers: &mut Vec<f64>) {
         self.total.save(numbers);
         self.impulses.iter().for_each(|impulses| impulses.save(numbers));
+        numbers.extend(self.powers.iter().flatten().flatten());
     }
 
     pub fn restore(&mut self, next: &mut dyn FnMut() -> f64) {
         self.total.restore(next);
         self.impulses.iter_mut().for_each(|impulses| impulses.restore(next));
+        self.powers.iter_mut().flatten().flatten().for_each(|number| *number = next());
     }
 }
 
@@ -121,6 +126,7 @@ impl System {
             self.sliders[at].start_friction_force(now.contact(at).dot(&along));
         }
         self.supports.prescribed_mut().start_reactions(now.reactions().residual());
+        self.start_powers();
         if let Some(impulses) = &mut self.exchanged.impulses {
             let multiplier =
                 |roller: &InclinedRoller| roller.unknown.map_or(0.0, |at| now.accelerations()[at]);
@@ -134,6 +140,7 @@ impl System {
     pub(crate) fn end_step(&mut self, duration: f64) {
         self.sliders.iter_mut().for_each(SliderContact::end_step);
         self.supports.prescribed_mut().end_step();
+        self.end_step_of_powers(duration);
         if let Some(impulses) = &mut self.exchanged.impulses {
             let Impulses { present, means, .. } = &mut **impulses;
             let weight = 1.0 / duration;

@@ -1,12 +1,12 @@
 //! Queries of drives and named loads: work, forces and moments.
 
 use crate::system::System;
-use crate::system::elements::{DriveState, LoadAccount, MotionCurvature, UnsampledChange};
+use crate::system::elements::{DriveState, MotionCurvature, UnsampledChange};
 
 impl System {
-    /// States of the drives, in the order of the scene.
-    pub fn drives(&self) -> impl Iterator<Item = DriveState<'_>> {
-        self.supports().prescribed().states()
+    /// State of a drive of the scene.
+    pub fn drive(&self, drive: usize) -> DriveState {
+        self.supports().prescribed().state(drive)
     }
 
     /// Finds the first drive whose position under a fraction of the load differs from the value of its function just after a time.
@@ -25,10 +25,5 @@ impl System {
         let loads = self.elements().forces();
         let loads = loads.filter_map(|load| Some((load.name(), load.missed_change()?)));
         loads.chain(self.supports().prescribed().missed_changes())
-    }
-
-    /// Work and values of the named loads, in the order of the scene.
-    pub(crate) fn named_loads(&self) -> impl Iterator<Item = LoadAccount> {
-        self.elements().forces().filter_map(|force| force.account())
     }
 }

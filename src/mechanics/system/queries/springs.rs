@@ -39,11 +39,6 @@ impl System {
         })
     }
 
-    /// Work of the wind on each drag element since the start, in the order of the scene [energy].
-    pub(crate) fn works_of_wind(&self) -> impl Iterator<Item = f64> {
-        self.elements().resistances().filter_map(InternalForce::wind_work)
-    }
-
     /// Overwrites `branches` with the branches of all springs whose laws have sharp corners, in the order of the scene.
     pub(crate) fn write_branches(&self, branches: &mut Vec<Branch>) {
         let all = self.elements().resistances();

@@ -6,14 +6,14 @@ use serde::{Deserialize, Serialize};
 
 use super::stored::StoredScene;
 use super::ties::check_ties;
-use super::{BeamDefinition, ParticleDefinition, RigidBodyDefinition, Sensor, StationVelocity};
+use super::{BeamDefinition, ParticleDefinition, RigidBodyDefinition, StationVelocity};
 use crate::beams::{BodyIndex, BodyPoint, Mesh, Station};
 use crate::geometry::{Vec2, is_on_length};
 use crate::joints::{Joint, JointKind, Partner, Release, Slider, Track};
 use crate::loads::{Load, Schedule};
-use crate::system::SystemError;
 use crate::system::elements::{Drive, Element, MaterialDamping, PointMass, SceneChecks, Spring};
 use crate::system::errors::{check_name, rounded};
+use crate::system::{Sensor, SystemError};
 
 /// Beams, particles, rigid bodies, joints, masses and loads to be simulated.
 #[derive(Debug, Clone, Serialize, Deserialize)]

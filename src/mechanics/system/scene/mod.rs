@@ -1,5 +1,6 @@
 //! Definition of the simulated system, and checks of this definition.
 
+mod columns;
 mod definitions;
 mod description;
 mod drives;
@@ -19,5 +20,4 @@ pub use definitions::{
     BeamDefinition, ParticleDefinition, RigidBodyDefinition, StartMotion, StationVelocity,
 };
 pub use description::Scene;
-pub use sensors::{Quantity, Sensor, SensorSource, Value};
 pub use ties::{Ties, same_place};

@@ -2,8 +2,6 @@
 
 use super::Scene;
 use crate::beams::Relaxation;
-use crate::geometry::Vec2;
-use crate::joints::Slider;
 use crate::system::SystemError;
 use crate::system::elements::{Drag, Element, MaterialDamping};
 
@@ -23,20 +21,8 @@ impl Scene {
             Element::Drag(drag) => Some(&*drag.name),
             _ => None,
         });
-        own.chain(self.dissipative_sliders().map(|slider| slider.name.as_str()))
-    }
-
-    /// Sliders that lose energy in impacts or by friction.
-    pub(crate) fn dissipative_sliders(&self) -> impl Iterator<Item = &Slider> + Clone {
-        self.sliders.iter().filter(|slider| slider.dissipates())
-    }
-
-    /// Names of drag elements with a wind.
-    pub(crate) fn drag_with_wind(&self) -> impl Iterator<Item = &str> + Clone {
-        self.elements.iter().filter_map(|element| match element {
-            Element::Drag(drag) if drag.wind != Vec2::zeros() => Some(&*drag.name),
-            _ => None,
-        })
+        let sliders = self.sliders.iter().filter(|slider| slider.dissipates());
+        own.chain(sliders.map(|slider| slider.name.as_str()))
     }
 
     /// Adds Kelvin–Voigt material damping to a beam.

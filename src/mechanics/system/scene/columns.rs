@@ -1,0 +1,84 @@
+//! Sensors in the columns of every history of a scene.
+
+use super::Scene;
+use crate::geometry::Vec2;
+use crate::loads::LoadKind;
+use crate::system::elements::{DriveKind, Element, SpringKind};
+use crate::system::sensors::quantities::{
+    COLUMNS_OF_LOADS, COLUMNS_OF_MOVES, COLUMNS_OF_SLIDERS, COLUMNS_OF_SPRINGS,
+    COLUMNS_OF_TORSION_SPRINGS, DISSIPATED, STORED, TORQUE, WORK,
+};
+use crate::system::{Sensor, SensorSource};
+
+impl Scene {
+    /// Sensors of all columns of a history after the standard ones, in their order. The recorded sensors are the last.
+    pub(crate) fn history_sensors(&self) -> Vec<Sensor> {
+        let (mut all, mut others, mut winds) = (Vec::new(), Vec::new(), Vec::new());
+        for (at, slider) in self.sliders.iter().enumerate() {
+            let count = COLUMNS_OF_SLIDERS.len() - usize::from(slider.friction == 0.0);
+            let own = COLUMNS_OF_SLIDERS[..count].iter();
+            all.extend(own.map(|own| Sensor::of(&slider.name, own, SensorSource::Slider(at))));
+        }
+        let stores = self.springs().next().is_some();
+        let dissipates = stores || self.dissipating().next().is_some();
+        let sums = [(stores, &STORED), (dissipates, &DISSIPATED)].into_iter();
+        all.extend(sums.filter(|(is_there, _)| *is_there).map(|(_, quantity)| {
+            let (name, source) = (quantity.name.to_owned(), SensorSource::Scene);
+            Sensor { name, source, quantity }
+        }));
+        let is_internal = |element: &&Element| {
+            matches!(element, Element::Spring(_) | Element::Damping(_) | Element::Drag(_))
+        };
+        for (at, element) in self.elements.iter().filter(is_internal).enumerate() {
+            let source = SensorSource::InternalForce(at);
+            match element {
+                Element::Spring(spring) => {
+                    let own = match spring.kind {
+                        SpringKind::Length(_) => &COLUMNS_OF_SPRINGS,
+                        SpringKind::Torsion(_) => &COLUMNS_OF_TORSION_SPRINGS,
+                    };
+                    all.extend(own.iter().map(|own| Sensor::of(&spring.name, own, source)));
+                    let sums = [&STORED, &DISSIPATED];
+                    all.extend(sums.map(|sum| Sensor::in_sum(sum, &spring.name, source)));
+                }
+                Element::Damping(damping) => {
+                    others.push(Sensor::in_sum(&DISSIPATED, &damping.name, source));
+                }
+                Element::Drag(drag) => {
+                    others.push(Sensor::in_sum(&DISSIPATED, &drag.name, source));
+                    let has_wind = drag.wind != Vec2::zeros();
+                    winds.extend(has_wind.then(|| Sensor::in_sum(&WORK, &drag.name, source)));
+                }
+                Element::PointMass(_) | Element::Load(_) => (),
+            }
+        }
+        all.append(&mut others);
+        let sliders = self.sliders.iter().enumerate().filter(|(_, slider)| slider.dissipates());
+        all.extend(sliders.map(|(at, slider)| {
+            Sensor::in_sum(&DISSIPATED, &slider.name, SensorSource::Slider(at))
+        }));
+        for (at, drive) in self.drives.iter().enumerate() {
+            let own = drive.motions().map(|(component, _)| match drive.kind {
+                DriveKind::Move => &COLUMNS_OF_MOVES[component as usize],
+                DriveKind::Motor => &TORQUE,
+            });
+            let source = SensorSource::Drive(at);
+            all.extend(own.map(|own| Sensor::of(&drive.name, own, source)));
+            all.push(Sensor::in_sum(&WORK, &drive.name, source));
+        }
+        for (at, load) in self.loads().enumerate() {
+            let Some(name) = &load.title else { continue };
+            let [force, line, torque] = &COLUMNS_OF_LOADS;
+            let own = match load.kind {
+                LoadKind::Force { .. } => force,
+                LoadKind::Line { .. } => line,
+                LoadKind::Moment { .. } => torque,
+            };
+            let source = SensorSource::Load(at);
+            all.extend([Sensor::of(name, own, source), Sensor::in_sum(&WORK, name, source)]);
+        }
+        all.append(&mut winds);
+        all.extend_from_slice(&self.sensors);
+        all
+    }
+}

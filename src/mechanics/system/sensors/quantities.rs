@@ -1,0 +1,293 @@
+//! List of all quantities that can be measured.
+
+use Read::{Acceleration, Angle, Energy, External, Force, Index, Motion, Section, Sum};
+use Timing::{Instant, MeanOfMethod, Present, StepMean, SummedMean};
+
+use super::SensorSource;
+use crate::beams::{BodyPoint, SectionForces};
+use crate::elementary::atan2;
+use crate::geometry::Vec2;
+use crate::system::elements::{InternalForce, LoadAccount};
+use crate::system::{BodyEnergy, System};
+
+/// Quantity with its name, dimension and the function that reads it.
+#[derive(Debug, Clone, Copy)]
+pub struct Quantity {
+    /// Name as part of sensor names.
+    pub name: &'static str,
+    /// Dimension of the values.
+    pub dimension: &'static str,
+    /// Time to which a value belongs.
+    pub timing: Timing,
+    pub(in crate::system) read: Read,
+}
+
+/// Time to which a value belongs.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Timing {
+    /// Present time.
+    Present,
+    /// Present time; the value follows from the equations of motion.
+    Instant,
+    /// Mean over the last step.
+    StepMean,
+    /// Mean over the last step, or value at its end, whichever the method of integration balances.
+    MeanOfMethod,
+    /// Mean over the last step, which the model forms on request.
+    SummedMean,
+}
+
+/// Function that reads a value, by the type of its argument.
+#[derive(Debug, Clone, Copy)]
+pub(in crate::system) enum Read {
+    Motion(fn(&System, &BodyPoint) -> f64),
+    Acceleration(fn(Vec2) -> f64),
+    /// Angle of a tracked section.
+    Angle,
+    Section(fn(&SectionForces) -> f64),
+    Energy(fn(&BodyEnergy) -> f64),
+    /// Force and moment of a joint or a slider.
+    Force(fn(Vec2, f64) -> f64),
+    /// Object of one type, by its index.
+    Index(fn(&System, usize) -> f64),
+    /// Contribution of an object of any type to a sum of the scene.
+    Sum(fn(&System, SensorSource) -> Option<f64>),
+    /// The caller provides the value.
+    External,
+}
+
+const fn quantity(
+    name: &'static str,
+    dimension: &'static str,
+    timing: Timing,
+    read: Read,
+) -> Quantity {
+    Quantity { name, dimension, timing, read }
+}
+
+pub(in crate::system) static OF_STATIONS: [Quantity; 15] = [
+    quantity("x", "length", Present, Motion(|model, at| model.position(at).x)),
+    quantity("y", "length", Present, Motion(|model, at| model.position(at).y)),
+    quantity("vx", "length/time", Present, Motion(|model, at| model.velocity(at).x)),
+    quantity("vy", "length/time", Present, Motion(|model, at| model.velocity(at).y)),
+    quantity("speed", "length/time", Present, Motion(|model, at| model.velocity(at).norm())),
+    quantity("ax", "length/time²", Instant, Acceleration(|acceleration| acceleration.x)),
+    quantity("ay", "length/time²", Instant, Acceleration(|acceleration| acceleration.y)),
+    quantity("angle", "rad", Present, Angle),
+    quantity("spin", "1/time", Present, Motion(System::spin)),
+    quantity("N", "force", Present, Section(|section| section.axial)),
+    quantity("Q", "force", Present, Section(|section| section.shear)),
+    quantity("M", "force·length", Present, Section(|section| section.moment)),
+    quantity("axial_strain", "-", Present, Section(|section| section.axial_strain)),
+    quantity("shear_strain", "-", Present, Section(|section| section.shear_strain)),
+    quantity("curvature", "1/length", Present, Section(|section| section.curvature)),
+];
+
+/// Number of the first quantities of stations that particles have.
+pub(in crate::system) const OF_PARTICLES: usize = 7;
+
+/// Number of the first quantities of stations that points of rigid bodies have.
+pub(in crate::system) const OF_POINTS: usize = 9;
+
+pub(in crate::system) static OF_BODIES: [Quantity; 7] = [
+    quantity("energy", "energy", Present, Energy(BodyEnergy::total)),
+    quantity("kinetic", "energy", Present, Energy(|energy| energy.kinetic)),
+    quantity("strain", "energy", Present, Energy(BodyEnergy::strain)),
+    quantity("axial", "energy", Present, Energy(|energy| energy.axial)),
+    quantity("shear", "energy", Present, Energy(|energy| energy.shear)),
+    quantity("bending", "energy", Present, Energy(|energy| energy.bending)),
+    quantity("potential", "energy", Present, Energy(|energy| energy.potential)),
+];
+
+/// Quantities of joints: the force on the first station.
+pub(in crate::system) static OF_JOINTS: [Quantity; 9] = [
+    quantity("force", "force", SummedMean, Force(|force, _| force.norm())),
+    quantity("fx", "force", SummedMean, Force(|force, _| force.x)),
+    quantity("fy", "force", SummedMean, Force(|force, _| force.y)),
+    quantity("moment", "force·length", SummedMean, Force(|_, moment| moment)),
+    quantity("force_angle", "rad", SummedMean, Force(|force, _| atan2(force.y, force.x))),
+    quantity("present_force", "force", Instant, Force(|force, _| force.norm())),
+    quantity("present_fx", "force", Instant, Force(|force, _| force.x)),
+    quantity("present_fy", "force", Instant, Force(|force, _| force.y)),
+    quantity("present_moment", "force·length", Instant, Force(|_, moment| moment)),
+];
+
+/// Columns of each slider: its motion, and the force on its master. The last one is that of sliders with friction.
+pub(in crate::system) static COLUMNS_OF_SLIDERS: [Quantity; 6] = [
+    quantity("position", "-", Present, Index(System::slider_position)),
+    quantity("speed", "length/time", Present, Index(System::slider_speed)),
+    quantity("force", "force", StepMean, Index(|model, at| model.contact_force(at).norm())),
+    quantity("force_x", "force", StepMean, Index(|model, at| model.contact_force(at).x)),
+    quantity("force_y", "force", StepMean, Index(|model, at| model.contact_force(at).y)),
+    quantity("friction", "force", StepMean, Index(friction)),
+];
+
+/// Quantities of sliders that are recorded on request: the instantaneous force on the master, and the arc length from the start of the master or
+/// track.
+pub(in crate::system) static OF_SLIDERS: [Quantity; 4] = [
+    quantity("present_force", "force", Instant, Force(|force, _| force.norm())),
+    quantity("present_force_x", "force", Instant, Force(|force, _| force.x)),
+    quantity("present_force_y", "force", Instant, Force(|force, _| force.y)),
+    quantity("arc_length", "length", Present, Index(System::slider_arc_length)),
+];
+
+/// Columns of drives, by prescribed component: force or moment.
+pub(in crate::system) static COLUMNS_OF_MOVES: [Quantity; 3] = [
+    quantity("x", "force", StepMean, Index(|model, at| model.drive(at).force.x)),
+    quantity("y", "force", StepMean, Index(|model, at| model.drive(at).force.y)),
+    quantity("angle", "force·length", StepMean, Index(|model, at| model.drive(at).moment)),
+];
+
+pub(in crate::system) static TORQUE: Quantity = Quantity { name: "torque", ..COLUMNS_OF_MOVES[2] };
+
+pub(in crate::system) static COLUMNS_OF_SPRINGS: [Quantity; 2] = [
+    quantity("length", "length", Present, Index(|model, at| spring(model, at)[0])),
+    quantity("force", "force", MeanOfMethod, Index(|model, at| spring(model, at)[1])),
+];
+
+pub(in crate::system) static COLUMNS_OF_TORSION_SPRINGS: [Quantity; 2] = [
+    Quantity { name: "angle", dimension: "rad", ..COLUMNS_OF_SPRINGS[0] },
+    Quantity { dimension: "force·length", ..COLUMNS_OF_SPRINGS[1] },
+];
+
+/// Columns of named loads: a force, a force per length, or a moment.
+pub(in crate::system) static COLUMNS_OF_LOADS: [Quantity; 3] = [
+    quantity("force", "force", Present, Index(|model, at| load(model, at).value)),
+    quantity("force", "force/length", Present, Index(|model, at| load(model, at).value)),
+    quantity("torque", "force·length", Present, Index(|model, at| load(model, at).value)),
+];
+
+pub(in crate::system) static STORED: Quantity = quantity("stored", "energy", Present, Sum(stored));
+
+/// Energy dissipated by dampers, damped materials, drag and sliders since the start.
+pub(in crate::system) static DISSIPATED: Quantity =
+    quantity("dissipated", "energy", Present, Sum(dissipated));
+
+/// Work of drives, named loads and winds since the start.
+pub(in crate::system) static WORK: Quantity = quantity("work", "energy", Present, Sum(work));
+
+/// Work of drives and named loads in the last step, divided by its duration.
+pub(in crate::system) static POWER: [Quantity; 1] =
+    [quantity("power", "energy/time", SummedMean, Sum(power))];
+
+/// Quantities that are recorded on request, with their objects.
+pub static RECORDABLE: [(&str, &[Quantity]); 5] = [
+    ("stations", &OF_STATIONS),
+    ("bodies", &OF_BODIES),
+    ("joints", &OF_JOINTS),
+    ("sliders", &OF_SLIDERS),
+    ("drives and named loads", &POWER),
+];
+
+pub(in crate::system) static OF_CALLER: Quantity = quantity("", "-", Present, External);
+
+fn friction(model: &System, slider: usize) -> f64 {
+    model.friction_force(slider).unwrap_or(f64::NAN)
+}
+
+fn internal_force(model: &System, at: usize) -> &dyn InternalForce {
+    model.elements().internal_force(at)
+}
+
+/// Elongation of a spring and its force.
+fn spring(model: &System, at: usize) -> [f64; 2] {
+    let state = internal_force(model, at).stretched();
+    state.map_or([f64::NAN; 2], |state| [state.elongation, state.force])
+}
+
+fn load(model: &System, at: usize) -> LoadAccount {
+    model.elements().external_force(at).account().unwrap_or_default()
+}
+
+fn stored(model: &System, source: SensorSource) -> Option<f64> {
+    match source {
+        SensorSource::Scene => Some(model.springs().map(|spring| spring.stored).sum()),
+        SensorSource::InternalForce(at) => Some(internal_force(model, at).stored()),
+        _ => None,
+    }
+}
+
+fn dissipated(model: &System, source: SensorSource) -> Option<f64> {
+    match source {
+        SensorSource::Scene => {
+            let by_springs = model.springs().map(|spring| spring.dissipated).sum::<f64>();
+            Some(model.dissipations().fold(by_springs, |sum, dissipated| sum + dissipated))
+        }
+        SensorSource::InternalForce(at) => Some(internal_force(model, at).dissipated()),
+        SensorSource::Slider(at) => Some(model.slider(at).lost_energy),
+        _ => None,
+    }
+}
+
+fn work(model: &System, source: SensorSource) -> Option<f64> {
+    match source {
+        SensorSource::Drive(at) => Some(model.drive(at).work),
+        SensorSource::Load(at) => Some(load(model, at).work),
+        SensorSource::InternalForce(at) => internal_force(model, at).wind_work(),
+        _ => None,
+    }
+}
+
+fn power(model: &System, source: SensorSource) -> Option<f64> {
+    match source {
+        SensorSource::Drive(at) => model.power_of_drive(at),
+        SensorSource::Load(at) => model.power_of_load(at),
+        _ => None,
+    }
+}
+
+/// Section forces and strains with their names.
+pub fn section_values(section: &SectionForces) -> impl Iterator<Item = (&'static str, f64)> {
+    OF_STATIONS.iter().filter_map(move |quantity| match quantity.read {
+        Section(read) => Some((quantity.name, read(section))),
+        _ => None,
+    })
+}
+
+/// Energies of a body with their names.
+pub fn body_energies(energy: &BodyEnergy) -> impl Iterator<Item = (&'static str, f64)> {
+    OF_BODIES.iter().filter_map(move |quantity| match quantity.read {
+        Energy(read) => Some((quantity.name, read(energy))),
+        _ => None,
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_are_unique_in_each_list() {
+        let of_sliders = [&COLUMNS_OF_SLIDERS[..], &OF_SLIDERS].concat();
+        for (object, list) in RECORDABLE.into_iter().chain([("sliders", &of_sliders[..])]) {
+            let names: Vec<&str> = list.iter().map(|quantity| quantity.name).collect();
+            for (at, name) in names.iter().enumerate() {
+                assert!(!name.is_empty() && !names[..at].contains(name), "{name} of {object}");
+            }
+        }
+    }
+
+    #[test]
+    fn quantities_of_particles_and_points_need_no_section() {
+        let needs_section = |quantity: &Quantity| matches!(quantity.read, Section(_));
+        assert!(!OF_STATIONS[..OF_POINTS].iter().any(needs_section));
+        assert_eq!((OF_STATIONS[OF_PARTICLES].name, OF_STATIONS[OF_POINTS].name), ("angle", "N"));
+    }
+
+    #[test]
+    fn magnitude_and_angle_of_a_force_reproduce_its_components() {
+        let read = |name: &str, force: Vec2| {
+            let quantity = OF_JOINTS.iter().find(|quantity| quantity.name == name);
+            match quantity.map(|quantity| quantity.read) {
+                Some(Force(read)) => read(force, 0.0),
+                other => panic!("{name}: {other:?}"),
+            }
+        };
+        for force in [Vec2::new(3.0, -4.0), Vec2::new(-1.0, 0.0), Vec2::zeros()] {
+            let (size, angle) = (read("force", force), read("force_angle", force));
+            let again = Vec2::new(size * angle.cos(), size * angle.sin());
+            assert!((again - force).norm() < 1e-15 * (1.0 + size), "{force}");
+            assert_eq!([read("fx", force), read("fy", force)], [force.x, force.y]);
+        }
+    }
+}

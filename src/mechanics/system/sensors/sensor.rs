@@ -1,0 +1,96 @@
+//! Measured quantity of an object.
+
+use serde::{Serialize, Serializer};
+
+use super::{Quantity, Timing};
+use crate::beams::{BodyIndex, Station};
+use crate::integrators::Method;
+
+/// Measured quantity of an object.
+#[derive(Debug, Clone)]
+pub struct Sensor {
+    /// Name of the column.
+    pub name: String,
+    /// Object whose quantity is measured.
+    pub source: SensorSource,
+    /// Measured quantity.
+    pub quantity: &'static Quantity,
+}
+
+/// Object of a sensor.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum SensorSource {
+    /// Station of a body.
+    Station(Station),
+    /// Whole beam, particle or rigid body.
+    Body(BodyIndex),
+    /// Joint of the scene.
+    Joint(usize),
+    /// Slider of the scene.
+    Slider(usize),
+    /// Drive of the scene.
+    Drive(usize),
+    /// Load, numbered among the loads of the scene.
+    Load(usize),
+    /// Spring, damper, damped material or drag, numbered among these elements of the scene.
+    InternalForce(usize),
+    /// Whole scene.
+    Scene,
+    /// Caller, which provides the value after every row.
+    External,
+}
+
+impl Sensor {
+    pub(in crate::system) fn of(
+        object: &str,
+        quantity: &'static Quantity,
+        source: SensorSource,
+    ) -> Self {
+        Self { name: format!("{object}.{}", quantity.name), source, quantity }
+    }
+
+    /// Sensor of the contribution of an object to a sum of the scene.
+    pub(in crate::system) fn in_sum(
+        quantity: &'static Quantity,
+        object: &str,
+        source: SensorSource,
+    ) -> Self {
+        Self { name: format!("{}.{object}", quantity.name), source, quantity }
+    }
+
+    /// Returns true if the values are means over the last step with the given method.
+    pub(crate) fn is_step_mean(&self, method: Method) -> bool {
+        match self.quantity.timing {
+            Timing::StepMean | Timing::SummedMean => true,
+            Timing::MeanOfMethod => {
+                matches!(method, Method::EnergyMomentum | Method::EnergyDecaying { .. })
+            }
+            Timing::Present | Timing::Instant => false,
+        }
+    }
+
+    /// Returns true if the values are sums over the last step that the model forms on request.
+    pub(crate) fn is_summed(&self) -> bool {
+        self.quantity.timing == Timing::SummedMean
+    }
+
+    /// Returns true if the values are means of a joint force over the last step.
+    pub(crate) fn is_mean_of_joint(&self) -> bool {
+        self.is_summed() && matches!(self.source, SensorSource::Joint(_))
+    }
+
+    /// Returns true if the sensor can be stored, that is, if it can be created again from its name.
+    pub fn can_be_stored(&self) -> bool {
+        self.source != SensorSource::External
+    }
+}
+
+/// A sensor is stored by its name.
+impl Serialize for Sensor {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        match self.can_be_stored() {
+            true => self.name.serialize(serializer),
+            false => Err(serde::ser::Error::custom("a function cannot be stored")),
+        }
+    }
+}
