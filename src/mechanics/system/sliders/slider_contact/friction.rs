@@ -18,6 +18,10 @@ const ROUNDING: f64 = 1e-14;
 /// The forces of such a short step consist of rounding errors.
 const NEGLIGIBLE: f64 = 1e-7;
 
+/// Duration of a step above which the law of friction is not replaced by a constant force, as a fraction of the longest step.
+/// Shorter steps with the law are tried first.
+const FIXED_BELOW: f64 = 1.0 / 16.0;
+
 /// Number of transitions in successive steps, above which slip does not end within a step.
 const MOST_TRANSITIONS: usize = 8;
 
@@ -84,10 +88,11 @@ impl SliderFriction {
         }
     }
 
-    /// Keeps the force of slip at that of the last step, because the step has no solution with the law. Returns true if it was not kept before.
+    /// Keeps the force of slip at that of the last step, because a short step has no solution with the law. Returns true if it was not kept before.
     pub(super) fn freeze(&mut self) -> bool {
         let FrictionMode::Slip(sign) = self.mode else { return false };
-        if !self.acts() || self.fixed_force.is_some() {
+        let is_short = self.duration <= FIXED_BELOW * self.longest;
+        if !is_short || !self.acts() || self.fixed_force.is_some() {
             return false;
         }
         self.fixed_force = Some(sign * self.force.abs());
