@@ -43,7 +43,7 @@ impl RunRecord {
             reader: SensorReader::of(&sensors, scene, model)?,
             sensors,
         };
-        model.sum_up_for(&record.sensors);
+        model.enable_means_for(&record.sensors);
         model.start_means();
         record.store_row(model, StepTaken::default());
         Ok(record)

@@ -314,7 +314,8 @@ impl fmt::Display for Warning {
             ),
             Self::Friction { slider, steps } => write!(
                 f,
-                "the equations of {steps} steps have no solution with the friction of slider '{slider}'; there its friction force is that of the step before. The energy balance holds, but the motion is inaccurate; use a smaller dt, a finer mesh or a basis with smooth joints between spans"
+                "the friction law of slider '{slider}' has no solution in {steps} {}, which used the friction force of the previous step. Energy and momenta are balanced, but the motion is inaccurate; use a smaller dt or a smoother mesh",
+                if *steps == 1 { "step" } else { "steps" }
             ),
             Self::Uneven { shortest, longest } => write!(
                 f,

@@ -57,6 +57,8 @@ struct TimeBracket {
     before: (f64, f64),
     after: (f64, f64),
     last: Option<BracketSide>,
+    /// Duration below which no step is tried [time].
+    shortest: f64,
 }
 
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -67,7 +69,12 @@ enum BracketSide {
 
 impl TimeBracket {
     fn new(before: (f64, f64), after: (f64, f64)) -> Self {
-        Self { before, after, last: None }
+        Self { before, after, last: None, shortest: 0.0 }
+    }
+
+    /// Sets the duration below which no step is tried [time].
+    fn with_shortest(self, shortest: f64) -> Self {
+        Self { shortest, ..self }
     }
 
     /// Replaces the step on the same side of the arrival.
@@ -85,12 +92,22 @@ impl TimeBracket {
         self.last = Some(side);
     }
 
+    /// Returns true if the event is closer to the start than the shortest step.
+    fn is_at_start(&self) -> bool {
+        self.after.0 <= self.shortest
+    }
+
     fn is_converged(&self) -> bool {
         self.after.0 - self.before.0 <= 4.0 * f64::EPSILON * self.after.0
     }
 
-    /// Next duration, by the method of false position with halved weight of a retained end (Illinois method; Dowell & Jarratt 1971).
+    /// Duration of the next step to try.
     fn next_duration(&self) -> f64 {
+        self.estimate().max(self.shortest)
+    }
+
+    /// Next duration, by the method of false position with halved weight of a retained end (Illinois method; Dowell & Jarratt 1971).
+    fn estimate(&self) -> f64 {
         let ((t0, f0), (t1, f1)) = (self.before, self.after);
         let t = t1 - f1 * (t1 - t0) / (f1 - f0);
         // Because of rounding, the computed duration may equal one of the ends.
@@ -136,8 +153,7 @@ impl Simulation {
                 ArrivalEstimate::Located(landing) => return Ok(landing),
             };
             loop {
-                let is_slip_end = matches!(target, SliderEvent::SlipEnd(_));
-                if is_slip_end && bracket.after.0 <= SHORT * self.dt() {
+                if bracket.is_at_start() {
                     return Ok(EventStep { step: None, event: Event::Slider(target) });
                 }
                 if bracket.is_converged() {
@@ -149,8 +165,7 @@ impl Simulation {
                 if tries.next().is_none() {
                     return Err(StepError::Overshoot { interval, overshoot: first, iterations: 0 });
                 }
-                let shortest = if is_slip_end { SHORT * self.dt() } else { 0.0 };
-                let duration = bracket.next_duration().max(shortest);
+                let duration = bracket.next_duration();
                 cut = Interval::lasting(interval.start, duration);
                 overshoot = match self.attempt(cut)? {
                     Ok(report) => {
@@ -216,9 +231,9 @@ impl Simulation {
     /// Brackets the end of slip of a slider with friction. A step that ends after the end of slip is given.
     fn bracket_slip_end(&self, interval: Interval, slider: usize, beyond: f64) -> ArrivalEstimate {
         let speed = self.model.slip_speed(slider);
-        let bracket = TimeBracket::new((0.0, -speed), (interval.duration(), beyond));
-        let is_at_start =
-            speed <= 0.0 || beyond <= 0.0 || bracket.next_duration() < SHORT * self.dt();
+        let bracket = TimeBracket::new((0.0, -speed), (interval.duration(), beyond))
+            .with_shortest(SHORT * self.dt());
+        let is_at_start = speed <= 0.0 || beyond <= 0.0 || bracket.estimate() < bracket.shortest;
         match is_at_start {
             true => ArrivalEstimate::Located(EventStep {
                 step: None,

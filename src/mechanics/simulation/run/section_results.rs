@@ -55,14 +55,14 @@ impl Simulation {
     /// Number of columns whose values the caller provides after every row.
     pub fn outside_columns(&self) -> usize {
         let sensors = self.scene.sensors.iter();
-        sensors.filter(|sensor| !sensor.can_be_stored()).count()
+        sensors.filter(|sensor| sensor.is_external()).count()
     }
 
     /// Sets, in the last row of the history, the columns whose values the caller provides.
     pub fn fill_in(&mut self, values: &[f64]) {
         let first = self.record.history.extra_width() - self.scene.sensors.len();
         let sensors = self.scene.sensors.iter().enumerate();
-        let outside = sensors.filter(|(_, sensor)| !sensor.can_be_stored());
+        let outside = sensors.filter(|(_, sensor)| sensor.is_external());
         for ((column, _), value) in outside.zip(values) {
             self.record.history.fill_in(first + column, *value);
         }

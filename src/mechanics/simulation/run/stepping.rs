@@ -116,7 +116,9 @@ impl Simulation {
         };
         if self.stepper.sensitivities.is_some() && self.model.has_frozen_contacts() {
             // The perturbed runs may have been solved without constant kinks. Their equations would then differ from those of the main run.
-            self.disable_derivatives("the kink under a slider is not adapted to the contact force");
+            self.disable_derivatives(
+                "the kink under a slider or its friction force is kept constant in a step",
+            );
         }
         stepped
     }

@@ -5,47 +5,12 @@ use super::rigidity::Deformation;
 use super::{Instant, System};
 use crate::geometry::cross;
 use crate::integrators::Mechanism;
-use crate::linalg::{BandedMatrix, LinearError};
+use crate::linalg::LinearError;
 use crate::system::SystemError;
 use crate::system::state::InertiaSolver;
 
 /// Velocity along the master, as a fraction of the velocity of the fastest point of the model, below which a slider sticks at the start.
 const AT_REST: f64 = 1e-9;
-
-impl InertiaSolver {
-    fn new(system: &System) -> Box<Self> {
-        let unknowns = system.unknowns();
-        Box::new(Self {
-            inertia: BandedMatrix::zeros(unknowns, system.half_bandwidth()),
-            is_factorised: false,
-            forces: vec![0.0; system.degrees_of_freedom()],
-            rates: vec![0.0; unknowns],
-        })
-    }
-
-    /// Factorises the present inertia. Without rigid links it is constant.
-    fn factorise(&mut self, system: &System) -> Result<(), LinearError> {
-        if self.is_factorised && system.links.count() == 0 {
-            return Ok(());
-        }
-        self.is_factorised = false;
-        self.inertia.clear();
-        system.fill_banded_inertia(&mut self.inertia);
-        self.inertia.factorise()?;
-        self.is_factorised = true;
-        Ok(())
-    }
-
-    /// Velocity in a direction that a unit impulse in this direction causes [1/mass].
-    fn response(&mut self, system: &System, (slider, unit): ImpactDirection) -> f64 {
-        let Self { inertia, forces, rates, .. } = self;
-        forces.fill(0.0);
-        system.sliders[slider].transmit(&system.bodies, unit, forces);
-        rates.iter_mut().zip(forces.iter()).for_each(|(rate, force)| *rate = *force);
-        inertia.factors().solve(rates);
-        rates.iter().zip(forces.iter()).map(|(rate, force)| rate * force).sum()
-    }
-}
 
 impl System {
     /// Returns true if a slider has friction.
@@ -67,16 +32,22 @@ impl System {
 
     /// Computes the inertia across the master of every slider with friction. The inertia is zero if the slider does not respond to an impulse.
     pub(super) fn measure_inertia_across(&mut self) {
-        let mut solver =
-            self.step.inertia_solver.take().unwrap_or_else(|| InertiaSolver::new(self));
-        if solver.factorise(self).is_ok() {
-            for at in 0..self.sliders.len() {
-                if self.sliders[at].active_friction().is_none() {
+        let mut solver = self.step.inertia_solver.take().unwrap_or_else(|| {
+            let (unknowns, half_bandwidth) = (self.unknowns(), self.half_bandwidth());
+            Box::new(InertiaSolver::new(unknowns, half_bandwidth, self.degrees_of_freedom()))
+        });
+        // Without rigid links the inertia is constant.
+        let is_current = solver.is_factorised() && self.links.count() == 0;
+        if is_current || solver.factorise(|inertia| self.fill_banded_inertia(inertia)).is_ok() {
+            let Self { sliders, bodies, .. } = self;
+            for slider in sliders.iter_mut() {
+                if slider.active_friction().is_none() {
                     continue;
                 }
-                let velocity = solver.response(self, (at, self.sliders[at].across(&self.bodies)));
+                let across = slider.across(bodies);
+                let velocity = solver.response(|forces| slider.transmit(bodies, across, forces));
                 let inertia = if velocity > 0.0 { 1.0 / velocity } else { 0.0 };
-                self.sliders[at].friction.iter_mut().for_each(|of| of.inertia_across = inertia);
+                slider.friction.iter_mut().for_each(|of| of.inertia_across = inertia);
             }
         }
         self.step.inertia_solver = Some(solver);

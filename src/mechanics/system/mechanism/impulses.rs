@@ -12,6 +12,7 @@
 //! Methods that balance accelerations instead of momenta do not provide mean forces.
 
 use super::rigidity::add_transmitted_impulses;
+use super::step_power::StepPower;
 use super::{Reactions, System};
 use crate::geometry::Vec2;
 use crate::integrators::{Inertia, Solution, Stage};
@@ -26,9 +27,8 @@ pub struct ExchangeLedger {
     pub total: WorkAndImpulse,
     /// Impulses of joints and supports; `None` unless requested.
     pub impulses: Option<Box<Impulses>>,
-    /// Power over the last step [energy/time] and work at its end [energy] of each drive, then of each load; `None` unless requested. Before the
-    /// first step, powers of drives are the present ones.
-    pub powers: Option<Vec<[f64; 2]>>,
+    /// Powers of all drives, then of all loads; `None` unless requested.
+    pub powers: Option<Vec<StepPower>>,
 }
 
 /// Impulses on all control points, with preallocated buffers.
@@ -76,19 +76,22 @@ impl ExchangeLedger {
     pub fn save(&self, numbers: &mut Vec<f64>) {
         self.total.save(numbers);
         self.impulses.iter().for_each(|impulses| impulses.save(numbers));
-        numbers.extend(self.powers.iter().flatten().flatten());
+        let powers = self.powers.iter().flatten();
+        numbers.extend(powers.flat_map(|step| [step.power, step.work]));
     }
 
     pub fn restore(&mut self, next: &mut dyn FnMut() -> f64) {
         self.total.restore(next);
         self.impulses.iter_mut().for_each(|impulses| impulses.restore(next));
-        self.powers.iter_mut().flatten().flatten().for_each(|number| *number = next());
+        for step in self.powers.iter_mut().flatten() {
+            (step.power, step.work) = (next(), next());
+        }
     }
 }
 
 impl System {
     /// Enables the accumulation of impulses of joints and supports.
-    pub(crate) fn sum_up_impulses(&mut self) {
+    pub(crate) fn accumulate_impulses(&mut self) {
         if self.exchanged.impulses.is_some() {
             return;
         }
@@ -126,7 +129,7 @@ impl System {
             self.sliders[at].start_friction_force(now.contact(at).dot(&along));
         }
         self.supports.prescribed_mut().start_reactions(now.reactions().residual());
-        self.start_powers();
+        self.initialise_powers();
         if let Some(impulses) = &mut self.exchanged.impulses {
             let multiplier =
                 |roller: &InclinedRoller| roller.unknown.map_or(0.0, |at| now.accelerations()[at]);
@@ -140,7 +143,7 @@ impl System {
     pub(crate) fn end_step(&mut self, duration: f64) {
         self.sliders.iter_mut().for_each(SliderContact::end_step);
         self.supports.prescribed_mut().end_step();
-        self.end_step_of_powers(duration);
+        self.update_powers(duration);
         if let Some(impulses) = &mut self.exchanged.impulses {
             let Impulses { present, means, .. } = &mut **impulses;
             let weight = 1.0 / duration;
@@ -150,7 +153,7 @@ impl System {
     }
 
     /// Mean forces of joints and supports in the last step, including impacts. Before the first step, the present forces are returned.
-    /// Returns `None` unless the accumulation is [enabled](Self::sum_up_impulses).
+    /// Returns `None` unless the accumulation is [enabled](Self::accumulate_impulses).
     pub fn mean_reactions(&self) -> Option<Reactions> {
         let Impulses { means, .. } = &**self.exchanged.impulses.as_ref()?;
         let (left, across) = means.split_at(means.len() - self.links.all_rollers().len());

@@ -1,18 +1,27 @@
-//! Powers of drives and loads over a step. They are accumulated if a sensor requests them.
+//! Powers of drives and loads over a step. They are computed if a sensor requests them.
 
 use super::System;
 use crate::system::elements::ExternalForce;
 
+/// Power of a drive or a load over the last step.
+pub struct StepPower {
+    /// Work in the step divided by its duration [energy/time]. Before the first step, that of a drive is the present power.
+    pub power: f64,
+    /// Work since the start of the run, at the end of the step [energy].
+    pub work: f64,
+}
+
 impl System {
-    /// Enables the accumulation of powers over a step.
-    pub(crate) fn sum_up_powers(&mut self) {
-        self.exchanged.powers = Some(self.works().map(|work| [0.0, work]).collect());
+    /// Enables the computation of powers over a step.
+    pub(crate) fn enable_powers(&mut self) {
+        let powers = self.works().map(|work| StepPower { power: 0.0, work });
+        self.exchanged.powers = Some(powers.collect());
     }
 
     /// Power of a drive over the last step: the mean of force times velocity and of moment times spin [energy/time]. `None` if not
-    /// [enabled](Self::sum_up_powers).
+    /// [enabled](Self::enable_powers).
     pub(in crate::system) fn power_of_drive(&self, drive: usize) -> Option<f64> {
-        Some(self.exchanged.powers.as_ref()?[drive][0])
+        Some(self.exchanged.powers.as_ref()?[drive].power)
     }
 
     /// Power of a load over the last step [energy/time].
@@ -21,17 +30,18 @@ impl System {
     }
 
     /// Sets the powers of drives to those of a step of zero length.
-    pub(super) fn start_powers(&mut self) {
+    pub(super) fn initialise_powers(&mut self) {
         let Some(powers) = &mut self.exchanged.powers else { return };
         for (drive, power) in self.supports.prescribed().powers(&self.motion.rates) {
-            powers[drive][0] += power;
+            powers[drive].power += power;
         }
     }
 
-    pub(super) fn end_step_of_powers(&mut self, duration: f64) {
+    /// Computes the powers of a step of a duration [time].
+    pub(super) fn update_powers(&mut self, duration: f64) {
         let Some(mut powers) = self.exchanged.powers.take() else { return };
-        for ([power, before], work) in powers.iter_mut().zip(self.works()) {
-            (*power, *before) = ((work - *before) / duration, work);
+        for (step, work) in powers.iter_mut().zip(self.works()) {
+            *step = StepPower { power: (work - step.work) / duration, work };
         }
         self.exchanged.powers = Some(powers);
     }

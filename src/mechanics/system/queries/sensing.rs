@@ -112,12 +112,12 @@ impl Located {
 }
 
 impl System {
-    /// Enables the sums over a step that sensors need.
-    pub(crate) fn sum_up_for(&mut self, sensors: &[Sensor]) {
+    /// Enables the means over a step that sensors need.
+    pub(crate) fn enable_means_for(&mut self, sensors: &[Sensor]) {
         for sensor in sensors.iter().filter(|sensor| sensor.is_summed()) {
             match sensor.source {
-                SensorSource::Joint(_) => self.sum_up_impulses(),
-                _ => self.sum_up_powers(),
+                SensorSource::Joint(_) => self.accumulate_impulses(),
+                _ => self.enable_powers(),
             }
         }
     }

@@ -22,6 +22,29 @@ struct Place<'s> {
     quantities: &'static [Quantity],
 }
 
+impl Place<'_> {
+    /// Reason for which a name has no quantity of this place, with the names that are allowed.
+    fn why_no_quantity(&self) -> String {
+        let Self { object, quantities, .. } = self;
+        let names: Vec<&str> = quantities.iter().map(|quantity| quantity.name).collect();
+        let names = names.join(", ");
+        let in_every_history = |columns: &str| {
+            format!(
+                "{columns} '{object}' have columns in every history and need no recording; its other quantities are {names}"
+            )
+        };
+        match self.source {
+            SensorSource::Body(_) => format!(
+                "a whole beam has {names}; its places have {object}.start.x, {object}.end.x, {object}[s].x and so on"
+            ),
+            SensorSource::Slider(_) => in_every_history("position, speed and force of slider"),
+            SensorSource::Drive(_) => in_every_history("work and forces of drive"),
+            SensorSource::Load(_) => in_every_history("work and value of load"),
+            _ => format!("its last part must be one of {names}"),
+        }
+    }
+}
+
 impl Scene {
     /// Records a built-in quantity, given by its name.
     ///
@@ -169,16 +192,10 @@ impl Scene {
             && let Some(inside) = rest.strip_prefix('[')
         {
             let length = self.beams[beam].axis.length();
-            let place = inside.split_once("].").and_then(|(number, _)| {
-                let s: f64 = number.trim_matches(' ').parse().ok()?;
-                let source = SensorSource::Station(Station::on_beam(beam, s));
-                let (object, suffix) = (object.clone(), format!("[{number}]").into());
-                let place = Place { object, suffix, source, quantities: &OF_STATIONS };
-                (0.0..=length).contains(&s).then_some(place)
-            });
-            let place = place
-                .ok_or_else(|| refused(format!("write {object}[s].x with s from 0 to {length}")))?;
-            places.push(place);
+            let place = place_inside(object.clone(), beam, inside, length);
+            places.push(place.ok_or_else(|| {
+                refused(format!("write {object}[s].x with s from 0 to {length}"))
+            })?);
         }
         let wanted = |place: &Place| rest.strip_prefix(&*place.suffix)?.strip_prefix('.');
         let matching = places.iter().filter(|place| wanted(place).is_some());
@@ -189,24 +206,25 @@ impl Scene {
             let quantity = place.quantities.iter().find(|quantity| quantity.name == wanted)?;
             Some((place.source, quantity))
         };
-        places.iter().find_map(of_place).ok_or_else(|| {
-            let Place { source, quantities, .. } = places[0];
-            let names: Vec<&str> = quantities.iter().map(|quantity| quantity.name).collect();
-            let names = names.join(", ");
-            let in_every_history = |columns: &str| {
-                format!(
-                    "{columns} '{object}' have columns in every history and need no recording; its other quantities are {names}"
-                )
-            };
-            refused(match source {
-                SensorSource::Body(_) => format!(
-                    "a whole beam has {names}; its places have {object}.start.x, {object}.end.x, {object}[s].x and so on"
-                ),
-                SensorSource::Slider(_) => in_every_history("position, speed and force of slider"),
-                SensorSource::Drive(_) => in_every_history("work and forces of drive"),
-                SensorSource::Load(_) => in_every_history("work and value of load"),
-                _ => format!("its last part must be one of {names}"),
-            })
-        })
+        places.iter().find_map(of_place).ok_or_else(|| refused(places[0].why_no_quantity()))
     }
+}
+
+/// Place at an arc length of a beam of a length, for the rest `0.5].x` of a name; `None` if the rest has no arc length on the beam.
+fn place_inside<'s>(
+    object: Cow<'s, str>,
+    beam: usize,
+    rest: &str,
+    length: f64,
+) -> Option<Place<'s>> {
+    let (number, _) = rest.split_once("].")?;
+    let s: f64 = number.trim_matches(' ').parse().ok()?;
+    let source = SensorSource::Station(Station::on_beam(beam, s));
+    let suffix = format!("[{number}]").into();
+    (0.0..=length).contains(&s).then_some(Place {
+        object,
+        suffix,
+        source,
+        quantities: &OF_STATIONS,
+    })
 }

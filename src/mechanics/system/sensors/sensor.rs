@@ -79,9 +79,14 @@ impl Sensor {
         self.is_summed() && matches!(self.source, SensorSource::Joint(_))
     }
 
+    /// Returns true if the caller provides the values.
+    pub fn is_external(&self) -> bool {
+        self.source == SensorSource::External
+    }
+
     /// Returns true if the sensor can be stored, that is, if it can be created again from its name.
     pub fn can_be_stored(&self) -> bool {
-        self.source != SensorSource::External
+        !self.is_external()
     }
 }
 

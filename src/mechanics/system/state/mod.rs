@@ -2,6 +2,7 @@
 
 mod accelerations;
 mod forecast;
+mod inertia_solver;
 mod present;
 mod resolution;
 mod step;
@@ -9,8 +10,9 @@ mod unknowns;
 mod watched;
 
 pub use forecast::Prediction;
+pub use inertia_solver::InertiaSolver;
 pub use present::MotionState;
 pub use resolution::Resolution;
-pub use step::{InertiaSolver, StepMeasures};
+pub use step::StepMeasures;
 pub use unknowns::{UnknownKind, Unknowns};
 pub use watched::MonitoredBody;

@@ -1,8 +1,8 @@
 //! Scales of force and moment in the present step, with which the residual of the step is compared.
 
+use super::InertiaSolver;
 use crate::beams::{ForceSummary, RotationIncrement};
 use crate::integrators::Interval;
-use crate::linalg::BandedMatrix;
 
 /// Interval of the present step, and the largest forces and moments of sections, inertia, loads and contacts.
 pub struct StepMeasures {
@@ -22,16 +22,6 @@ pub struct StepMeasures {
     scratch: Vec<f64>,
     /// `None` until a step with friction begins.
     pub inertia_solver: Option<Box<InertiaSolver>>,
-}
-
-/// Factorised inertia matrix with the memory for responses to unit impulses.
-pub struct InertiaSolver {
-    pub inertia: BandedMatrix,
-    pub is_factorised: bool,
-    /// Generalised forces of a unit impulse.
-    pub forces: Vec<f64>,
-    /// Velocities that the impulse causes.
-    pub rates: Vec<f64>,
 }
 
 impl StepMeasures {

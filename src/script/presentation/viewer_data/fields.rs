@@ -7,6 +7,11 @@ use crate::script::presentation::quantities::BeamQuantity;
 use crate::simulation::{Axes, AxisStation, Outline, Simulation};
 use crate::system::{BeamPlaces, SystemError};
 
+struct FieldKind {
+    name: &'static str,
+    source: FieldSource,
+}
+
 enum FieldSource {
     /// Speed of the axis, computed from the configurations of the previous and the next frame [length/time].
     AdjacentFrames,
@@ -15,16 +20,20 @@ enum FieldSource {
     State,
 }
 
+const fn kind(name: &'static str, source: FieldSource) -> FieldKind {
+    FieldKind { name, source }
+}
+
 /// All fields, in the order of [`FIELDS`]. The stretch is the relative elongation of the axis [-].
 /// The field `curvature` is the change of the axis curvature from the start [1/length].
-const KINDS: [(&str, FieldSource); 7] = [
-    ("speed", FieldSource::AdjacentFrames),
-    ("M", FieldSource::State),
-    ("strain_energy", FieldSource::State),
-    ("N", FieldSource::State),
-    ("Q", FieldSource::State),
-    ("stretch", FieldSource::Axis(AxisStation::stretch, "-")),
-    ("curvature", FieldSource::Axis(AxisStation::curvature, "1/length")),
+const KINDS: [FieldKind; 7] = [
+    kind("speed", FieldSource::AdjacentFrames),
+    kind("M", FieldSource::State),
+    kind("strain_energy", FieldSource::State),
+    kind("N", FieldSource::State),
+    kind("Q", FieldSource::State),
+    kind("stretch", FieldSource::Axis(AxisStation::stretch, "-")),
+    kind("curvature", FieldSource::Axis(AxisStation::curvature, "1/length")),
 ];
 
 pub(crate) const FIELDS: [&str; 7] =
@@ -46,9 +55,11 @@ impl FieldReader {
         frames: usize,
         names: &[&str],
     ) -> Result<Option<Self>, SystemError> {
-        let of_states = KINDS.iter().filter(|(_, source)| matches!(source, FieldSource::State));
-        let wanted = of_states.map(|(name, _)| *name).filter(|name| names.contains(name));
-        let quantities = wanted.filter_map(BeamQuantity::named);
+        let is_wanted = |kind: &&FieldKind| {
+            matches!(kind.source, FieldSource::State) && names.contains(&kind.name)
+        };
+        let quantities =
+            KINDS.iter().filter(is_wanted).filter_map(|kind| BeamQuantity::named(kind.name));
         let taken: Vec<_> =
             quantities.map(|quantity| (quantity, vec![Vec::new(); frames])).collect();
         if taken.is_empty() {
@@ -91,8 +102,8 @@ pub(super) fn fields(
 ) -> Result<Vec<ColourField>, SystemError> {
     let stations = Axes::of(simulation.scene())?.stations()?;
     let mut inside = inside.into_iter();
-    let field = |(name, source): &(&str, FieldSource)| {
-        let (unit, values) = match *source {
+    let field = |kind: &FieldKind| {
+        let (unit, values) = match kind.source {
             FieldSource::State => return inside.next(),
             FieldSource::Axis(value, unit) => (unit, along_axes(shown, &stations, value)),
             FieldSource::AdjacentFrames => {
@@ -100,9 +111,9 @@ pub(super) fn fields(
                 ("length/time", shown.indices.iter().map(speeds).collect())
             }
         };
-        Some(ColourField { name: (*name).to_owned(), unit: unit.to_owned(), values })
+        Some(ColourField { name: kind.name.to_owned(), unit: unit.to_owned(), values })
     };
-    Ok(KINDS.iter().filter(|(name, _)| names.contains(name)).filter_map(field).collect())
+    Ok(KINDS.iter().filter(|kind| names.contains(&kind.name)).filter_map(field).collect())
 }
 
 fn along_axes(
@@ -136,8 +147,8 @@ mod tests {
 
     #[test]
     fn names_and_kinds_agree_and_states_have_their_quantities() {
-        assert_eq!(KINDS.each_ref().map(|(name, _)| *name), FIELDS);
-        let of_states = KINDS.iter().filter(|(_, source)| matches!(source, FieldSource::State));
-        assert!(of_states.into_iter().all(|(name, _)| BeamQuantity::named(name).is_some()));
+        assert_eq!(KINDS.each_ref().map(|kind| kind.name), FIELDS);
+        let of_states = KINDS.iter().filter(|kind| matches!(kind.source, FieldSource::State));
+        assert!(of_states.into_iter().all(|kind| BeamQuantity::named(kind.name).is_some()));
     }
 }

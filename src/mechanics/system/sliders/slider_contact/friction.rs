@@ -88,7 +88,7 @@ impl SliderFriction {
         }
     }
 
-    /// Keeps the force of slip at that of the last step, because a short step has no solution with the law. Returns true if it was not kept before.
+    /// Keeps the force of slip at that of the last step, because a short step has no solution with the law. Returns true if the call changes the equations of the step.
     pub(super) fn freeze(&mut self) -> bool {
         let FrictionMode::Slip(sign) = self.mode else { return false };
         let is_short = self.duration <= FIXED_BELOW * self.longest;

@@ -1,0 +1,53 @@
+//! Responses to unit impulses, computed without allocation in every step.
+
+use crate::linalg::{BandedMatrix, LinearError};
+
+/// Factorised inertia matrix with the memory for responses to unit impulses.
+pub struct InertiaSolver {
+    inertia: BandedMatrix,
+    is_factorised: bool,
+    /// Generalised forces of a unit impulse on all degrees of freedom.
+    forces: Vec<f64>,
+    /// Velocities of the unknowns that the impulse causes.
+    rates: Vec<f64>,
+}
+
+impl InertiaSolver {
+    /// Creates a solver for a number of unknowns and of all degrees of freedom.
+    pub fn new(unknowns: usize, half_bandwidth: usize, degrees_of_freedom: usize) -> Self {
+        Self {
+            inertia: BandedMatrix::zeros(unknowns, half_bandwidth),
+            is_factorised: false,
+            forces: vec![0.0; degrees_of_freedom],
+            rates: vec![0.0; unknowns],
+        }
+    }
+
+    /// Returns true if the solver has factors of an inertia matrix.
+    pub fn is_factorised(&self) -> bool {
+        self.is_factorised
+    }
+
+    /// Factorises the inertia whose entries `fill` adds to a zero matrix.
+    ///
+    /// # Errors
+    /// Fails if the inertia is singular.
+    pub fn factorise(&mut self, fill: impl FnOnce(&mut BandedMatrix)) -> Result<(), LinearError> {
+        self.is_factorised = false;
+        self.inertia.clear();
+        fill(&mut self.inertia);
+        self.inertia.factorise()?;
+        self.is_factorised = true;
+        Ok(())
+    }
+
+    /// Velocity in the direction of a unit impulse that the impulse causes [1/mass]. `add_forces` adds its generalised forces.
+    pub fn response(&mut self, add_forces: impl FnOnce(&mut [f64])) -> f64 {
+        let Self { inertia, forces, rates, .. } = self;
+        forces.fill(0.0);
+        add_forces(forces);
+        rates.copy_from_slice(&forces[..inertia.size()]);
+        inertia.factors().solve(rates);
+        rates.iter().zip(forces.iter()).map(|(rate, force)| rate * force).sum()
+    }
+}
