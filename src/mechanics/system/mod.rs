@@ -14,9 +14,10 @@ mod state;
 mod step_mean;
 
 pub use elements::{
-    Along, Anchor, Branch, DampingLaw, Drag, Dragged, Drive, DriveKind, DriveState, Element,
-    LawArgument, LoadAccount, MaterialDamping, MotionCurvature, Origin, OutsideLaw, PointMass,
-    ShortBounce, SpeedLaw, Spring, SpringKind, SpringLaw, UnsampledChange,
+    Along, Anchor, Branch, ContactState, ContactTarget, DampingLaw, Drag, Dragged, Drive,
+    DriveKind, DriveState, Element, LawArgument, LoadAccount, MaterialDamping, MotionCurvature,
+    Obstacle, ObstacleShape, Origin, OutsideLaw, PointMass, ShortBounce, SpeedLaw, Spring,
+    SpringKind, SpringLaw, UnsampledChange,
 };
 pub(crate) use errors::rounded;
 pub use errors::{

@@ -24,6 +24,7 @@ mod math;
 mod measurements;
 mod modes;
 mod notes;
+mod obstacles;
 pub(crate) mod pictures;
 mod precision_studies;
 mod reading_options;
@@ -76,6 +77,7 @@ pub const TABLES: &[&BindingTable] = &[
     &drives::TABLE,
     &springs::TABLE,
     &drag::TABLE,
+    &obstacles::TABLE,
     &equilibria::TABLE,
     &modes::TABLE,
     &simulations::TABLE,

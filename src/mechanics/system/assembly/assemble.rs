@@ -8,7 +8,9 @@ use crate::elementary::square;
 use crate::geometry::{GeometryError, Vec2, interpolate, larger, perpendicular};
 use crate::joints::{CONTACT_UNKNOWNS, Joint, Partner, Releasable, Slider};
 use crate::system::bodies::{Bodies, Body, Tracker};
-use crate::system::elements::{AssemblyContext, Elements, PrescribedMovements, Supports, Weight};
+use crate::system::elements::{
+    AssemblyContext, ContactTarget, Elements, PrescribedMovements, Supports, Weight,
+};
 use crate::system::links::{InclinedRoller, Links, RigidLink};
 use crate::system::scene::same_place;
 use crate::system::sliders::Sliders;
@@ -296,6 +298,12 @@ impl AssemblyContext for Assembly<'_> {
     fn place_at(&self, beam: usize, parameter: f64) -> Result<BodyPoint, SystemError> {
         BodyPoint::at(beam, &self.scene.beams[beam].axis, &self.meshes[beam], parameter)
             .map_err(|error| self.wrong(beam, error))
+    }
+
+    fn contact_targets(&self) -> Vec<ContactTarget> {
+        let beams = (0..self.scene.beams.len()).map(ContactTarget::Beam);
+        let particles = (0..self.scene.particles.len()).map(Station::on_particle);
+        beams.chain(particles.map(ContactTarget::Point)).collect()
     }
 
     fn mesh(&self, beam: usize) -> &Mesh {

@@ -79,6 +79,10 @@ impl Elements {
         }
     }
 
+    pub fn read_inertia(&mut self, bodies: &[Body], diagonal: &[f64]) {
+        self.resistances.iter_mut().for_each(|one| one.read_inertia(bodies, diagonal));
+    }
+
     /// Prepares all elements for a step that starts with the given rates of the unknowns.
     ///
     /// # Errors

@@ -3,7 +3,9 @@
 use serde::{Deserialize, Serialize};
 
 use super::point_mass::NodalMass;
-use super::{Drag, ExternalForce, InternalForce, MaterialDamping, PointMass, Spring};
+use super::{
+    ContactTarget, Drag, ExternalForce, InternalForce, MaterialDamping, Obstacle, PointMass, Spring,
+};
 use crate::beams::{BodyDynamics, BodyPoint, Mesh, SectionVariation, Station};
 use crate::geometry::GeometryError;
 use crate::loads::{Load, Schedule};
@@ -25,6 +27,8 @@ pub enum Element {
     Damping(MaterialDamping),
     /// Drag in air or water.
     Drag(Drag),
+    /// Obstacle fixed to the ground.
+    Obstacle(Obstacle),
 }
 
 impl Element {
@@ -36,6 +40,7 @@ impl Element {
             Self::Spring(_) => "spring",
             Self::Damping(_) => "damping",
             Self::Drag(_) => "drag",
+            Self::Obstacle(_) => "obstacle",
         }
     }
 
@@ -46,6 +51,7 @@ impl Element {
             Self::Spring(spring) => Some(&mut spring.name),
             Self::Damping(damping) => Some(&mut damping.name),
             Self::Drag(drag) => Some(&mut drag.name),
+            Self::Obstacle(obstacle) => Some(&mut obstacle.name),
         }
     }
 
@@ -56,6 +62,7 @@ impl Element {
             Self::Spring(spring) => spring,
             Self::Damping(damping) => damping,
             Self::Drag(drag) => drag,
+            Self::Obstacle(obstacle) => obstacle,
         }
     }
 }
@@ -121,6 +128,9 @@ pub trait AssemblyContext {
     /// # Errors
     /// Fails if the parameter lies outside the mesh.
     fn place_at(&self, beam: usize, parameter: f64) -> Result<BodyPoint, SystemError>;
+
+    /// All beams and particles of the scene.
+    fn contact_targets(&self) -> Vec<ContactTarget>;
 
     fn mesh(&self, beam: usize) -> &Mesh;
 

@@ -18,7 +18,8 @@ mod term;
 use std::ops::Range;
 
 use self::shares::CoordinateShare;
-use self::term::{ElongationTerm, RelativeTurn};
+pub(super) use self::term::ElongationTerm;
+use self::term::RelativeTurn;
 use super::coordinate::Coordinate;
 use super::{TrialState, collocation};
 use crate::beams::{BodyPoint, Movement, RotationIncrement};

@@ -1,6 +1,6 @@
 //! Interface of elements that resist motion: springs, dampers, drag.
 
-use super::{Branch, OutsideLaw, ShortBounce, TrialState, WorkAndImpulse};
+use super::{Branch, ContactState, OutsideLaw, ShortBounce, TrialState, WorkAndImpulse};
 use crate::beams::{ForceSummary, Movement, SectionPlace, SpanStiffness};
 use crate::geometry::Vec2;
 use crate::integrators::Interval;
@@ -25,6 +25,9 @@ pub struct SpringTrialState {
 /// Each method is called dynamically, once per element and iterate.
 pub trait InternalForce {
     fn name(&self) -> &str;
+
+    /// Reads the diagonal of the inertia matrix of the unknowns, once before the first step.
+    fn read_inertia(&mut self, _bodies: &[Body], _diagonal: &[f64]) {}
 
     /// Prepares a step that starts with the given rates of the unknowns. Iterations start with the forces of the last step.
     fn begin_step(&mut self, interval: Interval, bodies: &[Body], rates: &[f64]);
@@ -75,6 +78,11 @@ pub trait InternalForce {
 
     /// Elongation and force of a spring; `None` for other elements.
     fn stretched(&self) -> Option<SpringTrialState> {
+        None
+    }
+
+    /// State of the contact with an obstacle; `None` for other elements.
+    fn contact(&self, _bodies: &[Body]) -> Option<ContactState> {
         None
     }
 

@@ -77,3 +77,41 @@ impl MixedForce {
         self.force += self.mismatch + self.stiffness * change;
     }
 }
+
+/// Largest number of bisections, after which the result is accurate to rounding.
+const MOST_TRIES: usize = 120;
+
+impl ForceTarget {
+    /// Target of a linearisation at `change`, from the intersection of an increasing law with a straight line.
+    ///
+    /// The line passes through the present force at `change`, and falls with the impedance of the rest of the system.
+    /// Without the intersection, Newton's method would alternate between the segments at a corner of a stiff law.
+    pub fn intersection(
+        change: f64,
+        force: f64,
+        impedance: f64,
+        law: impl Fn(f64) -> Self,
+    ) -> Self {
+        let above = |at: f64, of: Self| of.force - force + impedance * (at - change);
+        let (mut at, mut met) = (change, law(change));
+        // A law of zero slope would intersect the line at `reach`.
+        // An increasing law intersects the line between `change` and `reach`.
+        let reach = change - above(change, met) / impedance;
+        let (mut low, mut high) = (change.min(reach), change.max(reach));
+        for _ in 0..MOST_TRIES {
+            let off = above(at, met);
+            if off > 0.0 {
+                high = at
+            } else {
+                low = at
+            }
+            let next = at - off / (met.stiffness + impedance);
+            let next = if low < next && next < high { next } else { 0.5 * (low + high) };
+            if off == 0.0 || next <= low || next >= high {
+                break;
+            }
+            (at, met) = (next, law(next));
+        }
+        Self { force: met.force + met.stiffness * (change - at), stiffness: met.stiffness }
+    }
+}

@@ -77,7 +77,7 @@ impl System {
     }
 
     /// Dissipated energies of other elements since the start, in the order of the scene [energy].
-    /// Other elements are material damping, drag, impacts of sliders with restitution below 1, and friction.
+    /// Other elements are material damping, drag, contact with obstacles, impacts of sliders with restitution below 1, and friction.
     pub(crate) fn dissipations(&self) -> impl Iterator<Item = f64> {
         let others = self.elements().resistances().filter(|other| other.stretched().is_none());
         let losing = self.sliders().iter().filter(|slider| slider.dissipates());

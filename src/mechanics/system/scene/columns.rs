@@ -5,8 +5,8 @@ use crate::geometry::Vec2;
 use crate::loads::LoadKind;
 use crate::system::elements::{DriveKind, Element, SpringKind};
 use crate::system::sensors::quantities::{
-    COLUMNS_OF_LOADS, COLUMNS_OF_MOVES, COLUMNS_OF_SLIDERS, COLUMNS_OF_SPRINGS,
-    COLUMNS_OF_TORSION_SPRINGS, DISSIPATED, STORED, TORQUE, WORK,
+    COLUMNS_OF_LOADS, COLUMNS_OF_MOVES, COLUMNS_OF_OBSTACLES, COLUMNS_OF_SLIDERS,
+    COLUMNS_OF_SPRINGS, COLUMNS_OF_TORSION_SPRINGS, DISSIPATED, STORED, TORQUE, WORK,
 };
 use crate::system::{Sensor, SensorSource};
 
@@ -19,16 +19,15 @@ impl Scene {
             let own = COLUMNS_OF_SLIDERS[..count].iter();
             all.extend(own.map(|own| Sensor::of(&slider.name, own, SensorSource::Slider(at))));
         }
-        let stores = self.springs().next().is_some();
+        let stores = self.springs().next().is_some() || self.obstacles().next().is_some();
         let dissipates = stores || self.dissipating().next().is_some();
         let sums = [(stores, &STORED), (dissipates, &DISSIPATED)].into_iter();
         all.extend(sums.filter(|(is_there, _)| *is_there).map(|(_, quantity)| {
             let (name, source) = (quantity.name.to_owned(), SensorSource::Scene);
             Sensor { name, source, quantity }
         }));
-        let is_internal = |element: &&Element| {
-            matches!(element, Element::Spring(_) | Element::Damping(_) | Element::Drag(_))
-        };
+        let is_internal =
+            |element: &&Element| !matches!(element, Element::PointMass(_) | Element::Load(_));
         for (at, element) in self.elements.iter().filter(is_internal).enumerate() {
             let source = SensorSource::InternalForce(at);
             match element {
@@ -48,6 +47,12 @@ impl Scene {
                     others.push(Sensor::in_sum(&DISSIPATED, &drag.name, source));
                     let has_wind = drag.wind != Vec2::zeros();
                     winds.extend(has_wind.then(|| Sensor::in_sum(&WORK, &drag.name, source)));
+                }
+                Element::Obstacle(obstacle) => {
+                    let own = COLUMNS_OF_OBSTACLES.iter();
+                    all.extend(own.map(|own| Sensor::of(&obstacle.name, own, source)));
+                    all.push(Sensor::in_sum(&STORED, &obstacle.name, source));
+                    others.push(Sensor::in_sum(&DISSIPATED, &obstacle.name, source));
                 }
                 Element::PointMass(_) | Element::Load(_) => (),
             }

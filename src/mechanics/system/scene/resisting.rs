@@ -3,7 +3,7 @@
 use super::Scene;
 use crate::beams::Relaxation;
 use crate::system::SystemError;
-use crate::system::elements::{Drag, Element, MaterialDamping};
+use crate::system::elements::{Drag, Element, MaterialDamping, Obstacle};
 
 impl Scene {
     /// Drag elements, in the order of addition.
@@ -19,6 +19,7 @@ impl Scene {
         let own = self.elements.iter().filter_map(|element| match element {
             Element::Damping(damping) => Some(&*damping.name),
             Element::Drag(drag) => Some(&*drag.name),
+            Element::Obstacle(obstacle) => Some(&*obstacle.name),
             _ => None,
         });
         let sliders = self.sliders.iter().filter(|slider| slider.dissipates());
@@ -41,5 +42,22 @@ impl Scene {
     pub fn add_drag(&mut self, drag: Drag) -> Result<(), SystemError> {
         self.check_name("drag", &drag.name)?;
         self.add_element(Element::Drag(drag))
+    }
+
+    /// Obstacles, in the order of addition.
+    pub fn obstacles(&self) -> impl Iterator<Item = &Obstacle> + Clone {
+        self.elements.iter().filter_map(|element| match element {
+            Element::Obstacle(obstacle) => Some(obstacle),
+            _ => None,
+        })
+    }
+
+    /// Adds an obstacle.
+    ///
+    /// # Errors
+    /// Fails if the name is taken, a number is out of range, or a body does not exist.
+    pub fn add_obstacle(&mut self, obstacle: Obstacle) -> Result<(), SystemError> {
+        self.check_name("obstacle", &obstacle.name)?;
+        self.add_element(Element::Obstacle(obstacle))
     }
 }

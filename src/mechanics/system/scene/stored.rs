@@ -132,6 +132,7 @@ impl Scene {
             Element::Spring(spring) => self.add_spring(spring),
             Element::Damping(damping) => self.add_damping(damping.beam, damping.relaxation),
             Element::Drag(drag) => self.add_drag(drag),
+            Element::Obstacle(obstacle) => self.add_obstacle(obstacle),
             Element::Load(load) => {
                 if let Some(title) = &load.title {
                     self.check_name("load", title)?;

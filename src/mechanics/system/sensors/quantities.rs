@@ -7,7 +7,7 @@ use super::SensorSource;
 use crate::beams::{BodyPoint, SectionForces};
 use crate::elementary::atan2;
 use crate::geometry::Vec2;
-use crate::system::elements::{InternalForce, LoadAccount};
+use crate::system::elements::{ContactState, InternalForce, LoadAccount};
 use crate::system::{BodyEnergy, System};
 
 /// Quantity with its name, dimension and the function that reads it.
@@ -150,6 +150,14 @@ pub(in crate::system) static COLUMNS_OF_TORSION_SPRINGS: [Quantity; 2] = [
     Quantity { dimension: "force·length", ..COLUMNS_OF_SPRINGS[1] },
 ];
 
+/// Columns of obstacles: the force on the bodies, and the smallest gap.
+pub(in crate::system) static COLUMNS_OF_OBSTACLES: [Quantity; 4] = [
+    quantity("force", "force", MeanOfMethod, Index(|model, at| contact(model, at).force.norm())),
+    quantity("force_x", "force", MeanOfMethod, Index(|model, at| contact(model, at).force.x)),
+    quantity("force_y", "force", MeanOfMethod, Index(|model, at| contact(model, at).force.y)),
+    quantity("gap", "length", Present, Index(|model, at| contact(model, at).gap)),
+];
+
 /// Columns of named loads: a force, a force per length, or a moment.
 pub(in crate::system) static COLUMNS_OF_LOADS: [Quantity; 3] = [
     quantity("force", "force", Present, Index(|model, at| load(model, at).value)),
@@ -195,13 +203,17 @@ fn spring(model: &System, at: usize) -> [f64; 2] {
     state.map_or([f64::NAN; 2], |state| [state.elongation, state.force])
 }
 
+fn contact(model: &System, at: usize) -> ContactState {
+    internal_force(model, at).contact(model.bodies()).unwrap_or_default()
+}
+
 fn load(model: &System, at: usize) -> LoadAccount {
     model.elements().external_force(at).account().unwrap_or_default()
 }
 
 fn stored(model: &System, source: SensorSource) -> Option<f64> {
     match source {
-        SensorSource::Scene => Some(model.springs().map(|spring| spring.stored).sum()),
+        SensorSource::Scene => Some(model.elements().stored()),
         SensorSource::InternalForce(at) => Some(internal_force(model, at).stored()),
         _ => None,
     }

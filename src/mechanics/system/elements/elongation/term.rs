@@ -7,17 +7,21 @@ use crate::geometry::Vec2;
 /// Difference of two rotation increments, below which the mean derivative replaces the difference quotient [rad]. The error is of second order.
 const SAME_TURN: f64 = 1e-5;
 
-pub(super) struct ElongationTerm {
-    pub(super) change: f64,
-    pub(super) secant: Vec2,
-    pub(super) slope: Vec2,
+pub(in crate::system::elements) struct ElongationTerm {
+    pub(in crate::system::elements) change: f64,
+    pub(in crate::system::elements) secant: Vec2,
+    pub(in crate::system::elements) slope: Vec2,
     /// Factor `inverse` in the derivative of the secant `e`: `∂e/∂d₁ = (I - e⊗s) · inverse` [1/length].
     /// The vector `d₁` connects the ends of the segment at the end of the step, and `s` is its direction.
     inverse: f64,
 }
 
 impl ElongationTerm {
-    pub(super) fn new(start: Vec2, moved: Vec2, rotations: RotationIncrement) -> Self {
+    pub(in crate::system::elements) fn new(
+        start: Vec2,
+        moved: Vec2,
+        rotations: RotationIncrement,
+    ) -> Self {
         let end = start + moved;
         let (before, after) = (start.norm(), end.norm());
         let direction =
@@ -34,7 +38,7 @@ impl ElongationTerm {
         Self { change: mean.dot(&moved), secant, slope, inverse }
     }
 
-    pub(super) fn bend(&self, component: usize, by: usize) -> f64 {
+    pub(in crate::system::elements) fn bend(&self, component: usize, by: usize) -> f64 {
         let one = if component == by { 1.0 } else { 0.0 };
         (one - self.secant[component] * self.slope[by]) * self.inverse
     }

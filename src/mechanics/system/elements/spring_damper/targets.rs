@@ -6,9 +6,6 @@ use crate::system::elements::damping_law::DampingLaw;
 use crate::system::elements::mixed_force::ForceTarget;
 use crate::system::elements::{SpringLaw, TrialState};
 
-/// Largest number of bisections, after which the result is accurate to rounding.
-const MOST_TRIES: usize = 120;
-
 impl SpringDamper {
     pub(super) fn restoring_at_start(&self) -> f64 {
         self.law.as_ref().map_or(0.0, |law| law.force(self.elongation.grown()))
@@ -55,35 +52,14 @@ impl SpringDamper {
 
     /// Target force of the spring for a linearisation.
     /// After several iterations, the linearisation uses the intersection of the law with a straight line.
-    /// The straight line represents the impedance of the rest of the system.
-    /// Without the intersection, Newton's method would alternate between segments at a corner of a stiff law.
-    /// The intersection is unique if the law is increasing.
+    /// The straight line represents the impedance of the rest of the system. The intersection is unique if the law is increasing.
     pub(super) fn spring_target(&mut self, stage: Stage) -> ForceTarget {
         let (asked, change) = (self.restoring(stage), self.elongation.change);
         let impedance = self.spring.impedance(change);
         let Some(impedance) = impedance.filter(|_| self.rises) else { return asked };
-        let force = self.spring.force;
-        let above = |at: f64, of: ForceTarget| of.force - force + impedance * (at - change);
-        // A law of zero slope would intersect the straight line at the elongation change `reach`.
-        // An increasing law intersects the straight line between `change` and `reach`.
-        let reach = change - above(change, asked) / impedance;
-        let (mut low, mut high) = (change.min(reach), change.max(reach));
-        let (mut at, mut met) = (change, asked);
-        for _ in 0..MOST_TRIES {
-            let off = above(at, met);
-            if off > 0.0 {
-                high = at
-            } else {
-                low = at
-            }
-            let next = at - off / (met.stiffness + impedance);
-            let next = if low < next && next < high { next } else { 0.5 * (low + high) };
-            if off == 0.0 || next <= low || next >= high {
-                break;
-            }
-            (at, met) = (next, self.restoring_after(stage, next));
-        }
-        ForceTarget { force: met.force + met.stiffness * (change - at), stiffness: met.stiffness }
+        ForceTarget::intersection(change, self.spring.force, impedance, |change| {
+            self.restoring_after(stage, change)
+        })
     }
 
     pub(super) fn damping(&self, at: TrialState<'_>) -> ForceTarget {

@@ -1,0 +1,191 @@
+//! Definition of an obstacle in a scene.
+
+use serde::{Deserialize, Serialize};
+
+use super::forces::{ObstacleForces, TouchingBody};
+use super::law::{ContactLaw, damping_factor};
+use super::point::{ContactPoint, Surface};
+use crate::beams::Station;
+use crate::geometry::Vec2;
+use crate::system::SystemError;
+use crate::system::elements::element::{AssemblyContext, BuiltElement, ElementDef, SceneChecks};
+use crate::system::errors::finite;
+
+/// Points of the Gauss–Lobatto rule on `[-1, 1]` with their weights (Abramowitz & Stegun 25.4.32). The ends of a beam are contact points.
+const LOBATTO: [(f64, f64); 3] = [
+    (-1.0, 1.0 / 6.0),
+    (-0.447_213_595_499_957_94, 5.0 / 6.0),
+    (0.447_213_595_499_957_94, 5.0 / 6.0),
+];
+
+/// Weight of the last point of the rule.
+const LAST: f64 = 1.0 / 6.0;
+
+/// Smallest coefficient of restitution. Smaller coefficients need a damping that steps cannot resolve.
+const LEAST_RESTITUTION: f64 = 0.05;
+
+/// Shape of an obstacle.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub enum ObstacleShape {
+    /// Half-plane.
+    HalfPlane {
+        /// Point of the boundary [length].
+        point: Vec2,
+        /// Outer unit normal [-].
+        normal: Vec2,
+    },
+    /// Disc.
+    Disc {
+        /// Centre [length].
+        centre: Vec2,
+        /// Radius [length].
+        radius: f64,
+    },
+}
+
+/// Body, or point of a body, that can touch an obstacle.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub enum ContactTarget {
+    /// A beam along its whole length, by its index.
+    Beam(usize),
+    /// A particle, or a station of a beam or a rigid body.
+    Point(Station),
+}
+
+/// Obstacle that is fixed to the ground. Its contact force is a function of the gap.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Obstacle {
+    /// Name in messages and columns.
+    pub name: String,
+    /// Shape of the obstacle.
+    pub shape: ObstacleShape,
+    /// Bodies that can touch the obstacle; empty for all beams and particles of the scene.
+    pub targets: Vec<ContactTarget>,
+    /// Radius of these bodies around their axes and points [length].
+    pub radius: f64,
+    /// Force per penetration on a point [force/length], or force per length and penetration on a beam [force/length²].
+    pub stiffness: f64,
+    /// Coefficient of restitution of an impact that the steps resolve [-]; 1 for an elastic contact.
+    pub restitution: f64,
+}
+
+impl Obstacle {
+    /// Type and name for messages.
+    pub fn object(&self) -> String {
+        format!("obstacle '{}'", self.name)
+    }
+
+    fn refuse(&self, name: &'static str, value: f64, allowed: &'static str) -> SystemError {
+        SystemError::Value { object: self.object(), name, value, allowed }
+    }
+
+    fn surface(&self) -> Surface {
+        let Self { shape, radius, stiffness, restitution, .. } = *self;
+        let law = match shape {
+            ObstacleShape::HalfPlane { .. } => ContactLaw::HalfPlane { stiffness },
+            ObstacleShape::Disc { radius: of_disc, .. } => {
+                ContactLaw::Disc { stiffness, radius: of_disc + radius }
+            }
+        };
+        Surface { shape, radius, law, damping: damping_factor(restitution) }
+    }
+}
+
+impl ElementDef for Obstacle {
+    fn check(&self, setting: &dyn SceneChecks) -> Result<(), SystemError> {
+        let name = self.object();
+        match self.shape {
+            ObstacleShape::HalfPlane { point, normal } => {
+                finite(&name, "point", point.as_slice())?;
+                finite(&name, "normal", normal.as_slice())?;
+                let length = normal.norm();
+                if (length - 1.0).abs() > 1e-12 {
+                    return Err(self.refuse("length of the normal", length, "1"));
+                }
+            }
+            ObstacleShape::Disc { centre, radius } => {
+                finite(&name, "centre", centre.as_slice())?;
+                if !(radius.is_finite() && radius > 0.0) {
+                    let allowed = "a positive finite number [length]";
+                    return Err(self.refuse("radius of the disc", radius, allowed));
+                }
+            }
+        }
+        let Self { radius, stiffness, restitution, .. } = *self;
+        if !(radius.is_finite() && radius >= 0.0) {
+            let allowed = "zero or a positive finite number [length]";
+            return Err(self.refuse("radius", radius, allowed));
+        }
+        if !(stiffness.is_finite() && stiffness > 0.0) {
+            return Err(self.refuse("stiffness", stiffness, "a positive finite number"));
+        }
+        if !(LEAST_RESTITUTION..=1.0).contains(&restitution) {
+            return Err(self.refuse("restitution", restitution, "a number from 0.05 to 1"));
+        }
+        for target in &self.targets {
+            let station = match target {
+                ContactTarget::Beam(beam) => Station::on_beam(*beam, 0.0),
+                ContactTarget::Point(station) => *station,
+            };
+            setting.check_station("an obstacle", &station)?;
+        }
+        Ok(())
+    }
+
+    /// Stations of points. The contact force of a disc couples their displacements.
+    fn coupled(&self) -> Vec<Station> {
+        let station = |target: &ContactTarget| match target {
+            ContactTarget::Beam(_) => None,
+            ContactTarget::Point(station) => Some(*station),
+        };
+        self.targets.iter().filter_map(station).collect()
+    }
+
+    fn build(&self, site: &dyn AssemblyContext) -> Result<BuiltElement, SystemError> {
+        let touching = |target: &ContactTarget| match target {
+            ContactTarget::Beam(beam) => points_of_beam(site, *beam),
+            ContactTarget::Point(station) => {
+                let place = site.place(station)?;
+                Ok(vec![ContactPoint::new(place, 1.0)])
+            }
+        };
+        let targets = match self.targets.is_empty() {
+            true => site.contact_targets(),
+            false => self.targets.clone(),
+        };
+        let bodies = targets.iter().map(|target| Ok(TouchingBody::new(touching(target)?)));
+        let bodies = bodies.collect::<Result<_, SystemError>>()?;
+        let forces = ObstacleForces::new(self.name.clone(), self.surface(), bodies);
+        Ok(BuiltElement::Resistance(Box::new(forces)))
+    }
+}
+
+/// Contact points of a beam: the points of a Gauss–Lobatto rule with four points per span.
+fn points_of_beam(
+    site: &dyn AssemblyContext,
+    beam: usize,
+) -> Result<Vec<ContactPoint>, SystemError> {
+    let basis = site.mesh(beam).basis();
+    let controls = site.body(beam).control_points();
+    let (mut points, mut at_end) = (Vec::new(), 0.0);
+    let mut add = |xi: f64, weight: f64| {
+        let place = site.place_at(beam, xi)?;
+        points.push(ContactPoint::new(place, weight));
+        Ok::<(), SystemError>(())
+    };
+    let spans = basis.spans();
+    for span in &spans {
+        let (middle, half) = (0.5 * (span.start + span.end), 0.5 * (span.end - span.start));
+        let speed = |xi: f64| basis.evaluate_in(span, xi).combine(1, controls).norm();
+        for (at, (x, weight)) in LOBATTO.into_iter().enumerate() {
+            let xi = if at == 0 { span.start } else { middle + half * x };
+            let before = if at == 0 { at_end } else { 0.0 };
+            add(xi, before + half * weight * speed(xi))?;
+        }
+        at_end = half * LAST * speed(span.end);
+    }
+    if let Some(last) = spans.last() {
+        add(last.end, at_end)?;
+    }
+    Ok(points)
+}

@@ -1,0 +1,355 @@
+//! Contact forces of an obstacle in a step.
+//!
+//! ```text
+//! energy–momentum method:        T = Δu/Δg + c ġ ≤ 0 along the secant of the gap
+//! work of this force:            T Δg = Δu + D
+//! methods with forces at ends:   u'(g₀) and u'(g₁)
+//! ```
+//!
+//! Symbols: gap `g`, potential `u`, tension `T`, damping coefficient `c` and dissipated energy `D`.
+//! The tension of each contact point is an independent unknown, as the section forces of beams are.
+//! Its search intersects the law with the impedance `2m/h²` of the mass at the point, so the number of iterations does not depend on the stiffness.
+
+use super::definition::ObstacleShape;
+use super::point::{ClosedContact, ContactPoint, ContactTime, Surface};
+use crate::beams::{ForceSummary, Movement, SpanStiffness};
+use crate::geometry::{Vec2, cross, larger, perpendicular};
+use crate::integrators::{Interval, Stage};
+use crate::linalg::BandedMatrix;
+use crate::system::bodies::Body;
+use crate::system::elements::contact_watch::{ContactWatch, ShortBounce};
+use crate::system::elements::internal_force::InternalForce;
+use crate::system::elements::rate_history::RateHistory;
+use crate::system::elements::{TrialState, WorkAndImpulse};
+
+/// State of the contact with an obstacle.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct ContactState {
+    /// Force on the bodies, averaged over the last step [force].
+    pub force: Vec2,
+    /// Smallest gap at present; negative for a penetration [length].
+    pub gap: f64,
+    /// Number of contact points with a negative gap.
+    pub closed: usize,
+}
+
+/// Contact points of one body.
+pub(super) struct TouchingBody {
+    body: usize,
+    points: Vec<ContactPoint>,
+    /// True if the points lie in the convex hull of their control points.
+    is_convex: bool,
+    /// True if the hull of the control points does not touch the obstacle at the start of the step.
+    is_far: bool,
+    watch: ContactWatch,
+    /// Mean rate of the most loaded gap in the last step [length/time].
+    last_rate: f64,
+}
+
+impl TouchingBody {
+    pub(super) fn new(points: Vec<ContactPoint>) -> Self {
+        let is_positive = |point: &ContactPoint| point.place.shape().iter().all(|n| *n >= 0.0);
+        let is_convex = points.iter().all(is_positive);
+        let body = points[0].place.body;
+        let watch = ContactWatch::default();
+        Self { body, points, is_convex, is_far: false, watch, last_rate: 0.0 }
+    }
+
+    /// Returns true if a line separates the control points from the obstacle.
+    fn is_separated(
+        &self,
+        surface: &Surface,
+        position: impl Fn(usize) -> Vec2,
+        count: usize,
+    ) -> bool {
+        let all = || (0..count).map(&position);
+        let (normal, offset) = match surface.shape {
+            ObstacleShape::HalfPlane { point, normal } => (normal, normal.dot(&point)),
+            ObstacleShape::Disc { centre, radius } => {
+                let towards = position(0) + position(count - 1) - centre * 2.0;
+                let length = towards.norm();
+                if length == 0.0 {
+                    return false;
+                }
+                let normal = towards / length;
+                (normal, normal.dot(&centre) + radius)
+            }
+        };
+        self.is_convex && all().all(|at| normal.dot(&at) - offset >= surface.radius)
+    }
+
+    fn begin_step(&mut self, surface: &Surface, body: &Body, rates: &[f64]) {
+        let controls = body.dynamics.control_points();
+        let is_closed = self.points.iter().any(ContactPoint::is_closed);
+        self.is_far = !is_closed && self.is_separated(surface, |at| controls[at], controls.len());
+        self.points.iter_mut().for_each(ContactPoint::begin_step);
+        for point in &mut self.points {
+            point.locate(surface, body);
+            let [x, y, _] = body.at(&point.place, rates);
+            point.note_approach(surface, Vec2::new(x, y));
+        }
+    }
+
+    /// Returns true if no point can touch the obstacle in an iterate.
+    fn cannot_touch(&self, surface: &Surface, body: &Body, increments: &[f64]) -> bool {
+        let controls = body.dynamics.control_points();
+        let position = |at: usize| controls[at] + body.vector_at(at, increments);
+        self.is_far && self.is_separated(surface, position, controls.len())
+    }
+}
+
+pub(super) struct ObstacleForces {
+    name: String,
+    surface: Surface,
+    bodies: Vec<TouchingBody>,
+    rate_history: RateHistory,
+    /// Stage of the last evaluation, and its weight.
+    stage: (Stage, f64),
+    last_force: Vec2,
+    dissipated: f64,
+}
+
+impl ObstacleForces {
+    pub(super) fn new(name: String, surface: Surface, bodies: Vec<TouchingBody>) -> Self {
+        Self {
+            name,
+            surface,
+            bodies,
+            rate_history: RateHistory::default(),
+            stage: (Stage::Midpoint, 1.0),
+            last_force: Vec2::zeros(),
+            dissipated: 0.0,
+        }
+    }
+
+    fn time(&self, (stage, weight): (Stage, f64)) -> ContactTime {
+        let duration = self.rate_history.duration();
+        let rates = self.rate_history.at(stage, weight).filter(|_| duration.is_finite());
+        ContactTime { stage, weight, rates, duration }
+    }
+
+    fn points(&self) -> impl Iterator<Item = &ContactPoint> {
+        self.bodies.iter().flat_map(|body| &body.points)
+    }
+
+    fn points_mut(&mut self) -> impl Iterator<Item = &mut ContactPoint> {
+        self.bodies.iter_mut().flat_map(|body| &mut body.points)
+    }
+
+    fn closed<'s>(
+        &'s self,
+        bodies: &'s [Body],
+    ) -> impl Iterator<Item = (&'s ContactPoint, ClosedContact)> {
+        self.points().filter_map(|point| {
+            Some((point, point.closed(&self.surface, &bodies[point.place.body])?))
+        })
+    }
+}
+
+impl InternalForce for ObstacleForces {
+    fn name(&self) -> &str {
+        &self.name
+    }
+
+    fn read_inertia(&mut self, bodies: &[Body], diagonal: &[f64]) {
+        self.points_mut().for_each(|point| point.read_inertia(&bodies[point.place.body], diagonal));
+    }
+
+    fn begin_step(&mut self, interval: Interval, bodies: &[Body], rates: &[f64]) {
+        self.rate_history.begin(interval.duration());
+        for own in &mut self.bodies {
+            own.begin_step(&self.surface, &bodies[own.body], rates);
+        }
+    }
+
+    fn begin_movement(&mut self) {
+        self.rate_history.begin(f64::INFINITY);
+        self.points_mut().for_each(ContactPoint::begin_movement);
+    }
+
+    fn add_forces(&mut self, at: TrialState<'_>, out: &mut [f64]) -> ForceSummary {
+        let time = self.time((at.stage, at.weight));
+        self.stage = (at.stage, at.weight);
+        let mut summary = ForceSummary::default();
+        for own in &mut self.bodies {
+            let body = &at.bodies[own.body];
+            if own.cannot_touch(&self.surface, body, at.increments) {
+                own.points.iter_mut().for_each(ContactPoint::open);
+                continue;
+            }
+            for point in &mut own.points {
+                let (force, missed) =
+                    point.add_force(&self.surface, time, (body, at.increments), out);
+                summary.force = larger(summary.force, force);
+                summary.strain_mismatch = larger(summary.strain_mismatch, missed);
+            }
+        }
+        summary
+    }
+
+    fn add_linearised_forces(
+        &mut self,
+        at: TrialState<'_>,
+        out: &mut [f64],
+        unknowns: usize,
+        tangent: &mut BandedMatrix,
+    ) {
+        let time = self.time((at.stage, at.weight));
+        for own in &mut self.bodies {
+            let body = &at.bodies[own.body];
+            if own.cannot_touch(&self.surface, body, at.increments) {
+                own.points.iter_mut().for_each(ContactPoint::open);
+                continue;
+            }
+            for point in &mut own.points {
+                let on = (body, at.increments);
+                point.add_linearised(&self.surface, time, on, out, &mut |row, column, by| {
+                    if row < unknowns && column < unknowns {
+                        tangent.add(row, column, by);
+                    }
+                });
+            }
+        }
+    }
+
+    fn add_mismatch_forces(&self, bodies: &[Body], weight: f64, out: &mut [f64]) {
+        self.points()
+            .for_each(|point| point.add_mismatch_force(&bodies[point.place.body], weight, out));
+    }
+
+    fn correct(&mut self, bodies: &[Body], correction: &[f64]) {
+        self.points_mut().for_each(|point| point.correct(&bodies[point.place.body], correction));
+    }
+
+    /// The obstacle does not move, so it does no work.
+    fn exchange(&self, bodies: &[Body], duration: f64) -> WorkAndImpulse {
+        let mut sum = WorkAndImpulse::default();
+        for point in self.points() {
+            let (force, at) = point.mean_force(&bodies[point.place.body]);
+            let impulse = force * duration;
+            sum += WorkAndImpulse::of(0.0, impulse, cross(at, impulse));
+        }
+        sum
+    }
+
+    fn advance(&mut self, bodies: &[Body]) {
+        let time = self.time(self.stage);
+        self.last_force = Vec2::zeros();
+        for own in &mut self.bodies {
+            let was_open = !own.points.iter().any(ContactPoint::is_closed);
+            let (mut force, mut rate) = (0.0, 0.0);
+            for point in &mut own.points {
+                let body = &bodies[own.body];
+                self.last_force += point.mean_force(body).0;
+                let (lost, of_gap) = point.advance(&self.surface, time, body);
+                self.dissipated += lost;
+                if point.force() >= force {
+                    (force, rate) = (point.force(), of_gap);
+                }
+            }
+            let is_open = !own.points.iter().any(ContactPoint::is_closed);
+            if time.duration.is_finite() {
+                own.watch.add([was_open, is_open], [own.last_rate, rate], (force, time.duration));
+                own.last_rate = rate;
+            }
+        }
+        self.rate_history.end();
+    }
+
+    fn stored(&self) -> f64 {
+        self.points().map(|point| point.energy(&self.surface)).sum()
+    }
+
+    fn dissipated(&self) -> f64 {
+        self.dissipated
+    }
+
+    fn contact(&self, bodies: &[Body]) -> Option<ContactState> {
+        let gap =
+            |point: &ContactPoint| point.present_gap(&self.surface, &bodies[point.place.body]);
+        let gap = self.points().map(gap).fold(f64::INFINITY, f64::min);
+        let closed = self.points().filter(|point| point.is_closed()).count();
+        Some(ContactState { force: self.last_force, gap, closed })
+    }
+
+    fn short_bounce(&self) -> Option<ShortBounce> {
+        let bounces = self.bodies.iter().filter_map(|own| own.watch.short_bounce());
+        bounces.max_by(|a, b| a.force.total_cmp(&b.force))
+    }
+
+    fn add_forces_at_start(&self, bodies: &[Body], rates: &[Vec<Movement>], out: &mut [f64]) {
+        for point in self.points().filter(|point| point.is_closed()) {
+            let body = &bodies[point.place.body];
+            let rate = point.place.weights().fold(Vec2::zeros(), |sum, (at, share)| {
+                let [x, y, _] = rates[point.place.body][at];
+                sum + Vec2::new(x, y) * share
+            });
+            point.scatter(body, point.force_at_start(&self.surface, body, rate), out);
+        }
+    }
+
+    fn each_damped_rate(&self, bodies: &[Body], rates: &[f64], take: &mut dyn FnMut(f64, f64)) {
+        if self.surface.damping > 0.0 {
+            for (point, contact) in self.closed(bodies) {
+                let [x, y, _] = bodies[point.place.body].at(&point.place, rates);
+                take(contact.damping, contact.gradient.dot(&Vec2::new(x, y)));
+            }
+        }
+    }
+
+    fn static_stiffness(&self, bodies: &[Body], take: &mut dyn FnMut(&[usize], &SpanStiffness)) {
+        for (point, contact) in self.closed(bodies) {
+            let body = &bodies[point.place.body];
+            let (mut degrees, mut normal, mut across) = (Vec::new(), Vec::new(), Vec::new());
+            let tangent = perpendicular(contact.gradient);
+            for (at, share) in point.place.weights() {
+                for component in 0..2 {
+                    degrees.push(body.degrees_of_freedom[at][component]);
+                    normal.push(share * contact.gradient[component]);
+                    across.push(share * tangent[component]);
+                }
+            }
+            let mut rows = SpanStiffness::default();
+            rows.strains.extend(normal);
+            rows.stiffness.push(contact.tension.stiffness);
+            if contact.distance.is_finite() {
+                let factor = 0.5 * contact.tension.force / contact.distance;
+                rows.twists.extend(across.iter().map(|by| factor * by));
+                rows.twists.extend(across);
+                rows.rounding_fractions.push(0.0);
+            }
+            take(&degrees, &rows);
+        }
+    }
+
+    fn save(&self, state: &mut Vec<f64>) {
+        self.rate_history.save(state);
+        for own in &self.bodies {
+            own.points.iter().for_each(|point| point.save(state));
+            own.watch.save(state);
+            state.push(own.last_rate);
+        }
+        state.extend([self.last_force.x, self.last_force.y, self.dissipated]);
+    }
+
+    fn restore(&mut self, next: &mut dyn FnMut() -> f64) {
+        self.rate_history.restore(next);
+        for own in &mut self.bodies {
+            own.points.iter_mut().for_each(|point| point.restore(next));
+            own.watch.restore(next);
+            own.last_rate = next();
+        }
+        self.last_force = Vec2::new(next(), next());
+        self.dissipated = next();
+    }
+
+    fn explain(&self) -> String {
+        let points = crate::system::errors::plural(self.points().count(), "contact point");
+        let shape = match self.surface.shape {
+            ObstacleShape::HalfPlane { .. } => "half-plane",
+            ObstacleShape::Disc { .. } => "disc",
+        };
+        let damped = if self.surface.damping > 0.0 { ", damped" } else { "" };
+        format!("{shape} with {points}{damped}; the contact forces are additional unknowns")
+    }
+}

@@ -1,0 +1,464 @@
+//! Contact point: one quadrature point of a beam, a particle or a point of a rigid body, in a step.
+
+use super::definition::ObstacleShape;
+use super::law::ContactLaw;
+use crate::beams::{BodyPoint, RateCollocation, RotationIncrement};
+use crate::elementary::square;
+use crate::geometry::{Vec2, larger};
+use crate::integrators::Stage;
+use crate::system::bodies::Body;
+use crate::system::elements::coordinate::Coordinate;
+use crate::system::elements::elongation::ElongationTerm;
+use crate::system::elements::mixed_force::{ForceTarget, MixedForce};
+
+/// Force tolerance of contacts, as a fraction of the rounding error of the gap times the stiffness. Contact laws have corners.
+const CORNER_TOLERANCE: f64 = 2e-4;
+
+/// Largest rounding error of increments, as a multiple of the machine precision.
+const MOST_ROUNDING: f64 = 16.0;
+
+/// Surface of an obstacle with its contact law.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Surface {
+    pub(super) shape: ObstacleShape,
+    /// Radius of the bodies around their axes and points [length].
+    pub(super) radius: f64,
+    pub(super) law: ContactLaw,
+    /// Factor of the damping for the coefficient of restitution [-].
+    pub(super) damping: f64,
+}
+
+impl Surface {
+    /// Gap at a position, and the vector from the obstacle to this position.
+    fn gap(&self, at: Vec2) -> (f64, Vec2) {
+        match self.shape {
+            ObstacleShape::HalfPlane { point, normal } => {
+                (normal.dot(&(at - point)) - self.radius, normal)
+            }
+            ObstacleShape::Disc { centre, radius } => {
+                let from_centre = at - centre;
+                (from_centre.norm() - radius - self.radius, from_centre)
+            }
+        }
+    }
+}
+
+/// Change of the gap in an iterate, and its derivatives.
+#[derive(Debug, Clone, Copy)]
+struct GapTrial {
+    change: f64,
+    /// Vector `e` with `Δg = e·Δx`; for methods with forces at the ends of steps, the gradient of the gap [-].
+    secant: Vec2,
+    /// Derivative of the change with respect to the movement [-].
+    slope: Vec2,
+    /// Derivative of the secant with respect to the movement, row by row [1/length].
+    secant_slope: [Vec2; 2],
+    moved: f64,
+}
+
+impl GapTrial {
+    const NONE: Self = Self {
+        change: 0.0,
+        secant: Vec2::new(0.0, 0.0),
+        slope: Vec2::new(0.0, 0.0),
+        secant_slope: [Vec2::new(0.0, 0.0); 2],
+        moved: 0.0,
+    };
+
+    fn new(
+        shape: ObstacleShape,
+        start: Vec2,
+        movement: Vec2,
+        rotations: RotationIncrement,
+    ) -> Self {
+        let moved = movement.norm();
+        match shape {
+            ObstacleShape::HalfPlane { normal, .. } => Self {
+                change: normal.dot(&movement),
+                secant: normal,
+                slope: normal,
+                moved,
+                ..Self::NONE
+            },
+            ObstacleShape::Disc { .. } => {
+                let term = ElongationTerm::new(start, movement, rotations);
+                let secant_slope =
+                    [0, 1].map(|row| Vec2::new(term.bend(row, 0), term.bend(row, 1)));
+                let ElongationTerm { change, secant, slope, .. } = term;
+                Self { change, secant, slope, secant_slope, moved }
+            }
+        }
+    }
+}
+
+/// Time and stage at which the force of a contact is evaluated.
+#[derive(Clone, Copy)]
+pub(super) struct ContactTime {
+    pub(super) stage: Stage,
+    /// Factor of the force [-].
+    pub(super) weight: f64,
+    /// Coefficients of rates; `None` if damping is not evaluated.
+    pub(super) rates: Option<RateCollocation>,
+    /// Duration of the step; infinite for an increment of zero duration [time].
+    pub(super) duration: f64,
+}
+
+impl ContactTime {
+    /// Share of the damping force in the tension. Methods with forces at both ends of a step evaluate the damping once per step, at the end.
+    fn share(&self) -> f64 {
+        if self.stage == Stage::End { self.weight } else { 1.0 }
+    }
+}
+
+#[derive(Debug, Clone)]
+pub(super) struct ContactPoint {
+    pub(super) place: BodyPoint,
+    /// Quadrature weight [length]; 1 for a point.
+    weight: f64,
+    /// Effective mass of the body at the point [mass]. It scales the search for the force and limits the damping.
+    mass: f64,
+    gap: Coordinate,
+    /// Vector from the obstacle to the point at the start of the step [length].
+    start: Vec2,
+    /// Speed at which the point approached the obstacle before the contact [length/time].
+    approach: f64,
+    last_rate: f64,
+    tension: MixedForce,
+    trial: GapTrial,
+    linearised: GapTrial,
+    /// Applied forces at the start of the step and in the present iterate [force].
+    applied: [Vec2; 2],
+}
+
+impl ContactPoint {
+    pub(super) fn new(place: BodyPoint, weight: f64) -> Self {
+        Self {
+            place,
+            weight,
+            mass: 0.0,
+            gap: Coordinate::default(),
+            start: Vec2::zeros(),
+            approach: 0.0,
+            last_rate: 0.0,
+            tension: MixedForce::default(),
+            trial: GapTrial::NONE,
+            linearised: GapTrial::NONE,
+            applied: [Vec2::zeros(); 2],
+        }
+    }
+
+    /// Computes the effective mass at the point from the diagonal of the inertia matrix. The whole mass of a rigid body counts at its points.
+    pub(super) fn read_inertia(&mut self, body: &Body, diagonal: &[f64]) {
+        let of = |degrees: &[usize; 3]| diagonal.get(degrees[0]).copied().unwrap_or(f64::INFINITY);
+        let mobility = |(at, share): (usize, f64)| square(share) / of(&body.degrees_of_freedom[at]);
+        let mass = 1.0 / self.place.weights().map(mobility).sum::<f64>();
+        let whole = body.degrees_of_freedom.iter().map(of).sum();
+        self.mass = if mass > 0.0 { mass } else { whole };
+    }
+
+    pub(super) fn is_closed(&self) -> bool {
+        self.gap.value < 0.0
+    }
+
+    fn position(&self, body: &Body) -> Vec2 {
+        self.place.interpolate(body.dynamics.control_points())
+    }
+
+    /// Gap at the start of the step. A closed gap is the sum of its increments, because the rounding error of positions would store energy.
+    pub(super) fn present_gap(&self, surface: &Surface, body: &Body) -> f64 {
+        match self.is_closed() {
+            true => self.gap.value,
+            false => surface.gap(self.position(body)).0.max(0.0),
+        }
+    }
+
+    /// Updates the gap and the direction at the start of a step.
+    pub(super) fn locate(&mut self, surface: &Surface, body: &Body) {
+        let (gap, start) = surface.gap(self.position(body));
+        self.start = start;
+        if !self.is_closed() {
+            self.gap = Coordinate::from(gap);
+        }
+    }
+
+    /// Stores the approach speed of an open contact.
+    pub(super) fn note_approach(&mut self, surface: &Surface, velocity: Vec2) {
+        if !self.is_closed() {
+            let trial =
+                GapTrial::new(surface.shape, self.start, Vec2::zeros(), RotationIncrement::Angle);
+            self.approach = trial.slope.dot(&velocity).abs();
+        }
+    }
+
+    pub(super) fn begin_step(&mut self) {
+        self.tension.begin_step();
+        self.applied = [Vec2::zeros(); 2];
+    }
+
+    pub(super) fn begin_movement(&mut self) {
+        self.tension.force = self.tension.last;
+        self.applied = [Vec2::zeros(); 2];
+    }
+
+    /// Removes the force, because no contact is possible in the present iterate.
+    pub(super) fn open(&mut self) {
+        self.tension.force = 0.0;
+        self.tension.mismatch = 0.0;
+        self.linearised = GapTrial::NONE;
+        self.applied[1] = Vec2::zeros();
+    }
+
+    /// Tension that the law requires for a change of the gap, without the damping.
+    fn elastic(&self, surface: &Surface, stage: Stage, change: f64) -> ForceTarget {
+        let gap = self.gap.value;
+        let law = match stage {
+            Stage::Start => ForceTarget { stiffness: 0.0, ..surface.law.at(gap) },
+            Stage::End => surface.law.at(gap + change),
+            Stage::Midpoint | Stage::DampedMidpoint(_) => surface.law.mean(gap, change),
+        };
+        ForceTarget { force: self.weight * law.force, stiffness: self.weight * law.stiffness }
+    }
+
+    /// Tension that the law requires for a change of the gap. A contact does not pull, so it is not positive.
+    fn target(&self, surface: &Surface, time: ContactTime, change: f64) -> ForceTarget {
+        let elastic = self.elastic(surface, time.stage, change);
+        let Some(rates) = time.rates.filter(|_| surface.damping > 0.0) else { return elastic };
+        let (damping, by_change) = self.damping(surface, elastic);
+        let rate = change * rates.by_change - self.last_rate * rates.by_last;
+        let share = 1.0 / time.share();
+        let force = elastic.force + share * damping * rate;
+        let most = self.largest_tension(surface, time);
+        if force > most {
+            return ForceTarget { force: most, stiffness: 0.0 };
+        }
+        let stiffness = elastic.stiffness + share * (damping * rates.by_change + by_change * rate);
+        ForceTarget { force, stiffness }
+    }
+
+    /// Largest tension with which the contact does not pull. At the end of a step, it balances the tension at the start.
+    fn largest_tension(&self, surface: &Surface, time: ContactTime) -> f64 {
+        let share = time.share();
+        (1.0 - 1.0 / share) * self.elastic(surface, Stage::Start, 0.0).force
+    }
+
+    /// Damping coefficient at an elastic tension, and its derivative with respect to the change of the gap.
+    ///
+    /// The coefficient is limited to its largest value in an impact that is governed by the contact.
+    /// Without the limit, a resting contact would be damped without bound.
+    fn damping(&self, surface: &Surface, elastic: ForceTarget) -> (f64, f64) {
+        let most = (self.weight * surface.law.stiffness() * self.mass).sqrt();
+        let by_force = -elastic.force / self.approach;
+        match by_force < most {
+            true => {
+                let by_change = -elastic.stiffness / self.approach;
+                (surface.damping * by_force, surface.damping * by_change)
+            }
+            false => (surface.damping * most, 0.0),
+        }
+    }
+
+    fn evaluate(&mut self, surface: &Surface, time: ContactTime, body: &Body, values: &[f64]) {
+        let movement = match time.stage {
+            Stage::Start => Vec2::zeros(),
+            _ => self.combine(|at| body.vector_at(at, values)),
+        };
+        let rotations = crate::system::elements::collocation(time.stage).rotations;
+        self.trial = GapTrial::new(surface.shape, self.start, movement, rotations);
+    }
+
+    fn combine(&self, value: impl Fn(usize) -> Vec2) -> Vec2 {
+        self.place.weights().fold(Vec2::zeros(), |sum, (at, share)| sum + value(at) * share)
+    }
+
+    /// Adds the present force to `out`. Returns the force and its relative difference from the law.
+    pub(super) fn add_force(
+        &mut self,
+        surface: &Surface,
+        time: ContactTime,
+        (body, values): (&Body, &[f64]),
+        out: &mut [f64],
+    ) -> (f64, f64) {
+        self.evaluate(surface, time, body, values);
+        let GapTrial { change, secant, moved, .. } = self.trial;
+        let target = self.target(surface, time, change);
+        if time.stage == Stage::Start {
+            self.applied[0] = secant * (time.weight * target.force);
+            self.scatter(body, self.applied[0], out);
+            return (target.force.abs(), 0.0);
+        }
+        let extent = larger(moved, self.gap.value.abs());
+        let mut missed = self.tension.compare(target, CORNER_TOLERANCE * extent);
+        if self.tension.missing_change().abs() <= MOST_ROUNDING * f64::EPSILON * moved {
+            missed = 0.0;
+        }
+        let force = self.tension.force;
+        self.applied[1] = secant * (time.weight * force);
+        self.scatter(body, self.applied[1], out);
+        (force.abs(), missed)
+    }
+
+    /// Adds the force with its difference from the law condensed out to `out`, and its derivatives to `tangent`.
+    pub(super) fn add_linearised(
+        &mut self,
+        surface: &Surface,
+        time: ContactTime,
+        (body, values): (&Body, &[f64]),
+        out: &mut [f64],
+        tangent: &mut dyn FnMut(usize, usize, f64),
+    ) {
+        self.evaluate(surface, time, body, values);
+        let target = self.linearisation_target(surface, time);
+        self.tension.linearise(target);
+        self.linearised = self.trial;
+        let GapTrial { secant, slope, secant_slope, .. } = self.trial;
+        self.scatter(body, secant * (time.weight * target.force), out);
+        let (stiffness, force) = (time.weight * target.stiffness, time.weight * self.tension.force);
+        let derivative =
+            [0, 1].map(|row| slope * (stiffness * secant[row]) + secant_slope[row] * force);
+        for (row, share) in self.place.weights() {
+            for (column, other) in self.place.weights() {
+                let (rows, columns) =
+                    (body.degrees_of_freedom[row], body.degrees_of_freedom[column]);
+                for (component, by) in derivative.iter().enumerate() {
+                    for axis in 0..2 {
+                        let value = share * other * by[axis];
+                        tangent(rows[component], columns[axis], value);
+                    }
+                }
+            }
+        }
+    }
+
+    fn linearisation_target(&mut self, surface: &Surface, time: ContactTime) -> ForceTarget {
+        let change = self.trial.change;
+        let found = self.tension.impedance(change);
+        let own = 2.0 * self.mass / square(time.duration);
+        let impedance = found.unwrap_or(own);
+        if !(impedance > 0.0 && impedance.is_finite()) {
+            return self.target(surface, time, change);
+        }
+        ForceTarget::intersection(change, self.tension.force, impedance, |change| {
+            self.target(surface, time, change)
+        })
+    }
+
+    pub(super) fn add_mismatch_force(&self, body: &Body, weight: f64, out: &mut [f64]) {
+        self.scatter(body, self.linearised.secant * (weight * self.tension.mismatch), out);
+    }
+
+    pub(super) fn correct(&mut self, body: &Body, correction: &[f64]) {
+        let moved = self.combine(|at| body.vector_at(at, correction));
+        self.tension.correct(self.linearised.slope.dot(&moved));
+    }
+
+    pub(super) fn scatter(&self, body: &Body, force: Vec2, out: &mut [f64]) {
+        for (at, share) in self.place.weights() {
+            let [x, y, _] = body.degrees_of_freedom[at];
+            out[x] += share * force.x;
+            out[y] += share * force.y;
+        }
+    }
+
+    fn movement(&self, body: &Body) -> Vec2 {
+        let moved = body.moved();
+        self.combine(|at| Vec2::new(moved[at][0], moved[at][1]))
+    }
+
+    /// Force on the body in the completed step [force], and the mean position at which it acts [length].
+    pub(super) fn mean_force(&self, body: &Body) -> (Vec2, Vec2) {
+        let middle = self.position(body) + self.movement(body) * 0.5;
+        (-(self.applied[0] + self.applied[1]), middle)
+    }
+
+    /// Tension at the start of the step, for a rate of the point, along the gradient of the gap [force].
+    pub(super) fn force_at_start(&self, surface: &Surface, body: &Body, rate: Vec2) -> Vec2 {
+        let mut own = self.clone();
+        own.locate(surface, body);
+        let trial =
+            GapTrial::new(surface.shape, own.start, Vec2::zeros(), RotationIncrement::Angle);
+        let elastic = own.elastic(surface, Stage::Start, 0.0);
+        let damping = own.damping_at_start(surface, elastic);
+        trial.slope * (elastic.force + damping * trial.slope.dot(&rate)).min(0.0)
+    }
+
+    fn damping_at_start(&self, surface: &Surface, elastic: ForceTarget) -> f64 {
+        match surface.damping > 0.0 && elastic.force < 0.0 {
+            true => self.damping(surface, elastic).0,
+            false => 0.0,
+        }
+    }
+
+    /// Gradient of the gap at the start of the step [-], tension [force], stiffness [force/length], damping coefficient [force·time/length] and
+    /// distance from the centre of curvature [length] of a closed contact; infinite for a half-plane.
+    pub(super) fn closed(&self, surface: &Surface, body: &Body) -> Option<ClosedContact> {
+        if !self.is_closed() {
+            return None;
+        }
+        let start = surface.gap(self.position(body)).1;
+        let trial = GapTrial::new(surface.shape, start, Vec2::zeros(), RotationIncrement::Angle);
+        let elastic = self.elastic(surface, Stage::End, 0.0);
+        let distance = match surface.shape {
+            ObstacleShape::HalfPlane { .. } => f64::INFINITY,
+            ObstacleShape::Disc { .. } => start.norm(),
+        };
+        let damping = self.damping_at_start(surface, elastic);
+        Some(ClosedContact { gradient: trial.slope, tension: elastic, damping, distance })
+    }
+
+    /// Ends a step. Returns the dissipated energy [energy] and the mean rate of the gap [length/time].
+    pub(super) fn advance(
+        &mut self,
+        surface: &Surface,
+        time: ContactTime,
+        body: &Body,
+    ) -> (f64, f64) {
+        let rotations = crate::system::elements::collocation(time.stage).rotations;
+        self.trial = GapTrial::new(surface.shape, self.start, self.movement(body), rotations);
+        let GapTrial { change, moved, .. } = self.trial;
+        let elastic = self.elastic(surface, time.stage, change);
+        let lost = match surface.damping > 0.0 && time.duration.is_finite() {
+            true => time.share() * (self.tension.force - elastic.force) * change,
+            false => 0.0,
+        };
+        let target = self.target(surface, time, change);
+        self.tension.compare(target, 0.0);
+        let missing = self.tension.missing_change();
+        self.gap = self.gap.after(change);
+        if missing.abs() <= MOST_ROUNDING * f64::EPSILON * moved {
+            self.gap = self.gap.after(missing);
+        }
+        self.tension.last = self.tension.force;
+        self.last_rate = if time.duration.is_finite() { change / time.duration } else { 0.0 };
+        (lost, self.last_rate)
+    }
+
+    pub(super) fn energy(&self, surface: &Surface) -> f64 {
+        self.weight * surface.law.energy(self.gap.value)
+    }
+
+    pub(super) fn force(&self) -> f64 {
+        -self.tension.last
+    }
+
+    pub(super) fn save(&self, state: &mut Vec<f64>) {
+        let Self { gap, approach, last_rate, tension, .. } = self;
+        state.extend([gap.value, gap.rest, *approach, *last_rate, tension.last]);
+    }
+
+    pub(super) fn restore(&mut self, next: &mut dyn FnMut() -> f64) {
+        self.gap = Coordinate { value: next(), rest: next() };
+        (self.approach, self.last_rate, self.tension.last) = (next(), next(), next());
+    }
+}
+
+/// Closed contact at the start of a step.
+pub(super) struct ClosedContact {
+    /// Gradient of the gap [-].
+    pub(super) gradient: Vec2,
+    /// Tension [force] and stiffness [force/length].
+    pub(super) tension: ForceTarget,
+    /// Damping coefficient [force·time/length].
+    pub(super) damping: f64,
+    /// Distance from the centre of a disc [length]; infinite for a half-plane.
+    pub(super) distance: f64,
+}

@@ -1,0 +1,156 @@
+//! Obstacles of a scene: walls and discs that bodies can touch.
+
+use rhai::Dynamic;
+
+use super::scenes::{BEAM, SCENE, STATION};
+use crate::geometry::Vec2;
+use crate::script::bindings::call::Call;
+use crate::script::bindings::kind::Kind;
+use crate::script::bindings::options::Options;
+use crate::script::bindings::parameter::{
+    Parameter, Presence, array, number, options, point, text,
+};
+use crate::script::bindings::table::{BindingTable, method};
+use crate::script::handles::beam::BeamHandle;
+use crate::script::handles::scene::SceneHandle;
+use crate::script::handles::station::StationHandle;
+use crate::script::messages::error::{CallPart, ScriptError};
+use crate::system::{ContactTarget, Obstacle, ObstacleShape, SystemError};
+
+pub const TABLE: BindingTable = BindingTable {
+    name: "obstacles",
+    doc: "Walls and discs that are fixed to the ground, and the contact of beams, particles and \
+        points of rigid bodies with them. The contact is compliant: its force follows from a \
+        potential of the penetration. E - W + D and both momenta stay constant to rounding with \
+        energy_momentum() and fourth_order(), at any step size and stiffness. The history has \
+        the columns NAME.force, NAME.force_x, NAME.force_y (the force on the bodies, mean of the \
+        step), NAME.gap (the smallest gap, negative for a penetration), stored.NAME and \
+        dissipated.NAME. Contact is without friction.",
+    types: &[],
+    setup: super::scenes::ROD,
+    constants: &[],
+    rows: &[
+        method(SCENE, "wall", &[point("point").unit("length"), point("normal"), options("options", KEYS)], wall)
+            .summary("Adds a wall: a straight boundary that bodies can touch from the side to which \
+                its normal points, such as a floor.")
+            .doc("The normal can have any length. The wall is infinite; several walls form a \
+                channel or a box. A beam touches it all along, at four Gauss–Lobatto points per \
+                span, its ends included. On a beam, stiffness is the force per length and \
+                penetration, on a point the force per penetration. Choose it so that the largest \
+                expected force gives a small penetration. With a restitution below 1 the contact \
+                is damped so that a resolved impact of a single mass rebounds with this fraction \
+                of its speed. sim.notes states impacts that the steps do not resolve. Default \
+                names: wall1, wall2, …")
+            .example("let ball = scene.particle([1, 2], 0.5, #{ name: \"ball\" });\n\
+                      scene.gravity([0, -9.81]);\n\
+                      scene.wall([0, -3], [0, 1], #{ stiffness: 1e4, restitution: 0.8, name: \"floor\" });\n\
+                      let sim = scene.start(#{ dt: 0.005 });\nsim.run_to(1.5);\n\
+                      check(sim.history.min(\"floor.gap\") < 0);\n\
+                      check(sim.history.drift(\"energy\") < 1e-12);")
+            .with_related(&["disc", "slider", "spring"]),
+        method(SCENE, "disc", &[point("centre").unit("length"), number("radius").positive().unit("length"), options("options", KEYS)], disc)
+            .summary("Adds a disc that bodies can touch from outside, such as a pin or a peg.")
+            .doc("The contact force points from the centre to the body. Its potential is infinite \
+                at the centre, so a body that touches the disc cannot pass its centre; a body that \
+                crosses the whole disc within one step misses it. Options and columns are those \
+                of wall. Default names: disc1, disc2, …")
+            .example("let ball = scene.particle([1.1, 2], 0.5, #{ name: \"ball\" });\n\
+                      scene.gravity([0, -9.81]);\n\
+                      scene.disc([1, 1], 0.3, #{ stiffness: 1e4, bodies: [ball], name: \"peg\" });\n\
+                      let sim = scene.start(#{ dt: 0.002 });\nsim.run_to(1);\n\
+                      check(sim.history.max(\"peg.force\") > 10);\n\
+                      check(sim.history.drift(\"energy\") < 1e-12);")
+            .with_related(&["wall"]),
+    ],
+};
+
+const KEYS: &[Parameter] = &[
+    number("stiffness")
+        .positive()
+        .unit("force/length, force/length² on beams")
+        .doc("force per penetration; on a beam per length"),
+    number("restitution")
+        .between(0.05, 1.0)
+        .doc("fraction of the approach speed after a resolved impact; 1 is elastic")
+        .or(Presence::Number(1.0)),
+    number("radius")
+        .non_negative()
+        .unit("length")
+        .doc("radius of the bodies around their axes and points, such as half the thickness of a beam")
+        .or(Presence::Number(0.0)),
+    array("bodies")
+        .doc(
+            "beams, particles, and stations of beams and rigid bodies that can touch it; default: \
+            all beams and particles of the scene",
+        )
+        .optional(),
+    text("name").optional(),
+];
+
+fn wall(call: &mut Call) -> Result<Dynamic, ScriptError> {
+    let (point, normal) = (call.get::<Vec2>("point")?, call.get::<Vec2>("normal")?);
+    let length = normal.norm();
+    if length == 0.0 {
+        let message = "the normal of a wall has length 0";
+        let hint = "give a direction, such as [0, 1] for a floor";
+        return Err(call.error(message).hint(hint).at(CallPart::Argument(1)));
+    }
+    add(call, ObstacleShape::HalfPlane { point, normal: normal / length }, "wall")
+}
+
+fn disc(call: &mut Call) -> Result<Dynamic, ScriptError> {
+    let (centre, radius) = (call.get::<Vec2>("centre")?, call.number("radius")?);
+    add(call, ObstacleShape::Disc { centre, radius }, "disc")
+}
+
+fn add(call: &mut Call, shape: ObstacleShape, word: &str) -> Result<Dynamic, ScriptError> {
+    let scene = call.receiver::<SceneHandle>()?;
+    let options = call.options("options")?;
+    let name = options.optional_text("name")?;
+    let name = name.unwrap_or_else(|| scene.scene().borrow().free_name(word));
+    let obstacle = Obstacle {
+        name,
+        shape,
+        targets: targets(call, &scene, &options)?,
+        radius: options.number("radius")?,
+        stiffness: options.number("stiffness")?,
+        restitution: options.number("restitution")?,
+    };
+    scene.change().add_obstacle(obstacle).map_err(|error| {
+        let place = match &error {
+            SystemError::Unnamed { .. } | SystemError::DuplicateName { .. } => {
+                CallPart::Key("name".into())
+            }
+            _ => CallPart::Argument(0),
+        };
+        ScriptError::from(error).at(place)
+    })?;
+    Ok(Dynamic::UNIT)
+}
+
+const TARGET: &[Kind] = &[Kind::Object(BEAM), Kind::Object(STATION)];
+
+fn targets(
+    call: &Call,
+    scene: &SceneHandle,
+    options: &Options,
+) -> Result<Vec<ContactTarget>, ScriptError> {
+    let Some(bodies) = options.get_if::<rhai::Array>("bodies") else { return Ok(Vec::new()) };
+    if bodies.is_empty() {
+        let message = "bodies is empty, so nothing can touch the obstacle";
+        let hint = "leave bodies out for all beams and particles of the scene";
+        return Err(call.error(message).hint(hint).at(CallPart::Key("bodies".into())));
+    }
+    let target = |(at, body): (usize, Dynamic)| {
+        let wanted = (&Kind::Either(TARGET), "a beam, a particle, or a station");
+        let accepted = call.accept("bodies", &format!("body {}", at + 1), wanted, body)?;
+        match accepted.read_lock::<BeamHandle>() {
+            Some(beam) => Ok(ContactTarget::Beam(beam.index_in(scene)?)),
+            None => {
+                let station = accepted.clone().cast::<StationHandle>();
+                Ok(ContactTarget::Point(scene.own_station(&station)?))
+            }
+        }
+    };
+    bodies.into_iter().enumerate().map(target).collect()
+}
