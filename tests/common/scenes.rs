@@ -8,9 +8,9 @@ use withy::geometry::{Curve, Vec2};
 use withy::joints::{Component, Components, JointKind, Partner};
 use withy::loads::{LoadFrame, LoadKind, PrescribedMotion, Schedule};
 use withy::system::{
-    Anchor, BeamDefinition, DampingLaw, Drag, Dragged, Drive, DriveKind, Origin,
-    ParticleDefinition, PointMass, RigidBodyDefinition, Scene, SpeedLaw, Spring, SpringKind,
-    SpringLaw, StartMotion,
+    Anchor, BeamDefinition, DampingLaw, Drag, Dragged, Drive, DriveKind, Obstacle, ObstacleShape,
+    Origin, ParticleDefinition, PointMass, RigidBodyDefinition, Scene, SpeedLaw, Spring,
+    SpringKind, SpringLaw, StartMotion,
 };
 
 /// The section of the flying spaghetti with `EA = GA` and `EI` as given.
@@ -362,6 +362,26 @@ pub fn dragged(mesh: &Mesh) -> Scene {
     scene
 }
 
+/// A bent beam and a bead inside a damped wall and a soft disc, which push them out. The contacts stay closed, so the forces are smooth.
+pub fn pressed(mesh: &Mesh) -> Scene {
+    let mut scene = Scene::new("pressed");
+    let axis = Curve::through(&[at(0.0, 0.0), at(1.0, 0.4), at(2.0, 0.2), at(3.0, 1.0)]).unwrap();
+    let beam = add_beam(&mut scene, axis, mesh, rod());
+    scene.beams[beam].motion = StartMotion { velocity: at(0.5, 0.2), spin: 0.3, centre: None };
+    let bead = ParticleDefinition { name: "bead".to_owned(), position: at(4.0, 1.5) };
+    scene.add_particle(bead, 0.8).unwrap();
+    let wall = ObstacleShape::HalfPlane { point: at(0.0, 9.0), normal: at(0.6, 0.8) };
+    let disc = ObstacleShape::Disc { centre: at(1.0, -4.0), radius: 12.0 };
+    for (shape, restitution) in [(wall, 0.7), (disc, 1.0)] {
+        let name = scene.free_name("obstacle");
+        let (targets, radius, stiffness) = (Vec::new(), 0.5, 0.02);
+        let obstacle = Obstacle { name, shape, targets, radius, stiffness, restitution };
+        scene.add_obstacle(obstacle).unwrap();
+    }
+    scene.gravity = at(0.0, -0.5);
+    scene
+}
+
 /// A law of damping as a table of rates and forces.
 pub fn absorber(points: &[(f64, f64)]) -> DampingLaw {
     DampingLaw::Curve(SpringLaw::Table { points: points.to_vec() })
@@ -462,6 +482,7 @@ pub fn all(mesh: &Mesh) -> Vec<Scene> {
         mounted(mesh),
         damped(mesh),
         dragged(mesh),
+        pressed(mesh),
         flywheels(mesh),
         driven(mesh),
         tapered(mesh),

@@ -8,6 +8,7 @@ mod damped_modes;
 mod elastica;
 mod equilibria;
 mod modes;
+mod obstacles;
 mod section_forces;
 mod sliders;
 mod springs;

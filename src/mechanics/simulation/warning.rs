@@ -167,10 +167,10 @@ pub enum Warning {
         /// Range of the law, and the value farthest outside the range.
         outside: OutsideLaw,
     },
-    /// Spring with a contact that lasted too few steps.
+    /// Contact of a spring or an obstacle that lasted too few steps.
     Contact {
-        /// Name of the spring.
-        spring: String,
+        /// Type and name of the spring or obstacle.
+        object: String,
         /// Tolerance of variable steps [-]; `None` for fixed steps.
         tolerance: Option<f64>,
         /// Number of steps, duration and force of the bounce.
@@ -227,7 +227,7 @@ impl Warning {
             Self::Bend { drive, .. } => Some(drive),
             Self::Schedule { owner, .. } => Some(owner),
             Self::Range { law, .. } => Some(law),
-            Self::Contact { spring, .. } => Some(spring),
+            Self::Contact { object, .. } => Some(object),
         }
     }
 
@@ -405,21 +405,21 @@ impl fmt::Display for Warning {
                 short(*to),
                 short(*reached)
             ),
-            Self::Contact { spring, tolerance, bounce: ShortBounce { steps, force, duration } } => {
+            Self::Contact { object, tolerance, bounce: ShortBounce { steps, force, duration } } => {
                 let dt = duration / steps;
                 write!(
                     f,
-                    "an impact on spring '{spring}' lasted only {steps} steps (dt = {}), with a peak force of {}: the rebound velocity depends on the step size; ",
+                    "an impact on {object} lasted only {steps} steps (dt = {}), with a peak force of {}: the rebound velocity depends on the step size; ",
                     short(dt),
                     short(*force)
                 )?;
                 match tolerance.map(|tolerance| tolerance / BOUNCE) {
                     Some(less) if less >= StepControl::LEAST_TOLERANCE => {
-                        write!(f, "use a tolerance below {}, or a softer spring law", short(less))
+                        write!(f, "use a tolerance below {}, or a smaller stiffness", short(less))
                     }
-                    Some(_) => write!(f, "use a softer spring law"),
+                    Some(_) => write!(f, "use a smaller stiffness"),
                     None => {
-                        write!(f, "use dt below {}, or a softer spring law", short(dt / BOUNCE))
+                        write!(f, "use dt below {}, or a smaller stiffness", short(dt / BOUNCE))
                     }
                 }
             }

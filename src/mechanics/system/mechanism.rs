@@ -85,7 +85,7 @@ impl System {
     pub(super) fn begin(&mut self) {
         self.exchanged.total = WorkAndImpulse::default();
         let inertia = self.diagonal_of_inertia();
-        self.elements.read_inertia(&self.bodies, &inertia);
+        self.elements.begin(&self.bodies, &inertia);
         self.motion.begin(inertia);
         // The resolution of a single body is that of the whole mechanism, so it is not measured separately.
         let bodies = &self.bodies;

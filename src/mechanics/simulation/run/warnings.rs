@@ -9,7 +9,9 @@ use crate::integrators::{EnergyClaim, INTEGRATORS, Mechanism, Method};
 use crate::simulation::adaptive::Adaptive;
 use crate::simulation::warning::{LARGEST_ROTATION, MOST_SPANS, RateChangeCause, short};
 use crate::simulation::{Invariant, Sample, StepSize, Warning};
-use crate::system::{LawArgument, RESOLVED_IMPACT, Resolution, SpringLaw, System, SystemFeature};
+use crate::system::{
+    LawArgument, Obstacle, RESOLVED_IMPACT, Resolution, SpringLaw, System, SystemFeature,
+};
 use crate::vibration::{Modes, VibrationError};
 
 /// Unresolved fraction of the kinetic energy, above which a warning states that the steps are too long.
@@ -135,8 +137,12 @@ impl Simulation {
         }));
         let bounces = self.model.short_bounces();
         let tolerance = self.adaptive.as_ref().map(|adaptive| adaptive.tolerance);
-        let warning = |(spring, bounce): (&str, _)| Warning::Contact {
-            spring: spring.to_owned(),
+        let object = |name: &str| {
+            let obstacle = self.scene.obstacles().find(|obstacle| obstacle.name == name);
+            obstacle.map_or_else(|| format!("spring '{name}'"), Obstacle::object)
+        };
+        let warning = |(name, bounce): (&str, _)| Warning::Contact {
+            object: object(name),
             tolerance,
             bounce,
         };

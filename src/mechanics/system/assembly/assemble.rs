@@ -9,7 +9,7 @@ use crate::geometry::{GeometryError, Vec2, interpolate, larger, perpendicular};
 use crate::joints::{CONTACT_UNKNOWNS, Joint, Partner, Releasable, Slider};
 use crate::system::bodies::{Bodies, Body, Tracker};
 use crate::system::elements::{
-    AssemblyContext, ContactTarget, Elements, PrescribedMovements, Supports, Weight,
+    AssemblyContext, ContactTarget, Elements, PrescribedMovements, SceneChecks, Supports, Weight,
 };
 use crate::system::links::{InclinedRoller, Links, RigidLink};
 use crate::system::scene::same_place;
@@ -301,9 +301,7 @@ impl AssemblyContext for Assembly<'_> {
     }
 
     fn contact_targets(&self) -> Vec<ContactTarget> {
-        let beams = (0..self.scene.beams.len()).map(ContactTarget::Beam);
-        let particles = (0..self.scene.particles.len()).map(Station::on_particle);
-        beams.chain(particles.map(ContactTarget::Point)).collect()
+        self.scene.contact_targets()
     }
 
     fn mesh(&self, beam: usize) -> &Mesh {

@@ -99,14 +99,16 @@ impl InitialNumbering {
             }
         }
         for element in &scene.elements {
-            let mut points = Vec::new();
-            for station in element.description().coupled() {
-                let place = place(&station)?;
-                points.extend(place.weights().map(|(point, _)| (place.body, point)));
-            }
-            let group = self.numbers(points.into_iter(), tied);
-            if group.len() > 1 {
-                groups.push(group);
+            for stations in element.description().coupled(scene) {
+                let mut points = Vec::new();
+                for station in stations {
+                    let place = place(&station)?;
+                    points.extend(place.weights().map(|(point, _)| (place.body, point)));
+                }
+                let group = self.numbers(points.into_iter(), tied);
+                if group.len() > 1 {
+                    groups.push(group);
+                }
             }
         }
         Ok(groups)

@@ -79,8 +79,9 @@ impl Elements {
         }
     }
 
-    pub fn read_inertia(&mut self, bodies: &[Body], diagonal: &[f64]) {
-        self.resistances.iter_mut().for_each(|one| one.read_inertia(bodies, diagonal));
+    /// Prepares all elements for the start of a simulation. The last argument is the diagonal of the inertia matrix of the unknowns.
+    pub fn begin(&mut self, bodies: &[Body], inertia: &[f64]) {
+        self.resistances.iter_mut().for_each(|one| one.begin(bodies, inertia));
     }
 
     /// Prepares all elements for a step that starts with the given rates of the unknowns.
@@ -166,8 +167,8 @@ impl Elements {
         self.forces.iter().for_each(|force| force.add_tangent(at, unknowns, tangent));
     }
 
-    pub fn begin_movement(&mut self) {
-        self.resistances.iter_mut().for_each(|resistance| resistance.begin_movement());
+    pub fn begin_movement(&mut self, bodies: &[Body]) {
+        self.resistances.iter_mut().for_each(|resistance| resistance.begin_movement(bodies));
     }
 
     pub fn clear_rate_history(&mut self) {

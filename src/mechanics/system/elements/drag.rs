@@ -79,10 +79,10 @@ impl ElementDef for Drag {
     }
 
     /// Stations with quadratic drag, which couples the velocity components.
-    fn coupled(&self) -> Vec<Station> {
+    fn coupled(&self, _scene: &dyn SceneChecks) -> Vec<Vec<Station>> {
         match &self.on {
             Dragged::Beam { .. } => Vec::new(),
-            Dragged::Point { station, .. } => vec![*station],
+            Dragged::Point { station, .. } => vec![vec![*station]],
         }
     }
 

@@ -80,7 +80,7 @@ impl InternalForce for DragForces {
         self.points.iter_mut().for_each(|point| point.begin_step(&bodies[point.body], rates));
     }
 
-    fn begin_movement(&mut self) {
+    fn begin_movement(&mut self, _bodies: &[Body]) {
         self.rate_history.begin(f64::INFINITY);
         self.points.iter_mut().for_each(DragPoint::reset_at_rest);
     }

@@ -80,8 +80,8 @@ pub trait ElementDef {
         Vec::new()
     }
 
-    /// Stations that the element couples. Their unknowns get neighbouring numbers, for a small bandwidth.
-    fn coupled(&self) -> Vec<Station> {
+    /// Groups of stations that the element couples. The unknowns of a group get neighbouring numbers, for a small bandwidth.
+    fn coupled(&self, _scene: &dyn SceneChecks) -> Vec<Vec<Station>> {
         Vec::new()
     }
 
@@ -106,6 +106,9 @@ pub enum BuiltElement {
 
 /// Scene queries for the check of an element.
 pub trait SceneChecks {
+    /// All beams and particles of the scene.
+    fn contact_targets(&self) -> Vec<ContactTarget>;
+
     fn describe(&self, station: &Station) -> String;
 
     /// Checks that a station exists. `object` describes the object at the station, for the error message.

@@ -26,14 +26,14 @@ pub struct SpringTrialState {
 pub trait InternalForce {
     fn name(&self) -> &str;
 
-    /// Reads the diagonal of the inertia matrix of the unknowns, once before the first step.
-    fn read_inertia(&mut self, _bodies: &[Body], _diagonal: &[f64]) {}
+    /// Prepares the element for the start of a simulation. The last argument is the diagonal of the inertia matrix of the unknowns.
+    fn begin(&mut self, _bodies: &[Body], _inertia: &[f64]) {}
 
     /// Prepares a step that starts with the given rates of the unknowns. Iterations start with the forces of the last step.
     fn begin_step(&mut self, interval: Interval, bodies: &[Body], rates: &[f64]);
 
     /// Prepares an increment of zero duration, such as a static load step, without damping.
-    fn begin_movement(&mut self);
+    fn begin_movement(&mut self, bodies: &[Body]);
 
     /// Discards the rates of the last step. Called after a jump of the rates.
     fn clear_rate_history(&mut self) {}

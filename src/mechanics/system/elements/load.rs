@@ -34,12 +34,12 @@ impl ElementDef for Load {
     }
 
     /// Stations coupled by the load. A force that rotates with a rigid body couples the displacement of its point with the rotation of the body.
-    fn coupled(&self) -> Vec<Station> {
+    fn coupled(&self, _scene: &dyn SceneChecks) -> Vec<Vec<Station>> {
         match &self.kind {
             LoadKind::Force { station, frame: LoadFrame::Follower, .. }
                 if station.turns() && station.beam().is_none() =>
             {
-                vec![*station]
+                vec![vec![*station]]
             }
             _ => Vec::new(),
         }

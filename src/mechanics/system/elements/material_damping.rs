@@ -92,7 +92,7 @@ impl InternalForce for DampedMaterial {
         self.dashpots.begin_step(&self.movements);
     }
 
-    fn begin_movement(&mut self) {
+    fn begin_movement(&mut self, _bodies: &[Body]) {
         self.rate_history.begin(f64::INFINITY);
         self.dashpots.rest_without_damping();
     }

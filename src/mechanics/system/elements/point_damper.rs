@@ -181,7 +181,7 @@ impl InternalForce for PointDamper {
         self.applied_force = Vec2::zeros();
     }
 
-    fn begin_movement(&mut self) {
+    fn begin_movement(&mut self, _bodies: &[Body]) {
         self.rate_history.begin(f64::INFINITY);
         (self.force.force, self.force.mismatch) = (0.0, 0.0);
         (self.applied_force, self.linearised) = (Vec2::zeros(), DamperTrial::default());

@@ -134,8 +134,8 @@ impl ElementDef for Spring {
         Ok(())
     }
 
-    fn coupled(&self) -> Vec<Station> {
-        self.stations().copied().collect()
+    fn coupled(&self, _scene: &dyn SceneChecks) -> Vec<Vec<Station>> {
+        vec![self.stations().copied().collect()]
     }
 
     fn build(&self, site: &dyn AssemblyContext) -> Result<BuiltElement, SystemError> {

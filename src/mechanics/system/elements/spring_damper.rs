@@ -167,7 +167,7 @@ impl InternalForce for SpringDamper {
         [&mut self.force_coordinates, &mut self.current].into_iter().for_each(|all| all.fill(0.0));
     }
 
-    fn begin_movement(&mut self) {
+    fn begin_movement(&mut self, _bodies: &[Body]) {
         self.duration = f64::INFINITY;
         self.spring.force = self.spring.last;
         self.damper.force = 0.0;

@@ -103,8 +103,8 @@ impl InternalForce for ZeroLengthSpring {
         self.parts_mut().for_each(|part| part.begin_step(interval, bodies, rates));
     }
 
-    fn begin_movement(&mut self) {
-        self.parts_mut().for_each(|part| part.begin_movement());
+    fn begin_movement(&mut self, bodies: &[Body]) {
+        self.parts_mut().for_each(|part| part.begin_movement(bodies));
     }
 
     fn add_forces(&mut self, at: TrialState<'_>, out: &mut [f64]) -> ForceSummary {

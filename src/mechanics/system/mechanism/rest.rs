@@ -26,7 +26,7 @@ impl System {
     /// Starts the search for the next equilibrium with the section forces of the last equilibrium.
     pub fn begin_movement(&mut self) {
         self.bodies.begin_step();
-        self.elements.begin_movement();
+        self.elements.begin_movement(&self.bodies);
         self.links.begin_movement();
     }
 

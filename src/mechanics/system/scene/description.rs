@@ -11,7 +11,9 @@ use crate::beams::{BodyIndex, BodyPoint, Mesh, Station};
 use crate::geometry::{Vec2, is_on_length};
 use crate::joints::{Joint, JointKind, Partner, Release, Slider, Track};
 use crate::loads::{Load, Schedule};
-use crate::system::elements::{Drive, Element, MaterialDamping, PointMass, SceneChecks, Spring};
+use crate::system::elements::{
+    ContactTarget, Drive, Element, MaterialDamping, PointMass, SceneChecks, Spring,
+};
 use crate::system::errors::{check_name, rounded};
 use crate::system::{Sensor, SystemError};
 
@@ -193,10 +195,11 @@ impl Scene {
         let drives = self.drives.iter().map(|drive| (drive.kind.name(), &drive.name));
         let loads = self.loads().filter_map(|load| Some(("load", load.title.as_ref()?)));
         let drags = self.drags().map(|drag| ("drag", &drag.name));
+        let obstacles = self.obstacles().map(|obstacle| ("obstacle", &obstacle.name));
         let bodies = self.rigid_bodies.iter().map(|body| ("body", &body.name));
         let tracks = self.tracks.iter().map(|track| ("track", &track.name));
         let all = beams.chain(particles).chain(bodies).chain(tracks).chain(sliders).chain(springs);
-        all.chain(drags).chain(drives).chain(loads)
+        all.chain(drags).chain(obstacles).chain(drives).chain(loads)
     }
 
     pub(in crate::system) fn check_name(
@@ -374,6 +377,12 @@ impl Scene {
 }
 
 impl SceneChecks for Scene {
+    fn contact_targets(&self) -> Vec<ContactTarget> {
+        let beams = (0..self.beams.len()).map(ContactTarget::Beam);
+        let particles = (0..self.particles.len()).map(Station::on_particle);
+        beams.chain(particles.map(ContactTarget::Point)).collect()
+    }
+
     fn describe(&self, station: &Station) -> String {
         Self::describe(self, station)
     }

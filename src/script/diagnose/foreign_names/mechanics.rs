@@ -195,10 +195,21 @@ pub const WORDS: &[ForeignName] = &[
         &["arc_length", "is_stable", "equilibrium"],
     ),
     entry(
-        &["contact", "collision", "impact", "bounce", "wall", "obstacle", "collide", "bumper"],
-        "a slider bounces at the ends of its beam with ends: \"bounce\"; a spring with acts: \
-        \"push\" is a bumper between two points; other collisions are not modelled",
-        &["slider", "spring", "contact_force"],
+        &[
+            "contact",
+            "collision",
+            "impact",
+            "bounce",
+            "obstacle",
+            "collide",
+            "bumper",
+            "ground",
+            "peg",
+        ],
+        "scene.wall(point, normal, #{ stiffness: k }) is a floor or wall for beams, particles and \
+        stations, scene.disc(centre, radius, #{ stiffness: k }) a pin or peg; a slider bounces at \
+        the ends of its beam with ends: \"bounce\"; bodies do not collide with each other",
+        &["wall", "disc", "slider", "spring"],
     ),
     entry(
         &["cable", "rope", "string", "wire", "chain", "thread", "pulley", "sheave"],

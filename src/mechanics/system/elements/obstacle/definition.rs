@@ -14,8 +14,8 @@ use crate::system::errors::finite;
 /// Points of the Gauss–Lobatto rule on `[-1, 1]` with their weights (Abramowitz & Stegun 25.4.32). The ends of a beam are contact points.
 const LOBATTO: [(f64, f64); 3] = [
     (-1.0, 1.0 / 6.0),
-    (-0.447_213_595_499_957_94, 5.0 / 6.0),
-    (0.447_213_595_499_957_94, 5.0 / 6.0),
+    (-0.447_213_595_499_957_9, 5.0 / 6.0),
+    (0.447_213_595_499_957_9, 5.0 / 6.0),
 ];
 
 /// Weight of the last point of the rule.
@@ -79,6 +79,10 @@ impl Obstacle {
         SystemError::Value { object: self.object(), name, value, allowed }
     }
 
+    fn targets_in(&self, all: impl FnOnce() -> Vec<ContactTarget>) -> Vec<ContactTarget> {
+        if self.targets.is_empty() { all() } else { self.targets.clone() }
+    }
+
     fn surface(&self) -> Surface {
         let Self { shape, radius, stiffness, restitution, .. } = *self;
         let law = match shape {
@@ -133,12 +137,12 @@ impl ElementDef for Obstacle {
     }
 
     /// Stations of points. The contact force of a disc couples their displacements.
-    fn coupled(&self) -> Vec<Station> {
-        let station = |target: &ContactTarget| match target {
+    fn coupled(&self, scene: &dyn SceneChecks) -> Vec<Vec<Station>> {
+        let station = |target: ContactTarget| match target {
             ContactTarget::Beam(_) => None,
-            ContactTarget::Point(station) => Some(*station),
+            ContactTarget::Point(station) => Some(vec![station]),
         };
-        self.targets.iter().filter_map(station).collect()
+        self.targets_in(|| scene.contact_targets()).into_iter().filter_map(station).collect()
     }
 
     fn build(&self, site: &dyn AssemblyContext) -> Result<BuiltElement, SystemError> {
@@ -149,10 +153,7 @@ impl ElementDef for Obstacle {
                 Ok(vec![ContactPoint::new(place, 1.0)])
             }
         };
-        let targets = match self.targets.is_empty() {
-            true => site.contact_targets(),
-            false => self.targets.clone(),
-        };
+        let targets = self.targets_in(|| site.contact_targets());
         let bodies = targets.iter().map(|target| Ok(TouchingBody::new(touching(target)?)));
         let bodies = bodies.collect::<Result<_, SystemError>>()?;
         let forces = ObstacleForces::new(self.name.clone(), self.surface(), bodies);

@@ -78,15 +78,18 @@ impl TouchingBody {
         self.is_convex && all().all(|at| normal.dot(&at) - offset >= surface.radius)
     }
 
-    fn begin_step(&mut self, surface: &Surface, body: &Body, rates: &[f64]) {
+    fn begin_movement(&mut self, surface: &Surface, body: &Body) {
         let controls = body.dynamics.control_points();
         let is_closed = self.points.iter().any(ContactPoint::is_closed);
         self.is_far = !is_closed && self.is_separated(surface, |at| controls[at], controls.len());
-        self.points.iter_mut().for_each(ContactPoint::begin_step);
+        self.points.iter_mut().for_each(|point| point.begin_movement(surface, body));
+    }
+
+    fn begin_step(&mut self, surface: &Surface, body: &Body, rates: &[f64]) {
+        self.begin_movement(surface, body);
         for point in &mut self.points {
-            point.locate(surface, body);
             let [x, y, _] = body.at(&point.place, rates);
-            point.note_approach(surface, Vec2::new(x, y));
+            point.begin_step(surface, Vec2::new(x, y));
         }
     }
 
@@ -151,8 +154,11 @@ impl InternalForce for ObstacleForces {
         &self.name
     }
 
-    fn read_inertia(&mut self, bodies: &[Body], diagonal: &[f64]) {
-        self.points_mut().for_each(|point| point.read_inertia(&bodies[point.place.body], diagonal));
+    fn begin(&mut self, bodies: &[Body], inertia: &[f64]) {
+        let surface = self.surface;
+        for point in self.points_mut() {
+            point.begin(&surface, &bodies[point.place.body], inertia);
+        }
     }
 
     fn begin_step(&mut self, interval: Interval, bodies: &[Body], rates: &[f64]) {
@@ -162,9 +168,11 @@ impl InternalForce for ObstacleForces {
         }
     }
 
-    fn begin_movement(&mut self) {
+    fn begin_movement(&mut self, bodies: &[Body]) {
         self.rate_history.begin(f64::INFINITY);
-        self.points_mut().for_each(ContactPoint::begin_movement);
+        for own in &mut self.bodies {
+            own.begin_movement(&self.surface, &bodies[own.body]);
+        }
     }
 
     fn add_forces(&mut self, at: TrialState<'_>, out: &mut [f64]) -> ForceSummary {

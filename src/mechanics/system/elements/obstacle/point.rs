@@ -14,6 +14,9 @@ use crate::system::elements::mixed_force::{ForceTarget, MixedForce};
 /// Force tolerance of contacts, as a fraction of the rounding error of the gap times the stiffness. Contact laws have corners.
 const CORNER_TOLERANCE: f64 = 2e-4;
 
+/// Stiffness relative to the impedance of the body, up to which a contact is linearised at the present iterate.
+const SOFT: f64 = 1e-2;
+
 /// Largest rounding error of increments, as a multiple of the machine precision.
 const MOST_ROUNDING: f64 = 16.0;
 
@@ -147,8 +150,10 @@ impl ContactPoint {
         }
     }
 
-    /// Computes the effective mass at the point from the diagonal of the inertia matrix. The whole mass of a rigid body counts at its points.
-    pub(super) fn read_inertia(&mut self, body: &Body, diagonal: &[f64]) {
+    /// Prepares the start of a simulation. Computes the effective mass from the diagonal of the inertia matrix.
+    /// The whole mass of a rigid body counts at its points.
+    pub(super) fn begin(&mut self, surface: &Surface, body: &Body, diagonal: &[f64]) {
+        self.locate(surface, body);
         let of = |degrees: &[usize; 3]| diagonal.get(degrees[0]).copied().unwrap_or(f64::INFINITY);
         let mobility = |(at, share): (usize, f64)| square(share) / of(&body.degrees_of_freedom[at]);
         let mass = 1.0 / self.place.weights().map(mobility).sum::<f64>();
@@ -173,7 +178,7 @@ impl ContactPoint {
     }
 
     /// Updates the gap and the direction at the start of a step.
-    pub(super) fn locate(&mut self, surface: &Surface, body: &Body) {
+    fn locate(&mut self, surface: &Surface, body: &Body) {
         let (gap, start) = surface.gap(self.position(body));
         self.start = start;
         if !self.is_closed() {
@@ -181,23 +186,20 @@ impl ContactPoint {
         }
     }
 
-    /// Stores the approach speed of an open contact.
-    pub(super) fn note_approach(&mut self, surface: &Surface, velocity: Vec2) {
-        if !self.is_closed() {
-            let trial =
-                GapTrial::new(surface.shape, self.start, Vec2::zeros(), RotationIncrement::Angle);
-            self.approach = trial.slope.dot(&velocity).abs();
-        }
-    }
-
-    pub(super) fn begin_step(&mut self) {
-        self.tension.begin_step();
-        self.applied = [Vec2::zeros(); 2];
-    }
-
-    pub(super) fn begin_movement(&mut self) {
+    pub(super) fn begin_movement(&mut self, surface: &Surface, body: &Body) {
+        self.locate(surface, body);
         self.tension.force = self.tension.last;
         self.applied = [Vec2::zeros(); 2];
+    }
+
+    /// Prepares a step that starts with a velocity of the point. The velocity of an open contact is its approach speed.
+    pub(super) fn begin_step(&mut self, surface: &Surface, velocity: Vec2) {
+        self.tension.begin_step();
+        if !self.is_closed() {
+            let none = Vec2::zeros();
+            let trial = GapTrial::new(surface.shape, self.start, none, RotationIncrement::Angle);
+            self.approach = trial.slope.dot(&velocity).abs();
+        }
     }
 
     /// Removes the force, because no contact is possible in the present iterate.
@@ -246,7 +248,7 @@ impl ContactPoint {
     /// The coefficient is limited to its largest value in an impact that is governed by the contact.
     /// Without the limit, a resting contact would be damped without bound.
     fn damping(&self, surface: &Surface, elastic: ForceTarget) -> (f64, f64) {
-        let most = (self.weight * surface.law.stiffness() * self.mass).sqrt();
+        let most = (self.stiffness(surface) * self.mass).sqrt();
         let by_force = -elastic.force / self.approach;
         match by_force < most {
             true => {
@@ -279,18 +281,14 @@ impl ContactPoint {
         out: &mut [f64],
     ) -> (f64, f64) {
         self.evaluate(surface, time, body, values);
-        let GapTrial { change, secant, moved, .. } = self.trial;
+        let GapTrial { change, secant, .. } = self.trial;
         let target = self.target(surface, time, change);
         if time.stage == Stage::Start {
             self.applied[0] = secant * (time.weight * target.force);
             self.scatter(body, self.applied[0], out);
             return (target.force.abs(), 0.0);
         }
-        let extent = larger(moved, self.gap.value.abs());
-        let mut missed = self.tension.compare(target, CORNER_TOLERANCE * extent);
-        if self.tension.missing_change().abs() <= MOST_ROUNDING * f64::EPSILON * moved {
-            missed = 0.0;
-        }
+        let missed = self.compare(surface, target);
         let force = self.tension.force;
         self.applied[1] = secant * (time.weight * force);
         self.scatter(body, self.applied[1], out);
@@ -329,17 +327,38 @@ impl ContactPoint {
         }
     }
 
+    /// Target of a linearisation. A stiff contact intersects its law with the impedance of the body, in equilibria with a secant estimate of it.
     fn linearisation_target(&mut self, surface: &Surface, time: ContactTime) -> ForceTarget {
         let change = self.trial.change;
-        let found = self.tension.impedance(change);
-        let own = 2.0 * self.mass / square(time.duration);
-        let impedance = found.unwrap_or(own);
-        if !(impedance > 0.0 && impedance.is_finite()) {
-            return self.target(surface, time, change);
+        let estimate = self.tension.impedance(change);
+        let impedance = match time.duration.is_finite() {
+            true => Some(2.0 * self.mass / square(time.duration)),
+            false => estimate,
+        };
+        let is_stiff = |impedance: &f64| self.stiffness(surface) > SOFT * impedance;
+        match impedance.filter(is_stiff) {
+            Some(impedance) if impedance > 0.0 => {
+                ForceTarget::intersection(change, self.tension.force, impedance, |change| {
+                    self.target(surface, time, change)
+                })
+            }
+            _ => self.target(surface, time, change),
         }
-        ForceTarget::intersection(change, self.tension.force, impedance, |change| {
-            self.target(surface, time, change)
-        })
+    }
+
+    /// Stiffness at first touch [force/length].
+    fn stiffness(&self, surface: &Surface) -> f64 {
+        self.weight * surface.law.stiffness()
+    }
+
+    /// Compares the tension with its target. Returns the relative difference; zero if the rounding error of the increments explains it.
+    fn compare(&mut self, surface: &Surface, target: ForceTarget) -> f64 {
+        let GapTrial { moved, .. } = self.trial;
+        let stiffness = larger(target.stiffness, self.stiffness(surface));
+        let extent = CORNER_TOLERANCE * larger(moved, self.gap.value.abs());
+        let missed = self.tension.compare(ForceTarget { stiffness, ..target }, extent);
+        let rounding = MOST_ROUNDING * f64::EPSILON * moved;
+        if self.tension.missing_change().abs() <= rounding { 0.0 } else { missed }
     }
 
     pub(super) fn add_mismatch_force(&self, body: &Body, weight: f64, out: &mut [f64]) {
@@ -414,18 +433,17 @@ impl ContactPoint {
     ) -> (f64, f64) {
         let rotations = crate::system::elements::collocation(time.stage).rotations;
         self.trial = GapTrial::new(surface.shape, self.start, self.movement(body), rotations);
-        let GapTrial { change, moved, .. } = self.trial;
+        let GapTrial { change, .. } = self.trial;
         let elastic = self.elastic(surface, time.stage, change);
         let lost = match surface.damping > 0.0 && time.duration.is_finite() {
             true => time.share() * (self.tension.force - elastic.force) * change,
             false => 0.0,
         };
         let target = self.target(surface, time, change);
-        self.tension.compare(target, 0.0);
-        let missing = self.tension.missing_change();
         self.gap = self.gap.after(change);
-        if missing.abs() <= MOST_ROUNDING * f64::EPSILON * moved {
-            self.gap = self.gap.after(missing);
+        if self.compare(surface, target) == 0.0 {
+            // The gap fits the tension, so that the rounding error of increments stores no energy.
+            self.gap = self.gap.after(self.tension.missing_change());
         }
         self.tension.last = self.tension.force;
         self.last_rate = if time.duration.is_finite() { change / time.duration } else { 0.0 };
