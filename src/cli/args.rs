@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 
 use super::convert_options::ConvertOptions;
+use super::input_options::InputOptions;
 use super::learn_options::LearnOptions;
 use super::limits::LimitOptions;
 use super::view_options::ViewOptions;
@@ -57,6 +58,9 @@ pub enum CliCommand {
 pub struct ReplOptions {
     /// Script that is evaluated first, as if it had been typed.
     pub file: Option<PathBuf>,
+    /// Inputs of the script.
+    #[command(flatten)]
+    pub inputs: InputOptions,
     /// Options of the session.
     #[command(flatten)]
     pub session: SessionOptions,
@@ -121,6 +125,12 @@ pub struct RunOptions {
     /// Hides the progress bar and the closing lines; printed text and errors are still shown.
     #[arg(long, short)]
     pub quiet: bool,
+    /// Runs again whenever the script, or a file that it imports or reads, has changed. Ctrl-C ends.
+    #[arg(long)]
+    pub watch: bool,
+    /// Inputs of the script.
+    #[command(flatten)]
+    pub inputs: InputOptions,
     /// Limits of the script.
     #[command(flatten)]
     pub limits: LimitOptions,
@@ -160,6 +170,9 @@ pub struct StudyOptions {
     /// Hides the progress bar and the closing lines; printed text and errors are still shown.
     #[arg(long, short)]
     pub quiet: bool,
+    /// Inputs of the script.
+    #[command(flatten)]
+    pub inputs: InputOptions,
     /// Limits of the script.
     #[command(flatten)]
     pub limits: LimitOptions,
@@ -170,6 +183,9 @@ pub struct StudyOptions {
 pub struct CheckOptions {
     /// Script, a .rhai file.
     pub file: PathBuf,
+    /// Inputs of the script.
+    #[command(flatten)]
+    pub inputs: InputOptions,
     /// Limits of the script.
     #[command(flatten)]
     pub limits: LimitOptions,

@@ -8,6 +8,7 @@ mod convert_options;
 mod docs;
 mod exit;
 mod grade;
+mod input_options;
 mod interrupt;
 mod learn;
 mod learn_options;
@@ -20,6 +21,7 @@ mod start;
 mod tui;
 mod view;
 mod view_options;
+mod watch;
 
 pub use exit::Exit;
 pub use start::main;

@@ -4,13 +4,15 @@ use std::io::{IsTerminal, sink, stderr, stdout};
 use std::path::Path;
 use std::process;
 use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
 
 use super::Exit;
 use super::args::{CheckOptions, ErrorChoice, RunOptions, StudyOptions};
-use super::console::{print_error, print_error_styled};
+use super::console::{print_error, print_error_styled, print_line};
 use super::interrupt::{self, InterruptLoss};
 use super::progress_display::{self, ProgressPreference};
-use crate::output::write_atomic;
+use super::watch::watch;
+use crate::output::{TextTable, write_atomic};
 use crate::panics;
 use crate::repl::editor::typed_ahead;
 use crate::sandbox_fs::read_file;
@@ -19,6 +21,8 @@ use crate::script::engine::runner::{self, Ending, RunOutcome};
 use crate::script::messages::stop::Stop;
 use crate::script::packages::language;
 use crate::script::source::program::Program;
+use crate::script::state::files_read::FilesRead;
+use crate::script::state::inputs::Inputs;
 use crate::script::state::limits::HardAbort;
 use crate::script::state::settings::{
     ErrorEstimation, JournalPreference, RunMode, RunSettings, StudyPreferences,
@@ -28,13 +32,28 @@ use crate::script::state::settings::{
 const LARGEST_REPORT: u64 = 1 << 28;
 
 pub fn run(options: &RunOptions) -> Exit {
-    let wish = if options.quiet { ProgressPreference::Hide } else { ProgressPreference::Show };
     if let Some(Err(diagnostic)) = options.report.as_deref().map(check_report_path) {
         return report_error(&diagnostic);
     }
+    let interrupt = interrupt::flag(InterruptLoss::Run);
+    match options.watch {
+        true => watch(&options.file, &interrupt, |read| run_once(options, &interrupt, read)),
+        false => run_once(options, &interrupt, FilesRead::default()),
+    }
+}
+
+/// Runs the script, and records the files that it reads.
+fn run_once(options: &RunOptions, interrupt: &Arc<AtomicBool>, files_read: FilesRead) -> Exit {
+    let wish = if options.quiet { ProgressPreference::Hide } else { ProgressPreference::Show };
+    let inputs = match options.inputs.inputs() {
+        Ok(inputs) => inputs,
+        Err(diagnostic) => return report_error(&diagnostic),
+    };
     let settings = RunSettings {
         out: options.out.clone(),
-        interrupt: interrupt::flag(InterruptLoss::Run),
+        interrupt: Arc::clone(interrupt),
+        inputs: inputs.clone(),
+        files_read: files_read.clone(),
         limits: options.limits.limits(),
         printed: Box::new(stdout()),
         diagnostics: Box::new(stderr()),
@@ -47,8 +66,9 @@ pub fn run(options: &RunOptions) -> Exit {
         Ok(outcome) => outcome,
         Err(diagnostic) => return report_error(&diagnostic),
     };
+    files_read.remove(&outcome.files);
     if let Some(Err(diagnostic)) =
-        options.report.as_deref().map(|file| write_report(file, &outcome))
+        options.report.as_deref().map(|file| write_report(file, &outcome, &inputs))
     {
         return report_error(&diagnostic);
     }
@@ -78,8 +98,13 @@ pub fn study(options: &StudyOptions) -> Exit {
         part: options.part,
         merge: options.merge.clone(),
     };
+    let inputs = match options.inputs.inputs() {
+        Ok(inputs) => inputs,
+        Err(diagnostic) => return report_error(&diagnostic),
+    };
     let settings = RunSettings {
         out: options.out.clone(),
+        inputs,
         interrupt: interrupt::flag(InterruptLoss::Run),
         limits: options.limits.limits(),
         printed: if options.part.is_some() { Box::new(sink()) } else { Box::new(stdout()) },
@@ -102,7 +127,12 @@ pub fn study(options: &StudyOptions) -> Exit {
 }
 
 pub fn check(options: &CheckOptions) -> Exit {
+    let inputs = match options.inputs.inputs() {
+        Ok(inputs) => inputs,
+        Err(diagnostic) => return report_error(&diagnostic),
+    };
     let settings = RunSettings {
+        inputs: inputs.clone(),
         interrupt: interrupt::flag(InterruptLoss::Run),
         limits: options.limits.limits(),
         last_resort: Some(last_resort()),
@@ -111,6 +141,7 @@ pub fn check(options: &CheckOptions) -> Exit {
     match start(&options.file, settings) {
         Ok(outcome) => {
             let file = options.file.display();
+            list_inputs(&inputs);
             match outcome.ending {
                 Ending::Finished => print_error(&format!("{file}: no errors found\n")),
                 Ending::Undecided => print_error(&format!(
@@ -122,6 +153,24 @@ pub fn check(options: &CheckOptions) -> Exit {
         }
         Err(diagnostic) => report_error(&diagnostic),
     }
+}
+
+/// Prints a table of the inputs of a script, if there are any.
+fn list_inputs(inputs: &Inputs) {
+    let declared = inputs.declared();
+    if declared.is_empty() {
+        return;
+    }
+    let mut table = TextTable::new(&["input", "default", "allowed", "description"]);
+    for (of, _) in &declared {
+        let allowed = match of.allowed() {
+            allowed if allowed.is_empty() => of.default.type_words().to_owned(),
+            allowed => allowed,
+        };
+        table.row([of.name.clone(), of.default_with_unit(), allowed, of.about.clone()]);
+    }
+    let table = table.to_string();
+    table.lines().for_each(|line| print_line(line.trim_end()));
 }
 
 fn start(file: &Path, settings: RunSettings) -> Result<RunOutcome, Diagnostic> {
@@ -255,8 +304,13 @@ fn check_report_path(file: &Path) -> Result<(), Diagnostic> {
     }
 }
 
-fn write_report(file: &Path, outcome: &RunOutcome) -> Result<(), Diagnostic> {
-    let report = serde_json::json!({ "simulations": outcome.simulations });
+fn write_report(file: &Path, outcome: &RunOutcome, inputs: &Inputs) -> Result<(), Diagnostic> {
+    let mut report = serde_json::json!({ "simulations": outcome.simulations });
+    let declared = inputs.declared();
+    if !declared.is_empty() {
+        let values = declared.into_iter().map(|(of, value)| (of.name, value.to_json()));
+        report["inputs"] = values.collect::<serde_json::Map<_, _>>().into();
+    }
     write_atomic(file, format!("{report:#}\n").as_bytes()).map_err(|error| {
         Diagnostic::general(format!("cannot write the report '{}': {error}", file.display()))
             .with_hint("--report takes the path of a file in a folder that exists")

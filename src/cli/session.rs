@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 use super::Exit;
 use super::args::{ReplOptions, SessionOptions};
 use super::console::print_error;
+use super::input_options::InputOptions;
 use super::interrupt::{self, InterruptLoss};
 use super::progress_display::{self, ProgressPreference};
 use super::run::{last_resort, report_error};
@@ -36,7 +37,7 @@ pub fn open(options: &ReplOptions) -> Exit {
 }
 
 pub fn start(options: SessionOptions) -> Exit {
-    open(&ReplOptions { file: None, session: options })
+    open(&ReplOptions { file: None, inputs: InputOptions::default(), session: options })
 }
 
 fn is_interactive(options: &SessionOptions) -> bool {
@@ -44,7 +45,7 @@ fn is_interactive(options: &SessionOptions) -> bool {
 }
 
 fn run(options: &ReplOptions) -> Result<Exit, Diagnostic> {
-    let ReplOptions { file, session: options } = options;
+    let ReplOptions { file, inputs, session: options } = options;
     let is_conversation = is_interactive(options);
     let settings = RunSettings { folder: folder_of(file), ..settings(options, is_conversation) };
     let session = Session::new(language(), settings)?;
@@ -52,7 +53,7 @@ fn run(options: &ReplOptions) -> Result<Exit, Diagnostic> {
         if is_conversation { ReplyTarget::Terminal(style(options)) } else { ReplyTarget::Pipe };
     let mut shell = Shell::new(session, screen);
     let mut outcome = match file {
-        Some(file) => shell.run_program(Program::load(file)?),
+        Some(file) => shell.run_program(Program::load(file)?, inputs.inputs()?),
         None => CommandOutcome::Success,
     };
     if is_conversation {

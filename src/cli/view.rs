@@ -78,9 +78,14 @@ fn showing_all(program: &Program, page: &str) -> String {
 }
 
 fn perform(run: ViewRun, options: &ViewOptions) -> Exit {
+    let inputs = match options.inputs.inputs() {
+        Ok(inputs) => inputs,
+        Err(diagnostic) => return report_error(&diagnostic),
+    };
     let wish = if options.quiet { ProgressPreference::Hide } else { ProgressPreference::Show };
     let settings = RunSettings {
         out: run.out.clone(),
+        inputs,
         interrupt: interrupt::flag(InterruptLoss::Run),
         limits: options.limits.limits(),
         printed: Box::new(stdout()),

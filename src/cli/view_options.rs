@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 
+use super::input_options::InputOptions;
 use super::limits::LimitOptions;
 
 /// Options of `withy view`.
@@ -23,6 +24,9 @@ pub struct ViewOptions {
     /// Hides the progress bar and the closing lines; printed text and errors are still shown.
     #[arg(long, short)]
     pub quiet: bool,
+    /// Inputs of the script.
+    #[command(flatten)]
+    pub inputs: InputOptions,
     /// Limits of the script.
     #[command(flatten)]
     pub limits: LimitOptions,

@@ -14,11 +14,14 @@ use super::{scope, statements};
 use crate::script::bindings::catalog::Catalog;
 use crate::script::diagnose::Diagnostic;
 use crate::script::dialect::reading::read;
-use crate::script::engine::parse::{SourcePiece, parse_piece};
+use crate::script::engine::inputs::{declare_inputs, expect_declared};
+use crate::script::engine::parse::{SourcePiece, parse, parse_piece};
 use crate::script::engine::script_engine::{Halt, ScriptEngine};
+use crate::script::messages::error::EngineResult;
 use crate::script::source::program::Program;
 use crate::script::source::text::Source;
 use crate::script::state::context::Context;
+use crate::script::state::inputs::Inputs;
 use crate::script::state::settings::RunSettings;
 use crate::script::state::watchdog::Watchdog;
 
@@ -89,6 +92,7 @@ impl Session {
         self.transcript = Transcript::new(self.folder.clone());
         self.record = SessionRecord::default();
         self.context().clear_simulations();
+        self.context().set_inputs(Inputs::default());
     }
 
     /// Discards a Ctrl-C that was pressed between evaluations.
@@ -103,7 +107,42 @@ impl Session {
         self.eval_program(program)
     }
 
-    /// Evaluates a program, for example a file, like typed input.
+    /// Evaluates a file like typed input. The inputs keep the given values until the next file is loaded.
+    pub fn load(&mut self, program: Program, inputs: Inputs) -> Reply {
+        self.context().set_inputs(inputs);
+        let declared = self.declare_inputs(&program);
+        let names = match declared {
+            Ok(names) => names,
+            Err(reply) => return reply,
+        };
+        let reply = self.eval_program(program.clone());
+        let has_failed = !matches!(reply, Reply::Done | Reply::Value(_));
+        let checked = self.with_engine(&program, |context, _| expect_declared(context, &names));
+        if has_failed { reply } else { checked.map_or_else(|failed| failed, |()| reply) }
+    }
+
+    fn declare_inputs(&self, program: &Program) -> Result<Vec<String>, Reply> {
+        if self.context().inputs().are_defaults() {
+            return Ok(Vec::new());
+        }
+        self.with_engine(program, |context, engine| match parse(engine, program) {
+            Ok(ast) => declare_inputs(engine, context, (&ast, &program.text), &self.folder),
+            // The evaluation reports the error.
+            Err(_) => Ok(Vec::new()),
+        })
+    }
+
+    fn with_engine<T>(
+        &self,
+        program: &Program,
+        work: impl FnOnce(&Context, &Engine) -> EngineResult<T>,
+    ) -> Result<T, Reply> {
+        let guard = self.engine.watch().map_err(|halt| reply_to(halt, &self.transcript))?;
+        let done = self.engine.run(&guard, || program.clone(), |of| work(self.context(), of));
+        done.map_err(|halt| reply_to(halt, &self.transcript))
+    }
+
+    /// Evaluates a program like typed input.
     pub fn eval_program(&mut self, program: Program) -> Reply {
         let text = program.text.clone();
         let before = self.transcript.add(program);
@@ -195,6 +234,8 @@ impl Session {
         let Self { engine: host, transcript, scope, .. } = self;
         let reply = |halt| reply_to(halt, transcript);
         let guard = host.watch().map_err(reply)?;
+        // An input of the session may declare an input of the script again, with another default.
+        host.context().inputs().forget_declarations();
         let piece = SourcePiece { name: PROMPT, text, before, scope };
         let parse = |engine: &Engine| parse_piece(engine, &piece, || transcript.variables());
         let ast = host.run(&guard, || transcript.to_program(), parse).map_err(reply)?;

@@ -20,6 +20,7 @@ use crate::script::diagnose::{Diagnostic, Location};
 use crate::script::handles::simulation::SimulationHandle;
 use crate::script::presentation::present::present;
 use crate::script::source::program::{LARGEST_SCRIPT, Program};
+use crate::script::state::inputs::Inputs;
 
 /// Result of an input.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -159,9 +160,9 @@ impl Shell {
         }
     }
 
-    /// Evaluates a program like typed input, and shows the result.
-    pub fn run_program(&mut self, program: Program) -> CommandOutcome {
-        let reply = self.session.eval_program(program);
+    /// Evaluates a program with inputs like typed input, and shows the result.
+    pub fn run_program(&mut self, program: Program, inputs: Inputs) -> CommandOutcome {
+        let reply = self.session.load(program, inputs);
         match reply {
             Reply::Value(_) => self.print_reply(Reply::Done),
             reply => self.print_reply(reply),

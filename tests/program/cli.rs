@@ -251,8 +251,7 @@ fn ctrl_c_in_an_endless_run_keeps_its_history() {
          let scene = new_scene(\"a long flight\");
          scene.beam(#{ axis: line([0, 0], [10, 0]), basis: bspline(4), section: s, spin: 1 });
          let sim = scene.start(#{ dt: 0.1 });
-         sim.run_to(1);
-         print(\"started\");
+         sim.at(1, |sim| print(\"started\"));
          sim.run_to(1e9);",
     );
     let output = interrupted(&folder, &file);

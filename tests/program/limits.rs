@@ -83,9 +83,11 @@ fn steps_are_counted_over_all_simulations() {
     let output = home.run(&["--max-steps", "15"]);
     expect(&output, &["need more than 15 steps", "main.rhai:5:", "--max-steps N"]);
     assert_eq!(output.stdout, b"fine\n");
-    let kept = fs::read_to_string(home.0.path().join("out/a-stopped.csv")).unwrap();
-    // A comment, the names, the start, ten steps.
-    assert_eq!(kept.lines().count(), 13);
+    // A comment, the names, the start and the steps. The first run is complete.
+    for (file, lines) in [("out/a-history.csv", 13), ("out/a-stopped.csv", 8)] {
+        let kept = fs::read_to_string(home.0.path().join(file)).unwrap();
+        assert_eq!(kept.lines().count(), lines, "{file}");
+    }
     let output = home.run(&["--max-steps", "1000"]);
     assert_eq!(output.status.code(), Some(0), "{}", said(&output));
 }
@@ -108,7 +110,7 @@ fn what_is_kept_of_a_stopped_run_is_held_by_the_limit_of_what_is_written() {
     );
     let home = Home::with(&[("main.rhai", &script)]);
     expect(&home.run(&["--max-written", "1"]), &["1 MB"]);
-    let kept = fs::read_to_string(home.0.path().join("out/a-stopped.csv")).unwrap();
+    let kept = fs::read_to_string(home.0.path().join("out/a-history.csv")).unwrap();
     assert!(kept.len() < 60_000, "{}", kept.len());
 }
 

@@ -5,6 +5,7 @@ mod convert;
 mod docs_command;
 mod editors;
 mod gallery;
+mod inputs;
 mod learn_command;
 mod learn_watch;
 mod limits;

@@ -6,6 +6,7 @@ use crate::output::{printable, write_atomic};
 use crate::repl::shell::{CommandOutcome, Shell};
 use crate::script::diagnose::Diagnostic;
 use crate::script::source::program::Program;
+use crate::script::state::inputs::{InputSetting, Inputs};
 
 pub fn save(shell: &mut Shell, operand: &str) -> CommandOutcome {
     let operand = operand.trim_matches('"');
@@ -47,13 +48,22 @@ pub fn save(shell: &mut Shell, operand: &str) -> CommandOutcome {
 }
 
 pub fn load(shell: &mut Shell, operand: &str) -> CommandOutcome {
-    let operand = operand.trim_matches('"');
-    if operand.is_empty() {
+    let mut parts = operand.split("--set ").map(str::trim);
+    let file = parts.next().unwrap_or_default().trim_matches('"');
+    if file.is_empty() {
         let message = Diagnostic::general("the name of a file is missing");
         return shell.report_error(&message.with_hint("write :load FILE.rhai"));
     }
-    match Program::load(Path::new(operand)) {
-        Ok(program) => shell.run_program(program),
+    let settings: Result<Vec<InputSetting>, String> = parts.map(str::parse).collect();
+    let inputs = match settings.and_then(Inputs::new) {
+        Ok(inputs) => inputs,
+        Err(wrong) => {
+            let message = Diagnostic::general(format!(":load --set: {wrong}"));
+            return shell.report_error(&message.with_hint("write :load FILE --set NAME=VALUE"));
+        }
+    };
+    match Program::load(Path::new(file)) {
+        Ok(program) => shell.run_program(program, inputs),
         Err(refused) => shell.report_error(&refused.into()),
     }
 }

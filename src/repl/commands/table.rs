@@ -158,9 +158,9 @@ pub const COMMANDS: &[Command] = &[
     Command {
         name: ":load",
         operand: CommandOperand::File,
-        placeholder: "FILE",
+        placeholder: "FILE [--set NAME=VALUE]",
         summary: "evaluates a script as if it had been typed",
-        doc: "",
+        doc: "Each --set gives an input of the script, declared by input(…), another value than its default, until the next :load.",
         body: session::load,
     },
     Command {

@@ -7,6 +7,7 @@ pub(crate) mod built_in;
 pub(crate) mod builtins;
 pub mod call;
 pub mod catalog;
+pub(crate) mod input_calls;
 pub(crate) mod key_sets;
 pub mod kind;
 pub(crate) mod members;

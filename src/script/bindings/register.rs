@@ -206,16 +206,25 @@ fn make(
     given: impl Iterator<Item = Dynamic>,
 ) -> Result<Dynamic, ScriptError> {
     let RegisteredFunction { row, parameters, body, context, .. } = binding;
-    let accepted = parameters
-        .iter()
-        .zip(given)
-        .enumerate()
-        .map(|(number, (parameter, value))| {
-            accept(native.engine(), row.name, parameter, value)
-                .map(Some)
-                .map_err(|error| at_argument(error, number))
-        })
-        .collect::<Result<_, _>>()?;
+    let accept =
+        |parameter: &Parameter, value: Dynamic| accept(native.engine(), row.name, parameter, value);
+    let mut given = parameters.iter().zip(given).enumerate();
+    let mut accepted = Vec::with_capacity(parameters.len());
+    while let Some((number, (parameter, value))) = given.next() {
+        accepted.push(Some(accept(parameter, value).map_err(|error| {
+            let error = at_argument(error, number);
+            let is_exchanged = |(_, (later, value)): &(usize, (&Parameter, Dynamic))| {
+                accept(later, value.clone()).is_err() && accept(parameter, value.clone()).is_ok()
+            };
+            match given.find(is_exchanged) {
+                Some((_, (later, _))) => error.hint(format!(
+                    "exchange the arguments: '{}' stands before '{}'",
+                    parameter.name, later.name
+                )),
+                None => error,
+            }
+        })?));
+    }
     body(&mut Call::new(row, context, native, receiver, Arguments::new(parameters, accepted)))
 }
 

@@ -2,12 +2,13 @@
 //! The engine does not know the file when native code calls closures of modules. It provides the lines of calls only in errors.
 
 use std::cell::{Cell, RefCell};
-use std::collections::{BTreeMap, HashMap, HashSet};
+use std::collections::{BTreeMap, BTreeSet, HashMap, HashSet};
 use std::rc::Rc;
 
 use rhai::{AST, Engine};
 
 use super::catalog::Catalog;
+use super::input_calls::{names_in_functions, names_in_statements};
 use crate::script::messages::stop::Stop;
 use crate::script::source::syntax::TokenReader;
 
@@ -22,8 +23,16 @@ pub struct Sources {
     functions: Rc<RefCell<HashMap<String, HashSet<String>>>>,
     line: Rc<Cell<Option<usize>>>,
     imported: Rc<RefCell<BTreeMap<String, u32>>>,
+    inputs: Rc<RefCell<InputNames>>,
     catalog: Option<Rc<Catalog>>,
     reader: TokenReader,
+}
+
+/// Names of the inputs that a run of a study can vary.
+#[derive(Default)]
+struct InputNames {
+    in_functions: BTreeSet<String>,
+    in_imports: BTreeSet<String>,
 }
 
 /// Guard that marks a call into the library during its lifetime.
@@ -89,6 +98,26 @@ impl Sources {
         for function in ast.iter_functions() {
             known.entry(function.name.to_owned()).or_default().insert(source.to_owned());
         }
+        let mut inputs = self.inputs.borrow_mut();
+        inputs.in_functions.extend(names_in_functions(ast));
+        if self.imported.borrow().contains_key(source) {
+            inputs.in_imports.extend(names_in_statements(ast));
+        }
+    }
+
+    /// Returns true if the statements of an imported file declare an input.
+    pub fn imports_have_inputs(&self) -> bool {
+        !self.inputs.borrow().in_imports.is_empty()
+    }
+
+    /// Returns true if a function declares an input with this name.
+    pub fn functions_have_input(&self, name: &str) -> bool {
+        self.inputs.borrow().in_functions.contains(name)
+    }
+
+    /// Returns true if the statements of an imported file declare an input with this name.
+    pub fn imports_have_input(&self, name: &str) -> bool {
+        self.inputs.borrow().in_imports.contains(name)
     }
 
     /// File of the function `name`: `claimed` if this file contains the function, and `None` for native functions.

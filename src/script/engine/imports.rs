@@ -14,6 +14,7 @@ use crate::script::bindings::sources::Sources;
 use crate::script::library;
 use crate::script::messages::error::ScriptError;
 use crate::script::source::program::{LARGEST_SCRIPT, Program};
+use crate::script::state::context::Context;
 use crate::script::state::files::{InputFolder, InputFolders};
 
 const LONGEST_CHAIN: usize = 50;
@@ -21,6 +22,7 @@ const LONGEST_CHAIN: usize = 50;
 /// Module resolver for the library and a folder. It caches modules and detects circular imports.
 pub struct FolderResolver {
     folder: PathBuf,
+    context: Context,
     inputs: InputFolders,
     being_read: RefCell<Vec<PathBuf>>,
     read: RefCell<HashMap<PathBuf, ReadModule>>,
@@ -34,10 +36,12 @@ struct ReadModule {
 }
 
 impl FolderResolver {
-    pub fn new(folder: &Path) -> Self {
+    pub fn new(folder: &Path, context: &Context) -> Self {
+        let inputs = InputFolders::new([InputFolder::in_folder_of(folder)]);
         Self {
             folder: folder.to_owned(),
-            inputs: InputFolders::new([InputFolder::in_folder_of(folder)]),
+            context: context.clone(),
+            inputs: inputs.recording(context.files_read()),
             being_read: RefCell::default(),
             read: RefCell::default(),
         }
@@ -73,6 +77,11 @@ impl FolderResolver {
         let read = ReadModule { content: Vec::new(), module: Shared::clone(&module) };
         self.read.borrow_mut().insert(file, read);
         Ok(module)
+    }
+
+    /// Returns true if the variables of imported files may differ between the runs of a study, because they depend on inputs.
+    fn varies(&self, engine: &Engine) -> bool {
+        self.context.has_parameters() && Sources::of(engine).imports_have_inputs()
     }
 
     fn refuse_chain(&self, name: &str, file: &PathBuf) -> Result<(), ScriptError> {
@@ -137,7 +146,9 @@ impl ModuleResolver for FolderResolver {
         let (shown, file, content) = self.find(path).map_err(refused)?;
         self.refuse_chain(path, &file).map_err(refused)?;
         let known = self.read.borrow();
-        if let Some(read) = known.get(&file).filter(|read| read.content == content) {
+        if let Some(read) = known.get(&file).filter(|read| read.content == content)
+            && !self.varies(engine)
+        {
             return Ok(Shared::clone(&read.module));
         }
         drop(known);
@@ -145,7 +156,10 @@ impl ModuleResolver for FolderResolver {
         let module = self.load(engine, global, &shown, content.clone(), position);
         self.being_read.borrow_mut().pop();
         let module = module?;
-        self.read.borrow_mut().insert(file, ReadModule { content, module: Shared::clone(&module) });
+        if !self.varies(engine) {
+            let read = ReadModule { content, module: Shared::clone(&module) };
+            self.read.borrow_mut().insert(file, read);
+        }
         Ok(module)
     }
 }

@@ -2,6 +2,7 @@
 
 mod build;
 mod imports;
+pub mod inputs;
 pub mod parse;
 pub mod runner;
 pub mod script_engine;

@@ -5,6 +5,7 @@ use std::time::{Duration, Instant};
 
 use rhai::{Engine, INT, Scope};
 
+use super::inputs::{declare_inputs, expect_declared};
 use super::parse::parse;
 use super::script_engine::{Halt, ScriptEngine};
 use super::stack::on_large_stack;
@@ -16,7 +17,7 @@ use crate::script::messages::error::ScriptError;
 use crate::script::messages::stop::Stop;
 use crate::script::source::program::Program;
 use crate::script::state::context::Context;
-use crate::script::state::settings::{ErrorEstimation, RunSettings};
+use crate::script::state::settings::{ErrorEstimation, RunMode, RunSettings};
 
 /// Result of a run.
 #[derive(Debug)]
@@ -108,7 +109,13 @@ fn run_here(program: &Program, catalog: &Catalog, settings: RunSettings) -> RunO
     let begun = Instant::now();
     let mut errors = Vec::new();
     let run = |engine: &Engine| {
-        engine.run_ast(&parse(engine, program)?)?;
+        let (ast, context) = (parse(engine, program)?, host.context());
+        let names = match context.inputs().are_defaults() && context.mode() == RunMode::Run {
+            true => Vec::new(),
+            false => declare_inputs(engine, context, (&ast, &program.text), &program.folder)?,
+        };
+        engine.run_ast(&ast)?;
+        expect_declared(context, &names)?;
         errors = estimated_errors(engine, host.context(), (estimation, begun.elapsed()));
         Ok(())
     };
@@ -190,7 +197,6 @@ mod tests {
     use super::*;
     use crate::script::packages::language;
     use crate::script::source::lexing::lexings;
-    use crate::script::state::settings::RunMode;
 
     #[test]
     fn a_script_is_lexed_once_whether_it_is_right_or_wrong() {

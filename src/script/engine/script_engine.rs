@@ -47,8 +47,9 @@ impl ScriptEngine {
     /// # Errors
     /// Fails only because of internal errors.
     pub fn open(catalog: Catalog, settings: RunSettings) -> Result<Self, Diagnostic> {
-        let resolver = FolderResolver::new(&settings.folder);
+        let folder = settings.folder.clone();
         let context = Context::new(settings);
+        let resolver = FolderResolver::new(&folder, &context);
         let built = caught(|| build(&catalog, &context)).and_then(|built| built);
         let mut engine = built.map_err(Diagnostic::internal_error)?;
         engine.set_module_resolver(resolver);

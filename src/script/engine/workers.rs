@@ -17,6 +17,8 @@ use crate::script::diagnose::Diagnostic;
 use crate::script::messages::error::{EngineResult, ScriptError};
 use crate::script::source::program::Program;
 use crate::script::state::context::Context;
+use crate::script::state::files_read::FilesRead;
+use crate::script::state::inputs::Inputs;
 use crate::script::state::limits::Limits;
 use crate::script::state::settings::{RunMode, RunSettings};
 use crate::simulation::cores;
@@ -34,6 +36,8 @@ pub struct EngineConfig {
     program: Program,
     limits: Limits,
     snapshots: usize,
+    inputs: Inputs,
+    files_read: FilesRead,
     refusal: &'static str,
     /// Number of workers, and stack size of each worker [bytes].
     workers: (usize, usize),
@@ -51,7 +55,8 @@ impl EngineConfig {
         let snapshots = context.snapshots();
         let workers = workers(&limits, cores())?;
         let catalog = Catalog::clone(&catalog);
-        Some(Self { catalog, program, limits, snapshots, refusal, workers })
+        let (inputs, files_read) = (context.inputs(), context.files_read());
+        Some(Self { catalog, program, limits, snapshots, inputs, files_read, refusal, workers })
     }
 }
 
@@ -65,11 +70,15 @@ pub struct Worker {
 
 impl Worker {
     fn open(blueprint: &EngineConfig, interrupt: Arc<AtomicBool>) -> Result<Self, Diagnostic> {
-        let EngineConfig { catalog, program, limits, snapshots, refusal, .. } = blueprint;
+        let EngineConfig {
+            catalog, program, limits, snapshots, inputs, files_read, refusal, ..
+        } = blueprint;
         let settings = RunSettings {
             folder: program.folder.clone(),
             limits: *limits,
             snapshots: *snapshots,
+            inputs: inputs.clone(),
+            files_read: files_read.clone(),
             interrupt: Arc::clone(&interrupt),
             refuses_files: Some(refusal),
             ..RunSettings::silent(RunMode::Run)

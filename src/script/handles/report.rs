@@ -85,8 +85,9 @@ impl Reporter for SimulationHandle {
             .then(|| history_table(self.name(), simulation.history()).thinned(numbers))?;
         let plain = |letter: char| if letter.is_alphanumeric() { letter } else { '-' };
         let name: String = self.name().chars().map(plain).collect();
+        let part = if self.was_stopped() { "stopped" } else { "history" };
         // All columns of a history have the same length, so the conversion succeeds.
-        Some((format!("{name}-stopped.csv"), table.to_text().ok()?))
+        Some((format!("{name}-{part}.csv"), table.to_text().ok()?))
     }
 }
 

@@ -46,6 +46,8 @@ struct Live {
     is_firing: Cell<bool>,
     /// True if an early end of the run has already been reported.
     is_ending_told: Cell<bool>,
+    /// True if the last advance failed or was interrupted.
+    was_stopped: Cell<bool>,
     notes: Notes,
     start: RunStart,
     sensing: ColumnReader,
@@ -133,6 +135,7 @@ impl SimulationHandle {
             start,
             is_firing: Cell::new(false),
             is_ending_told: Cell::new(false),
+            was_stopped: Cell::new(false),
             simulation: RefCell::new(simulation),
             events: RefCell::default(),
         };
@@ -263,6 +266,7 @@ impl SimulationHandle {
             }
         };
         context.progress().end();
+        self.0.was_stopped.set(outcome.is_err());
         outcome
     }
 
@@ -280,6 +284,11 @@ impl SimulationHandle {
             self.call_due_functions()?;
         }
         Ok(())
+    }
+
+    /// Returns true if the last advance failed or was interrupted, so that its goal was not reached.
+    pub fn was_stopped(&self) -> bool {
+        self.0.was_stopped.get()
     }
 
     fn has_ended(&self) -> bool {

@@ -17,6 +17,7 @@ mod fits;
 pub(crate) mod geometry;
 mod help;
 mod histories;
+mod inputs;
 mod integrators;
 mod language;
 mod loads;
@@ -66,6 +67,7 @@ pub const TABLES: &[&BindingTable] = &[
     &arrays::TABLE,
     &text::TABLE,
     &checking::TABLE,
+    &inputs::TABLE,
     &sections::TABLE,
     &tapers::TABLE,
     &schedules::TABLE,

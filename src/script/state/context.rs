@@ -10,9 +10,11 @@ use std::rc::{Rc, Weak};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use rhai::{Dynamic, Engine};
+use rhai::{Dynamic, Engine, Map};
 
 use super::files::OutputFolder;
+use super::files_read::FilesRead;
+use super::inputs::Inputs;
 use super::journals::Journals;
 use super::limits::{INTERRUPT_HEARD, Meter};
 use super::settings::{RunMode, RunSettings, StudyPreferences};
@@ -39,6 +41,10 @@ struct ContextData {
     diagnostics: RefCell<Box<dyn Write + Send>>,
     pipe_closed: Cell<bool>,
     progress: Box<dyn Progress + Send>,
+    inputs: RefCell<Inputs>,
+    /// Values of the parameters in a run of a study.
+    parameters: RefCell<Map>,
+    files_read: FilesRead,
     studies: StudyPreferences,
     journals: Journals,
     output: OutputFolder,
@@ -70,9 +76,13 @@ impl Context {
             diagnostics: RefCell::new(settings.diagnostics),
             pipe_closed: Cell::new(false),
             progress: settings.progress,
+            inputs: RefCell::new(settings.inputs),
+            parameters: RefCell::default(),
             studies: settings.studies,
             journals: Journals::default(),
-            output: OutputFolder::new(settings.out, settings.folder, writing),
+            output: OutputFolder::new(settings.out, settings.folder, writing)
+                .recording(settings.files_read.clone()),
+            files_read: settings.files_read,
             program: settings.program,
             refuses_files: Cell::new(settings.refuses_files),
             checks: RefCell::default(),
@@ -106,6 +116,39 @@ impl Context {
     /// Progress display.
     pub fn progress(&self) -> &dyn Progress {
         &*self.0.progress
+    }
+
+    /// Inputs of the script.
+    pub fn inputs(&self) -> Inputs {
+        self.0.inputs.borrow().clone()
+    }
+
+    /// Replaces the inputs.
+    pub fn set_inputs(&self, inputs: Inputs) {
+        self.0.inputs.replace(inputs);
+    }
+
+    /// Calls `work`, in which inputs with the names of parameters have the values of these parameters.
+    pub fn with_parameters<T>(&self, parameters: &Map, work: impl FnOnce() -> T) -> T {
+        let before = self.0.parameters.replace(parameters.clone());
+        let result = work();
+        self.0.parameters.replace(before);
+        result
+    }
+
+    /// Value of a parameter in a run of a study; `None` for other names and outside of studies.
+    pub fn varied(&self, name: &str) -> Option<Dynamic> {
+        self.0.parameters.borrow().get(name).cloned()
+    }
+
+    /// Returns true in a run of a study.
+    pub fn has_parameters(&self) -> bool {
+        !self.0.parameters.borrow().is_empty()
+    }
+
+    /// Record of the files that the script has read.
+    pub fn files_read(&self) -> FilesRead {
+        self.0.files_read.clone()
     }
 
     /// Options of the studies of the run.

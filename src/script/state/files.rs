@@ -6,6 +6,7 @@ use std::collections::{HashMap, HashSet};
 use std::io::{self, BufWriter, ErrorKind, Write};
 use std::path::{Path, PathBuf};
 
+use super::files_read::FilesRead;
 use super::settings::RunMode;
 use crate::output::OutputError;
 use crate::sandbox_fs::{ChecksumWriter, Folder, WrittenFiles, is_plain};
@@ -26,6 +27,7 @@ pub struct OutputFolder {
     tidied: RefCell<HashSet<Option<PathBuf>>>,
     /// Contents of files that a dry run would have written. The script may read them.
     pretended: RefCell<HashMap<PathBuf, Vec<u8>>>,
+    read: FilesRead,
 }
 
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -46,7 +48,13 @@ impl OutputFolder {
             record: OnceCell::new(),
             tidied: RefCell::default(),
             pretended: RefCell::default(),
+            read: FilesRead::default(),
         }
+    }
+
+    /// Sets the record of the files that are read.
+    pub(super) fn recording(self, read: FilesRead) -> Self {
+        Self { read, ..self }
     }
 
     /// Writes the file `name` in the output folder. A dry run only checks the name.
@@ -152,10 +160,12 @@ impl OutputFolder {
             InputFolder::in_folder_of(&self.beside),
         ];
         let most = most.unwrap_or(LARGEST_INPUT).min(LARGEST_INPUT);
-        InputFolders::new(folders).read(name, most).map_err(|error| match self.mode {
-            RunMode::Run => error,
-            RunMode::DryRun => {
-                error.hint("first run the script that writes it; a check writes no files")
+        InputFolders::new(folders).recording(self.read.clone()).read(name, most).map_err(|error| {
+            match self.mode {
+                RunMode::Run => error,
+                RunMode::DryRun => {
+                    error.hint("first run the script that writes it; a check writes no files")
+                }
             }
         })
     }
@@ -215,12 +225,20 @@ impl InputFolder {
     }
 }
 
-pub struct InputFolders(Vec<InputFolder>);
+pub struct InputFolders {
+    folders: Vec<InputFolder>,
+    read: FilesRead,
+}
 
 impl InputFolders {
     /// Folders in search order.
     pub fn new(folders: impl IntoIterator<Item = InputFolder>) -> Self {
-        Self(folders.into_iter().collect())
+        Self { folders: folders.into_iter().collect(), read: FilesRead::default() }
+    }
+
+    /// Sets the record of the files that are read.
+    pub fn recording(self, read: FilesRead) -> Self {
+        Self { read, ..self }
     }
 
     /// Content of the file `name` in the first folder that contains it. The file may have at most `most` bytes.
@@ -229,7 +247,7 @@ impl InputFolders {
     /// Fails if no folder contains the file, if a link or the name leads out of the folder, or if the file is too large or not regular.
     pub fn read(&self, name: &str, most: u64) -> Result<Vec<u8>, ScriptError> {
         let words = self
-            .0
+            .folders
             .iter()
             .map(|InputFolder { word, path, .. }| format!("the {word} '{}'", path.display()));
         let allowed = words.collect::<Vec<_>>().join(" and ");
@@ -238,7 +256,8 @@ impl InputFolders {
             return Err(ScriptError::new(format!("\"{name}\" is outside of {allowed}"))
                 .hint("give a name without .. and without a leading /"));
         }
-        for folder in &self.0 {
+        for folder in &self.folders {
+            self.read.record(folder.path.join(path));
             match (folder.open)(&folder.path).and_then(|folder| folder.read(path, most)) {
                 Ok(content) => return Ok(content),
                 Err(error) if is_missing(&error) => (),

@@ -2,6 +2,8 @@
 
 pub mod context;
 pub(crate) mod files;
+pub mod files_read;
+pub mod inputs;
 pub(crate) mod journals;
 pub mod limits;
 pub(crate) mod parts;

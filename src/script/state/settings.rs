@@ -5,6 +5,8 @@ use std::path::PathBuf;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
+use super::files_read::FilesRead;
+use super::inputs::Inputs;
 use super::limits::{HardAbort, Limits};
 use super::parts::StudyPart;
 use crate::script::messages::progress::{NoProgress, Progress};
@@ -39,6 +41,10 @@ pub struct RunSettings {
     pub diagnostics: Box<dyn Write + Send>,
     /// Progress display.
     pub progress: Box<dyn Progress + Send>,
+    /// Inputs of the script, with the values given from outside.
+    pub inputs: Inputs,
+    /// Record of the files that the script reads.
+    pub files_read: FilesRead,
     /// Options of the studies.
     pub studies: StudyPreferences,
     /// Estimation of errors at the end of the run.
@@ -103,6 +109,8 @@ impl RunSettings {
             printed: Box::new(io::sink()),
             diagnostics: Box::new(io::sink()),
             progress: Box::new(NoProgress),
+            inputs: Inputs::default(),
+            files_read: FilesRead::default(),
             studies: StudyPreferences::default(),
             errors: ErrorEstimation::Never,
             last_resort: None,

@@ -57,11 +57,12 @@ fn called(
     function_of: &dyn Fn(&str, usize) -> Option<FnPtr>,
     values: Map,
 ) -> CallOutcome {
-    let Some((captured, given)) = function.arguments(values, function_of) else {
+    let Some((captured, given)) = function.arguments(values.clone(), function_of) else {
         return CallOutcome::Wrong("a captured function is not found again".into());
     };
     let arguments = captured.iter().cloned().chain(given).collect();
-    match worker.call(&function.name, arguments) {
+    let called = || worker.call(&function.name, arguments);
+    match worker.context().with_parameters(&values, called) {
         Ok(given) => match function.changed(&captured) {
             Some(name) => CallOutcome::Wrong(changes(name)),
             None => CallOutcome::Returned(given),

@@ -6,6 +6,8 @@ use rhai::{AST, ASTNode, Dynamic, Expr, FnPtr, Map, Position, Stmt};
 
 use super::portable::Portable;
 use crate::script::bindings::call::{Call, written_within};
+use crate::script::bindings::sources::Sources;
+use crate::script::engine::workers::EngineConfig;
 use crate::script::messages::error::{CallPart, Failure, ScriptError};
 use crate::script::messages::nouns::with_article;
 
@@ -131,11 +133,11 @@ impl RunFunction {
     pub fn call_here(&self, call: &Call, key: &str, values: Map) -> Result<Dynamic, ScriptError> {
         let function_of = |name: &str, parameters| call.function_named(name, parameters);
         let lost = || ScriptError::internal_error("the function of a study is not found again");
-        let (captured, given) = self.arguments(values, &function_of).ok_or_else(lost)?;
+        let (captured, given) = self.arguments(values.clone(), &function_of).ok_or_else(lost)?;
         let count = captured.len() + given.len();
         let mut function = function_of(&self.name, count).ok_or_else(lost)?;
         function.extend(captured.clone());
-        let found = call.invoke(&function, given)?;
+        let found = call.context().with_parameters(&values, || call.invoke(&function, given))?;
         match self.changed(&captured) {
             None => Ok(found),
             Some(name) => Err(call
@@ -156,10 +158,17 @@ impl RunFunction {
     ) -> Result<(), ScriptError> {
         let Some(unread) = Self::unread(call, function, names) else { return Ok(()) };
         let message = format!("the function of '{key}' does not use the parameter '{unread}'");
-        let hint = format!(
-            "use p.{unread} in it, or omit the parameter: all of its values would give the \
+        let declared = call.context().inputs().declared();
+        let hint = match declared.iter().any(|(of, _)| of.name == unread) {
+            true => format!(
+                "call input(\"{unread}\", …) inside the function: outside of it the input has one \
+                value for all runs"
+            ),
+            false => format!(
+                "use p.{unread} in it, or omit the parameter: all of its values would give the \
                 same result"
-        );
+            ),
+        };
         Err(call.error(message).hint(hint).at(CallPart::Key(unread.to_owned())))
     }
 
@@ -173,8 +182,17 @@ impl RunFunction {
         let map = definition.params.get(function.curry().len())?;
         let reading = ParameterReading::of(call, function, map);
         let mut names = names.into_iter();
-        names.find(|name| !reading.is_whole && !reading.names.contains(*name))
+        names.find(|name| {
+            !reading.is_whole && !reading.names.contains(*name) && !is_varied_input(call, name)
+        })
     }
+}
+
+/// Returns true if the runs of a study can vary an input. Statements of imported files are run again only in workers.
+fn is_varied_input(call: &Call, name: &str) -> bool {
+    let sources = Sources::of(call.engine());
+    let has_workers = || EngineConfig::of(call.engine(), call.context(), "").is_some();
+    sources.functions_have_input(name) || (sources.imports_have_input(name) && has_workers())
 }
 
 fn variable(expression: &Expr) -> Option<&str> {

@@ -91,6 +91,9 @@ impl SweepRequest<'_> {
         let imports = Sources::of(call.engine()).checksum().to_le_bytes();
         let parameters = self.plan.checksum_data();
         let script = script.unwrap_or_default();
-        Journal::fingerprint(&[script.as_bytes(), captured.as_bytes(), &imports, &parameters])
+        let inputs = call.context().inputs().fingerprint();
+        let parts: [&[u8]; 5] =
+            [script.as_bytes(), captured.as_bytes(), &imports, &parameters, &inputs];
+        Journal::fingerprint(&parts)
     }
 }
