@@ -68,7 +68,7 @@ pub(super) enum ImpactLaw {
     Ends,
     /// Condition `w̄ = 0`, with an impulse of either sign and without work.
     Elastic,
-    /// Condition `0 ≤ P ⟂ w̄ ≥ 0` of a slider held at a stop, without work.
+    /// Condition `0 ≤ P ⟂ 2 w̄ - min(u, 0) ≥ 0` of a slider held at a stop.
     Held,
     /// Condition `0 ≤ P ⟂ 2 w̄ - (1 - e) min(u, 0) ≥ 0` with the coefficient of restitution `e`: a stop with compressive impulses only.
     Restitution(f64),
@@ -84,11 +84,6 @@ impl ImpactLaw {
             Self::Ends | Self::Elastic | Self::Rest => Pairing::Equality,
             Self::Restitution(_) | Self::Held | Self::StoredEnergy(_) => Pairing::Complementary,
         }
-    }
-
-    /// Returns true if the impulse does no work.
-    fn is_workless(&self) -> bool {
-        matches!(self, Self::Elastic | Self::Held)
     }
 }
 
@@ -149,7 +144,8 @@ impl ImpactProblem {
             let (twice, of_stop) = (2.0 * means[at], of_stops[at]);
             match law {
                 ImpactLaw::Ends => self.before[first + at] + self.by_links(first + at),
-                ImpactLaw::Elastic | ImpactLaw::Held => twice,
+                ImpactLaw::Elastic => twice,
+                ImpactLaw::Held => twice - of_stop.min(0.0),
                 ImpactLaw::Restitution(restitution) => {
                     twice - (1.0 - restitution) * of_stop.min(0.0)
                 }
@@ -160,12 +156,13 @@ impl ImpactProblem {
         Ok(laws.iter().enumerate().map(lack).collect())
     }
 
-    /// Means of the velocities before and after the impact if no stop acts on a slider that is not held, one for each law [length/time].
+    /// Means of the velocities before and after the impact if no stop acts, one for each law [length/time].
     /// The laws apply to the last directions of the impact problem.
     pub(super) fn stop_velocities(&self, laws: &[ImpactLaw]) -> Result<Vec<f64>, LinearError> {
         let first = self.before.len() - laws.len();
         let mut means = self.mean_velocity().split_off(first);
-        let acting: Vec<usize> = (0..laws.len()).filter(|at| laws[*at].is_workless()).collect();
+        let acting: Vec<usize> =
+            (0..laws.len()).filter(|at| laws[*at] == ImpactLaw::Elastic).collect();
         if acting.is_empty() || acting.len() == laws.len() {
             return Ok(means);
         }
@@ -174,8 +171,7 @@ impl ImpactProblem {
             responses.map(|row| acting.iter().map(|at| row[first + at]).collect()).collect();
         let among: Vec<Vec<f64>> = acting.iter().map(|at| rows[*at].clone()).collect();
         let lacks: Vec<f64> = acting.iter().map(|at| 2.0 * means[*at]).collect();
-        let pairings: Vec<Pairing> = acting.iter().map(|at| laws[*at].pairing()).collect();
-        let impulses = complementary(&among, &lacks, &pairings)?;
+        let impulses = complementary(&among, &lacks, &vec![Pairing::Equality; acting.len()])?;
         for (mean, row) in means.iter_mut().zip(&rows) {
             *mean += 0.5 * row.iter().zip(&impulses).map(|(a, p)| a * p).sum::<f64>();
         }
