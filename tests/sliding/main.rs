@@ -8,6 +8,7 @@ mod consistency;
 mod ends;
 mod forces;
 mod friction;
+mod impact_energy;
 mod impact_law;
 mod invariants;
 mod kink_starts;

@@ -308,7 +308,9 @@ impl Simulation {
                     ArrivalKind::Released
                 }
                 // The slider only touched the stop, or its velocity was reversed exactly at the stop.
-                _ if landing.step.is_some() && !strikes => ArrivalKind::Bounced,
+                _ if landing.step.is_some() && !strikes && !self.model.approaches(limit, dt)? => {
+                    ArrivalKind::Bounced
+                }
                 _ if self.stays_held(limit, landing, dt)? => {
                     arriving.held.push(limit);
                     ArrivalKind::Held

@@ -100,7 +100,7 @@ impl System {
         let problem = self.impact_problem(&[(&along, Deformation::All)], -2.0)?;
         let impulses = problem.impulses(&vec![ImpactLaw::Ends; along.len()])?;
         self.apply(problem, &impulses.values);
-        for ((slider, _), work) in along.iter().zip(&impulses.works) {
+        for ((slider, _), work) in along.iter().zip(impulses.works()) {
             self.sliders[*slider].lost_energy -= work;
         }
         self.motion.accelerations.mark_unknown();

@@ -57,36 +57,32 @@ impl ImpulseResponse {
     }
 }
 
-/// Impact law: condition on the velocities `w⁻` before and `w⁺` after the impact, and on the impulse `P`.
+/// Impact law: condition on the impulse `P` and on the velocities `w⁻` before and `w⁺` after the impact.
+///
+/// The mean velocity `w̄ = ½ (w⁻ + w⁺)` is conjugate to the impulse: the work of the impulse is `P w̄`.
+/// The velocity `u` is the mean velocity in the same impact without impulses of stops.
+/// In contrast to `w⁻`, it does not contain velocities across masters, which change their signs from step to step.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum ImpactLaw {
     /// Condition `w⁺ = 0`, with an impulse of either sign.
     Ends,
-    /// Condition `w⁺ = -w⁻`, with an impulse of either sign and without work.
+    /// Condition `w̄ = 0`, with an impulse of either sign and without work.
     Elastic,
-    /// Condition `0 ≤ P ⟂ w⁺ + e w⁻ ≥ 0` with the coefficient of restitution `e`: a stop with compressive impulses only (Moreau 1988).
-    Restitution(f64),
-    /// Condition `0 ≤ P ⟂ w⁺ ≥ 0` of a slider held at a stop.
+    /// Condition `0 ≤ P ⟂ 2 w̄ - min(u, 0) ≥ 0` of a slider held at a stop.
     Held,
-    /// Condition `0 ≤ P ⟂ w⁺ - c ≥ 0` of a stop that returns its stored energy with a speed `c` [length/time].
+    /// Condition `0 ≤ P ⟂ 2 w̄ - (1 - e) min(u, 0) ≥ 0` with the coefficient of restitution `e`: a stop with compressive impulses only.
+    Restitution(f64),
+    /// Condition `2 w̄ = u` of a slider that comes to rest at a stop, with an impulse of either sign.
+    Rest,
+    /// Condition `0 ≤ P ⟂ 2 w̄ - u - c ≥ 0` of a stop that returns its stored energy with a speed `c` [length/time].
     StoredEnergy(f64),
 }
 
 impl ImpactLaw {
     pub(super) fn pairing(self) -> Pairing {
         match self {
-            Self::Ends | Self::Elastic => Pairing::Equality,
+            Self::Ends | Self::Elastic | Self::Rest => Pairing::Equality,
             Self::Restitution(_) | Self::Held | Self::StoredEnergy(_) => Pairing::Complementary,
-        }
-    }
-
-    /// Violation of the law by the velocity if no impulse acted [length/time]. `w` is the velocity before the impact.
-    fn deficit(self, w: f64) -> f64 {
-        match self {
-            Self::Ends | Self::Held => w,
-            Self::Elastic => 2.0 * w,
-            Self::Restitution(restitution) => w + restitution * w.min(0.0),
-            Self::StoredEnergy(speed) => w - speed,
         }
     }
 }
@@ -109,8 +105,15 @@ pub(super) struct ImpactProblem {
 pub(super) struct ImpactImpulses {
     /// Impulse in each direction [mass·length/time].
     pub(super) values: Vec<f64>,
-    /// Work of each impulse on the bodies, `½ P (w⁻ + w⁺)` [energy].
-    pub(super) works: Vec<f64>,
+    /// Mean `½ (w⁻ + w⁺)` of the velocities in each direction before and after the impact [length/time].
+    pub(super) mean_velocities: Vec<f64>,
+}
+
+impl ImpactImpulses {
+    /// Work of each impulse on the bodies [energy].
+    pub(super) fn works(&self) -> impl Iterator<Item = f64> {
+        self.values.iter().zip(&self.mean_velocities).map(|(impulse, velocity)| impulse * velocity)
+    }
 }
 
 impl ImpactProblem {
@@ -133,26 +136,61 @@ impl ImpactProblem {
 
     /// Violations of the given impact laws by the velocities that would result without contact impulses [length/time].
     /// The laws apply to the last directions of the impact problem.
-    pub(super) fn lacks(&self, laws: &[ImpactLaw]) -> Vec<f64> {
+    pub(super) fn lacks(&self, laws: &[ImpactLaw]) -> Result<Vec<f64>, LinearError> {
         let first = self.before.len() - laws.len();
-        let lack =
-            |(at, law): (usize, &ImpactLaw)| law.deficit(self.before[at]) + self.by_links(at);
-        (first..).zip(laws).map(lack).collect()
+        let means = &self.mean_velocity()[first..];
+        let of_stops = self.stop_velocities(laws)?;
+        let lack = |(at, law): (usize, &ImpactLaw)| {
+            let (twice, of_stop) = (2.0 * means[at], of_stops[at]);
+            match law {
+                ImpactLaw::Ends => self.before[first + at] + self.by_links(first + at),
+                ImpactLaw::Elastic => twice,
+                ImpactLaw::Held => twice - of_stop.min(0.0),
+                ImpactLaw::Restitution(restitution) => {
+                    twice - (1.0 - restitution) * of_stop.min(0.0)
+                }
+                ImpactLaw::Rest => twice - of_stop,
+                ImpactLaw::StoredEnergy(speed) => twice - of_stop - speed,
+            }
+        };
+        Ok(laws.iter().enumerate().map(lack).collect())
     }
 
-    pub(super) fn with_works(&self, values: Vec<f64>) -> ImpactImpulses {
-        let work = |at: usize| {
+    /// Means of the velocities before and after the impact if no stop acts, one for each law [length/time].
+    /// The laws apply to the last directions of the impact problem.
+    pub(super) fn stop_velocities(&self, laws: &[ImpactLaw]) -> Result<Vec<f64>, LinearError> {
+        let first = self.before.len() - laws.len();
+        let mut means = self.mean_velocity().split_off(first);
+        let acting: Vec<usize> =
+            (0..laws.len()).filter(|at| laws[*at] == ImpactLaw::Elastic).collect();
+        if acting.is_empty() || acting.len() == laws.len() {
+            return Ok(means);
+        }
+        let responses = self.response[first..].iter();
+        let rows: Vec<Vec<f64>> =
+            responses.map(|row| acting.iter().map(|at| row[first + at]).collect()).collect();
+        let among: Vec<Vec<f64>> = acting.iter().map(|at| rows[*at].clone()).collect();
+        let lacks: Vec<f64> = acting.iter().map(|at| 2.0 * means[*at]).collect();
+        let impulses = complementary(&among, &lacks, &vec![Pairing::Equality; acting.len()])?;
+        for (mean, row) in means.iter_mut().zip(&rows) {
+            *mean += 0.5 * row.iter().zip(&impulses).map(|(a, p)| a * p).sum::<f64>();
+        }
+        Ok(means)
+    }
+
+    pub(super) fn with_mean_velocities(&self, values: Vec<f64>) -> ImpactImpulses {
+        let mean = |at: usize| {
             let (before, change) = self.approach_velocities(at, &values);
-            values[at] * (before + 0.5 * change)
+            before + 0.5 * change
         };
-        let works = (0..values.len()).map(work).collect();
-        ImpactImpulses { values, works }
+        let mean_velocities = (0..values.len()).map(mean).collect();
+        ImpactImpulses { values, mean_velocities }
     }
 
     pub(super) fn impulses(&self, laws: &[ImpactLaw]) -> Result<ImpactImpulses, LinearError> {
         let pairings: Vec<Pairing> = laws.iter().map(|law| law.pairing()).collect();
-        let values = complementary(&self.response, &self.lacks(laws), &pairings)?;
-        Ok(self.with_works(values))
+        let values = complementary(&self.response, &self.lacks(laws)?, &pairings)?;
+        Ok(self.with_mean_velocities(values))
     }
 }
 

@@ -222,7 +222,7 @@ pub(super) fn deflect_at_corners(
     }
     let own = own_responses(encounter, corners, laws)?;
     let half_way = encounter.mean_velocity();
-    let lacks = [vec![0.0; 2 * corners.len()], encounter.lacks(laws)].concat();
+    let lacks = [vec![0.0; 2 * corners.len()], encounter.lacks(laws)?].concat();
     let tied = corners.iter().flat_map(|_| [Pairing::Equality; 2]);
     let pairings: Vec<Pairing> = tied.chain(laws.iter().map(|law| law.pairing())).collect();
     let mut bends: Vec<TurnSearch> = corners.iter().zip(&own).map(TurnSearch::new).collect();
@@ -249,11 +249,11 @@ pub(super) fn deflect_at_corners(
             is_right &= bend.correct(before, before + change);
         }
         if is_right {
-            return Ok(Some(encounter.with_works(impulses)));
+            return Ok(Some(encounter.with_mean_velocities(impulses)));
         }
         last = Some(impulses);
     }
-    Ok(last.filter(|_| !strikes).map(|impulses| encounter.with_works(impulses)))
+    Ok(last.filter(|_| !strikes).map(|impulses| encounter.with_mean_velocities(impulses)))
 }
 
 /// Velocity response `W` of each slider at a corner to its own impulse.

@@ -56,13 +56,6 @@ impl Arriving {
     fn has_impact_or_is_held(&self) -> bool {
         [&self.strike, &self.plastic, &self.held].into_iter().any(|limits| !limits.is_empty())
     }
-
-    fn law(&self, model: &System, limit: MasterLimit) -> Option<ImpactLaw> {
-        let restitution = model.sliders[limit.slider].restitution;
-        let strikes = self.strike.contains(&limit) || self.plastic.contains(&limit);
-        let strikes = strikes.then_some(ImpactLaw::Restitution(restitution));
-        strikes.or(self.held.contains(&limit).then_some(ImpactLaw::Ends))
-    }
 }
 
 impl System {
@@ -79,21 +72,25 @@ impl System {
     }
 
     /// Returns true if the velocity of a slider at an end points beyond the end.
-    /// The velocity contains only deformations that an impact with steps of length `dt` includes [time].
+    /// The velocity contains only deformations that an impact with steps of length `dt` includes [time],
+    /// and no velocities across masters, which change their signs from step to step.
     ///
     /// # Errors
     /// Fails if the impulse is undetermined.
     pub(crate) fn approaches(&mut self, limit: MasterLimit, dt: f64) -> Result<bool, SystemError> {
-        let direction = (limit.slider, self.stop_direction(limit));
-        let approach = |model: &mut Self| -> Result<f64, LinearError> {
-            let deformation = model.deformation_at(&[limit], dt)?;
-            let mut inertia = model.banded_inertia();
-            let answers =
-                model.impulse_responses_with(&inertia.factorise()?, &[direction], deformation)?;
-            Ok(answers.iter().map(|answer| answer.velocity(&model.motion.rates)).sum())
-        };
-        let speed = approach(self).map_err(|_| self.sliders.overdetermined())?;
+        let speed = self.stop_velocity(limit, dt).map_err(|_| self.sliders.overdetermined())?;
         Ok(speed < -APPROACHES * self.fastest_speed())
+    }
+
+    fn stop_velocity(&mut self, limit: MasterLimit, dt: f64) -> Result<f64, LinearError> {
+        let deformation = self.deformation_at(&[limit], dt)?;
+        let hits = self.impulse_directions(|_, other| (other == limit).then_some(ImpactLaw::Rest));
+        let (directions, laws): (Vec<ImpactDirection>, Vec<ImpactLaw>) =
+            hits.iter().map(|hit| (hit.direction, hit.law)).unzip();
+        let encounter = self.impact_problem(&[(&directions, deformation)], -2.0)?;
+        let velocities = encounter.stop_velocities(&laws)?;
+        let own = laws.iter().position(|law| *law == ImpactLaw::Rest);
+        Ok(own.map_or(0.0, |at| velocities[at]))
     }
 
     /// Returns true if steps of length `dt` [time] resolve the impact of a slider at a limit.
@@ -161,9 +158,8 @@ impl System {
 
     /// Computes the impact of all sliders that are at ends of masters or at seams at the present time. The length of the steps is `dt` [time].
     ///
-    /// All stops have the law `0 ≤ P ⟂ w⁺ + e w⁻ ≥ 0` with the impulse `P` and the coefficient of restitution `e`.
-    /// The relative velocities are `w⁻` before and `w⁺` after the impact.
-    /// Stops that hold sliders have the same law as other stops. A corner at a seam rotates the velocity of the slider.
+    /// Stops have the law [`ImpactLaw::Restitution`] and do no positive work.
+    /// Stops that hold sliders already have restitution zero. A corner at a seam rotates the velocity of the slider.
     /// All other contacts are constraints.
     /// After the impact, a slider that passes a seam is on the other side of the seam.
     ///
@@ -185,31 +181,29 @@ impl System {
         self.straighten_kinks(&[&arriving.strike[..], &arriving.plastic, &arriving.held].concat())?;
         let passages = self.passages(&arriving.crossing);
         let corners = passages.corners_of_sections();
-        if arriving.has_impact_or_is_held() || !corners.is_empty() {
-            let struck = [&arriving.strike[..], &arriving.plastic].concat();
-            let at_stops = match struck.is_empty() && !arriving.held.is_empty() {
-                true => Deformation::All,
-                false => self.deformation_at(&struck, dt)?,
-            };
-            let hits = self.impulse_directions(|model, limit| arriving.law(model, limit));
+        let struck = [&arriving.strike[..], &arriving.plastic].concat();
+        if !struck.is_empty() || !corners.is_empty() {
+            let at_stops = self.deformation_at(&struck, dt)?;
+            let hits = self.impulse_directions(|model, limit| {
+                let restitution = model.sliders[limit.slider].restitution;
+                struck.contains(&limit).then_some(ImpactLaw::Restitution(restitution))
+            });
             self.apply_impulses(&hits, corners, [Deformation::Resolved(RIGID * dt), at_stops])?;
         }
-        if !arriving.plastic.is_empty() {
-            // The first impact suppressed some deformations of the struck body.
-            // After the first impact, rounding may have left a velocity of the slider towards the stop.
-            // A second impact with all deformations removes the remaining velocity.
-            let hits = self.impulse_directions(|_, limit| {
-                arriving.plastic.contains(&limit).then_some(ImpactLaw::Ends)
-            });
+        // The first impact suppresses some deformations of the struck body.
+        // A second impact with all deformations removes the remaining velocities of sliders that come to rest.
+        let resting = [&arriving.plastic[..], &arriving.held].concat();
+        if !resting.is_empty() {
+            let hits = self
+                .impulse_directions(|_, limit| resting.contains(&limit).then_some(ImpactLaw::Rest));
             self.apply_impulses(&hits, &[], [Deformation::All; 2])?;
         }
-        arriving.plastic.iter().chain(&arriving.held).for_each(|limit| self.hold_at_stop(*limit));
+        resting.iter().for_each(|limit| self.hold_at_stop(*limit));
         self.pass_seams(&passages)
     }
 
     /// Applies impulses at several contacts at once.
     /// Corners rotate the velocities of the sliders that pass them. All other contacts follow their impact laws.
-    /// Impulses that hold sliders at a stop include all deformations.
     fn apply_impulses(
         &mut self,
         hits: &[ImpactContact],
@@ -218,14 +212,10 @@ impl System {
     ) -> Result<(), LinearError> {
         let passes = |slider: usize| corners.iter().any(|corner| corner.slider == slider);
         let others = hits.iter().filter(|hit| !passes(hit.direction.0));
-        let (held, others): (Vec<&ImpactContact>, Vec<&ImpactContact>) =
-            others.partition(|hit| hit.law == ImpactLaw::Ends);
-        let held_from = others.len();
         let (directions, laws): (Vec<ImpactDirection>, Vec<ImpactLaw>) =
-            others.into_iter().chain(held).map(|hit| (hit.direction, hit.law)).unzip();
+            others.map(|hit| (hit.direction, hit.law)).unzip();
         let turned = SeamCorner::directions(corners);
-        let (others, held) = directions.split_at(held_from);
-        let met = [(&turned[..], at_corners), (others, at_stops), (held, Deformation::All)];
+        let met = [(&turned[..], at_corners), (&directions, at_stops)];
         let encounter = self.impact_problem(&met, -2.0)?;
         let Some(impulses) = deflect_at_corners(&encounter, corners, &laws)? else {
             // The rotation angles were not reached. The impacts at stops are therefore applied first, and the corners afterwards.
@@ -234,12 +224,14 @@ impl System {
         };
         self.apply(encounter, &impulses.values);
         let tolerance = APPROACHES * self.fastest_speed();
-        let of_others = impulses.values.iter().zip(&impulses.works).skip(turned.len());
-        for ((direction, law), (impulse, work)) in directions.iter().zip(&laws).zip(of_others) {
-            let (slave, master) = self.speeds(*direction, &self.motion.rates);
-            let leaves = *law == ImpactLaw::Held && *impulse == 0.0 && slave - master > tolerance;
+        let of_impulses = impulses.values.iter().zip(&impulses.mean_velocities);
+        let of_others = of_impulses.zip(impulses.works()).skip(turned.len());
+        for ((direction, law), ((impulse, velocity), work)) in
+            directions.iter().zip(&laws).zip(of_others)
+        {
+            let leaves = *law == ImpactLaw::Held && *impulse == 0.0 && *velocity > tolerance;
             let slider = &mut self.sliders[direction.0];
-            slider.book_impact_work(*work);
+            slider.book_impact_work(work);
             slider.is_pulled = leaves && !slider.stop_may_pull;
             slider.crosses_seam = false;
         }
@@ -284,13 +276,13 @@ impl System {
         let hits = self.impulse_directions(|model, limit| {
             let slider = &model.sliders[limit.slider];
             let leaves = slider.is_pulled && slider.state == SliderState::Held(limit.end);
-            leaves.then_some(ImpactLaw::StoredEnergy(1.0))
+            (leaves && slider.stop_energy > 0.0).then_some(ImpactLaw::StoredEnergy(1.0))
         });
         let directions: Vec<ImpactDirection> = hits.iter().map(|hit| hit.direction).collect();
         let stored: Vec<f64> = hits
             .iter()
             .map(|hit| match hit.law {
-                ImpactLaw::StoredEnergy(_) => self.sliders[hit.direction.0].stop_energy.max(0.0),
+                ImpactLaw::StoredEnergy(_) => self.sliders[hit.direction.0].stop_energy,
                 _ => 0.0,
             })
             .collect();
@@ -305,7 +297,7 @@ impl System {
             .collect()
         };
         let given = |scale: f64| -> Result<f64, LinearError> {
-            Ok(encounter.impulses(&laws(scale))?.works.iter().sum())
+            Ok(encounter.impulses(&laws(scale))?.works().sum())
         };
         let wanted: f64 = stored.iter().sum();
         let (none, one, two) = (given(0.0)?, given(1.0)?, given(2.0)?);
@@ -315,9 +307,9 @@ impl System {
         if let Some(scale) = root {
             let impulses = encounter.impulses(&laws(scale))?;
             for (ImpactContact { direction: (slider, _), .. }, work) in
-                hits.iter().zip(&impulses.works)
+                hits.iter().zip(impulses.works())
             {
-                self.sliders[*slider].book_impact_work(*work);
+                self.sliders[*slider].book_impact_work(work);
             }
             self.apply(encounter, &impulses.values);
         }

@@ -129,7 +129,10 @@ impl SliderContact {
         let rate = self.rate(bodies, rates);
         let master = &bodies[self.connection.master];
         let points = master.dynamics.control_points();
-        let Ok(values) = self.start_path.basis().evaluate(self.parameter) else {
+        // At an end of the master, rounding errors may have moved the slider out of the range of the basis.
+        let (first, last) = self.master.domain();
+        let within = self.parameter.clamp(first, last);
+        let Ok(values) = self.start_path.basis().evaluate(within) else {
             return Vec2::zeros();
         };
         let turning = values.slopes().iter().zip(values.first..);
