@@ -43,7 +43,7 @@ impl FieldPicture {
         self
     }
 
-    /// Draws rigid bodies, supports, joints, sliders and loads over the beams.
+    /// Draws rigid bodies, supports, joints, sliders and loads over the beams, and obstacles below them.
     pub fn scenery(mut self, scenery: MechanismOutline) -> Self {
         self.scenery = scenery;
         self
@@ -185,6 +185,7 @@ impl Panel for FieldPicture {
         }
         let bar = self.bar();
         bar.draw(canvas, plot);
+        self.scenery.draw_obstacles(canvas, &frame, plot);
         let is_zero = self.largest().is_none_or(|(_, value)| value <= 0.0);
         let part = |value: f64| if is_zero { 0.0 } else { bar.part(value) };
         let on_paper = |(at, value): &(Point, f64)| (frame.place(plot, *at), part(*value));

@@ -1,9 +1,11 @@
 //! Hatched areas and outlines.
 
 use super::{
-    canvas::{Area, Canvas},
+    canvas::{Area, Canvas, Point},
     colour::AXIS,
+    curve,
 };
+use crate::elementary::hypot;
 
 const HATCH: f64 = 6.0;
 
@@ -23,6 +25,25 @@ pub fn hatch(canvas: &mut Canvas, area: &Area) {
             (area.right, area.top + along - width)
         };
         canvas.line([from, to], 1.0, AXIS);
+    }
+}
+
+/// Draws short strokes on the side `(y, -x)` of a curve with the tangent `(x, y)`.
+pub fn hatch_along(canvas: &mut Canvas, run: &[Point], plot: &Area) {
+    let mut next = 0.5 * HATCH;
+    for pair in run.windows(2) {
+        let (dx, dy) = (pair[1].0 - pair[0].0, pair[1].1 - pair[0].1);
+        let length = hypot(dx, dy);
+        while next <= length {
+            let (x, y) = (dx / length, dy / length);
+            let foot = (pair[0].0 + next * x, pair[0].1 + next * y);
+            let end = (foot.0 + HATCH * (y - x), foot.1 - HATCH * (x + y));
+            for piece in curve::pieces([foot, end], plot) {
+                canvas.line(piece, 1.0, AXIS);
+            }
+            next += HATCH;
+        }
+        next -= length;
     }
 }
 

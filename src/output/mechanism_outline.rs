@@ -14,7 +14,7 @@ const OUTLINE: f64 = 1.6;
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct MechanismOutline {
     pub bodies: Vec<Vec<Point>>,
-    /// Supports, joints, sliders, springs and loads.
+    /// Supports, joints, sliders, springs, loads and obstacles.
     pub symbols: Vec<PlacedSymbol>,
 }
 
@@ -26,6 +26,10 @@ impl MechanismOutline {
     ) -> View {
         let bodies = self.bodies.iter().flatten().copied();
         PlacedSymbol::view(&self.symbols, points.chain(bodies), limits)
+    }
+
+    pub(super) fn draw_obstacles(&self, canvas: &mut Canvas, frame: &Frame, plot: &Area) {
+        PlacedSymbol::draw_obstacles(&self.symbols, canvas, frame, plot);
     }
 
     pub(super) fn draw(&self, canvas: &mut Canvas, frame: &Frame, plot: &Area) {

@@ -3,9 +3,9 @@
 //! ```text
 //! chart, heat_map, level_map, bars, motion, strips, field → page → mechanism_outline → plane, symbol
 //! → frame, hatching, legend, colour_bar → axis, curve, stroke, marker → canvas → figure → svg, png → files
-//! chart, heat_map → terminal → axis, curve
+//! chart, heat_map → terminal → symbol, axis, curve
 //! motion → animation → figure
-//! viewer (a page for browsers) → canvas, colour
+//! viewer (a page for browsers) → symbol, canvas, colour
 //! ```
 //!
 //! Pictures look the same on every machine, because the font of their texts is embedded in the program. Equal data give equal bytes.

@@ -78,7 +78,7 @@ impl MotionPicture {
         self
     }
 
-    /// Draws symbols of supports, joints, sliders and loads over all snapshots.
+    /// Draws symbols of supports, joints, sliders and loads over all snapshots, and obstacles below them.
     pub fn symbols(mut self, symbols: impl IntoIterator<Item = PlacedSymbol>) -> Self {
         self.symbols.extend(symbols);
         self
@@ -232,6 +232,7 @@ impl Panel for MotionPicture {
         }
         let bar = self.time_bar();
         bar.draw(canvas, plot);
+        PlacedSymbol::draw_obstacles(&self.symbols, canvas, &frame, plot);
         let mut snapshots: Vec<&MotionFrame> = self.snapshots.iter().collect();
         snapshots.sort_by(|a, b| a.time.total_cmp(&b.time));
         for snapshot in snapshots {
@@ -289,6 +290,29 @@ mod tests {
         let texts: Vec<&str> = texts.split(" | ").collect();
         let (left, right) = texts.split_at(texts.len() / 2);
         assert_eq!(left, right, "the numbers along the axes are the same");
+    }
+
+    #[test]
+    fn obstacles_are_below_the_bodies_and_enlarge_the_view() {
+        use crate::output::symbol::Symbol;
+        let frame = snapshot(0.0, vec![vec![(0.0, 0.0), (2.0, 1.0)]]);
+        let bare = MotionPicture::new("").snapshot(frame);
+        let place = |symbol, at, direction| PlacedSymbol { symbol, at, direction };
+        let floor = place(Symbol::Wall, (0.0, -0.2), (0.0, 1.0));
+        let peg = place(Symbol::Disc, (3.0, 0.5), (0.3, 0.0));
+        let picture = bare.clone().symbols([floor, peg]);
+        let [(_, right), (low, _)] = picture.view().ends();
+        assert!(low < -0.2 && right > 3.3, "{low} {right}");
+        let shapes = |picture: &MotionPicture| {
+            let area = Area { left: 0.0, top: 0.0, right: 500.0, bottom: 400.0 };
+            let mut canvas = Canvas::default();
+            picture.draw(&mut canvas, &area, &picture.margins(500.0, 400.0).inside(&area));
+            canvas.shapes().to_vec()
+        };
+        let limits = picture.view().limits();
+        let (with, without) = (shapes(&picture), shapes(&bare.limits(limits)));
+        assert!(with.len() > without.len() + 40);
+        assert_eq!(with.last(), without.last(), "the beam is drawn last");
     }
 
     proptest! {

@@ -76,7 +76,7 @@ impl StripPicture {
         self
     }
 
-    /// Draws rigid bodies, supports, joints, sliders and loads over the diagrams.
+    /// Draws rigid bodies, supports, joints, sliders and loads over the diagrams, and obstacles below them.
     pub fn scenery(mut self, scenery: MechanismOutline) -> Self {
         self.scenery = scenery;
         self
@@ -264,6 +264,7 @@ impl Panel for StripPicture {
         if self.strips.iter().all(|strip| strip.line.is_empty()) {
             frame.draw_no_data(canvas, plot);
         }
+        self.scenery.draw_obstacles(canvas, &frame, plot);
         let runs: Vec<Vec<Vec<Ordinate>>> =
             self.strips.iter().map(|strip| self.runs(strip)).collect();
         for (index, runs) in runs.iter().enumerate() {

@@ -1,5 +1,6 @@
-//! Symbols of mechanics: supports, joints, sliders and loads. Their size is the same in every picture.
+//! Symbols of mechanics: supports, joints, sliders and loads. Their size is the same in every picture, except the size of obstacles.
 
+mod obstacle;
 mod symbol_frame;
 
 use symbol_frame::SymbolFrame;
@@ -54,6 +55,10 @@ pub enum Symbol {
     Tendon,
     /// Rotational spring at a section.
     TorsionSpring,
+    /// Straight boundary of the ground, through its point. Its direction is the outer normal.
+    Wall,
+    /// Disc that is fixed to the ground, around its point. The length of its direction is the radius.
+    Disc,
 }
 
 impl Symbol {
@@ -61,6 +66,11 @@ impl Symbol {
     pub fn is_constraint(self) -> bool {
         use Symbol::{Clamp, Guided, HeldAngle, Hinge, Joint, RigidJoint, Roller, Slider};
         matches!(self, Hinge | Clamp | Roller | Guided | HeldAngle | Joint | RigidJoint | Slider)
+    }
+
+    /// Returns true for walls and discs, which are drawn below the bodies.
+    pub fn is_obstacle(self) -> bool {
+        matches!(self, Self::Wall | Self::Disc)
     }
 
     /// Name of the symbol in viewer data.
@@ -83,6 +93,8 @@ impl Symbol {
             Self::Damper => "damper",
             Self::Tendon => "tendon",
             Self::TorsionSpring => "torsion_spring",
+            Self::Wall => "wall",
+            Self::Disc => "disc",
         }
     }
 }
@@ -92,8 +104,8 @@ impl Symbol {
 pub struct PlacedSymbol {
     pub symbol: Symbol,
     pub at: Point,
-    /// Direction of the symbol; zero if the symbol has no direction. The length of the vector has no meaning.
-    /// Springs, dampers and tendons end at `at + direction`.
+    /// Direction of the symbol; zero if the symbol has no direction. The length of the vector has no meaning, except for discs and for
+    /// springs, dampers and tendons, which end at `at + direction`.
     pub direction: Point,
 }
 
@@ -105,8 +117,11 @@ impl PlacedSymbol {
 
     fn end(&self) -> Option<Point> {
         use Symbol::{Damper, Spring, Tendon};
-        matches!(self.symbol, Spring | Damper | Tendon)
-            .then_some((self.at.0 + self.direction.0, self.at.1 + self.direction.1))
+        matches!(self.symbol, Spring | Damper | Tendon).then(|| self.tip())
+    }
+
+    fn tip(&self) -> Point {
+        (self.at.0 + self.direction.0, self.at.1 + self.direction.1)
     }
 
     pub(super) fn view(
@@ -126,9 +141,11 @@ impl PlacedSymbol {
         };
         let about = symbols.iter().filter(is_about).map(|placed| placed.at);
         let about = about.filter(|at| bare.shows(*at));
-        View::of(points.chain(ends), limits).with_room(about, ROOM, limits)
+        let obstacles = symbols.iter().flat_map(|placed| placed.shown_points(&bare));
+        View::of(points.chain(ends).chain(obstacles), limits).with_room(about, ROOM, limits)
     }
 
+    /// Draws a symbol that is not an obstacle.
     pub(super) fn draw(&self, canvas: &mut Canvas, frame: &Frame, plot: &Area) {
         if let Some(end) = self.end() {
             let link = Link::between(frame.place(plot, self.at), frame.place(plot, end));

@@ -462,3 +462,19 @@ fn animations_stand_side_by_side() {
     assert_eq!((frames.len(), frames[0].0.width, frames[0].1), (3, 960, (1, 20)));
     assert!(frames.windows(2).all(|pair| pair[0].0.pixels != pair[1].0.pixels));
 }
+
+#[test]
+fn obstacles_are_in_the_page() {
+    let script = "
+        scene.wall([0, -1], [0, 2], #{ stiffness: 1e4, name: \"floor\" });
+        scene.disc([1, -0.5], 0.2, #{ stiffness: 1e4, name: \"peg\" });
+        let sim = scene.start(#{ dt: 0.02 });
+        sim.run_to(0.1);
+        write_viewer(sim, \"page.html\");";
+    let page = data(&written(script, "page.html").1);
+    let [floor, peg] = page["films"][0]["obstacles"].as_array().unwrap().as_slice() else {
+        panic!()
+    };
+    assert_eq!((&floor["name"], &floor["direction"]), (&"floor".into(), &vec![0.0, 1.0].into()));
+    assert_eq!((&peg["name"], &peg["direction"]), (&"peg".into(), &vec![0.2, 0.0].into()));
+}

@@ -39,7 +39,7 @@ pub(super) struct SymbolFrame<'a> {
 }
 
 impl SymbolFrame<'_> {
-    /// Draws a symbol. Springs, dampers and tendons connect two points and are drawn elsewhere.
+    /// Draws a symbol. Springs, dampers, tendons and obstacles are drawn elsewhere.
     pub(super) fn draw(mut self, symbol: Symbol) {
         match symbol {
             Symbol::Hinge => self.hinge(),
@@ -56,7 +56,7 @@ impl SymbolFrame<'_> {
             Symbol::LineForce => self.arrow(SHORT, THIN),
             Symbol::Moment => self.turn(),
             Symbol::TorsionSpring => self.spiral(),
-            Symbol::Spring | Symbol::Damper | Symbol::Tendon => {}
+            Symbol::Spring | Symbol::Damper | Symbol::Tendon | Symbol::Wall | Symbol::Disc => {}
         }
     }
 

@@ -4,9 +4,10 @@ use super::TerminalStyle;
 use super::character_grid::{CharacterGrid, TerminalColour};
 use super::dots::{ACROSS, DOWN, Dots, Trace};
 use crate::output::axis::extent;
-use crate::output::canvas::Point;
+use crate::output::canvas::{Area, Point};
 use crate::output::number::significant;
-use crate::output::plane::AxisLimits;
+use crate::output::plane::{AxisLimits, View};
+use crate::output::symbol::PlacedSymbol;
 use crate::output::width::columns;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -49,6 +50,7 @@ pub struct ConfigurationPicture {
     lines: Vec<Vec<Point>>,
     reference_beams: Vec<Vec<Point>>,
     marks: Vec<(PictureMark, Point)>,
+    obstacles: Vec<PlacedSymbol>,
     limits: AxisLimits,
 }
 
@@ -85,6 +87,11 @@ impl ConfigurationPicture {
         self
     }
 
+    pub fn obstacle(mut self, placed: PlacedSymbol) -> Self {
+        self.obstacles.push(placed);
+        self
+    }
+
     /// Sets limits of the axes that must be visible. Both axes have the same scale.
     pub fn limits(mut self, limits: AxisLimits) -> Self {
         self.limits = limits;
@@ -102,6 +109,12 @@ impl ConfigurationPicture {
         let style = style.sized(style.width, rows + 2 * border);
         let mut sheet = CharacterGrid::new(&style);
         let mut dots = Dots::new(columns, rows);
+        let (right, bottom) = window.last;
+        let area = Area { left: 0.0, top: 0.0, right, bottom };
+        for obstacle in &self.obstacles {
+            let outline = obstacle.outline(|point| window.place(point), &area);
+            dots.curve(outline, Trace::Solid, TerminalColour::Faint);
+        }
         let traces =
             [(&self.reference_beams, Trace::Dotted, true), (&self.lines, Trace::Solid, false)];
         for (lines, trace, is_ghost) in traces {
@@ -143,6 +156,10 @@ impl ConfigurationPicture {
         if columns == 0 || rows == 0 {
             return None;
         }
+        let bodies = View::of(points(), &self.limits);
+        let obstacles: Vec<Point> =
+            self.obstacles.iter().flat_map(|obstacle| obstacle.shown_points(&bodies)).collect();
+        let points = || points().chain(obstacles.iter().copied());
         let fit_x = extent(points().map(|point| point.0))?;
         let fit_y = extent(points().map(|point| point.1))?;
         let (left, right) = self.limits.x.unwrap_or(fit_x);
@@ -302,6 +319,17 @@ mod tests {
             "+- x -0.371 ... 4.37  y -0.114 ... 2.11 ---+",
         ];
         assert_eq!(picture().text(&style).lines().collect::<Vec<_>>(), expected);
+    }
+
+    #[test]
+    fn a_floor_below_a_beam_is_shown() {
+        let symbol = crate::output::symbol::Symbol::Wall;
+        let floor = PlacedSymbol { symbol, at: (9.0, -0.5), direction: (0.0, 1.0) };
+        let text = picture().obstacle(floor).text(&PLAIN);
+        let lines: Vec<&str> = text.lines().collect();
+        let longest = |line: &&str| line.chars().filter(|letter| *letter == '⠒').count() > 30;
+        assert_eq!(lines.iter().filter(|line| longest(line)).count(), 1, "{text}");
+        assert!(lines[lines.len() - 1].contains("y -0.6"), "{text}");
     }
 
     #[test]

@@ -1,7 +1,7 @@
 //! Data of the viewer, as plain structs.
 
 use crate::output::canvas::Point;
-use crate::output::symbol::Symbol;
+use crate::output::symbol::{PlacedSymbol, Symbol};
 
 /// Linear combination of the points of a frame, for example of control points.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -127,6 +127,8 @@ pub struct ViewerData {
     /// Supports, joints, sliders, drives.
     pub signs: Vec<SymbolMark>,
     pub springs: Vec<SpringShape>,
+    /// Walls and discs with their names.
+    pub obstacles: Vec<(String, PlacedSymbol)>,
     pub arrows: Vec<Arrow>,
     pub trails: Vec<Trail>,
     /// Quantities that can colour the beams.

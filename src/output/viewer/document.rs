@@ -11,7 +11,8 @@ use super::thinning::rows_to_keep;
 use crate::output::OutputError;
 use crate::output::canvas::Point;
 use crate::output::colour::{Colour, HUE_COUNT, hue};
-use crate::output::symbol::Symbol;
+use crate::output::plane::{AxisLimits, View};
+use crate::output::symbol::{PlacedSymbol, Symbol};
 
 const TEMPLATE: &str = include_str!("page/template.html");
 const STYLE: &str = include_str!("page/style.css");
@@ -104,6 +105,11 @@ fn packed_film(film: &ViewerData) -> Result<Value, OutputError> {
     let beams: Vec<Value> = film.beams.iter().map(|beam| packed_beam(beam, &mut shapes)).collect();
     let particle = |particle: &super::ParticleShape| json!({ "name": particle.name, "at": place(&particle.at, 0) });
     let trail = |trail: &super::Trail| json!({ "name": trail.name, "at": place(&trail.at, 0) });
+    let bodies = View::of(film.points.iter().flatten().copied(), &AxisLimits::default());
+    let obstacle = |(name, placed): &(String, PlacedSymbol)| {
+        let PlacedSymbol { symbol, at, direction } = placed;
+        json!({ "kind": symbol.name(), "name": name, "at": at, "direction": direction, "shown": placed.shown_points(&bodies) })
+    };
     let (x, y) = packed_points(film)?;
     Ok(json!({
         "label": film.label,
@@ -115,6 +121,7 @@ fn packed_film(film: &ViewerData) -> Result<Value, OutputError> {
         "particles": film.particles.iter().map(particle).collect::<Vec<_>>(),
         "bodies": film.bodies.iter().map(packed_body).collect::<Vec<_>>(),
         "symbols": film.signs.iter().map(packed_sign).collect::<Vec<_>>(),
+        "obstacles": film.obstacles.iter().map(obstacle).collect::<Vec<_>>(),
         "springs": film.springs.iter().map(packed_spring).collect::<Vec<_>>(),
         "trails": film.trails.iter().map(trail).collect::<Vec<_>>(),
         "arrows": packed_arrows(&film.arrows, film.times.len())?,

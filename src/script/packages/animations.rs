@@ -23,7 +23,6 @@ use crate::script::handles::simulation::SimulationHandle;
 use crate::script::handles::station::StationHandle;
 use crate::script::messages::error::{CallPart, ScriptError};
 use crate::script::presentation::motion::{Visibility, has_room_for_dots, placed, snapshot};
-use crate::script::presentation::symbols::uncrowded;
 
 pub const TABLE: BindingTable = BindingTable {
     name: "animations",
@@ -170,11 +169,7 @@ fn reel(
     let (mut snapshots, mut symbols) = (Vec::new(), Vec::new());
     for time in times {
         let Some(configuration) = simulation.configuration_near(*time)? else { continue };
-        symbols.push(match shown {
-            Visibility::Yes => placed(&simulation, configuration.time, None)?,
-            Visibility::IfFew => uncrowded(placed(&simulation, configuration.time, None)?),
-            Visibility::None => Vec::new(),
-        });
+        symbols.push(shown.visible(placed(&simulation, configuration.time, None)?));
         let mut snapshot = snapshot(&configuration);
         if !has_dots {
             snapshot.marks.clear();

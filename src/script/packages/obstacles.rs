@@ -25,7 +25,8 @@ pub const TABLE: BindingTable = BindingTable {
         energy_momentum() and fourth_order(), at any step size and stiffness. The history has \
         the columns NAME.force, NAME.force_x, NAME.force_y (the force on the bodies, mean of the \
         step), NAME.gap (the smallest gap, negative for a penetration), stored.NAME and \
-        dissipated.NAME. Contact is without friction.",
+        dissipated.NAME. Contact is without friction. \
+        Pictures and the viewer show walls with hatching behind them, and discs.",
     types: &[],
     setup: super::scenes::ROD,
     constants: &[],

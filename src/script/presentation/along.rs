@@ -1,7 +1,8 @@
 //! Pictures of section results along beams, as strips, charts and colours.
 
+use super::motion::Visibility;
 use super::quantities::BeamQuantity;
-use super::symbols::{SceneAt, uncrowded};
+use super::symbols::SceneAt;
 use crate::geometry::Vec2;
 use crate::output::{
     BeamStrip, FieldPicture, LineChart, MechanismOutline, Point, Series, StripPicture,
@@ -74,14 +75,9 @@ impl SectionForceProfile {
         })
     }
 
-    /// Removes all symbols if there are so many that they would hide the beams.
-    pub fn with_uncrowded_symbols(mut self) -> Self {
-        self.scenery.symbols = uncrowded(self.scenery.symbols);
-        self
-    }
-
-    pub fn hide_symbols(mut self) -> Self {
-        self.scenery.symbols.clear();
+    /// Removes symbols that are not drawn.
+    pub fn with_symbols(mut self, shown: Visibility) -> Self {
+        self.scenery.symbols = shown.visible(self.scenery.symbols);
         self
     }
 

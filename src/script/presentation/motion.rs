@@ -44,6 +44,17 @@ pub enum Visibility {
     None,
 }
 
+impl Visibility {
+    /// Symbols that are drawn. Obstacles are always drawn.
+    pub fn visible(self, symbols: Vec<PlacedSymbol>) -> Vec<PlacedSymbol> {
+        match self {
+            Self::Yes => symbols,
+            Self::IfFew => uncrowded(symbols),
+            Self::None => symbols.into_iter().filter(|at| at.symbol.is_obstacle()).collect(),
+        }
+    }
+}
+
 pub struct MotionView {
     beams: Vec<String>,
     snapshots: Vec<MotionFrame>,
@@ -113,12 +124,9 @@ impl MotionView {
             (format!("path of {name}"), seen)
         };
         let traces = wanted.traces.iter().map(path).collect();
-        let symbols = match (wanted.symbols, snapshots.last()) {
-            (Visibility::None, _) | (_, None) => Vec::new(),
-            (shown, Some(last)) => {
-                let all = placed(simulation, last.time, wanted.magnify)?;
-                if shown == Visibility::Yes { all } else { uncrowded(all) }
-            }
+        let symbols = match snapshots.last() {
+            None => Vec::new(),
+            Some(last) => wanted.symbols.visible(placed(simulation, last.time, wanted.magnify)?),
         };
         let beams = simulation.scene().beams.iter().map(|beam| beam.name.clone()).collect();
         let (magnify, limits) = (wanted.magnify, wanted.limits);
@@ -163,10 +171,12 @@ impl MotionView {
     }
 }
 
-/// Adds symbols to a picture for a terminal. Springs are lines; supports, joints and sliders are marks.
+/// Adds symbols to a picture for a terminal. Springs and obstacles are lines; supports, joints and sliders are marks.
 pub fn marked(picture: ConfigurationPicture, symbols: &[PlacedSymbol]) -> ConfigurationPicture {
     let links = symbols.iter().filter_map(PlacedSymbol::link);
     let picture = links.fold(picture, |picture, link| picture.reference_beam(link.to_vec()));
+    let obstacles = symbols.iter().filter(|placed| placed.symbol.is_obstacle()).copied();
+    let picture = obstacles.fold(picture, ConfigurationPicture::obstacle);
     let marks = symbols.iter().filter_map(|placed| Some((mark(placed)?, placed.at)));
     marks.fold(picture, |picture, (mark, at)| picture.mark(mark, at))
 }
@@ -177,7 +187,7 @@ fn mark(placed: &PlacedSymbol) -> Option<PictureMark> {
         Symbol::Clamp | Symbol::Guided | Symbol::Carriage => Some(PictureMark::Clamp),
         Symbol::Slider => Some(PictureMark::Slider),
         Symbol::Joint | Symbol::RigidJoint => Some(PictureMark::Joint),
-        // Springs are drawn elsewhere as lines. Loads are not drawn.
+        // Springs and obstacles are drawn elsewhere as lines. Loads are not drawn.
         _ => None,
     }
 }

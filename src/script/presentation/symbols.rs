@@ -1,4 +1,4 @@
-//! Symbols of a scene at a time: supports, joints, sliders and loads.
+//! Symbols of a scene at a time: supports, joints, sliders, loads and obstacles.
 
 use crate::beams::Station;
 use crate::elementary::atan2;
@@ -8,7 +8,7 @@ use crate::loads::{LimitSide, Load, LoadFrame, LoadKind, Schedule};
 use crate::output::{PlacedSymbol, Symbol};
 use crate::simulation::Simulation;
 use crate::statics::Equilibrium;
-use crate::system::{Anchor, Drive, Scene, Spring, SpringKind, System, SystemError};
+use crate::system::{Anchor, Drive, ObstacleShape, Scene, Spring, SpringKind, System, SystemError};
 
 const ARROWS: usize = 5;
 /// Distance between the two points used to compute the tangent at a station, as a fraction of the beam length.
@@ -106,7 +106,21 @@ pub fn symbols(
         PlacedSymbol { symbol: symbol.symbol, at: plain(found[0]), direction: plain(direction) }
     });
     let mut ends = of_springs.iter().copied();
-    Ok(placed.chain(springs.flat_map(|spring| of_spring(spring, &mut ends))).collect())
+    let springs = springs.flat_map(|spring| of_spring(spring, &mut ends));
+    Ok(placed.chain(springs).chain(of_obstacles(scene).map(|(_, placed)| placed)).collect())
+}
+
+/// Symbols of obstacles, with their names.
+pub fn of_obstacles(scene: &Scene) -> impl Iterator<Item = (&str, PlacedSymbol)> {
+    scene.obstacles().map(|obstacle| {
+        let (symbol, at, direction) = match obstacle.shape {
+            ObstacleShape::HalfPlane { point, normal } => (Symbol::Wall, point, normal),
+            ObstacleShape::Disc { centre, radius } => (Symbol::Disc, centre, Vec2::x() * radius),
+        };
+        let plain = |vector: Vec2| (vector.x, vector.y);
+        let placed = PlacedSymbol { symbol, at: plain(at), direction: plain(direction) };
+        (obstacle.name.as_str(), placed)
+    })
 }
 
 const MOST_CONSTRAINTS: usize = 60;

@@ -1,4 +1,4 @@
-//! Conversion of a simulation to data for the viewer: bodies, supports, loads in each frame, and history columns.
+//! Conversion of a simulation to data for the viewer: bodies, supports, obstacles, loads in each frame, and history columns.
 
 mod fields;
 
@@ -6,7 +6,7 @@ pub(crate) use fields::FIELDS;
 pub use fields::FieldReader;
 use fields::fields;
 
-use super::symbols::{of_sliders, of_spring_kind, of_supports};
+use super::symbols::{of_obstacles, of_sliders, of_spring_kind, of_supports};
 use crate::beams::{self, Station};
 use crate::geometry::{Vec2, perpendicular};
 use crate::joints::{Joint, Releasable};
@@ -64,6 +64,9 @@ pub fn film(simulation: &Simulation, wishes: ViewerOptions) -> Result<ViewerData
         bodies: bodies(simulation, &shown)?,
         signs: signs(simulation, &shown)?,
         springs: springs(simulation, &shown)?,
+        obstacles: of_obstacles(simulation.scene())
+            .map(|(name, placed)| (name.to_owned(), placed))
+            .collect(),
         arrows: arrows(simulation, &shown)?,
         trails: trails(simulation, &shown, wishes.trails)?,
         fields: fields(simulation, &shown, wishes.fields, wishes.inside)?,

@@ -52,6 +52,20 @@ fn beams_of_the_same_mesh_share_their_shape() {
 }
 
 #[test]
+fn obstacles_are_in_the_data_with_the_points_that_are_shown() {
+    let place = |symbol, at, direction| PlacedSymbol { symbol, at, direction };
+    let floor = place(Symbol::Wall, (5.0, -0.25), (0.0, 1.0));
+    let peg = place(Symbol::Disc, (3.0, 1.0), (0.5, 0.0));
+    let obstacles = vec![("floor".into(), floor), ("peg".into(), peg)];
+    let packed = packed_film(&ViewerData { obstacles, ..film() }).unwrap();
+    let [floor, peg] = packed["obstacles"].as_array().unwrap().as_slice() else { panic!() };
+    assert_eq!((&floor["kind"], &floor["name"]), (&json!("wall"), &json!("floor")));
+    assert_eq!(floor["shown"][0][1], -0.25);
+    assert_eq!((&peg["kind"], &peg["direction"]), (&json!("disc"), &json!([0.5, 0.0])));
+    assert_eq!(peg["shown"].as_array().unwrap().len(), 4);
+}
+
+#[test]
 fn a_film_of_nothing_is_a_page_too() {
     let nothing = ViewerData { times: vec![0.0], points: vec![vec![]], ..ViewerData::default() };
     assert!(Viewer { title: String::new(), films: vec![nothing] }.to_html().is_ok());

@@ -86,13 +86,14 @@ class Film {
     return box;
   }
 
-  /** The box around the motion, from at most two hundred of its frames and the paths that are drawn. */
+  /** The box around the motion, from at most two hundred of its frames, the paths that are drawn, and obstacles. */
   whole() {
     const box = new Box();
     const every = Math.max(1, Math.floor(this.times.length / 200));
     for (let frame = 0; frame < this.times.length; frame += every) box.join(this.box(frame));
     box.join(this.box(this.times.length - 1));
     for (const { at } of this.trails) for (const point of this.path(at)) box.add(point);
+    for (const { shown } of this.obstacles) shown.forEach((point) => box.add(point));
     return box;
   }
 }

@@ -74,6 +74,7 @@ class Stage {
         sheet.line(film.path(at).slice(0, frame + 1).map(place), colour, 1.4);
       });
     }
+    for (const obstacle of film.obstacles) drawObstacle(sheet, obstacle, place(obstacle.at), view.scale, theme);
     for (const body of film.bodies) {
       drawBody(sheet, film.outline(body, frame).map(place), body.points.map(({ at }) => place(film.at(at, frame))), place(film.at(body.at, frame)), theme);
     }
@@ -156,6 +157,18 @@ function drawBody(sheet, outline, points, centre, theme) {
     const arc = quarter(from).map(([radius, angle]) => [radius * Math.cos(angle), radius * Math.sin(angle)]);
     sheet.shape(around(centre, 0, [[0, 0], ...arc]), theme.ink, theme.ink, 0.5);
   }
+}
+
+/** Draws a wall across the whole stage with hatching behind it, or a disc. */
+function drawObstacle(sheet, { kind, direction: [dx, dy] }, at, scale, theme) {
+  if (kind === "disc") return sheet.disc(at, Math.hypot(dx, dy) * scale, `${theme.grid}66`, theme.ink);
+  const [angle, every] = [Math.atan2(dy, dx), 9];
+  const [x, y] = [sheet.width / 2 - at[0], sheet.height / 2 - at[1]];
+  const whole = (length) => Math.round(length / every) * every;
+  // The hatching is at whole distances from the point of the wall, so that it moves with the view.
+  const [middle, reach] = [whole(-x * Math.sin(angle) - y * Math.cos(angle)), whole(sheet.width + sheet.height)];
+  for (let left = middle - reach; left < middle + reach; left += every) sheet.line(around(at, angle, [[0, left], [-7, left - 7]]), theme.axis, 1);
+  sheet.line(around(at, angle, [[0, middle - reach], [0, middle + reach]]), theme.ink, 1.5);
 }
 
 /** What holds, joins, slides or drives. Behind a support, away from what it holds, is the ground. */

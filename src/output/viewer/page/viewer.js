@@ -114,6 +114,7 @@ class Viewer {
     found.distance += 2;
     const ofBodies = film.bodies.flatMap((body) => [body, ...body.points]);
     for (const { name, at } of [...film.particles, ...ofBodies, ...film.held(frame), ...film.arrows]) look(name, film.at(at, frame));
+    for (const { name, at } of film.obstacles) look(name, at);
     for (const spring of film.holding(frame)) film.way(spring, frame).forEach((point) => look(spring.name, point));
     return found.words;
   }

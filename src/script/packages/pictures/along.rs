@@ -19,7 +19,6 @@ use crate::script::messages::suggest::nearest;
 use crate::script::packages::equilibria::EQUILIBRIUM;
 use crate::script::packages::simulations::{SIMULATION, SPINNING};
 use crate::script::presentation::along::SectionForceProfile;
-use crate::script::presentation::motion::Visibility;
 use crate::script::presentation::quantities::{BeamQuantity, NAMES};
 
 pub const TABLE: BindingTable = BindingTable {
@@ -132,11 +131,7 @@ fn inside(call: &Call, options: &Options) -> Result<SectionForceProfile, ScriptE
     if let Some(title) = options.optional_text("title")? {
         inside.title = title.to_string();
     }
-    Ok(match symbols(options) {
-        Visibility::None => inside.hide_symbols(),
-        Visibility::Yes => inside,
-        Visibility::IfFew => inside.with_uncrowded_symbols(),
-    })
+    Ok(inside.with_symbols(symbols(options)))
 }
 
 fn beams(

@@ -30,7 +30,8 @@ pub const LABELS: Parameter =
 pub const SYMBOLS: Parameter = boolean("symbols")
     .doc(
         "true to show symbols of supports, joints, sliders, springs and loads; default: true, \
-        but supports, joints and sliders are omitted if there are more than 60",
+        but supports, joints and sliders are omitted if there are more than 60; obstacles are \
+        always shown",
     )
     .optional();
 

@@ -19,7 +19,7 @@ use crate::script::packages::equilibria::{BENT, EQUILIBRIUM};
 use crate::script::packages::modes::{MODES, ModesHandle};
 use crate::script::packages::scenes::STATION;
 use crate::script::presentation::motion::snapshot;
-use crate::script::presentation::symbols::SceneAt;
+use crate::script::presentation::symbols::{SceneAt, of_obstacles};
 use crate::simulation::Outline;
 
 pub const TABLE: BindingTable = BindingTable {
@@ -168,6 +168,7 @@ fn plot_modes(call: &mut Call) -> Result<Dynamic, ScriptError> {
         MotionPicture::new(format!("mode {number}: ω = {omega}"))
             .snapshot(snapshot(&draw(&modes.displaced(number, size))))
             .trace("at rest", at_rest.clone())
+            .symbols(of_obstacles(scene).map(|(_, placed)| placed))
     });
     let page = Page::grid(options.count("columns")?).title(format!("Modes of {}", scene.name));
     write_picture(call, &pictures.fold(page, Page::panel))
