@@ -372,7 +372,7 @@ pub fn pressed(mesh: &Mesh) -> Scene {
     scene.add_particle(bead, 0.8).unwrap();
     let wall = ObstacleShape::HalfPlane { point: at(0.0, 9.0), normal: at(0.6, 0.8) };
     let disc = ObstacleShape::Disc { centre: at(1.0, -4.0), radius: 12.0 };
-    for (shape, restitution) in [(wall, 0.7), (disc, 1.0)] {
+    for (shape, restitution) in [(wall, 1.0), (disc, 1.0)] {
         let name = scene.free_name("obstacle");
         let (targets, radius, stiffness) = (Vec::new(), 0.5, 0.02);
         let obstacle = Obstacle { name, shape, targets, radius, stiffness, restitution };

@@ -97,7 +97,11 @@ fn forces_and_accelerations_are_those_of_a_very_short_step() {
             .map(|joint| joint.station)
             .collect();
         let gravity = scene.gravity;
-        let has_loads = scene.loads().count() + scene.drags().count() + scene.drives.len() > 0;
+        let has_loads = scene.loads().count()
+            + scene.drags().count()
+            + scene.obstacles().count()
+            + scene.drives.len()
+            > 0;
         let mut simulation = simulate(scene, Method::default(), 0.02, 0.4);
         let read = |simulation: &mut Simulation| {
             let now = simulation.instant().unwrap();
