@@ -248,6 +248,9 @@ impl ContactPoint {
     /// The coefficient is limited to its largest value in an impact that is governed by the contact.
     /// Without the limit, a resting contact would be damped without bound.
     fn damping(&self, surface: &Surface, elastic: ForceTarget) -> (f64, f64) {
+        if elastic.force == 0.0 {
+            return (0.0, 0.0);
+        }
         let most = (self.stiffness(surface) * self.mass).sqrt();
         let by_force = -elastic.force / self.approach;
         match by_force < most {
@@ -479,4 +482,30 @@ pub(super) struct ClosedContact {
     pub(super) damping: f64,
     /// Distance from the centre of a disc [length]; infinite for a half-plane.
     pub(super) distance: f64,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A point that stays open has no force, whatever its approach speed before the step was.
+    #[test]
+    fn an_open_contact_is_not_damped() {
+        let (point, normal) = (Vec2::zeros(), Vec2::y());
+        let shape = ObstacleShape::HalfPlane { point, normal };
+        let law = ContactLaw::HalfPlane { stiffness: 1e4 };
+        let surface = Surface { shape, radius: 0.0, law, damping: 1.0 };
+        let rotations = RotationIncrement::TangentScaled;
+        let rates = RateCollocation { fraction: 0.5, by_change: 100.0, by_last: 0.0, rotations };
+        let time = |stage| ContactTime { stage, weight: 1.0, rates: Some(rates), duration: 0.01 };
+        for approach in [0.0, 2.0] {
+            let mut own = ContactPoint::new(BodyPoint::of_particle(0), 1.0);
+            (own.gap, own.approach, own.mass) = (Coordinate::from(0.5), approach, 1.0);
+            for stage in [Stage::Midpoint, Stage::End] {
+                let target = own.target(&surface, time(stage), -0.4);
+                assert_eq!((target.force, target.stiffness), (0.0, 0.0), "{approach}, {stage:?}");
+                assert!(own.target(&surface, time(stage), -0.6).force < 0.0);
+            }
+        }
+    }
 }
