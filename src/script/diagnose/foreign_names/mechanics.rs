@@ -195,17 +195,7 @@ pub const WORDS: &[ForeignName] = &[
         &["arc_length", "is_stable", "equilibrium"],
     ),
     entry(
-        &[
-            "contact",
-            "collision",
-            "impact",
-            "bounce",
-            "obstacle",
-            "collide",
-            "bumper",
-            "ground",
-            "peg",
-        ],
+        &["contact", "collision", "impact", "bounce", "obstacle", "collide", "bumper", "peg"],
         "scene.wall(point, normal, #{ stiffness: k }) is a floor or wall for beams, particles and \
         stations, scene.disc(centre, radius, #{ stiffness: k }) a pin or peg; a slider bounces at \
         the ends of its beam with ends: \"bounce\"; bodies do not collide with each other",

@@ -102,7 +102,7 @@ fn unknown_names_get_suggestions() {
 
 #[test]
 fn terms_of_engineers_have_a_page() {
-    let words = "friction pulley rope cable buckling actuator cylinder winch wheel gif video fft optimise random imperfection wall";
+    let words = "friction pulley rope cable buckling actuator cylinder winch wheel gif video fft optimise random imperfection collision";
     let phrases = [
         "boundary condition",
         "rest length",
