@@ -9,7 +9,7 @@ use crate::geometry::{GeometryError, Vec2, interpolate, larger, perpendicular};
 use crate::joints::{CONTACT_UNKNOWNS, Joint, Partner, Releasable, Slider};
 use crate::system::bodies::{Bodies, Body, Tracker};
 use crate::system::elements::{
-    AssemblyContext, ContactTarget, Elements, PrescribedMovements, SceneChecks, Supports, Weight,
+    AssemblyContext, Elements, PrescribedMovements, SceneChecks, Supports, Weight,
 };
 use crate::system::links::{InclinedRoller, Links, RigidLink};
 use crate::system::scene::same_place;
@@ -300,8 +300,8 @@ impl AssemblyContext for Assembly<'_> {
             .map_err(|error| self.wrong(beam, error))
     }
 
-    fn contact_targets(&self) -> Vec<ContactTarget> {
-        self.scene.contact_targets()
+    fn scene(&self) -> &dyn SceneChecks {
+        self.scene
     }
 
     fn mesh(&self, beam: usize) -> &Mesh {

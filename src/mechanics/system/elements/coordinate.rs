@@ -1,5 +1,13 @@
 //! Sums of increments with compensated rounding.
 
+/// Largest rounding error of increments, as a multiple of the machine precision.
+const MOST_ROUNDING: f64 = 16.0;
+
+/// Largest rounding error of a change that is computed from increments up to the given magnitude.
+pub fn rounding_error(largest_increment: f64) -> f64 {
+    MOST_ROUNDING * f64::EPSILON * largest_increment
+}
+
 /// Length, angle or rate, accumulated from increments and stored together with the rounding error of the sum.
 ///
 /// The method is compensated summation (N. J. Higham, Accuracy and Stability of Numerical Algorithms (2002), section 4.3).

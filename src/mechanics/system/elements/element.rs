@@ -132,8 +132,7 @@ pub trait AssemblyContext {
     /// Fails if the parameter lies outside the mesh.
     fn place_at(&self, beam: usize, parameter: f64) -> Result<BodyPoint, SystemError>;
 
-    /// All beams and particles of the scene.
-    fn contact_targets(&self) -> Vec<ContactTarget>;
+    fn scene(&self) -> &dyn SceneChecks;
 
     fn mesh(&self, beam: usize) -> &Mesh;
 

@@ -20,14 +20,11 @@ use std::ops::Range;
 use self::shares::CoordinateShare;
 pub(super) use self::term::ElongationTerm;
 use self::term::RelativeTurn;
-use super::coordinate::Coordinate;
+use super::coordinate::{Coordinate, rounding_error};
 use super::{TrialState, collocation};
 use crate::beams::{BodyPoint, Movement, RotationIncrement};
 use crate::geometry::{Vec2, larger};
 use crate::system::bodies::Body;
-
-/// Largest rounding error of increments, as a multiple of the machine precision.
-const MOST_ROUNDING: f64 = 16.0;
 
 /// End of an elongation: a point of a body, or the ground.
 #[derive(Debug, Clone)]
@@ -179,7 +176,7 @@ impl Elongation {
     /// Largest rounding error of the elongation change [length, rad].
     fn rounding(&self) -> f64 {
         let moved = self.movements.iter().fold(0.0, |most, by| larger(most, by.abs()));
-        MOST_ROUNDING * f64::EPSILON * moved
+        rounding_error(moved)
     }
 
     /// If `missing` is within the rounding error of the increments, stores it as a part of the elongation change of the last iterate.

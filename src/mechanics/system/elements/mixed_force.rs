@@ -22,6 +22,10 @@ struct IterationState {
     at: (f64, f64),
 }
 
+/// Force tolerance for laws with corners, as a fraction of the rounding error of the elongation times the stiffness.
+/// For a linear law, the residual is zero after the next iteration. For a law with corners, it is not zero.
+pub const CORNER_TOLERANCE: f64 = 2e-4;
+
 /// Number of linearisations after which a secant estimate of the impedance is used. Smooth laws usually converge earlier.
 const PLAIN_LINEARISATIONS: u32 = 4;
 

@@ -16,7 +16,7 @@ use super::damping_law::DampingLaw;
 use super::elongation::Elongation;
 use super::internal_force::{InternalForce, SpringTrialState};
 use super::law_range::LawRange;
-use super::mixed_force::MixedForce;
+use super::mixed_force::{CORNER_TOLERANCE, MixedForce};
 use super::spring_at_rest::static_law;
 use super::spring_law::SpringLaw;
 use super::{Along, Branch, OutsideLaw, TrialState, WorkAndImpulse, collocation};
@@ -25,10 +25,6 @@ use crate::geometry::{Vec2, cross, larger};
 use crate::integrators::{Interval, Stage};
 use crate::linalg::BandedMatrix;
 use crate::system::bodies::Body;
-
-/// Force tolerance for laws with corners, as a fraction of the rounding error of the elongation times the stiffness.
-/// For a linear law, the residual is zero after the next iteration. For a law with corners, it is not zero.
-const CORNER_TOLERANCE: f64 = 2e-4;
 
 #[derive(Debug, Clone)]
 pub struct SpringDamper {

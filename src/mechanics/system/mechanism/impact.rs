@@ -166,13 +166,12 @@ impl ImpactProblem {
         if acting.is_empty() || acting.len() == laws.len() {
             return Ok(means);
         }
-        let responses = self.response[first..].iter();
-        let rows: Vec<Vec<f64>> =
-            responses.map(|row| acting.iter().map(|at| row[first + at]).collect()).collect();
-        let among: Vec<Vec<f64>> = acting.iter().map(|at| rows[*at].clone()).collect();
+        let to_acting = |row: &Vec<f64>| acting.iter().map(|at| row[first + at]).collect();
+        let responses: Vec<Vec<f64>> = self.response[first..].iter().map(to_acting).collect();
+        let of_acting: Vec<Vec<f64>> = acting.iter().map(|at| responses[*at].clone()).collect();
         let lacks: Vec<f64> = acting.iter().map(|at| 2.0 * means[*at]).collect();
-        let impulses = complementary(&among, &lacks, &vec![Pairing::Equality; acting.len()])?;
-        for (mean, row) in means.iter_mut().zip(&rows) {
+        let impulses = complementary(&of_acting, &lacks, &vec![Pairing::Equality; acting.len()])?;
+        for (mean, row) in means.iter_mut().zip(&responses) {
             *mean += 0.5 * row.iter().zip(&impulses).map(|(a, p)| a * p).sum::<f64>();
         }
         Ok(means)
@@ -213,9 +212,9 @@ impl System {
 
     fn apply_transverse_impact(&mut self) -> Result<(), LinearError> {
         let across = self.across();
-        let encounter = self.impact_problem(&[(&across, Deformation::All)], -1.0)?;
-        let impulses = encounter.impulses(&vec![ImpactLaw::Ends; across.len()])?;
-        self.apply(encounter, &impulses.values);
+        let problem = self.impact_problem(&[(&across, Deformation::All)], -1.0)?;
+        let impulses = problem.impulses(&vec![ImpactLaw::Ends; across.len()])?;
+        self.apply(problem, &impulses.values);
         Ok(())
     }
 
@@ -254,13 +253,13 @@ impl System {
         let directions = self.sliders.directions(&self.bodies);
         let laws = vec![ImpactLaw::Elastic; directions.len()];
         // A singular matrix is ignored, because the following step reports it.
-        let Ok(encounter) =
+        let Ok(problem) =
             self.impact_problem_with_jumps(&[(&directions, Deformation::All)], -2.0, jumps)
         else {
             return false;
         };
-        let Ok(impulses) = encounter.impulses(&laws) else { return false };
-        self.apply(encounter, &impulses.values);
+        let Ok(impulses) = problem.impulses(&laws) else { return false };
+        self.apply(problem, &impulses.values);
         self.choose_friction_modes();
         true
     }
@@ -382,8 +381,8 @@ impl System {
     }
 
     /// Changes the velocities by the impulses of an impact.
-    pub(super) fn apply(&mut self, encounter: ImpactProblem, impulses: &[f64]) {
-        let ImpactProblem { directions, responses: answers, mut change, jumps, .. } = encounter;
+    pub(super) fn apply(&mut self, problem: ImpactProblem, impulses: &[f64]) {
+        let ImpactProblem { directions, responses: answers, mut change, jumps, .. } = problem;
         let most_passed_on = answers.iter().map(|answer| answer.transmitted.len()).max();
         let mut passed_on = vec![0.0; most_passed_on.unwrap_or(0)];
         let mut residual = vec![0.0; self.degrees_of_freedom()];

@@ -187,11 +187,11 @@ impl System {
             others.into_iter().filter(|(slider, _)| !passes(*slider)).collect();
         let turned = SeamCorner::directions(corners);
         let met = [(&turned[..], deformation), (&others, deformation)];
-        let encounter = self.impact_problem(&met, -2.0)?;
+        let problem = self.impact_problem(&met, -2.0)?;
         if let Some(impulses) =
-            deflect_at_corners(&encounter, corners, &vec![ImpactLaw::Elastic; others.len()])?
+            deflect_at_corners(&problem, corners, &vec![ImpactLaw::Elastic; others.len()])?
         {
-            self.apply(encounter, &impulses.values);
+            self.apply(problem, &impulses.values);
         }
         Ok(())
     }
@@ -213,29 +213,29 @@ fn turned(direction: Vec2, [from, to]: [Vec2; 2]) -> Vec2 {
 /// The rows for corners are `cos(θ/2) √det W P - sin(θ/2) J W P = sin(θ/2) J 2 w̄`, with the mean velocity `w̄` without impulses.
 /// The solution of the complementarity problem is unique (docs/theory.md, section 10.3).
 pub(super) fn deflect_at_corners(
-    encounter: &ImpactProblem,
+    problem: &ImpactProblem,
     corners: &[SeamCorner],
     laws: &[ImpactLaw],
 ) -> Result<Option<ImpactImpulses>, LinearError> {
     if corners.is_empty() {
-        return Ok(Some(encounter.impulses(laws)?));
+        return Ok(Some(problem.impulses(laws)?));
     }
-    let own = own_responses(encounter, corners, laws)?;
-    let half_way = encounter.mean_velocity();
-    let lacks = [vec![0.0; 2 * corners.len()], encounter.lacks(laws)?].concat();
+    let own = own_responses(problem, corners, laws)?;
+    let half_way = problem.mean_velocity();
+    let lacks = [vec![0.0; 2 * corners.len()], problem.lacks(laws)?].concat();
     let tied = corners.iter().flat_map(|_| [Pairing::Equality; 2]);
     let pairings: Vec<Pairing> = tied.chain(laws.iter().map(|law| law.pairing())).collect();
     let mut bends: Vec<TurnSearch> = corners.iter().zip(&own).map(TurnSearch::new).collect();
     let strikes = pairings.contains(&Pairing::Complementary);
     let mut last = None;
     for _ in 0..CORRECTIONS {
-        let (mut matrix, mut missing) = (encounter.response.clone(), lacks.clone());
+        let (mut matrix, mut missing) = (problem.response.clone(), lacks.clone());
         for (at, bend) in bends.iter().enumerate() {
             let [x, y] = [2 * at, 2 * at + 1];
             let (keeps, swings) = bend.row();
             // The operator J maps (x, y) to (-y, x).
             for (row, from, sign) in [(x, y, swings), (y, x, -swings)] {
-                matrix[row] = encounter.response[from].iter().map(|w| w * sign).collect();
+                matrix[row] = problem.response[from].iter().map(|w| w * sign).collect();
                 matrix[row][row] += keeps;
                 missing[row] = 2.0 * half_way[from] * sign;
             }
@@ -244,26 +244,26 @@ pub(super) fn deflect_at_corners(
         let mut is_right = true;
         for (at, bend) in bends.iter_mut().enumerate() {
             let [x, y] =
-                [2 * at, 2 * at + 1].map(|row| encounter.approach_velocities(row, &impulses));
+                [2 * at, 2 * at + 1].map(|row| problem.approach_velocities(row, &impulses));
             let (before, change) = (Vec2::new(x.0, y.0), Vec2::new(x.1, y.1));
             is_right &= bend.correct(before, before + change);
         }
         if is_right {
-            return Ok(Some(encounter.with_mean_velocities(impulses)));
+            return Ok(Some(problem.with_mean_velocities(impulses)));
         }
         last = Some(impulses);
     }
-    Ok(last.filter(|_| !strikes).map(|impulses| encounter.with_mean_velocities(impulses)))
+    Ok(last.filter(|_| !strikes).map(|impulses| problem.with_mean_velocities(impulses)))
 }
 
 /// Velocity response `W` of each slider at a corner to its own impulse.
 /// The response includes the reactions of the contacts that keep slaves on their masters.
 fn own_responses(
-    encounter: &ImpactProblem,
+    problem: &ImpactProblem,
     corners: &[SeamCorner],
     laws: &[ImpactLaw],
 ) -> Result<Vec<Response>, LinearError> {
-    let (response, first) = (&encounter.response, 2 * corners.len());
+    let (response, first) = (&problem.response, 2 * corners.len());
     let is_tied = |at: &usize| laws[at - first].pairing() == Pairing::Equality;
     let tied: Vec<usize> = (first..response.len()).filter(is_tied).collect();
     let entries = |row: usize| -> Vec<f64> { tied.iter().map(|at| response[row][*at]).collect() };

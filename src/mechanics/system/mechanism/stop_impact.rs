@@ -87,8 +87,8 @@ impl System {
         let hits = self.impulse_directions(|_, other| (other == limit).then_some(ImpactLaw::Rest));
         let (directions, laws): (Vec<ImpactDirection>, Vec<ImpactLaw>) =
             hits.iter().map(|hit| (hit.direction, hit.law)).unzip();
-        let encounter = self.impact_problem(&[(&directions, deformation)], -2.0)?;
-        let velocities = encounter.stop_velocities(&laws)?;
+        let problem = self.impact_problem(&[(&directions, deformation)], -2.0)?;
+        let velocities = problem.stop_velocities(&laws)?;
         let own = laws.iter().position(|law| *law == ImpactLaw::Rest);
         Ok(own.map_or(0.0, |at| velocities[at]))
     }
@@ -216,13 +216,13 @@ impl System {
             others.map(|hit| (hit.direction, hit.law)).unzip();
         let turned = SeamCorner::directions(corners);
         let met = [(&turned[..], at_corners), (&directions, at_stops)];
-        let encounter = self.impact_problem(&met, -2.0)?;
-        let Some(impulses) = deflect_at_corners(&encounter, corners, &laws)? else {
+        let problem = self.impact_problem(&met, -2.0)?;
+        let Some(impulses) = deflect_at_corners(&problem, corners, &laws)? else {
             // The rotation angles were not reached. The impacts at stops are therefore applied first, and the corners afterwards.
             self.apply_impulses(hits, &[], [Deformation::All, at_stops])?;
             return self.deflect(corners, at_corners);
         };
-        self.apply(encounter, &impulses.values);
+        self.apply(problem, &impulses.values);
         let tolerance = APPROACHES * self.fastest_speed();
         let of_impulses = impulses.values.iter().zip(&impulses.mean_velocities);
         let of_others = of_impulses.zip(impulses.works()).skip(turned.len());
@@ -286,9 +286,9 @@ impl System {
                 _ => 0.0,
             })
             .collect();
-        let encounter = self.impact_problem(&[(&directions, Deformation::All)], -2.0)?;
+        let problem = self.impact_problem(&[(&directions, Deformation::All)], -2.0)?;
         let laws = |scale: f64| -> Vec<ImpactLaw> {
-            let speed = |at: usize| scale * (2.0 * stored[at] * encounter.response[at][at]).sqrt();
+            let speed = |at: usize| scale * (2.0 * stored[at] * problem.response[at][at]).sqrt();
             let own = hits.iter().enumerate();
             own.map(|(at, hit)| match hit.law {
                 ImpactLaw::StoredEnergy(_) => ImpactLaw::StoredEnergy(speed(at)),
@@ -297,7 +297,7 @@ impl System {
             .collect()
         };
         let given = |scale: f64| -> Result<f64, LinearError> {
-            Ok(encounter.impulses(&laws(scale))?.works().sum())
+            Ok(problem.impulses(&laws(scale))?.works().sum())
         };
         let wanted: f64 = stored.iter().sum();
         let (none, one, two) = (given(0.0)?, given(1.0)?, given(2.0)?);
@@ -305,13 +305,13 @@ impl System {
         let linear = one - none - square;
         let root = nonnegative_root(square, linear, none - wanted);
         if let Some(scale) = root {
-            let impulses = encounter.impulses(&laws(scale))?;
+            let impulses = problem.impulses(&laws(scale))?;
             for (ImpactContact { direction: (slider, _), .. }, work) in
                 hits.iter().zip(impulses.works())
             {
                 self.sliders[*slider].book_impact_work(work);
             }
-            self.apply(encounter, &impulses.values);
+            self.apply(problem, &impulses.values);
         }
         Ok(())
     }

@@ -79,8 +79,8 @@ impl Obstacle {
         SystemError::Value { object: self.object(), name, value, allowed }
     }
 
-    fn targets_in(&self, all: impl FnOnce() -> Vec<ContactTarget>) -> Vec<ContactTarget> {
-        if self.targets.is_empty() { all() } else { self.targets.clone() }
+    fn targets_in(&self, scene: &dyn SceneChecks) -> Vec<ContactTarget> {
+        if self.targets.is_empty() { scene.contact_targets() } else { self.targets.clone() }
     }
 
     fn surface(&self) -> Surface {
@@ -142,7 +142,7 @@ impl ElementDef for Obstacle {
             ContactTarget::Beam(_) => None,
             ContactTarget::Point(station) => Some(vec![station]),
         };
-        self.targets_in(|| scene.contact_targets()).into_iter().filter_map(station).collect()
+        self.targets_in(scene).into_iter().filter_map(station).collect()
     }
 
     fn build(&self, site: &dyn AssemblyContext) -> Result<BuiltElement, SystemError> {
@@ -153,7 +153,7 @@ impl ElementDef for Obstacle {
                 Ok(vec![ContactPoint::new(place, 1.0)])
             }
         };
-        let targets = self.targets_in(|| site.contact_targets());
+        let targets = self.targets_in(site.scene());
         let bodies = targets.iter().map(|target| Ok(TouchingBody::new(touching(target)?)));
         let bodies = bodies.collect::<Result<_, SystemError>>()?;
         let forces = ObstacleForces::new(self.name.clone(), self.surface(), bodies);

@@ -13,7 +13,7 @@
 use super::definition::ObstacleShape;
 use super::point::{ClosedContact, ContactPoint, ContactTime, Surface};
 use crate::beams::{ForceSummary, Movement, SpanStiffness};
-use crate::geometry::{Vec2, cross, larger, perpendicular};
+use crate::geometry::{Vec2, cross, perpendicular};
 use crate::integrators::{Interval, Stage};
 use crate::linalg::BandedMatrix;
 use crate::system::bodies::Body;
@@ -88,8 +88,7 @@ impl TouchingBody {
     fn begin_step(&mut self, surface: &Surface, body: &Body, rates: &[f64]) {
         self.begin_movement(surface, body);
         for point in &mut self.points {
-            let [x, y, _] = body.at(&point.place, rates);
-            point.begin_step(surface, Vec2::new(x, y));
+            point.begin_step(surface, point.vector(body, rates));
         }
     }
 
@@ -186,10 +185,7 @@ impl InternalForce for ObstacleForces {
                 continue;
             }
             for point in &mut own.points {
-                let (force, missed) =
-                    point.add_force(&self.surface, time, (body, at.increments), out);
-                summary.force = larger(summary.force, force);
-                summary.strain_mismatch = larger(summary.strain_mismatch, missed);
+                summary.join(&point.add_force(&self.surface, time, (body, at.increments), out));
             }
         }
         summary
@@ -249,10 +245,9 @@ impl InternalForce for ObstacleForces {
             for point in &mut own.points {
                 let body = &bodies[own.body];
                 self.last_force += point.mean_force(body).0;
-                let (lost, of_gap) = point.advance(&self.surface, time, body);
-                self.dissipated += lost;
+                self.dissipated += point.advance(&self.surface, time, body);
                 if point.force() >= force {
-                    (force, rate) = (point.force(), of_gap);
+                    (force, rate) = (point.force(), point.rate());
                 }
             }
             let is_open = !own.points.iter().any(ContactPoint::is_closed);
@@ -286,21 +281,21 @@ impl InternalForce for ObstacleForces {
     }
 
     fn add_forces_at_start(&self, bodies: &[Body], rates: &[Vec<Movement>], out: &mut [f64]) {
-        for point in self.points().filter(|point| point.is_closed()) {
-            let body = &bodies[point.place.body];
-            let rate = point.place.weights().fold(Vec2::zeros(), |sum, (at, share)| {
-                let [x, y, _] = rates[point.place.body][at];
+        for (point, contact) in self.closed(bodies) {
+            let body = point.place.body;
+            let velocity = point.place.weights().fold(Vec2::zeros(), |sum, (at, share)| {
+                let [x, y, _] = rates[body][at];
                 sum + Vec2::new(x, y) * share
             });
-            point.scatter(body, point.force_at_start(&self.surface, body, rate), out);
+            point.scatter(&bodies[body], contact.force(velocity), out);
         }
     }
 
     fn each_damped_rate(&self, bodies: &[Body], rates: &[f64], take: &mut dyn FnMut(f64, f64)) {
         if self.surface.damping > 0.0 {
             for (point, contact) in self.closed(bodies) {
-                let [x, y, _] = bodies[point.place.body].at(&point.place, rates);
-                take(contact.damping, contact.gradient.dot(&Vec2::new(x, y)));
+                let velocity = point.vector(&bodies[point.place.body], rates);
+                take(contact.damping, contact.gradient.dot(&velocity));
             }
         }
     }
@@ -320,8 +315,8 @@ impl InternalForce for ObstacleForces {
             let mut rows = SpanStiffness::default();
             rows.strains.extend(normal);
             rows.stiffness.push(contact.tension.stiffness);
-            if contact.distance.is_finite() {
-                let factor = 0.5 * contact.tension.force / contact.distance;
+            if contact.radius_of_curvature.is_finite() {
+                let factor = 0.5 * contact.tension.force / contact.radius_of_curvature;
                 rows.twists.extend(across.iter().map(|by| factor * by));
                 rows.twists.extend(across);
                 rows.rounding_fractions.push(0.0);

@@ -10,6 +10,7 @@
 //! Both potentials have the stiffness `k` at first touch.
 //! Tensions have the sign of springs: contact forces are negative.
 
+use crate::elementary::ln;
 use crate::system::elements::mixed_force::ForceTarget;
 
 /// Smallest distance from the centre of a disc in the law, as a fraction of the radius.
@@ -94,14 +95,12 @@ fn distance(radius: f64, gap: f64) -> f64 {
 ///
 /// A linear contact with the force `F (1 + x ġ/v)` rebounds with `e` times its approach speed `v`, for any mass and stiffness.
 pub(super) fn damping_factor(restitution: f64) -> f64 {
-    let excess = |x: f64| {
-        crate::elementary::ln((1.0 + x) / (1.0 - restitution * x)) - (1.0 + restitution) * x
-    };
-    // The excess is negative between the trivial root 0 and the wanted root, and infinite at 1/e.
-    let (mut low, mut high) = (0.0, 1.0 / restitution);
     if restitution >= 1.0 {
         return 0.0;
     }
+    let excess = |x: f64| ln((1.0 + x) / (1.0 - restitution * x)) - (1.0 + restitution) * x;
+    // The excess is negative between the trivial root 0 and the wanted root, and infinite at 1/e.
+    let (mut low, mut high) = (0.0, 1.0 / restitution);
     loop {
         let middle = 0.5 * (low + high);
         if middle <= low || middle >= high {

@@ -2,23 +2,18 @@
 
 use super::definition::ObstacleShape;
 use super::law::ContactLaw;
-use crate::beams::{BodyPoint, RateCollocation, RotationIncrement};
+use crate::beams::{BodyPoint, ForceSummary, RateCollocation, RotationIncrement};
 use crate::elementary::square;
 use crate::geometry::{Vec2, larger};
 use crate::integrators::Stage;
 use crate::system::bodies::Body;
-use crate::system::elements::coordinate::Coordinate;
+use crate::system::elements::collocation;
+use crate::system::elements::coordinate::{Coordinate, rounding_error};
 use crate::system::elements::elongation::ElongationTerm;
-use crate::system::elements::mixed_force::{ForceTarget, MixedForce};
-
-/// Force tolerance of contacts, as a fraction of the rounding error of the gap times the stiffness. Contact laws have corners.
-const CORNER_TOLERANCE: f64 = 2e-4;
+use crate::system::elements::mixed_force::{CORNER_TOLERANCE, ForceTarget, MixedForce};
 
 /// Stiffness relative to the impedance of the body, up to which a contact is linearised at the present iterate.
 const SOFT: f64 = 1e-2;
-
-/// Largest rounding error of increments, as a multiple of the machine precision.
-const MOST_ROUNDING: f64 = 16.0;
 
 /// Surface of an obstacle with its contact law.
 #[derive(Debug, Clone, Copy)]
@@ -43,6 +38,12 @@ impl Surface {
                 (from_centre.norm() - radius - self.radius, from_centre)
             }
         }
+    }
+
+    /// Gradient of the gap at the given vector from the obstacle [-].
+    fn gradient(&self, from_obstacle: Vec2) -> Vec2 {
+        let none = Vec2::zeros();
+        GapTrial::new(self.shape, from_obstacle, none, RotationIncrement::Angle).slope
     }
 }
 
@@ -196,9 +197,7 @@ impl ContactPoint {
     pub(super) fn begin_step(&mut self, surface: &Surface, velocity: Vec2) {
         self.tension.begin_step();
         if !self.is_closed() {
-            let none = Vec2::zeros();
-            let trial = GapTrial::new(surface.shape, self.start, none, RotationIncrement::Angle);
-            self.approach = trial.slope.dot(&velocity).abs();
+            self.approach = surface.gradient(self.start).dot(&velocity).abs();
         }
     }
 
@@ -265,37 +264,39 @@ impl ContactPoint {
     fn evaluate(&mut self, surface: &Surface, time: ContactTime, body: &Body, values: &[f64]) {
         let movement = match time.stage {
             Stage::Start => Vec2::zeros(),
-            _ => self.combine(|at| body.vector_at(at, values)),
+            _ => self.vector(body, values),
         };
-        let rotations = crate::system::elements::collocation(time.stage).rotations;
+        let rotations = collocation(time.stage).rotations;
         self.trial = GapTrial::new(surface.shape, self.start, movement, rotations);
     }
 
-    fn combine(&self, value: impl Fn(usize) -> Vec2) -> Vec2 {
-        self.place.weights().fold(Vec2::zeros(), |sum, (at, share)| sum + value(at) * share)
+    /// Vector at the point, interpolated from values of the unknowns.
+    pub(super) fn vector(&self, body: &Body, values: &[f64]) -> Vec2 {
+        let [x, y, _] = body.at(&self.place, values);
+        Vec2::new(x, y)
     }
 
-    /// Adds the present force to `out`. Returns the force and its relative difference from the law.
+    /// Adds the present force to `out`. Returns its magnitude and its relative difference from the law.
     pub(super) fn add_force(
         &mut self,
         surface: &Surface,
         time: ContactTime,
         (body, values): (&Body, &[f64]),
         out: &mut [f64],
-    ) -> (f64, f64) {
+    ) -> ForceSummary {
         self.evaluate(surface, time, body, values);
         let GapTrial { change, secant, .. } = self.trial;
         let target = self.target(surface, time, change);
         if time.stage == Stage::Start {
             self.applied[0] = secant * (time.weight * target.force);
             self.scatter(body, self.applied[0], out);
-            return (target.force.abs(), 0.0);
+            return ForceSummary { force: target.force.abs(), ..ForceSummary::default() };
         }
-        let missed = self.compare(surface, target);
+        let strain_mismatch = self.compare(surface, target);
         let force = self.tension.force;
         self.applied[1] = secant * (time.weight * force);
         self.scatter(body, self.applied[1], out);
-        (force.abs(), missed)
+        ForceSummary { force: force.abs(), strain_mismatch, ..ForceSummary::default() }
     }
 
     /// Adds the force with its difference from the law condensed out to `out`, and its derivatives to `tangent`.
@@ -360,8 +361,8 @@ impl ContactPoint {
         let stiffness = larger(target.stiffness, self.stiffness(surface));
         let extent = CORNER_TOLERANCE * larger(moved, self.gap.value.abs());
         let missed = self.tension.compare(ForceTarget { stiffness, ..target }, extent);
-        let rounding = MOST_ROUNDING * f64::EPSILON * moved;
-        if self.tension.missing_change().abs() <= rounding { 0.0 } else { missed }
+        let is_rounding = self.tension.missing_change().abs() <= rounding_error(moved);
+        if is_rounding { 0.0 } else { missed }
     }
 
     pub(super) fn add_mismatch_force(&self, body: &Body, weight: f64, out: &mut [f64]) {
@@ -369,7 +370,7 @@ impl ContactPoint {
     }
 
     pub(super) fn correct(&mut self, body: &Body, correction: &[f64]) {
-        let moved = self.combine(|at| body.vector_at(at, correction));
+        let moved = self.vector(body, correction);
         self.tension.correct(self.linearised.slope.dot(&moved));
     }
 
@@ -381,9 +382,10 @@ impl ContactPoint {
         }
     }
 
+    /// Movement of the point in the completed step, computed from the increments stored in its body.
     fn movement(&self, body: &Body) -> Vec2 {
-        let moved = body.moved();
-        self.combine(|at| Vec2::new(moved[at][0], moved[at][1]))
+        let moved = |at: usize| Vec2::new(body.moved()[at][0], body.moved()[at][1]);
+        self.place.weights().fold(Vec2::zeros(), |sum, (at, share)| sum + moved(at) * share)
     }
 
     /// Force on the body in the completed step [force], and the mean position at which it acts [length].
@@ -392,49 +394,25 @@ impl ContactPoint {
         (-(self.applied[0] + self.applied[1]), middle)
     }
 
-    /// Tension at the start of the step, for a rate of the point, along the gradient of the gap [force].
-    pub(super) fn force_at_start(&self, surface: &Surface, body: &Body, rate: Vec2) -> Vec2 {
-        let mut own = self.clone();
-        own.locate(surface, body);
-        let trial =
-            GapTrial::new(surface.shape, own.start, Vec2::zeros(), RotationIncrement::Angle);
-        let elastic = own.elastic(surface, Stage::Start, 0.0);
-        let damping = own.damping_at_start(surface, elastic);
-        trial.slope * (elastic.force + damping * trial.slope.dot(&rate)).min(0.0)
-    }
-
-    fn damping_at_start(&self, surface: &Surface, elastic: ForceTarget) -> f64 {
-        match surface.damping > 0.0 && elastic.force < 0.0 {
-            true => self.damping(surface, elastic).0,
-            false => 0.0,
-        }
-    }
-
-    /// Gradient of the gap at the start of the step [-], tension [force], stiffness [force/length], damping coefficient [force·time/length] and
-    /// distance from the centre of curvature [length] of a closed contact; infinite for a half-plane.
+    /// State of a closed contact at the start of the step; `None` for an open contact.
     pub(super) fn closed(&self, surface: &Surface, body: &Body) -> Option<ClosedContact> {
         if !self.is_closed() {
             return None;
         }
-        let start = surface.gap(self.position(body)).1;
-        let trial = GapTrial::new(surface.shape, start, Vec2::zeros(), RotationIncrement::Angle);
-        let elastic = self.elastic(surface, Stage::End, 0.0);
-        let distance = match surface.shape {
+        let from_obstacle = surface.gap(self.position(body)).1;
+        let tension = self.elastic(surface, Stage::End, 0.0);
+        let radius_of_curvature = match surface.shape {
             ObstacleShape::HalfPlane { .. } => f64::INFINITY,
-            ObstacleShape::Disc { .. } => start.norm(),
+            ObstacleShape::Disc { .. } => from_obstacle.norm(),
         };
-        let damping = self.damping_at_start(surface, elastic);
-        Some(ClosedContact { gradient: trial.slope, tension: elastic, damping, distance })
+        let gradient = surface.gradient(from_obstacle);
+        let damping = self.damping(surface, tension).0;
+        Some(ClosedContact { gradient, tension, damping, radius_of_curvature })
     }
 
-    /// Ends a step. Returns the dissipated energy [energy] and the mean rate of the gap [length/time].
-    pub(super) fn advance(
-        &mut self,
-        surface: &Surface,
-        time: ContactTime,
-        body: &Body,
-    ) -> (f64, f64) {
-        let rotations = crate::system::elements::collocation(time.stage).rotations;
+    /// Ends a step. Returns the dissipated energy [energy].
+    pub(super) fn advance(&mut self, surface: &Surface, time: ContactTime, body: &Body) -> f64 {
+        let rotations = collocation(time.stage).rotations;
         self.trial = GapTrial::new(surface.shape, self.start, self.movement(body), rotations);
         let GapTrial { change, .. } = self.trial;
         let elastic = self.elastic(surface, time.stage, change);
@@ -450,13 +428,19 @@ impl ContactPoint {
         }
         self.tension.last = self.tension.force;
         self.last_rate = if time.duration.is_finite() { change / time.duration } else { 0.0 };
-        (lost, self.last_rate)
+        lost
+    }
+
+    /// Mean rate of the gap in the last step [length/time].
+    pub(super) fn rate(&self) -> f64 {
+        self.last_rate
     }
 
     pub(super) fn energy(&self, surface: &Surface) -> f64 {
         self.weight * surface.law.energy(self.gap.value)
     }
 
+    /// Contact force in the last step, averaged over the step [force].
     pub(super) fn force(&self) -> f64 {
         -self.tension.last
     }
@@ -481,7 +465,15 @@ pub(super) struct ClosedContact {
     /// Damping coefficient [force·time/length].
     pub(super) damping: f64,
     /// Distance from the centre of a disc [length]; infinite for a half-plane.
-    pub(super) distance: f64,
+    pub(super) radius_of_curvature: f64,
+}
+
+impl ClosedContact {
+    /// Tension for a velocity of the point, along the gradient of the gap [force].
+    pub(super) fn force(&self, velocity: Vec2) -> Vec2 {
+        let damped = self.tension.force + self.damping * self.gradient.dot(&velocity);
+        self.gradient * damped.min(0.0)
+    }
 }
 
 #[cfg(test)]
