@@ -104,15 +104,15 @@ fn disc(call: &mut Call) -> Result<Dynamic, ScriptError> {
     add(call, ObstacleShape::Disc { centre, radius }, "disc")
 }
 
-fn add(call: &mut Call, shape: ObstacleShape, word: &str) -> Result<Dynamic, ScriptError> {
+fn add(call: &mut Call, shape: ObstacleShape, function: &str) -> Result<Dynamic, ScriptError> {
     let scene = call.receiver::<SceneHandle>()?;
     let options = call.options("options")?;
     let name = options.optional_text("name")?;
-    let name = name.unwrap_or_else(|| scene.scene().borrow().free_name(word));
+    let name = name.unwrap_or_else(|| scene.scene().borrow().free_name(function));
     let obstacle = Obstacle {
         name,
         shape,
-        targets: targets(call, &scene, &options)?,
+        targets: targets(call, function, &scene, &options)?,
         radius: options.number("radius")?,
         stiffness: options.number("stiffness")?,
         restitution: options.number("restitution")?,
@@ -133,6 +133,7 @@ const TARGET: &[Kind] = &[Kind::Object(BEAM), Kind::Object(STATION)];
 
 fn targets(
     call: &Call,
+    function: &str,
     scene: &SceneHandle,
     options: &Options,
 ) -> Result<Vec<ContactTarget>, ScriptError> {
@@ -144,7 +145,8 @@ fn targets(
     }
     let target = |(at, body): (usize, Dynamic)| {
         let wanted = (&Kind::Either(TARGET), "a beam, a particle, or a station");
-        let accepted = call.accept("bodies", &format!("body {}", at + 1), wanted, body)?;
+        let accepted = call.accept(function, &format!("body {}", at + 1), wanted, body);
+        let accepted = accepted.map_err(|error| error.at(CallPart::Key("bodies".into())))?;
         match accepted.read_lock::<BeamHandle>() {
             Some(beam) => Ok(ContactTarget::Beam(beam.index_in(scene)?)),
             None => {

@@ -1,6 +1,6 @@
 //! Errors in the definition of a scene.
 
-use super::{SliderError, TrackError, plural, rounded};
+use super::{SliderError, TrackError, plural, rounded, with_article};
 use crate::beams::BeamError;
 use crate::geometry::GeometryError;
 use crate::loads::LoadError;
@@ -13,9 +13,12 @@ pub enum SystemError {
     Empty { scene: String },
     #[error("interrupted during the assembly of the scene '{scene}'")]
     Interrupted { scene: String },
-    #[error("{name:?} cannot be the name of a {kind}: {reason}; use letters, digits and spaces")]
+    #[error(
+        "{name:?} cannot be the name of {}: {reason}; use letters, digits and spaces",
+        with_article(kind)
+    )]
     Unnamed { kind: &'static str, name: String, reason: &'static str },
-    #[error("the scene already has a {kind} '{name}'; give this {new} another name")]
+    #[error("the scene already has {} '{name}'; give this {new} another name", with_article(kind))]
     DuplicateName { kind: &'static str, new: &'static str, name: String },
     /// The station lies outside its beam.
     #[error("station {station} is outside the length of beam '{beam}', [0, {}]", rounded(*length))]
