@@ -375,7 +375,8 @@ pub fn pressed(mesh: &Mesh) -> Scene {
     for (shape, restitution) in [(wall, 1.0), (disc, 1.0)] {
         let name = scene.free_name("obstacle");
         let (targets, radius, stiffness) = (Vec::new(), 0.5, 0.02);
-        let obstacle = Obstacle { name, shape, targets, radius, stiffness, restitution };
+        let obstacle =
+            Obstacle { name, shape, targets, radius, stiffness, restitution, friction: 0.0 };
         scene.add_obstacle(obstacle).unwrap();
     }
     scene.gravity = at(0.0, -0.5);

@@ -4,10 +4,14 @@
 use crate::common::probe::{self, STEP, advance, condensed, differences, settle, tangent};
 use crate::common::{Random, at, meshes, scenes};
 use nalgebra::{DMatrix, DVector};
+use withy::beams::Station;
 use withy::geometry::Vec2;
 use withy::integrators::{Forces, Inertia, Mechanism, Solution, Stage};
 use withy::loads::{LoadFrame, LoadKind};
-use withy::system::{Element, Scene, System};
+use withy::system::{
+    ContactTarget, Element, Obstacle, ObstacleShape, ParticleDefinition, RigidBodyDefinition,
+    Scene, StartMotion, System,
+};
 
 const STAGES: [Stage; 3] = [Stage::Midpoint, Stage::DampedMidpoint(0.6), Stage::End];
 
@@ -43,6 +47,61 @@ fn the_tangent_is_the_derivative_of_the_condensed_forces() {
             assert_close(&format!("{name}, {stage:?}"), &found, &expected, 2e-8);
         }
     });
+}
+
+/// Heavy particle and heavy roller that penetrate a wall and a disc, with friction.
+fn touching() -> Scene {
+    let mut scene = Scene::new("touching");
+    let ball = ParticleDefinition { name: "ball".into(), position: at(0.4, 0.3) };
+    scene.add_particle(ball, 1e4).unwrap();
+    let roller = RigidBodyDefinition {
+        name: "roller".into(),
+        position: at(-0.2, 0.1),
+        angle: 0.0,
+        points: Vec::new(),
+        outline: Vec::new(),
+        motion: StartMotion::default(),
+    };
+    scene.add_rigid_body(roller, 1e4, 1e3).unwrap();
+    let stations = [Station::on_particle(0), Station::on_rigid_body(0, 0)];
+    let targets = stations.map(ContactTarget::Point).to_vec();
+    let (point, normal) = (at(0.0, 2.0), at(0.6, 0.8));
+    let floor = Obstacle {
+        name: "floor".into(),
+        shape: ObstacleShape::HalfPlane { point, normal },
+        targets,
+        radius: 0.3,
+        stiffness: 50.0,
+        restitution: 1.0,
+        friction: 0.07,
+    };
+    let shape = ObstacleShape::Disc { centre: at(0.5, -0.9), radius: 2.0 };
+    scene.add_obstacle(Obstacle { name: "peg".into(), shape, ..floor.clone() }).unwrap();
+    scene.add_obstacle(floor).unwrap();
+    scene
+}
+
+#[test]
+fn the_tangent_of_contact_with_friction_is_the_derivative_of_its_forces() {
+    let mut random = Random(31);
+    for _ in 0..40 {
+        let mut model = System::assemble(&touching()).unwrap();
+        let first = random.vector(model.unknowns(), 0.05);
+        advance(&mut model, Stage::Midpoint, &first);
+        let increments = random.vector(model.unknowns(), 0.2);
+        for stage in STAGES {
+            model.begin_step(STEP, &Stage::ALL).unwrap();
+            // The second correction fits the friction to the corrected normal force.
+            settle(&mut model, stage, &increments);
+            settle(&mut model, stage, &increments);
+            let found = tangent(&mut model, stage, &increments);
+            let model = &mut model;
+            let expected = differences(&increments, 1e-4, &mut |u| condensed(model, stage, u))
+                .rows(0, increments.len())
+                .into_owned();
+            assert_close(&format!("{stage:?}"), &found, &expected, 1e-7);
+        }
+    }
 }
 
 #[test]

@@ -21,6 +21,7 @@ mod literature;
 mod mean_forces;
 mod meshes;
 mod notes;
+mod obstacle_friction;
 mod obstacles;
 mod orders;
 mod releases;

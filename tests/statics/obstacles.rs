@@ -18,6 +18,7 @@ fn floor(stiffness: f64) -> Obstacle {
         radius: 0.0,
         stiffness,
         restitution: 1.0,
+        friction: 0.0,
     }
 }
 

@@ -25,11 +25,11 @@ pub enum SimulationError {
         "'{sensor}' is a mean force over a step, which the method {method} does not provide; record the present force, or use energy_momentum"
     )]
     NoMeanForces { sensor: String, method: &'static str },
-    /// A scene contains a slider with friction, which the method does not support.
+    /// A scene contains an object with friction, which the method does not support.
     #[error(
-        "slider '{slider}' has friction, which the method {method} does not support; use the method energy_momentum"
+        "{object} has friction, which the method {method} does not support; use the method energy_momentum"
     )]
-    FrictionMethod { slider: String, method: &'static str },
+    FrictionMethod { object: String, method: &'static str },
     #[error(
         "a controller with a sampling period of {period:e} would be sampled more than {most} times in a step of dt = {dt:e}"
     )]

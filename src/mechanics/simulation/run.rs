@@ -128,10 +128,13 @@ impl Simulation {
     ) -> Result<Self, SimulationError> {
         settings.dt.check()?;
         settings.method.check()?;
-        let with_friction = scene.sliders.iter().find(|slider| slider.friction > 0.0);
-        if let Some(slider) = with_friction.filter(|_| settings.method != Method::EnergyMomentum) {
-            let (slider, method) = (slider.name.clone(), settings.method.entry().name);
-            return Err(SimulationError::FrictionMethod { slider, method });
+        let sliders =
+            scene.sliders_with_friction().filter(|_| settings.method != Method::EnergyMomentum);
+        let obstacles =
+            scene.obstacles_with_friction().filter(|_| settings.method == Method::FourthOrder);
+        if let Some(object) = sliders.chain(obstacles).next() {
+            let method = settings.method.entry().name;
+            return Err(SimulationError::FrictionMethod { object, method });
         }
         model.divide(cores());
         let integrator = settings.method.build(&mut model, settings.tolerance);

@@ -337,11 +337,11 @@ fn find(call: &mut Call) -> Result<Dynamic, ScriptError> {
         let name = &rest.scene().name;
         context.print_message(&format!("note: the equilibrium of '{name}' is not stable"));
     }
-    let with_friction = rest.scene().sliders.iter().find(|slider| slider.friction > 0.0);
-    if let Some(slider) = with_friction {
-        let (scene, slider) = (&rest.scene().name, &slider.name);
+    let sliders = rest.scene().sliders_with_friction();
+    if let Some(object) = sliders.chain(rest.scene().obstacles_with_friction()).next() {
+        let scene = &rest.scene().name;
         context.print_message(&format!(
-            "note: the equilibrium of '{scene}' does not include the friction of slider '{slider}'"
+            "note: the equilibrium of '{scene}' does not include the friction of {object}"
         ));
     }
     let path = rest.path();

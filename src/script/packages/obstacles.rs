@@ -25,7 +25,8 @@ pub const TABLE: BindingTable = BindingTable {
         energy_momentum() and fourth_order(), at any step size and stiffness. The history has \
         the columns NAME.force, NAME.force_x, NAME.force_y (the force on the bodies, mean of the \
         step), NAME.gap (the smallest gap, negative for a penetration), stored.NAME and \
-        dissipated.NAME. Contact is without friction. \
+        dissipated.NAME. With friction there is also NAME.friction, the friction force on the bodies, \
+        positive to the right of the normal (on a disc: clockwise). \
         Pictures and the viewer show walls with hatching behind them, and discs.",
     types: &[],
     setup: super::scenes::ROD,
@@ -37,7 +38,9 @@ pub const TABLE: BindingTable = BindingTable {
             .doc("The normal can have any length. The wall is infinite; several walls form a \
                 channel or a box. A beam touches it all along, at four Gauss–Lobatto points per \
                 span, its ends included. On a beam, stiffness is the force per length and \
-                penetration, on a point the force per penetration. Choose it so that the largest \
+                penetration, on a point the force per penetration. With friction, contact \
+                sticks or slips (Coulomb); the friction force acts at the surface, at the distance \
+                radius from the axis, so a disc rolls. Choose the stiffness so that the largest \
                 expected force gives a small penetration. With a restitution below 1 the contact \
                 is damped so that a resolved impact of a single mass rebounds with this fraction \
                 of its speed. sim.notes states impacts that the steps do not resolve. Default \
@@ -74,6 +77,10 @@ const KEYS: &[Parameter] = &[
         .between(0.05, 1.0)
         .doc("fraction of the approach speed after a resolved impact; 1 is elastic")
         .or(Presence::Number(1.0)),
+    number("friction")
+        .non_negative()
+        .doc("coefficient of friction along the surface; not with fourth_order()")
+        .or(Presence::Number(0.0)),
     number("radius")
         .non_negative()
         .unit("length")
@@ -116,6 +123,7 @@ fn add(call: &mut Call, shape: ObstacleShape, function: &str) -> Result<Dynamic,
         radius: options.number("radius")?,
         stiffness: options.number("stiffness")?,
         restitution: options.number("restitution")?,
+        friction: options.number("friction")?,
     };
     scene.change().add_obstacle(obstacle).map_err(|error| {
         let place = match &error {

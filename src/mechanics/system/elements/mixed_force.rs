@@ -96,6 +96,26 @@ impl ForceTarget {
         impedance: f64,
         law: impl Fn(f64) -> Self,
     ) -> Self {
+        let (at, met) = Self::intersect(change, force, impedance, law);
+        Self { force: met.force + met.stiffness * (change - at), stiffness: met.stiffness }
+    }
+
+    /// Elongation change at this intersection.
+    pub fn intersection_point(
+        change: f64,
+        force: f64,
+        impedance: f64,
+        law: impl Fn(f64) -> Self,
+    ) -> f64 {
+        Self::intersect(change, force, impedance, law).0
+    }
+
+    fn intersect(
+        change: f64,
+        force: f64,
+        impedance: f64,
+        law: impl Fn(f64) -> Self,
+    ) -> (f64, Self) {
         let above = |at: f64, of: Self| of.force - force + impedance * (at - change);
         let (mut at, mut met) = (change, law(change));
         // A law of zero slope would intersect the line at `reach`.
@@ -116,6 +136,6 @@ impl ForceTarget {
             }
             (at, met) = (next, law(next));
         }
-        Self { force: met.force + met.stiffness * (change - at), stiffness: met.stiffness }
+        (at, met)
     }
 }

@@ -49,7 +49,8 @@ impl Scene {
                     winds.extend(has_wind.then(|| Sensor::in_sum(&WORK, &drag.name, source)));
                 }
                 Element::Obstacle(obstacle) => {
-                    let own = COLUMNS_OF_OBSTACLES.iter();
+                    let count = COLUMNS_OF_OBSTACLES.len() - usize::from(obstacle.friction == 0.0);
+                    let own = COLUMNS_OF_OBSTACLES[..count].iter();
                     all.extend(own.map(|own| Sensor::of(&obstacle.name, own, source)));
                     all.push(Sensor::in_sum(&STORED, &obstacle.name, source));
                     others.push(Sensor::in_sum(&DISSIPATED, &obstacle.name, source));

@@ -52,6 +52,17 @@ impl Scene {
         })
     }
 
+    /// Types and names of sliders with friction.
+    pub fn sliders_with_friction(&self) -> impl Iterator<Item = String> {
+        let sliders = self.sliders.iter().filter(|slider| slider.friction > 0.0);
+        sliders.map(|slider| format!("slider '{}'", slider.name))
+    }
+
+    /// Types and names of obstacles with friction.
+    pub fn obstacles_with_friction(&self) -> impl Iterator<Item = String> {
+        self.obstacles().filter(|obstacle| obstacle.friction > 0.0).map(Obstacle::object)
+    }
+
     /// Adds an obstacle.
     ///
     /// # Errors

@@ -150,12 +150,13 @@ pub(in crate::system) static COLUMNS_OF_TORSION_SPRINGS: [Quantity; 2] = [
     Quantity { dimension: "force·length", ..COLUMNS_OF_SPRINGS[1] },
 ];
 
-/// Columns of obstacles: the force on the bodies, and the smallest gap.
-pub(in crate::system) static COLUMNS_OF_OBSTACLES: [Quantity; 4] = [
+/// Columns of obstacles: the force on the bodies, and the smallest gap. The last one is that of obstacles with friction.
+pub(in crate::system) static COLUMNS_OF_OBSTACLES: [Quantity; 5] = [
     quantity("force", "force", MeanOfMethod, Index(|model, at| contact(model, at).force.norm())),
     quantity("force_x", "force", MeanOfMethod, Index(|model, at| contact(model, at).force.x)),
     quantity("force_y", "force", MeanOfMethod, Index(|model, at| contact(model, at).force.y)),
     quantity("gap", "length", Present, Index(|model, at| contact(model, at).gap)),
+    quantity("friction", "force", MeanOfMethod, Index(|model, at| contact(model, at).friction)),
 ];
 
 /// Columns of named loads: a force, a force per length, or a moment.

@@ -67,6 +67,9 @@ pub struct Obstacle {
     pub stiffness: f64,
     /// Coefficient of restitution of an impact that the steps resolve [-]; 1 for an elastic contact.
     pub restitution: f64,
+    /// Coefficient of friction [-].
+    #[serde(default)]
+    pub friction: f64,
 }
 
 impl Obstacle {
@@ -84,14 +87,14 @@ impl Obstacle {
     }
 
     fn surface(&self) -> Surface {
-        let Self { shape, radius, stiffness, restitution, .. } = *self;
+        let Self { shape, radius, stiffness, restitution, friction, .. } = *self;
         let law = match shape {
             ObstacleShape::HalfPlane { .. } => ContactLaw::HalfPlane { stiffness },
             ObstacleShape::Disc { radius: of_disc, .. } => {
                 ContactLaw::Disc { stiffness, radius: of_disc + radius }
             }
         };
-        Surface { shape, radius, law, damping: damping_factor(restitution) }
+        Surface { shape, radius, law, damping: damping_factor(restitution), friction }
     }
 }
 
@@ -115,7 +118,10 @@ impl ElementDef for Obstacle {
                 }
             }
         }
-        let Self { radius, stiffness, restitution, .. } = *self;
+        let Self { radius, stiffness, restitution, friction, .. } = *self;
+        if !(friction.is_finite() && friction >= 0.0) {
+            return Err(self.refuse("friction", friction, "zero or a positive finite number"));
+        }
         if !(radius.is_finite() && radius >= 0.0) {
             let allowed = "zero or a positive finite number [length]";
             return Err(self.refuse("radius", radius, allowed));
@@ -153,10 +159,16 @@ impl ElementDef for Obstacle {
                 Ok(vec![ContactPoint::new(place, 1.0)])
             }
         };
-        let targets = self.targets_in(site.scene());
-        let bodies = targets.iter().map(|target| Ok(TouchingBody::new(touching(target)?)));
+        let (targets, surface) = (self.targets_in(site.scene()), self.surface());
+        let bodies = targets.iter().map(|target| {
+            let mut points = touching(target)?;
+            if surface.friction > 0.0 {
+                points = points.into_iter().map(|point| point.with_friction(&surface)).collect();
+            }
+            Ok(TouchingBody::new(points))
+        });
         let bodies = bodies.collect::<Result<_, SystemError>>()?;
-        let forces = ObstacleForces::new(self.name.clone(), self.surface(), bodies);
+        let forces = ObstacleForces::new(self.name.clone(), surface, bodies);
         Ok(BuiltElement::Resistance(Box::new(forces)))
     }
 }

@@ -13,7 +13,7 @@
 use super::definition::ObstacleShape;
 use super::point::{ClosedContact, ContactPoint, ContactTime, Surface};
 use crate::beams::{ForceSummary, Movement, SpanStiffness};
-use crate::geometry::{Vec2, cross, perpendicular};
+use crate::geometry::{Vec2, perpendicular};
 use crate::integrators::{Interval, Stage};
 use crate::linalg::BandedMatrix;
 use crate::system::bodies::Body;
@@ -27,6 +27,8 @@ use crate::system::elements::{TrialState, WorkAndImpulse};
 pub struct ContactState {
     /// Force on the bodies, averaged over the last step [force].
     pub force: Vec2,
+    /// Friction force on the bodies along the surface, averaged over the last step and positive to the right of the normal [force].
+    pub friction: f64,
     /// Smallest gap at present; negative for a penetration [length].
     pub gap: f64,
     /// Number of contact points with a negative gap.
@@ -229,9 +231,8 @@ impl InternalForce for ObstacleForces {
     fn exchange(&self, bodies: &[Body], duration: f64) -> WorkAndImpulse {
         let mut sum = WorkAndImpulse::default();
         for point in self.points() {
-            let (force, at) = point.mean_force(&bodies[point.place.body]);
-            let impulse = force * duration;
-            sum += WorkAndImpulse::of(0.0, impulse, cross(at, impulse));
+            let angular_impulse = point.angular_impulse(&bodies[point.place.body], duration);
+            sum += WorkAndImpulse::of(0.0, point.mean_force() * duration, angular_impulse);
         }
         sum
     }
@@ -244,7 +245,7 @@ impl InternalForce for ObstacleForces {
             let (mut force, mut rate) = (0.0, 0.0);
             for point in &mut own.points {
                 let body = &bodies[own.body];
-                self.last_force += point.mean_force(body).0;
+                self.last_force += point.mean_force();
                 self.dissipated += point.advance(&self.surface, time, body);
                 if point.force() >= force {
                     (force, rate) = (point.force(), point.rate());
@@ -272,7 +273,8 @@ impl InternalForce for ObstacleForces {
             |point: &ContactPoint| point.present_gap(&self.surface, &bodies[point.place.body]);
         let gap = self.points().map(gap).fold(f64::INFINITY, f64::min);
         let closed = self.points().filter(|point| point.is_closed()).count();
-        Some(ContactState { force: self.last_force, gap, closed })
+        let friction = self.points().map(ContactPoint::friction_force).sum();
+        Some(ContactState { force: self.last_force, friction, gap, closed })
     }
 
     fn short_bounce(&self) -> Option<ShortBounce> {
@@ -283,11 +285,7 @@ impl InternalForce for ObstacleForces {
     fn add_forces_at_start(&self, bodies: &[Body], rates: &[Vec<Movement>], out: &mut [f64]) {
         for (point, contact) in self.closed(bodies) {
             let body = point.place.body;
-            let velocity = point.place.weights().fold(Vec2::zeros(), |sum, (at, share)| {
-                let [x, y, _] = rates[body][at];
-                sum + Vec2::new(x, y) * share
-            });
-            point.scatter(&bodies[body], contact.force(velocity), out);
+            point.add_force_at_start(&contact, &bodies[body], &rates[body], out);
         }
     }
 
@@ -353,6 +351,9 @@ impl InternalForce for ObstacleForces {
             ObstacleShape::Disc { .. } => "disc",
         };
         let damped = if self.surface.damping > 0.0 { ", damped" } else { "" };
-        format!("{shape} with {points}{damped}; the contact forces are additional unknowns")
+        let friction = if self.surface.friction > 0.0 { ", with friction" } else { "" };
+        format!(
+            "{shape} with {points}{damped}{friction}; the contact forces are additional unknowns"
+        )
     }
 }

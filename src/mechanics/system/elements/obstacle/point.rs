@@ -1,10 +1,11 @@
 //! Contact point: one quadrature point of a beam, a particle or a point of a rigid body, in a step.
 
 use super::definition::ObstacleShape;
+use super::friction::{NormalContact, PointFriction};
 use super::law::ContactLaw;
-use crate::beams::{BodyPoint, ForceSummary, RateCollocation, RotationIncrement};
+use crate::beams::{BodyPoint, ForceSummary, Movement, RateCollocation, RotationIncrement};
 use crate::elementary::square;
-use crate::geometry::{Vec2, larger};
+use crate::geometry::{Vec2, cross, larger};
 use crate::integrators::Stage;
 use crate::system::bodies::Body;
 use crate::system::elements::collocation;
@@ -13,7 +14,7 @@ use crate::system::elements::elongation::ElongationTerm;
 use crate::system::elements::mixed_force::{CORNER_TOLERANCE, ForceTarget, MixedForce};
 
 /// Stiffness relative to the impedance of the body, up to which a contact is linearised at the present iterate.
-const SOFT: f64 = 1e-2;
+pub(super) const SOFT: f64 = 1e-2;
 
 /// Surface of an obstacle with its contact law.
 #[derive(Debug, Clone, Copy)]
@@ -24,6 +25,8 @@ pub(super) struct Surface {
     pub(super) law: ContactLaw,
     /// Factor of the damping for the coefficient of restitution [-].
     pub(super) damping: f64,
+    /// Coefficient of friction [-].
+    pub(super) friction: f64,
 }
 
 impl Surface {
@@ -49,14 +52,14 @@ impl Surface {
 
 /// Change of the gap in an iterate, and its derivatives.
 #[derive(Debug, Clone, Copy)]
-struct GapTrial {
+pub(super) struct GapTrial {
     change: f64,
     /// Vector `e` with `Δg = e·Δx`; for methods with forces at the ends of steps, the gradient of the gap [-].
-    secant: Vec2,
+    pub(super) secant: Vec2,
     /// Derivative of the change with respect to the movement [-].
     slope: Vec2,
     /// Derivative of the secant with respect to the movement, row by row [1/length].
-    secant_slope: [Vec2; 2],
+    pub(super) secant_slope: [Vec2; 2],
     moved: f64,
 }
 
@@ -69,7 +72,12 @@ impl GapTrial {
         moved: 0.0,
     };
 
-    fn new(
+    /// No movement from a surface with the given normal.
+    pub(super) fn along(normal: Vec2) -> Self {
+        Self { secant: normal, slope: normal, ..Self::NONE }
+    }
+
+    pub(super) fn new(
         shape: ObstacleShape,
         start: Vec2,
         movement: Vec2,
@@ -132,6 +140,10 @@ pub(super) struct ContactPoint {
     linearised: GapTrial,
     /// Applied forces at the start of the step and in the present iterate [force].
     applied: [Vec2; 2],
+    /// Applied moment of friction in the present iterate [force·length].
+    applied_moment: f64,
+    /// Friction; `None` without friction.
+    friction: Option<Box<PointFriction>>,
 }
 
 impl ContactPoint {
@@ -148,7 +160,15 @@ impl ContactPoint {
             trial: GapTrial::NONE,
             linearised: GapTrial::NONE,
             applied: [Vec2::zeros(); 2],
+            applied_moment: 0.0,
+            friction: None,
         }
+    }
+
+    /// Adds friction with the coefficient of the surface.
+    pub(super) fn with_friction(self, surface: &Surface) -> Self {
+        let friction = Box::new(PointFriction::new(surface.friction, surface.radius));
+        Self { friction: Some(friction), ..self }
     }
 
     /// Prepares the start of a simulation. Computes the effective mass from the diagonal of the inertia matrix.
@@ -160,6 +180,10 @@ impl ContactPoint {
         let mass = 1.0 / self.place.weights().map(mobility).sum::<f64>();
         let whole = body.degrees_of_freedom.iter().map(of).sum();
         self.mass = if mass > 0.0 { mass } else { whole };
+        let (stiffness, mass) = (self.stiffness(surface), self.mass);
+        if let Some(friction) = &mut self.friction {
+            friction.begin(stiffness, mass, surface.damping);
+        }
     }
 
     pub(super) fn is_closed(&self) -> bool {
@@ -191,11 +215,22 @@ impl ContactPoint {
         self.locate(surface, body);
         self.tension.force = self.tension.last;
         self.applied = [Vec2::zeros(); 2];
+        self.release_friction();
+    }
+
+    fn release_friction(&mut self) {
+        self.applied_moment = 0.0;
+        if let Some(friction) = &mut self.friction {
+            friction.release();
+        }
     }
 
     /// Prepares a step that starts with a velocity of the point. The velocity of an open contact is its approach speed.
     pub(super) fn begin_step(&mut self, surface: &Surface, velocity: Vec2) {
         self.tension.begin_step();
+        if let Some(friction) = &mut self.friction {
+            friction.begin_step();
+        }
         if !self.is_closed() {
             self.approach = surface.gradient(self.start).dot(&velocity).abs();
         }
@@ -207,6 +242,7 @@ impl ContactPoint {
         self.tension.mismatch = 0.0;
         self.linearised = GapTrial::NONE;
         self.applied[1] = Vec2::zeros();
+        self.release_friction();
     }
 
     /// Tension that the law requires for a change of the gap, without the damping.
@@ -263,11 +299,26 @@ impl ContactPoint {
 
     fn evaluate(&mut self, surface: &Surface, time: ContactTime, body: &Body, values: &[f64]) {
         let movement = match time.stage {
-            Stage::Start => Vec2::zeros(),
-            _ => self.vector(body, values),
+            Stage::Start => [0.0; 3],
+            _ => body.at(&self.place, values),
         };
+        self.follow(surface, time, movement);
+    }
+
+    fn follow(&mut self, surface: &Surface, time: ContactTime, movement: Movement) {
         let rotations = collocation(time.stage).rotations;
-        self.trial = GapTrial::new(surface.shape, self.start, movement, rotations);
+        let displacement = Vec2::new(movement[0], movement[1]);
+        self.trial = GapTrial::new(surface.shape, self.start, displacement, rotations);
+        if let Some(friction) = &mut self.friction {
+            friction.evaluate(&self.trial, movement);
+        }
+    }
+
+    /// Normal contact in the present iterate; `None` for an increment of zero duration, in which friction does not act.
+    fn normal_contact(&self, time: ContactTime) -> Option<NormalContact> {
+        let duration = time.duration;
+        let contact = NormalContact { force: -self.tension.force, duration, share: time.share() };
+        duration.is_finite().then_some(contact)
     }
 
     /// Vector at the point, interpolated from values of the unknowns.
@@ -292,9 +343,16 @@ impl ContactPoint {
             self.scatter(body, self.applied[0], out);
             return ForceSummary { force: target.force.abs(), ..ForceSummary::default() };
         }
-        let strain_mismatch = self.compare(surface, target);
+        let mut strain_mismatch = self.compare(surface, target);
         let force = self.tension.force;
         self.applied[1] = secant * (time.weight * force);
+        if let (Some(contact), Some(friction)) = (self.normal_contact(time), &mut self.friction) {
+            strain_mismatch = larger(strain_mismatch, friction.compare(contact));
+            let [x, y, moment] = friction.present().map(|by| by * time.weight);
+            self.applied[1] += Vec2::new(x, y);
+            self.applied_moment = moment;
+            self.scatter_moment(body, moment, out);
+        }
         self.scatter(body, self.applied[1], out);
         ForceSummary { force: force.abs(), strain_mismatch, ..ForceSummary::default() }
     }
@@ -325,6 +383,37 @@ impl ContactPoint {
                     for axis in 0..2 {
                         let value = share * other * by[axis];
                         tangent(rows[component], columns[axis], value);
+                    }
+                }
+            }
+        }
+        self.add_linearised_friction(time, body, out, tangent);
+    }
+
+    fn add_linearised_friction(
+        &mut self,
+        time: ContactTime,
+        body: &Body,
+        out: &mut [f64],
+        tangent: &mut dyn FnMut(usize, usize, f64),
+    ) {
+        let (Some(contact), Some(friction)) = (self.normal_contact(time), &mut self.friction)
+        else {
+            return;
+        };
+        friction.linearise(contact, 2.0 * self.mass / square(time.duration));
+        let force = friction.condensed(-self.tension.mismatch).map(|by| by * time.weight);
+        let normal_slope = self.linearised.slope * -self.tension.stiffness;
+        let derivative = friction.tangent(normal_slope);
+        self.scatter(body, Vec2::new(force[0], force[1]), out);
+        self.scatter_moment(body, force[2], out);
+        for (row, share) in self.place.weights() {
+            for (column, other) in self.place.weights() {
+                let (rows, columns) =
+                    (body.degrees_of_freedom[row], body.degrees_of_freedom[column]);
+                for (&row, by) in rows.iter().zip(&derivative) {
+                    for (&column, by) in columns.iter().zip(by) {
+                        tangent(row, column, time.weight * share * other * by);
                     }
                 }
             }
@@ -367,11 +456,20 @@ impl ContactPoint {
 
     pub(super) fn add_mismatch_force(&self, body: &Body, weight: f64, out: &mut [f64]) {
         self.scatter(body, self.linearised.secant * (weight * self.tension.mismatch), out);
+        if let Some(friction) = &self.friction {
+            let [x, y, moment] = friction.missing(-self.tension.mismatch).map(|by| by * weight);
+            self.scatter(body, Vec2::new(x, y), out);
+            self.scatter_moment(body, moment, out);
+        }
     }
 
     pub(super) fn correct(&mut self, body: &Body, correction: &[f64]) {
-        let moved = self.vector(body, correction);
-        self.tension.correct(self.linearised.slope.dot(&moved));
+        let moved @ [x, y, _] = body.at(&self.place, correction);
+        let before = self.tension.force;
+        self.tension.correct(self.linearised.slope.dot(&Vec2::new(x, y)));
+        if let Some(friction) = &mut self.friction {
+            friction.correct(moved, before - self.tension.force);
+        }
     }
 
     pub(super) fn scatter(&self, body: &Body, force: Vec2, out: &mut [f64]) {
@@ -382,16 +480,29 @@ impl ContactPoint {
         }
     }
 
-    /// Movement of the point in the completed step, computed from the increments stored in its body.
-    fn movement(&self, body: &Body) -> Vec2 {
-        let moved = |at: usize| Vec2::new(body.moved()[at][0], body.moved()[at][1]);
-        self.place.weights().fold(Vec2::zeros(), |sum, (at, share)| sum + moved(at) * share)
+    fn scatter_moment(&self, body: &Body, moment: f64, out: &mut [f64]) {
+        for (at, share) in self.place.weights() {
+            out[body.degrees_of_freedom[at][2]] += share * moment;
+        }
     }
 
-    /// Force on the body in the completed step [force], and the mean position at which it acts [length].
-    pub(super) fn mean_force(&self, body: &Body) -> (Vec2, Vec2) {
-        let middle = self.position(body) + self.movement(body) * 0.5;
-        (-(self.applied[0] + self.applied[1]), middle)
+    /// Interpolates displacements and rotations that are given at the control points of the body.
+    fn interpolate(&self, at_points: &[Movement]) -> Movement {
+        self.place.weights().fold([0.0; 3], |sum, (at, share)| {
+            [0, 1, 2].map(|component| sum[component] + at_points[at][component] * share)
+        })
+    }
+
+    /// Force on the body in the completed step [force].
+    pub(super) fn mean_force(&self) -> Vec2 {
+        -(self.applied[0] + self.applied[1])
+    }
+
+    /// Angular impulse on the body about the origin in the completed step [force·length·time].
+    pub(super) fn angular_impulse(&self, body: &Body, duration: f64) -> f64 {
+        let [x, y, _] = self.interpolate(body.moved());
+        let middle = self.position(body) + Vec2::new(x, y) * 0.5;
+        cross(middle, self.mean_force() * duration) - self.applied_moment * duration
     }
 
     /// State of a closed contact at the start of the step; `None` for an open contact.
@@ -410,13 +521,30 @@ impl ContactPoint {
         Some(ClosedContact { gradient, tension, damping, radius_of_curvature })
     }
 
+    /// Adds the force of a closed contact at the start of the step, for rates at the control points of the body.
+    pub(super) fn add_force_at_start(
+        &self,
+        contact: &ClosedContact,
+        body: &Body,
+        rates: &[Movement],
+        out: &mut [f64],
+    ) {
+        let rates @ [x, y, _] = self.interpolate(rates);
+        let tension = contact.tension(Vec2::new(x, y));
+        self.scatter(body, contact.gradient * tension, out);
+        if let Some(friction) = &self.friction {
+            let [x, y, moment] = friction.at_start(contact.gradient, -tension, rates);
+            self.scatter(body, Vec2::new(x, y), out);
+            self.scatter_moment(body, moment, out);
+        }
+    }
+
     /// Ends a step. Returns the dissipated energy [energy].
     pub(super) fn advance(&mut self, surface: &Surface, time: ContactTime, body: &Body) -> f64 {
-        let rotations = collocation(time.stage).rotations;
-        self.trial = GapTrial::new(surface.shape, self.start, self.movement(body), rotations);
+        self.follow(surface, time, self.interpolate(body.moved()));
         let GapTrial { change, .. } = self.trial;
         let elastic = self.elastic(surface, time.stage, change);
-        let lost = match surface.damping > 0.0 && time.duration.is_finite() {
+        let mut lost = match surface.damping > 0.0 && time.duration.is_finite() {
             true => time.share() * (self.tension.force - elastic.force) * change,
             false => 0.0,
         };
@@ -425,6 +553,9 @@ impl ContactPoint {
         if self.compare(surface, target) == 0.0 {
             // The gap fits the tension, so that the rounding error of increments stores no energy.
             self.gap = self.gap.after(self.tension.missing_change());
+        }
+        if let (Some(contact), Some(friction)) = (self.normal_contact(time), &mut self.friction) {
+            lost += friction.advance(contact);
         }
         self.tension.last = self.tension.force;
         self.last_rate = if time.duration.is_finite() { change / time.duration } else { 0.0 };
@@ -437,7 +568,13 @@ impl ContactPoint {
     }
 
     pub(super) fn energy(&self, surface: &Surface) -> f64 {
-        self.weight * surface.law.energy(self.gap.value)
+        let energy = self.weight * surface.law.energy(self.gap.value);
+        self.friction.as_ref().map_or(energy, |friction| energy + friction.energy())
+    }
+
+    /// Friction force on the body in the last step, positive to the right of the normal [force].
+    pub(super) fn friction_force(&self) -> f64 {
+        self.friction.as_ref().map_or(0.0, |friction| friction.last())
     }
 
     /// Contact force in the last step, averaged over the step [force].
@@ -448,11 +585,17 @@ impl ContactPoint {
     pub(super) fn save(&self, state: &mut Vec<f64>) {
         let Self { gap, approach, last_rate, tension, .. } = self;
         state.extend([gap.value, gap.rest, *approach, *last_rate, tension.last]);
+        if let Some(friction) = &self.friction {
+            friction.save(state);
+        }
     }
 
     pub(super) fn restore(&mut self, next: &mut dyn FnMut() -> f64) {
         self.gap = Coordinate { value: next(), rest: next() };
         (self.approach, self.last_rate, self.tension.last) = (next(), next(), next());
+        if let Some(friction) = &mut self.friction {
+            friction.restore(next);
+        }
     }
 }
 
@@ -469,10 +612,9 @@ pub(super) struct ClosedContact {
 }
 
 impl ClosedContact {
-    /// Tension for a velocity of the point, along the gradient of the gap [force].
-    pub(super) fn force(&self, velocity: Vec2) -> Vec2 {
-        let damped = self.tension.force + self.damping * self.gradient.dot(&velocity);
-        self.gradient * damped.min(0.0)
+    /// Tension for a velocity of the point [force].
+    fn tension(&self, velocity: Vec2) -> f64 {
+        (self.tension.force + self.damping * self.gradient.dot(&velocity)).min(0.0)
     }
 }
 
@@ -486,7 +628,7 @@ mod tests {
         let (point, normal) = (Vec2::zeros(), Vec2::y());
         let shape = ObstacleShape::HalfPlane { point, normal };
         let law = ContactLaw::HalfPlane { stiffness: 1e4 };
-        let surface = Surface { shape, radius: 0.0, law, damping: 1.0 };
+        let surface = Surface { shape, radius: 0.0, law, damping: 1.0, friction: 0.0 };
         let rotations = RotationIncrement::TangentScaled;
         let rates = RateCollocation { fraction: 0.5, by_change: 100.0, by_last: 0.0, rotations };
         let time = |stage| ContactTime { stage, weight: 1.0, rates: Some(rates), duration: 0.01 };
