@@ -265,6 +265,56 @@ mod tests {
         }
     }
 
+    /// Equations of a rigid body in a step of length `h`: a point with the stiffness `k`, its link, and the body.
+    /// The solution is known: all displacements are one, and the link carries the force two. `order` numbers the unknowns.
+    fn linked_point(h: f64, k: f64, order: &[usize; 7]) -> (BandedMatrix, [f64; 7], [f64; 7]) {
+        let [px, py, fx, fy, x, y, turn] = *order;
+        let (arm, inertia) = ([0.25, -0.5], 2.0 / (h * h));
+        let mut matrix = BandedMatrix::zeros(7, 6);
+        for (at, diagonal) in [(px, k), (py, k), (x, inertia), (y, inertia), (turn, inertia)] {
+            matrix.add(at, at, diagonal);
+        }
+        let links = [(px, fx, x, arm[0]), (py, fy, y, arm[1])];
+        for (point, force, centre, arm) in links {
+            for (at, share) in [(point, 1.0), (centre, -1.0), (turn, -arm)] {
+                matrix.add(at, force, share / h);
+                matrix.add(force, at, share);
+            }
+        }
+        let mut solution = [1.0; 7];
+        let mut right = [0.0; 7];
+        for (point, force, centre, arm) in links {
+            (solution[point], solution[force]) = (1.0 + arm, 2.0 * h);
+            right[point] = k * (1.0 + arm) + 2.0;
+            right[centre] = inertia - 2.0;
+            right[turn] -= 2.0 * arm;
+        }
+        right[turn] += inertia;
+        (matrix, right, solution)
+    }
+
+    #[test]
+    fn a_point_almost_without_stiffness_is_held_by_its_link() {
+        let orders = [[0, 1, 2, 3, 4, 5, 6], [6, 5, 4, 3, 2, 1, 0], [3, 5, 0, 6, 1, 2, 4]];
+        for power in (0..42).step_by(3) {
+            let h = 2_f64.powi(-power);
+            for stiffness in [0.0, 1e-300, 1e-100, 1e-12, 1e-6, 1.0, 1e6, 1e12] {
+                for order in &orders {
+                    let (mut matrix, mut x, solution) = linked_point(h, stiffness / (h * h), order);
+                    matrix.weigh_rows();
+                    matrix.factorise().unwrap().solve(&mut x);
+                    // The forces of the links are the small differences of the inertia forces.
+                    let forces = [order[2], order[3]];
+                    let size =
+                        |at: usize| if forces.contains(&at) { (2.0 + stiffness) / h } else { 1.0 };
+                    let errors = (0..7).map(|at| (x[at] - solution[at]).abs() / size(at));
+                    let worst = errors.fold(0.0, f64::max);
+                    assert!(worst < 1e-5, "h {h:e}, k {stiffness:e}, {order:?}: {worst:e} {x:?}");
+                }
+            }
+        }
+    }
+
     #[test]
     fn an_infinite_entry_is_refused() {
         let mut matrix = BandedMatrix::zeros(2, 1);

@@ -5,6 +5,10 @@ use std::ops::Range;
 use super::elimination::{PANEL, SMALLEST_HALF_BANDWIDTH};
 use crate::elementary::square;
 
+/// Largest ratio of the two largest scaled entries in the row of a constraint, squared.
+/// Elimination with the smaller diagonal entry loses half of the digits at this ratio. Corrections with the same factors recover them.
+const LARGEST_RATIO: f64 = 1e8;
+
 /// Rows of a banded matrix, and data for the elimination.
 ///
 /// The rows are followed by identity rows, which complete the last panel, and by zero rows, which the elimination may read.
@@ -116,6 +120,8 @@ impl Storage {
 
     /// Sets the squared sizes of the rows to their diagonal entries, as if rows and columns were scaled to a unit diagonal.
     /// Rows of constraints have no diagonal entry. Their size is the largest scaled entry.
+    /// If one scaled entry is far above all others, its diagonal entry is negligible and would be an inaccurate pivot.
+    /// The size is then limited, so that the row of the constraint becomes the pivot row.
     /// Rows that are coupled only to constraints are treated like rows of constraints.
     pub(super) fn weigh_rows(&mut self) {
         let (stride, centre) = (self.stride(), self.centre());
@@ -139,11 +145,15 @@ impl Storage {
         };
         for (row, size) in sizes[..size].iter_mut().enumerate().filter(|(_, size)| **size == 0.0) {
             let by_known = |column| square(entry(row, column)) / entry(column, column).abs();
-            let coupled = near(row).filter(|column| entry(row, *column) != 0.0);
+            let coupled = || near(row).filter(|column| entry(row, *column) != 0.0);
             let by_constraint = |column| square(entry(row, column)) / of_column(column);
-            *size = largest(&mut known(row).map(by_known));
+            *size = if coupled().all(|column| entry(column, column) != 0.0) {
+                largest_of_two(known(row).map(by_known))
+            } else {
+                largest(&mut known(row).map(by_known))
+            };
             if *size == 0.0 {
-                *size = largest(&mut coupled.map(by_constraint).filter(|size| size.is_finite()));
+                *size = largest(&mut coupled().map(by_constraint).filter(|size| size.is_finite()));
             }
             // A row without entries has the size zero.
             if *size == 0.0 {
@@ -151,6 +161,14 @@ impl Storage {
             }
         }
     }
+}
+
+/// Largest value, or the second largest positive value times [`LARGEST_RATIO`] if this is smaller.
+fn largest_of_two(values: impl Iterator<Item = f64>) -> f64 {
+    let [largest, second] = values.fold([0.0, 0.0], |[largest, second], value: f64| {
+        [value.max(largest), value.min(largest).max(second)]
+    });
+    if second > 0.0 { largest.min(LARGEST_RATIO * second) } else { largest }
 }
 
 impl Factors<'_> {

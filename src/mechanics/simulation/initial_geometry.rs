@@ -1,15 +1,17 @@
-//! Cached properties of the initial configuration of a scene.
+//! Properties of the initial configuration of a scene.
 
 use std::cell::OnceCell;
 
-use super::Outline;
+use super::{Outline, Warning};
 use crate::system::SystemError;
 
-/// Cached properties of the initial configuration: outlines of the beams, and the lowest period of vibration.
+/// Properties of the initial configuration: cached outlines of the beams, the cached lowest period of vibration, and warnings.
 #[derive(Debug, Default)]
 pub(super) struct InitialGeometry {
     outlines: OnceCell<Vec<Outline>>,
     lowest_period: OnceCell<Option<f64>>,
+    /// Warnings about bodies that start inside an obstacle.
+    pub(super) warnings: Vec<Warning>,
 }
 
 impl InitialGeometry {

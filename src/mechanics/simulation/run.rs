@@ -92,8 +92,11 @@ impl Simulation {
         settings: SimulationSettings,
         goes_on: &mut dyn FnMut() -> bool,
     ) -> Result<Self, SimulationError> {
-        let model = System::assemble_in_motion(&scene, goes_on)?;
-        Self::of(scene, model, settings)
+        let mut model = System::assemble_in_motion(&scene, goes_on)?;
+        let penetrations = model.start_penetrations();
+        let mut started = Self::of(scene, model, settings)?;
+        started.warn_of_penetrations(penetrations);
+        Ok(started)
     }
 
     /// Starts a simulation from an equilibrium with zero velocities, at t = 0.

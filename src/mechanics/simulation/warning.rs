@@ -176,6 +176,17 @@ pub enum Warning {
         /// Number of steps, duration and force of the bounce.
         bounce: ShortBounce,
     },
+    /// Body that starts inside an obstacle.
+    StartInside {
+        /// Type and name of the obstacle.
+        obstacle: String,
+        /// Type and name of the body with the largest stored energy.
+        body: String,
+        /// Largest penetration of the body [length].
+        depth: f64,
+        /// Energy that the contact of this body stores [energy].
+        energy: f64,
+    },
     /// Elastic contact of a slider that is shorter than a step.
     Bounce {
         /// Name of the slider.
@@ -207,6 +218,7 @@ impl Warning {
             // Warnings of the types `Schedule` and `Range` are given only once.
             Self::Schedule { .. } | Self::Range { .. } => 1.0,
             Self::Contact { bounce, .. } => bounce.force,
+            Self::StartInside { energy, .. } => *energy,
         }
     }
 
@@ -228,6 +240,7 @@ impl Warning {
             Self::Schedule { owner, .. } => Some(owner),
             Self::Range { law, .. } => Some(law),
             Self::Contact { object, .. } => Some(object),
+            Self::StartInside { obstacle, .. } => Some(obstacle),
         }
     }
 
@@ -423,6 +436,12 @@ impl fmt::Display for Warning {
                     }
                 }
             }
+            Self::StartInside { obstacle, body, depth, energy } => write!(
+                f,
+                "{body} starts inside {obstacle}, up to {} deep: the contact stores an energy of {}, which its loads do not explain and which throws it off. Move it out of the obstacle, or start from an equilibrium",
+                short(*depth),
+                short(*energy)
+            ),
             Self::Bounce { slider, dt, steps_per_impact: blows } => write!(
                 f,
                 "slider '{slider}' bounced off an elastic beam with dt = {}, which is {} times the longest duration of such an impact ({}): the beam was treated as rigid. Use dt below {} to resolve the waves, or give the slider a restitution",

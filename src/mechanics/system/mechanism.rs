@@ -15,6 +15,7 @@ mod release;
 mod rest;
 mod rigidity;
 mod seam_impact;
+mod start_penetration;
 mod state;
 mod static_order;
 mod step_power;

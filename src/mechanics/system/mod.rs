@@ -16,8 +16,8 @@ mod step_mean;
 pub use elements::{
     Along, Anchor, Branch, ContactState, ContactTarget, DampingLaw, Drag, Dragged, Drive,
     DriveKind, DriveState, Element, LawArgument, LoadAccount, MaterialDamping, MotionCurvature,
-    Obstacle, ObstacleShape, Origin, OutsideLaw, PointMass, ShortBounce, SpeedLaw, Spring,
-    SpringKind, SpringLaw, UnsampledChange,
+    Obstacle, ObstacleShape, Origin, OutsideLaw, Penetration, PointMass, ShortBounce, SpeedLaw,
+    Spring, SpringKind, SpringLaw, UnsampledChange,
 };
 pub(crate) use errors::rounded;
 pub use errors::{

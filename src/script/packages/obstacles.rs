@@ -43,8 +43,8 @@ pub const TABLE: BindingTable = BindingTable {
                 radius from the axis, so a disc rolls. Choose the stiffness so that the largest \
                 expected force gives a small penetration. With a restitution below 1 the contact \
                 is damped so that a resolved impact of a single mass rebounds with this fraction \
-                of its speed. sim.notes states impacts that the steps do not resolve. Default \
-                names: wall1, wall2, …")
+                of its speed. sim.notes states impacts that the steps do not resolve, and \
+                bodies that start inside an obstacle. Default names: wall1, wall2, …")
             .example("let ball = scene.particle([1, 2], 0.5, #{ name: \"ball\" });\n\
                       scene.gravity([0, -9.81]);\n\
                       scene.wall([0, -3], [0, 1], #{ stiffness: 1e4, restitution: 0.8, name: \"floor\" });\n\

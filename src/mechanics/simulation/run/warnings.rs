@@ -10,7 +10,8 @@ use crate::simulation::adaptive::Adaptive;
 use crate::simulation::warning::{LARGEST_ROTATION, MOST_SPANS, RateChangeCause, short};
 use crate::simulation::{Invariant, Sample, StepSize, Warning};
 use crate::system::{
-    LawArgument, Obstacle, RESOLVED_IMPACT, Resolution, SpringLaw, System, SystemFeature,
+    LawArgument, Obstacle, Penetration, RESOLVED_IMPACT, Resolution, SpringLaw, System,
+    SystemFeature,
 };
 use crate::vibration::{Modes, VibrationError};
 
@@ -147,7 +148,21 @@ impl Simulation {
             bounce,
         };
         notes.extend(bounces.map(warning));
+        notes.extend_from_slice(&self.initial_geometry.warnings);
         notes
+    }
+
+    /// Adds a warning for each obstacle, about the body whose contact stores the largest energy.
+    /// The penetrations are sorted by decreasing energy.
+    pub(super) fn warn_of_penetrations(&mut self, penetrations: Vec<(String, Penetration)>) {
+        for (obstacle, Penetration { body, depth, energy, .. }) in penetrations {
+            let obstacle = format!("obstacle '{obstacle}'");
+            let body = self.scene.name_of_body_at(body);
+            let warning = Warning::StartInside { obstacle, body, depth, energy };
+            if warning.is_new_or_worse(&self.initial_geometry.warnings) {
+                self.initial_geometry.warnings.push(warning);
+            }
+        }
     }
 
     fn is_unresolved(&self, resolution: &Resolution) -> bool {

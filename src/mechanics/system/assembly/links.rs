@@ -17,7 +17,7 @@ impl System {
         if self.links().forces() == 0 {
             return Ok(());
         }
-        let size = self.links().iter().map(|link| link.arm().norm()).fold(0.0, larger);
+        let size = self.links().largest_arm();
         let size = if size > 0.0 { size } else { 1.0 };
         let unknowns = self.unknown_movements();
         let mut matrix = BandedMatrix::zeros(unknowns.count(), unknowns.half_bandwidth());

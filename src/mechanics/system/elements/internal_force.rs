@@ -1,6 +1,8 @@
 //! Interface of elements that resist motion: springs, dampers, drag.
 
-use super::{Branch, ContactState, OutsideLaw, ShortBounce, TrialState, WorkAndImpulse};
+use super::{
+    Branch, ContactState, OutsideLaw, Penetration, ShortBounce, TrialState, WorkAndImpulse,
+};
 use crate::beams::{ForceSummary, Movement, SectionPlace, SpanStiffness};
 use crate::geometry::Vec2;
 use crate::integrators::Interval;
@@ -84,6 +86,11 @@ pub trait InternalForce {
     /// State of the contact with an obstacle; `None` for other elements.
     fn contact(&self, _bodies: &[Body]) -> Option<ContactState> {
         None
+    }
+
+    /// Bodies inside an obstacle at present.
+    fn penetrations(&self, _bodies: &[Body]) -> Vec<Penetration> {
+        Vec::new()
     }
 
     /// Branch of the law at the end of the last step; `None` for laws without sharp corners, or other elements.

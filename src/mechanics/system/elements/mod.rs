@@ -50,7 +50,7 @@ pub use internal_force::{InternalForce, SpringTrialState};
 pub use law_range::{LawArgument, OutsideLaw};
 pub use material_damping::MaterialDamping;
 pub use motion_curvature::MotionCurvature;
-pub use obstacle::{ContactState, ContactTarget, Obstacle, ObstacleShape};
+pub use obstacle::{ContactState, ContactTarget, Obstacle, ObstacleShape, Penetration};
 pub use point_mass::PointMass;
 pub use prescribed_movements::{DriveState, PrescribedMovement, PrescribedMovements};
 pub use schedule_check::{ScheduleCheck, UnsampledChange};

@@ -49,6 +49,11 @@ impl Links {
         self.rigid.iter()
     }
 
+    /// Largest arm of a rigid link; zero without links [length].
+    pub fn largest_arm(&self) -> f64 {
+        self.rigid.iter().map(|link| link.arm().norm()).fold(0.0, larger)
+    }
+
     pub fn rollers(&self) -> impl Iterator<Item = (usize, &InclinedRoller)> {
         self.rollers.iter().filter_map(|roller| Some((roller.unknown?, roller)))
     }

@@ -258,7 +258,8 @@ impl Mechanism for System {
         elements.begin_step((interval, stages), bodies, &motion.rates).map_err(refused)?;
         bodies.begin_step();
         let knows_accelerations = motion.accelerations.known().is_some();
-        step.begin(interval, knows_accelerations && elements.may_jump_at(interval.start));
+        let may_jump = knows_accelerations && elements.may_jump_at(interval.start);
+        step.begin(interval, links.largest_arm(), may_jump);
         let (factor, inertia) = (2.0 / interval.duration(), step.no_forces());
         bodies.add_inertia(factor, &motion.rates, inertia);
         elements.add_inertia(bodies, factor, &motion.rates, inertia);

@@ -361,6 +361,16 @@ impl Scene {
         }
     }
 
+    /// Description of the body with the given index in the model.
+    pub(crate) fn name_of_body_at(&self, index: usize) -> String {
+        let particle = index.checked_sub(self.beams.len());
+        self.name_of_body(&match particle {
+            None => Station::on_beam(index, 0.0),
+            Some(particle) if particle < self.particles.len() => Station::on_particle(particle),
+            Some(_) => Station::on_rigid_body(index - self.first_rigid_body(), 0),
+        })
+    }
+
     /// Description of a station.
     pub fn describe(&self, station: &Station) -> String {
         if let BodyIndex::Rigid(body, point) = station.body {

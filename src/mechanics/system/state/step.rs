@@ -14,6 +14,8 @@ pub struct StepMeasures {
     /// Largest contact force [force].
     pub contact: f64,
     pub rotations: RotationIncrement,
+    /// Largest arm of a rigid link [length]. The rounding errors of forces on a linked point act on its body with this arm.
+    pub arm: f64,
     /// True if loads may jump at the start of the step and the method has accelerations in its state.
     pub jumps: bool,
     /// Energy that dampers returned in the last backward substep [energy].
@@ -32,6 +34,7 @@ impl StepMeasures {
             loads: (0.0, 0.0),
             summary: ForceSummary::default(),
             contact: 0.0,
+            arm: 0.0,
             rotations: RotationIncrement::TangentScaled,
             jumps: false,
             returned: 0.0,
@@ -40,10 +43,11 @@ impl StepMeasures {
         }
     }
 
-    pub fn begin(&mut self, interval: Interval, jumps: bool) {
+    /// Prepares a step. `arm` is the largest arm of a rigid link [length].
+    pub fn begin(&mut self, interval: Interval, arm: f64, jumps: bool) {
         let (returned, scratch) = (self.returned, std::mem::take(&mut self.scratch));
         let inertia_solver = self.inertia_solver.take();
-        *self = Self { interval, jumps, returned, scratch, inertia_solver, ..Self::new(0) };
+        *self = Self { interval, arm, jumps, returned, scratch, inertia_solver, ..Self::new(0) };
     }
 
     pub fn no_forces(&mut self) -> &mut [f64] {
@@ -56,9 +60,9 @@ impl StepMeasures {
         self.summary.force + self.inertia.0 + self.loads.0 + self.contact
     }
 
-    /// Sum of the largest section, inertia and load moments [force·length].
+    /// Sum of the largest section, inertia and load moments, and of the moment of the largest forces at a rigid link [force·length].
     fn moment(&self) -> f64 {
-        self.summary.moment + self.inertia.1 + self.loads.1
+        self.summary.moment + self.inertia.1 + self.loads.1 + self.arm * self.force()
     }
 
     /// Residual force as a fraction of the force scale [-].

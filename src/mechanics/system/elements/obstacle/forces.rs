@@ -13,7 +13,7 @@
 use super::definition::ObstacleShape;
 use super::point::{ClosedContact, ContactPoint, ContactTime, Surface};
 use crate::beams::{ForceSummary, Movement, SpanStiffness};
-use crate::geometry::{Vec2, perpendicular};
+use crate::geometry::{Vec2, larger, perpendicular};
 use crate::integrators::{Interval, Stage};
 use crate::linalg::BandedMatrix;
 use crate::system::bodies::Body;
@@ -33,6 +33,19 @@ pub struct ContactState {
     pub gap: f64,
     /// Number of contact points with a negative gap.
     pub closed: usize,
+}
+
+/// Body whose contact points lie inside an obstacle.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Penetration {
+    /// Index of the body in the model.
+    pub body: usize,
+    /// Largest penetration of a contact point [length].
+    pub depth: f64,
+    /// Sum of the elastic contact forces on the body [force].
+    pub force: f64,
+    /// Stored energy of these contacts [energy].
+    pub energy: f64,
 }
 
 /// Contact points of one body.
@@ -275,6 +288,22 @@ impl InternalForce for ObstacleForces {
         let closed = self.points().filter(|point| point.is_closed()).count();
         let friction = self.points().map(ContactPoint::friction_force).sum();
         Some(ContactState { force: self.last_force, friction, gap, closed })
+    }
+
+    fn penetrations(&self, bodies: &[Body]) -> Vec<Penetration> {
+        let all = self.bodies.iter().map(|own| {
+            let body = &bodies[own.body];
+            let (mut depth, mut energy, mut force) = (0.0, 0.0, Vec2::zeros());
+            for point in &own.points {
+                if let Some(contact) = point.closed(&self.surface, body) {
+                    depth = larger(depth, -point.present_gap(&self.surface, body));
+                    energy += point.energy(&self.surface);
+                    force += contact.gradient * contact.tension.force;
+                }
+            }
+            Penetration { body: own.body, depth, force: force.norm(), energy }
+        });
+        all.filter(|one| one.depth > 0.0).collect()
     }
 
     fn short_bounce(&self) -> Option<ShortBounce> {

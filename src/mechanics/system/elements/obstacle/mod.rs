@@ -10,4 +10,4 @@ mod law;
 mod point;
 
 pub use definition::{ContactTarget, Obstacle, ObstacleShape};
-pub use forces::ContactState;
+pub use forces::{ContactState, Penetration};

@@ -1,0 +1,56 @@
+//! Bodies that start inside an obstacle.
+
+use super::System;
+use crate::geometry::Vec2;
+use crate::integrators::Stage;
+use crate::system::elements::{InternalForce, Penetration, TrialState};
+
+/// Ratio of the contact force to the other forces on a body, up to which these forces explain the penetration.
+const EXPLAINED: f64 = 2.0;
+
+/// Penetration that rounding of the coordinates explains, as a fraction of the largest coordinate of the body.
+const ROUNDING: f64 = 1e-12;
+
+impl System {
+    /// Bodies inside obstacles at the start, with the names of the obstacles, sorted by decreasing energy.
+    /// Penetrations that weight, loads and springs explain are left out.
+    pub(crate) fn start_penetrations(&mut self) -> Vec<(String, Penetration)> {
+        let bodies = &self.bodies;
+        let inside = self.elements.resistances().flat_map(|obstacle| {
+            let all = obstacle.penetrations(bodies).into_iter();
+            all.map(|one| (obstacle.name().to_owned(), one))
+        });
+        let mut inside: Vec<_> = inside.filter(|(_, one)| one.depth > self.rounding(one)).collect();
+        // A load without a value is reported by the first step.
+        if !inside.is_empty() && self.elements.evaluate_after(self.motion.time).is_ok() {
+            let others = self.resultants_without_contact();
+            inside.retain(|(_, one)| one.force > EXPLAINED * others[one.body].norm());
+        }
+        inside.sort_by(|(_, a), (_, b)| b.energy.total_cmp(&a.energy));
+        inside
+    }
+
+    fn rounding(&self, Penetration { body, .. }: &Penetration) -> f64 {
+        let points = self.bodies[*body].dynamics.control_points();
+        ROUNDING * points.iter().map(Vec2::amax).fold(0.0, f64::max)
+    }
+
+    /// Sums of the forces of loads, weight, springs and dampers on each body [force].
+    fn resultants_without_contact(&mut self) -> Vec<Vec2> {
+        let rates = self.bodies.by_control_point(&self.motion.rates);
+        let joined = self.bodies.number_separately();
+        let mut forces = vec![0.0; joined.iter().map(|body| 3 * body.len()).sum()];
+        let at =
+            TrialState { bodies: &self.bodies, stage: Stage::End, increments: &[], weight: 1.0 };
+        self.elements.subtract_from(at, &mut forces);
+        let is_obstacle = |one: &dyn InternalForce| one.contact(&self.bodies).is_some();
+        let others = self.elements.resistances().filter(|one| !is_obstacle(*one));
+        others.for_each(|one| one.add_forces_at_start(&self.bodies, &rates, &mut forces));
+        self.bodies.number_as(joined);
+        let mut points = forces.chunks_exact(3).map(|force| Vec2::new(force[0], force[1]));
+        rates
+            .iter()
+            .map(|points_of_body| points.by_ref().take(points_of_body.len()).sum())
+            .collect()
+    }
+}
