@@ -254,8 +254,12 @@ impl LineChart {
             let (colour, stroke) = default_style(index, series);
             LegendEntry { name: series.name.clone(), colour, stroke, marker: series.marker }
         };
+        let is_axis = |name: &str| {
+            let unit = self.y_label.strip_prefix(name);
+            unit.is_some_and(|unit| unit.is_empty() || unit.starts_with(" ["))
+        };
         match self.series.as_slice() {
-            [only] if only.name == self.title || only.name == self.y_label => Vec::new(),
+            [only] if only.name == self.title || is_axis(&only.name) => Vec::new(),
             all => all
                 .iter()
                 .enumerate()
@@ -357,6 +361,8 @@ mod tests {
     fn a_lone_series_named_like_the_axis_needs_no_legend() {
         let chart = LineChart::new("t").y_label("energy").series(Series::new("energy", vec![]));
         assert!(chart.legend().is_empty());
+        assert!(chart.clone().y_label("energy [J]").legend().is_empty());
+        assert_eq!(chart.clone().y_label("energy loss").legend().len(), 1);
         assert_eq!(chart.series(Series::new("work", vec![])).legend().len(), 2);
     }
 

@@ -39,6 +39,8 @@ impl CurveAbscissa {
 pub struct PlotCurve {
     pub name: String,
     pub over: CurveAbscissa,
+    /// Dimension of the values, if it is known.
+    pub dimension: Option<&'static str>,
     pub points: Vec<Point>,
 }
 
@@ -229,7 +231,8 @@ mod tests {
     #[test]
     fn a_curve_has_a_summary() {
         let points = vec![(0.0, 2.0), (0.1, -1.0), (0.2, 1.5)];
-        let curve = |over| PlotCurve { name: "f".into(), over, points: points.clone() };
+        let curve =
+            |over| PlotCurve { name: "f".into(), over, dimension: None, points: points.clone() };
         let message = "f: 2 at the start, minimum -1, maximum 2, now 1.5 (3 states)";
         assert_eq!(summary(&curve(CurveAbscissa::Time)), message);
         let message = "f: 2 at the first, minimum -1, maximum 2, 1.5 at the last (3 points)";

@@ -197,6 +197,17 @@ fn a_terminal_gets_a_chart_and_the_words() {
     let (chart, told) = prompt.ask_both(":plot 10 * sim.t, energy");
     assert!(chart.starts_with("10 * sim.t, energy\na 10 * sim.t   b energy\n"), "{chart}");
     assert!(told.contains("in all 6 states"), "{told}");
+    for units in [":plot energy momentum_x", ":plot energy, momentum_x, #{ x_log: false }"] {
+        let charts = prompt.ask(units);
+        let headings: Vec<&str> =
+            charts.lines().filter(|line| line.starts_with(char::is_alphabetic)).collect();
+        assert!(
+            matches!(headings[..], [a, b] if a.starts_with("energy") && b.starts_with("momentum")),
+            "{charts}"
+        );
+    }
+    let told = prompt.refusal(":plot energy momentum_x #{ y_limits: [0, 1] }");
+    assert!(told.contains("'y_limits' is for one axis, but the columns have 2 units"), "{told}");
 }
 
 #[test]

@@ -144,10 +144,35 @@ fn magnified_displacements_are_as_many_times_as_large() {
     let plain = axis("");
     assert_eq!(plain, axis("").as_str());
     let one = axis(", magnify: 1");
-    assert!(words(&one).contains(&"displacements since the start, magnified 1 times"));
+    assert!(words(&one).contains(&"deformations since the start, magnified 1 times"));
     let lines = |svg: &str| svg.matches("<polyline").count();
     assert_eq!(lines(&one), lines(&plain));
     assert_ne!(axis(", magnify: 5"), one);
+}
+
+#[test]
+fn what_travels_is_not_magnified() {
+    let largest = |scene: &str, options: &str| {
+        let svg = picture(&format!(
+            "{scene}\nlet sim = scene.start(#{{ dt: 0.01 }});\nsim.run_to(1);\nplot_motion(sim, \"it.svg\", #{{ every: 10, {options} }});"
+        ));
+        let words = words(&svg);
+        let frame = words.iter().take_while(|word| **word != "t");
+        let numbers = frame.filter_map(|word| word.replace('\u{2212}', "-").parse::<f64>().ok());
+        numbers.fold(0.0, |most: f64, number| most.max(number.abs()))
+    };
+    let bridge = "scene = new_scene(\"bridge\");
+rod = scene.beam(#{ name: \"rod\", axis: line([0, 0], [20, 0]), basis: bspline(8), section: s });
+scene.hinge(rod.start);\nscene.support(rod.end, #{ y: true });
+let cart = scene.particle([2, 0], 1, #{ velocity: [10, 0] });\nscene.slider(cart, rod);\nscene.gravity([0, -1]);";
+    assert_eq!(largest(bridge, "magnify: 1"), largest(bridge, ""));
+    let seen = largest(bridge, "magnify: 20");
+    assert!(seen <= 25.0, "{seen}");
+    let pendulum = "scene = new_scene(\"pendulum\");
+rod = scene.beam(#{ name: \"rod\", axis: line([0, 0], [2, 0]), basis: bspline(8), section: s });
+scene.hinge(rod.start);\nscene.gravity([0, -10]);";
+    let seen = largest(pendulum, "magnify: 20");
+    assert!(seen <= 2.5, "{seen}");
 }
 
 #[test]
@@ -158,5 +183,36 @@ a.run_to(0.4);\nb.run_to(0.4);\nplot_history([a, b], [\"strain\"], \"it.svg\", #
     );
     let words = words(&svg);
     assert!(words.contains(&"first") && words.contains(&"second"), "{words:?}");
-    assert_eq!(words.iter().filter(|word| **word == "energy").count(), 1, "{words:?}");
+    assert_eq!(words.iter().filter(|word| **word == "strain [energy]").count(), 1, "{words:?}");
+}
+
+#[test]
+fn columns_of_each_unit_have_a_panel_with_their_names() {
+    let drawn = |of: &str, options: &str| {
+        format!(
+            "scene.record(\"rod.end.y\");
+let a = scene.start(#{{ name: \"first\", dt: 0.1 }});\nlet b = scene.start(#{{ name: \"second\", dt: 0.05 }});
+a.run_to(0.4);\nb.run_to(0.4);
+plot_history({of}, [\"strain\", \"rod.end.y\", \"retries\", \"kinetic\"], \"it.svg\", #{{ {options} }});"
+        )
+    };
+    let labels = ["energy", "rod.end y [length]", "retries"];
+    for (of, options, copies) in
+        [("a", "", 1), ("[a, b]", "", 2), ("[a, b]", "axes: \"shared\"", 1)]
+    {
+        let svg = picture(&drawn(of, options));
+        let words = words(&svg);
+        for label in labels {
+            let count = words.iter().filter(|word| **word == label).count();
+            assert_eq!(count, copies, "{options} {label} {words:?}");
+        }
+        assert!(!words.contains(&"-"), "{words:?}");
+    }
+    let svg = picture(&drawn("a", "panels: \"one\", y_label: \"all\""));
+    assert!(words(&svg).contains(&"all") && words(&svg).contains(&"retries"));
+    let message = refusal(&drawn("a", "y_limits: [0, 1]"));
+    assert!(
+        message.contains("'y_limits' is for one axis, but the columns have 3 units"),
+        "{message}"
+    );
 }

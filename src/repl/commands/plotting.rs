@@ -5,6 +5,7 @@ use std::collections::BTreeSet;
 use rhai::Map;
 
 use super::inspection::{draw, options_of};
+use crate::output::LineChart;
 use crate::repl::curves::{CurveAbscissa, PlotCurve, PlotShape, parts, shape, summary};
 use crate::repl::history_expression::{Followed, evaluate_history, moves};
 use crate::repl::session::Reply;
@@ -13,7 +14,7 @@ use crate::script::diagnose::Diagnostic;
 use crate::script::handles::simulation::{Revisit, SimulationHandle};
 use crate::script::messages::error::ScriptError;
 use crate::script::messages::nouns::with_article;
-use crate::script::packages::pictures::curves::typed_chart;
+use crate::script::packages::pictures::curves::typed_charts;
 use crate::script::presentation::plots;
 use crate::script::source::scanner::{TokenKind, scan};
 use crate::simulation::History;
@@ -165,10 +166,8 @@ fn plot_curves(shell: &mut Shell, found: Vec<PlotPart>, options: Option<Map>) ->
     }
     let is_one_state =
         |curve: &PlotCurve| curve.over == CurveAbscissa::Time && curve.points.len() == 1;
-    let drawn = curves.iter().map(|curve| (curve.name.clone(), curve.points.clone())).collect();
-    let engine = shell.session().engine();
-    let chart = match typed_chart(engine, &options.unwrap_or_default(), first.label(), drawn) {
-        Ok(chart) => chart,
+    let charts = match charts(shell, &options.unwrap_or_default(), &curves, first.label()) {
+        Ok(charts) => charts,
         Err(error) => return shell.report_native_error(error),
     };
     match shell.screen() {
@@ -178,11 +177,27 @@ fn plot_curves(shell: &mut Shell, found: Vec<PlotPart>, options: Option<Map>) ->
         ReplyTarget::Pipe => {
             curves.iter().for_each(|curve| shell.print(&summary(curve)));
         }
-        ReplyTarget::Terminal(style) => shell.print(chart.text(&style).trim_end()),
+        ReplyTarget::Terminal(style) => {
+            shell.print(plots::stacked_text(&charts, &style).trim_end());
+        }
     }
     said.iter().for_each(|words| shell.print_note(words));
     print_single_state_note(shell);
     CommandOutcome::Success
+}
+
+/// Charts of curves, one for each dimension. Values of expressions are drawn with the first column, because their dimension is not known.
+fn charts(
+    shell: &Shell,
+    options: &Map,
+    curves: &[PlotCurve],
+    over: &str,
+) -> Result<Vec<LineChart>, ScriptError> {
+    let first = curves.iter().find_map(|curve| curve.dimension);
+    let groups = plots::by_dimension(curves, |curve| curve.dimension.or(first));
+    let plain = |curve: PlotCurve| (curve.name, curve.points);
+    let groups = groups.into_iter().map(|group| group.into_iter().map(plain).collect());
+    typed_charts(shell.session().engine(), options, over, groups.collect())
 }
 
 type PlotData = Result<(Vec<PlotCurve>, Option<String>), CommandOutcome>;
@@ -200,7 +215,8 @@ fn columns(shell: &mut Shell, names: &[String]) -> PlotData {
         };
         let times = history.samples().iter().map(|row| row.measures.time);
         let points = times.zip(values).collect();
-        curves.push(PlotCurve { name: name.clone(), over: CurveAbscissa::Time, points });
+        let (name, dimension) = (name.clone(), history.dimension(name));
+        curves.push(PlotCurve { name, over: CurveAbscissa::Time, dimension, points });
     }
     Ok((curves, None))
 }
@@ -234,7 +250,8 @@ fn expression(shell: &mut Shell, text: &str) -> PlotData {
     let of = with_article(shell.session().engine().map_type_name(value.type_name()));
     let is_point = match shape(&value, &of) {
         PlotShape::Whole(over, points) => {
-            return Ok((vec![PlotCurve { name: text.to_owned(), over, points }], None));
+            let name = text.to_owned();
+            return Ok((vec![PlotCurve { name, over, dimension: None, points }], None));
         }
         PlotShape::None(why) => {
             let message = format!("'{text}' cannot be plotted: {why}");
@@ -264,6 +281,7 @@ fn expression(shell: &mut Shell, text: &str) -> PlotData {
     let curve = |name: String, read: fn(&PlotShape) -> f64| PlotCurve {
         name,
         over: CurveAbscissa::Time,
+        dimension: None,
         points: points.iter().map(|(time, point)| (*time, read(point))).collect(),
     };
     let x = |point: &PlotShape| match point {

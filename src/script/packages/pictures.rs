@@ -47,7 +47,8 @@ pub const TABLE: BindingTable = BindingTable {
             .with_related(&["plot", "plot_history", "plot_along", "plot_field"]),
         function("plot_history", &[RECORDED, COLUMNS, FILE, options("options", HISTORY_OPTIONS).optional()], plot_history)
             .summary("Plots columns of the history over time.")
-            .doc("Each of several histories must have the named columns. With `error: true`, thin \
+            .doc("Columns of different units are drawn in panels below each other, one for each \
+                unit. Each of several histories must have the named columns. With `error: true`, thin \
                 lines show the values plus and minus their estimated errors. Use `plot` for other \
                 numbers.")
             .example(

@@ -1,7 +1,9 @@
 //! Content of motion pictures, for files and terminals.
 
+use super::magnifier::{Magnifier, positions};
 use super::symbols::{SceneAt, symbols, uncrowded};
-use crate::beams::BodyPoint;
+use super::travel::number;
+use crate::beams::{BodyPoint, Station};
 use crate::geometry::Vec2;
 use crate::output::{
     AxisLimits, ConfigurationPicture, MotionFrame, MotionPicture, PictureMark, PlacedSymbol, Point,
@@ -9,6 +11,7 @@ use crate::output::{
 };
 use crate::script::messages::error::ScriptError;
 use crate::simulation::{Configuration, Simulation};
+use crate::system::SystemError;
 
 /// Largest number of spans for which knots are marked by default.
 const MOST_SPANS_WITH_DOTS: usize = 40;
@@ -64,20 +67,6 @@ pub struct MotionView {
     limits: AxisLimits,
 }
 
-#[derive(Clone, Copy)]
-struct Magnifier(f64);
-
-impl Magnifier {
-    fn see(self, start: &Vec2, now: &Vec2) -> Point {
-        let seen = start + (now - start) * self.0;
-        (seen.x, seen.y)
-    }
-
-    fn all(self, start: &[Vec2], now: &[Vec2]) -> Vec<Point> {
-        start.iter().zip(now).map(|(start, now)| self.see(start, now)).collect()
-    }
-}
-
 impl MotionView {
     /// Collects the content from a simulation. `expect` checks each snapshot; its arguments are the requested and the recorded time.
     ///
@@ -90,27 +79,30 @@ impl MotionView {
     ) -> Result<Self, ScriptError> {
         let Times { from, to, .. } = wanted.times;
         let has_dots = wanted.dots.unwrap_or_else(|| has_room_for_dots(simulation));
-        let start = simulation.configuration_near(0.0)?;
+        let magnifier = magnifier(simulation, wanted.magnify)?;
         let mut snapshots = Vec::new();
         for time in times(simulation, &wanted.times)? {
             let Some(shown) = configuration(simulation, time)? else { continue };
             expect(time, shown.time)?;
-            let mut snapshot = match (&start, wanted.magnify) {
-                (Some(start), Some(factor)) => magnified(start, &shown, Magnifier(factor)),
-                _ => snapshot(&shown),
+            let mut snapshot = match &magnifier {
+                Some(magnifier) => snapshot(&magnifier.configuration(&shown)?),
+                None => snapshot(&shown),
             };
             if !has_dots {
                 snapshot.marks.clear();
             }
             snapshots.push(snapshot);
         }
-        let lens = Magnifier(wanted.magnify.unwrap_or(1.0));
         let path = |(name, place): &(String, BodyPoint)| {
             let path = simulation.path(place);
             let start = path.first().map(|(_, start)| *start);
-            let see = |now: &Vec2| match (wanted.magnify, start) {
-                (Some(_), Some(start)) => lens.see(&start, now),
-                _ => (now.x, now.y),
+            let factor = match &magnifier {
+                Some(of) if !of.travels(place.body) => wanted.magnify.unwrap_or(1.0),
+                _ => 1.0,
+            };
+            let see = |now: &Vec2| {
+                let seen = start.map_or(*now, |start| start + (now - start) * factor);
+                (seen.x, seen.y)
             };
             let mut seen: Vec<Point> = path
                 .iter()
@@ -139,7 +131,7 @@ impl MotionView {
         let picture = match self.magnify {
             Some(factor) => {
                 let factor = significant(factor, DIGITS);
-                picture.caption(format!("displacements since the start, magnified {factor} times"))
+                picture.caption(format!("deformations since the start, magnified {factor} times"))
             }
             None => picture,
         };
@@ -212,7 +204,7 @@ fn times(simulation: &Simulation, times: &Times) -> Result<Vec<f64>, ScriptError
 }
 
 /// Recorded configuration nearest to a time. For the present time, the present configuration, even if it is not recorded.
-fn configuration(simulation: &Simulation, time: f64) -> Result<Option<Configuration>, ScriptError> {
+fn configuration(simulation: &Simulation, time: f64) -> Result<Option<Configuration>, SystemError> {
     Ok(match time >= simulation.time() {
         true => Some(simulation.configuration()?),
         false => simulation.configuration_near(time)?,
@@ -238,17 +230,11 @@ pub fn snapshot(configuration: &Configuration) -> MotionFrame {
     }
 }
 
-fn magnified(start: &Configuration, now: &Configuration, lens: Magnifier) -> MotionFrame {
-    let all = |start: &[Vec<Vec2>], now: &[Vec<Vec2>]| {
-        start.iter().zip(now).map(|(start, now)| lens.all(start, now)).collect()
-    };
-    MotionFrame {
-        time: now.time,
-        lines: all(&start.lines, &now.lines),
-        bodies: all(&start.bodies, &now.bodies),
-        marks: lens.all(&start.marks, &now.marks),
-        particles: lens.all(&start.particles, &now.particles),
-    }
+fn magnifier(
+    simulation: &Simulation,
+    factor: Option<f64>,
+) -> Result<Option<Magnifier<'_>>, ScriptError> {
+    Ok(factor.map(|factor| Magnifier::new(simulation, factor)).transpose()?.flatten())
 }
 
 /// Symbols in the recorded configuration nearest to a time. Displacements are magnified.
@@ -260,14 +246,18 @@ pub fn placed(
     time: f64,
     magnify: Option<f64>,
 ) -> Result<Vec<PlacedSymbol>, ScriptError> {
-    let places = |stations: &[_]| {
-        let now = match time >= simulation.time() {
-            true => simulation.stations(stations)?,
-            false => simulation.stations_near(stations, time)?,
+    let magnifier = magnifier(simulation, magnify)?;
+    let places = |stations: &[Station]| {
+        let now = positions(simulation, stations, time)?;
+        let shown = configuration(simulation, time)?;
+        let (Some(magnifier), Some(shown)) = (magnifier, shown) else { return Ok(now) };
+        let bodies = magnifier.bodies(&shown)?;
+        let start = positions(simulation, stations, 0.0)?;
+        let pairs = stations.iter().zip(start.iter().zip(&now));
+        let see = |(station, (start, now)): (&Station, (&Vec2, &Vec2))| {
+            bodies.see(number(simulation.scene(), station), *start, *now)
         };
-        let Some(factor) = magnify else { return Ok(now) };
-        let start = simulation.stations_near(stations, 0.0)?;
-        Ok(start.iter().zip(now).map(|(start, now)| start + (now - start) * factor).collect())
+        Ok(pairs.map(see).collect())
     };
     Ok(symbols(&SceneAt::of(simulation, time), places)?)
 }

@@ -11,6 +11,8 @@ use crate::script::messages::suggest::nearest;
 use crate::simulation::{Configuration, History, Invariant, Simulation};
 
 const DIGITS: usize = 6;
+/// Smallest height of one of several charts in a terminal [lines].
+const LEAST_HEIGHT: usize = 9;
 
 /// Chart of history columns as functions of time, as text for a terminal.
 ///
@@ -22,7 +24,32 @@ pub fn history_chart(
     style: &TerminalStyle,
 ) -> Result<String, ScriptError> {
     expect_columns(history, columns)?;
-    Ok(history_lines(history, columns).text(style))
+    let groups = by_dimension(columns, |name| history.dimension(name));
+    let charts = groups.iter().map(|columns| history_lines(history, columns)).collect::<Vec<_>>();
+    Ok(stacked_text(&charts, style))
+}
+
+/// Text of charts below each other for a terminal. The charts share the height that `style` allows.
+pub fn stacked_text(charts: &[LineChart], style: &TerminalStyle) -> String {
+    let height = (style.height / charts.len().max(1)).max(LEAST_HEIGHT.min(style.height));
+    let style = TerminalStyle { height, ..*style };
+    charts.iter().map(|chart| chart.text(&style)).collect::<Vec<_>>().join("\n")
+}
+
+/// Groups of items with the same dimension, in the order of their first appearance.
+pub fn by_dimension<T: Clone>(
+    items: &[T],
+    dimension: impl Fn(&T) -> Option<&'static str>,
+) -> Vec<Vec<T>> {
+    let mut groups: Vec<(Option<&str>, Vec<T>)> = Vec::new();
+    for item in items {
+        let of = dimension(item);
+        match groups.iter_mut().find(|(other, _)| *other == of) {
+            Some((_, group)) => group.push(item.clone()),
+            None => groups.push((of, vec![item.clone()])),
+        }
+    }
+    groups.into_iter().map(|(_, group)| group).collect()
 }
 
 /// Checks the names of columns of a history.
@@ -41,7 +68,7 @@ pub fn expect_columns(history: &History, columns: &[String]) -> Result<(), Scrip
 pub fn history_lines(history: &History, columns: &[String]) -> LineChart {
     let title = columns.iter().map(|name| series_name(name)).collect::<Vec<_>>().join(", ");
     let label = match dimension_of(history, columns) {
-        "" | "-" => String::new(),
+        "" => String::new(),
         dimension => format!("[{dimension}]"),
     };
     line_chart(title, history, columns, History::column).y_label(label)
@@ -159,7 +186,7 @@ pub fn line_chart(
     columns: &[String],
     read: impl Fn(&History, &str) -> Option<Vec<f64>>,
 ) -> LineChart {
-    let chart = LineChart::new(title).x_label("t").y_label(dimension_of(history, columns));
+    let chart = LineChart::new(title).x_label("t").y_label(axis_label(history, columns));
     columns.iter().fold(chart, |chart, name| {
         let values = read(history, name).unwrap_or_default();
         chart.series(Series::new(series_name(name), over_time(history, values)))
@@ -188,10 +215,23 @@ fn series_name(column: &str) -> String {
     }
 }
 
-fn dimension_of(history: &History, names: &[String]) -> &'static str {
-    let mut dimensions = names.iter().map(|name| history.dimension(name).unwrap_or_default());
-    let first = dimensions.next().unwrap_or_default();
-    if dimensions.all(|dimension| dimension == first) { first } else { "" }
+/// Label of the vertical axis: the name of a single column, and the dimension.
+fn axis_label(history: &History, columns: &[String]) -> String {
+    match (columns, dimension_of(history, columns)) {
+        ([only], "") => series_name(only),
+        ([only], dimension) => format!("{} [{dimension}]", series_name(only)),
+        (_, dimension) => dimension.to_owned(),
+    }
+}
+
+/// Common dimension of columns. It is empty if the columns are numbers without a dimension or have different dimensions.
+fn dimension_of(history: &History, columns: &[String]) -> &'static str {
+    let groups = by_dimension(columns, |name| history.dimension(name));
+    let common = match groups.as_slice() {
+        [group] => group.first().and_then(|name| history.dimension(name)),
+        _ => None,
+    };
+    common.filter(|dimension| *dimension != "-").unwrap_or_default()
 }
 
 fn over_time(history: &History, values: Vec<f64>) -> Vec<(f64, f64)> {

@@ -5,7 +5,7 @@ use rhai::{Dynamic, Map};
 use super::files::{FILE, write_picture};
 use super::options::{
     LABELS, MARKERS, OptionError, TITLE, X_LABEL, X_LIMITS, X_LOG, Y_LABEL, Y_LIMITS, Y_LOG,
-    curves, labels, marked, with_options,
+    curves, expect_one_axis, labels, marked, with_options,
 };
 use crate::output::{LineChart, Point, Series};
 use crate::script::bindings::call::Call;
@@ -56,6 +56,9 @@ const OPTIONS: &[Parameter] =
 
 const MOST_CURVES: usize = 1000;
 
+/// Name and points of a curve.
+type Curve = (String, Vec<Point>);
+
 fn plot(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let options = call.options_or_defaults("options")?;
     let (x, y) = (curves(call, "x", 0)?, curves(call, "y", 1)?);
@@ -83,36 +86,52 @@ fn plot(call: &mut Call) -> Result<Dynamic, ScriptError> {
         let name = if count == 1 { String::new() } else { format!("curve {}", index + 1) };
         curves.push((name, x.iter().copied().zip(y).collect()));
     }
-    let chart = chart(&options, LineChart::new(title.as_str()), curves);
+    let named = labelled(&options, curves).map_err(|wrong| wrong.in_call(call))?;
+    let chart = chart(&options, LineChart::new(title.as_str()), named);
     write_picture(call, &chart.map_err(|wrong| wrong.in_call(call))?)
+}
+
+/// Curves with the names that the options give them.
+fn labelled(options: &Options, mut curves: Vec<Curve>) -> Result<Vec<Curve>, OptionError> {
+    let labels = labels(options, curves.len())?.unwrap_or_default();
+    curves.iter_mut().zip(labels).for_each(|(curve, label)| curve.0 = label);
+    Ok(curves)
 }
 
 fn chart(
     options: &Options,
     chart: LineChart,
-    curves: Vec<(String, Vec<Point>)>,
+    curves: Vec<Curve>,
 ) -> Result<LineChart, OptionError> {
-    let labels = labels(options, curves.len())?;
-    let named = curves.into_iter().enumerate().map(|(index, (name, points))| {
-        let label = labels.as_ref().map(|labels| labels[index].clone());
-        marked(options, index, Series::new(label.unwrap_or(name), points))
-    });
-    with_options(options, named.fold(chart, LineChart::series))
+    let series = curves.into_iter().enumerate();
+    let series = series.map(|(at, (name, points))| marked(options, at, Series::new(name, points)));
+    with_options(options, series.fold(chart, LineChart::series))
 }
 
-/// Chart of curves over the quantity `over` for the prompt. The options are those of `plot`.
+/// Charts of groups of curves over the quantity `over` for the prompt. The options are those of `plot`.
 ///
 /// # Errors
 /// Fails if an option is unknown or invalid.
-pub fn typed_chart(
+pub fn typed_charts(
     engine: &rhai::Engine,
     map: &Map,
     over: &str,
-    curves: Vec<(String, Vec<Point>)>,
-) -> Result<LineChart, ScriptError> {
+    groups: Vec<Vec<Curve>>,
+) -> Result<Vec<LineChart>, ScriptError> {
     let options = Options::read(engine, ":plot", OPTIONS, map)?;
-    let names = || curves.iter().map(|(name, _)| name.as_str()).collect::<Vec<_>>().join(", ");
-    let title = options.optional_text("title")?.map_or_else(names, |title| title.to_string());
-    let bare = LineChart::new(title).x_label(over);
-    chart(&options, bare, curves).map_err(|wrong| wrong.in_command(":plot"))
+    let title = options.optional_text("title")?;
+    let draw = || {
+        expect_one_axis(&options, groups.len())?;
+        let counts: Vec<usize> = groups.iter().map(Vec::len).collect();
+        let mut named = labelled(&options, groups.into_iter().flatten().collect())?.into_iter();
+        let draw_group = |count: usize| {
+            let curves: Vec<Curve> = named.by_ref().take(count).collect();
+            let names = curves.iter().map(|(name, _)| name.as_str()).collect::<Vec<_>>().join(", ");
+            let title = title.as_ref().map_or(names, |title| title.to_string());
+            chart(&options, LineChart::new(title).x_label(over), curves)
+        };
+        counts.into_iter().map(draw_group).collect()
+    };
+    let charts: Result<_, OptionError> = draw();
+    charts.map_err(|wrong| wrong.in_command(":plot"))
 }

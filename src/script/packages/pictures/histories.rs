@@ -4,17 +4,20 @@ use rhai::Dynamic;
 
 use super::files::write_picture;
 use super::options::{
-    MARKERS, X_LABEL, X_LIMITS, X_LOG, Y_LABEL, Y_LIMITS, Y_LOG, marked, with_options,
+    MARKERS, X_LABEL, X_LIMITS, X_LOG, Y_LABEL, Y_LIMITS, Y_LOG, expect_one_axis, marked,
+    with_options,
 };
 use super::subjects::histories_over_time;
 use crate::output::{AxisScale, LineChart, Page};
 use crate::script::bindings::call::Call;
+use crate::script::bindings::options::Options;
 use crate::script::bindings::parameter::{Parameter, Presence, array, boolean, choice, text};
 use crate::script::handles::history::HistoryHandle;
 use crate::script::messages::error::{CallPart, ScriptError};
 use crate::script::packages::error_estimates::{ERROR, wanted_estimate};
 use crate::script::packages::recording::expect_all_rows;
-use crate::script::presentation::plots::{drift_lines, line_chart};
+use crate::script::presentation::plots::{by_dimension, drift_lines, line_chart};
+use crate::script::studies::error_estimate::ErrorEstimate;
 use crate::simulation::History;
 
 pub const COLUMNS: Parameter = array("columns").doc("names of columns of the history");
@@ -23,6 +26,9 @@ pub const HISTORY_OPTIONS: &[Parameter] = &[
     choice("axes", &["own", "shared"])
         .or(Presence::Text("own"))
         .doc("axes of several simulations: \"own\" axes side by side, or one \"shared\" plot"),
+    choice("panels", &["by_unit", "one"])
+        .or(Presence::Text("by_unit"))
+        .doc("panels of columns with different units: one for each unit, or \"one\" for all"),
     boolean("logarithmic").doc("true for magnitudes on a logarithmic axis").optional(),
     boolean("average")
         .doc("true to plot the mean of each value and the one before, as `averaged` returns it")
@@ -37,61 +43,102 @@ pub const HISTORY_OPTIONS: &[Parameter] = &[
     MARKERS,
 ];
 
-fn write_charts(call: &Call, charts: Vec<LineChart>) -> Result<Dynamic, ScriptError> {
-    let mut charts = charts;
-    match charts.len() {
-        1 => write_picture(call, &charts.remove(0)),
-        _ => write_picture(call, &charts.into_iter().fold(Page::row(), Page::panel)),
-    }
-}
-
 pub fn plot_history(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let options = call.options_or_defaults("options")?;
-    let is_asked = |name: &str| options.boolean(name).unwrap_or(false);
-    let (scale, shown): (_, fn(f64) -> f64) = match is_asked("logarithmic") {
-        true => (AxisScale::Logarithmic, f64::abs),
-        false => (AxisScale::Linear, |value| value),
-    };
-    let read = if is_asked("average") { History::averaged } else { History::column };
     let histories = histories_over_time(call)?;
-    if is_asked("average") {
+    if options.boolean("average").unwrap_or(false) {
         let whose = histories.iter().map(|history| &history.of);
         whose.into_iter().try_for_each(|of| expect_all_rows(call, of, "`average`"))?;
     }
     let names = columns(call, &histories)?;
-    let title = options.optional_text("title")?;
-    let values = |history: &History, name: &str| {
-        read(history, name).map(|values| values.into_iter().map(shown).collect())
+    let groups = match options.text("panels")?.as_str() {
+        "one" => vec![names],
+        _ => histories[0].read(|history| by_dimension(&names, |name| history.dimension(name))),
     };
-    let chart = |of: &HistoryHandle| {
-        let title = title.clone().unwrap_or_else(|| of.of.name().to_owned());
-        of.read(|history| line_chart(title, history, &names, values))
-    };
-    let mut charts: Vec<LineChart> = histories.iter().map(chart).collect();
-    if options.text("axes")? == "shared" && charts.len() > 1 {
-        let title = options.optional_text("title")?.unwrap_or_default();
-        let named: Vec<String> = histories.iter().map(|of| of.of.name().to_owned()).collect();
-        charts = vec![LineChart::shared(title, named.into_iter().zip(charts))];
+    expect_one_axis(&options, groups.len()).map_err(|wrong| wrong.in_call(call))?;
+    let estimate = |of: &HistoryHandle| wanted_estimate(call, &options, &of.of);
+    let estimates = histories.iter().map(estimate).collect::<Result<_, _>>()?;
+    let charts_of = HistoryCharts { call, options: &options, histories, estimates };
+    let mut charts = Vec::new();
+    for (row, group) in groups.iter().enumerate() {
+        let of_row = charts_of.of(group)?.into_iter();
+        charts.extend(of_row.map(|chart| if row == 0 { chart } else { chart.title("") }));
     }
-    let dress = |chart: LineChart| {
-        let chart = chart.y_scale(scale).each(|at, series| marked(&options, at, series));
-        with_options(&options, chart).map_err(|wrong| wrong.in_call(call))
-    };
-    charts = charts.into_iter().map(dress).collect::<Result<_, _>>()?;
-    let is_shared = charts.len() < histories.len();
-    for (number, history) in histories.iter().enumerate() {
-        let Some(estimate) = wanted_estimate(call, &options, &history.of)? else { break };
-        for (column, name) in names.iter().enumerate() {
-            let errors = history.read(|rows| estimate.of_rows(name, rows));
-            let errors = errors.map_err(|error| error.at(CallPart::Key("error".into())))?;
-            let (chart, series) = match is_shared {
-                true => (0, number * names.len() + column),
-                false => (number, column),
-            };
-            charts[chart].add_band(series, &errors);
+    write_charts(call, charts, groups.len())
+}
+
+fn write_charts(
+    call: &Call,
+    mut charts: Vec<LineChart>,
+    rows: usize,
+) -> Result<Dynamic, ScriptError> {
+    match charts.len() {
+        1 => write_picture(call, &charts.remove(0)),
+        count => {
+            write_picture(call, &charts.into_iter().fold(Page::grid(count / rows), Page::panel))
         }
     }
-    write_charts(call, charts)
+}
+
+/// Histories with the options of their charts.
+struct HistoryCharts<'a> {
+    call: &'a Call<'a, 'a>,
+    options: &'a Options,
+    histories: Vec<HistoryHandle>,
+    estimates: Vec<Option<ErrorEstimate>>,
+}
+
+impl HistoryCharts<'_> {
+    fn is_asked(&self, name: &str) -> bool {
+        self.options.boolean(name).unwrap_or(false)
+    }
+
+    /// Charts of columns: one for each history, or one with shared axes.
+    fn of(&self, names: &[String]) -> Result<Vec<LineChart>, ScriptError> {
+        let title = self.options.optional_text("title")?;
+        let chart = |of: &HistoryHandle| {
+            let title = title.clone().unwrap_or_else(|| of.of.name().to_owned());
+            of.read(|history| line_chart(title, history, names, |of, name| self.values(of, name)))
+        };
+        let mut charts: Vec<LineChart> = self.histories.iter().map(chart).collect();
+        let is_shared = self.options.text("axes")? == "shared" && charts.len() > 1;
+        if is_shared {
+            let whose = self.histories.iter().map(|of| of.of.name().to_owned());
+            charts = vec![LineChart::shared(title.unwrap_or_default(), whose.zip(charts))];
+        }
+        charts = charts.into_iter().map(|chart| self.dressed(chart)).collect::<Result<_, _>>()?;
+        for (number, (history, estimate)) in self.histories.iter().zip(&self.estimates).enumerate()
+        {
+            let Some(estimate) = estimate else { break };
+            for (column, name) in names.iter().enumerate() {
+                let errors = history.read(|rows| estimate.of_rows(name, rows));
+                let errors = errors.map_err(|error| error.at(CallPart::Key("error".into())))?;
+                let (chart, series) = match is_shared {
+                    true => (0, number * names.len() + column),
+                    false => (number, column),
+                };
+                charts[chart].add_band(series, &errors);
+            }
+        }
+        Ok(charts)
+    }
+
+    fn values(&self, history: &History, name: &str) -> Option<Vec<f64>> {
+        let read = if self.is_asked("average") { History::averaged } else { History::column };
+        let mut values = read(history, name)?;
+        if self.is_asked("logarithmic") {
+            values.iter_mut().for_each(|value| *value = value.abs());
+        }
+        Some(values)
+    }
+
+    fn dressed(&self, mut chart: LineChart) -> Result<LineChart, ScriptError> {
+        if self.is_asked("logarithmic") {
+            chart = chart.y_scale(AxisScale::Logarithmic);
+        }
+        let chart = chart.each(|at, series| marked(self.options, at, series));
+        with_options(self.options, chart).map_err(|wrong| wrong.in_call(self.call))
+    }
 }
 
 fn columns(call: &Call, histories: &[HistoryHandle]) -> Result<Vec<String>, ScriptError> {
@@ -110,5 +157,5 @@ fn columns(call: &Call, histories: &[HistoryHandle]) -> Result<Vec<String>, Scri
 
 pub fn plot_drift(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let chart = |of: &HistoryHandle| of.read(|history| drift_lines(of.of.name(), history));
-    write_charts(call, histories_over_time(call)?.iter().map(chart).collect())
+    write_charts(call, histories_over_time(call)?.iter().map(chart).collect(), 1)
 }

@@ -27,7 +27,10 @@ pub const MOTION: &[Parameter] = &[
     array("trace").doc("stations whose paths are plotted").optional(),
     number("magnify")
         .positive()
-        .doc("magnification factor of displacements since the start")
+        .doc(
+            "magnification factor of deformations since the start; rigid motions of bodies that \
+            joints do not hold in place are not magnified",
+        )
         .optional(),
     boolean("dots")
         .doc("true to mark knots or nodes; default: true for up to 40 spans in total")

@@ -79,6 +79,18 @@ pub fn limits(options: &Options) -> Result<AxisLimits, OptionError> {
     Ok(AxisLimits { x: ends("x_limits")?, y: ends("y_limits")? })
 }
 
+/// Rejects a label or limits of the vertical axis if panels of different units have such axes.
+pub fn expect_one_axis(options: &Options, panels: usize) -> Result<(), OptionError> {
+    match [Y_LABEL, Y_LIMITS].into_iter().find(|option| options.has(option.name)) {
+        Some(Parameter { name, .. }) if panels > 1 => Err(OptionError {
+            key: name.to_owned(),
+            message: format!("'{name}' is for one axis, but the columns have {panels} units"),
+            hint: "plot the columns of each unit separately, or leave it out",
+        }),
+        _ => Ok(()),
+    }
+}
+
 /// Applies labels, scales and limits of the options to a chart.
 pub fn with_options(options: &Options, mut chart: LineChart) -> Result<LineChart, OptionError> {
     let limits = limits(options)?;

@@ -1,0 +1,228 @@
+//! Magnified deformations in pictures of motion.
+
+use super::travel::{Travel, first_rigid_body, number, sides};
+use crate::beams::Station;
+use crate::geometry::{Vec2, cross, perpendicular};
+use crate::joints::Partner;
+use crate::simulation::{Configuration, Simulation};
+use crate::system::SystemError;
+
+/// Magnification of deformations since the start.
+///
+/// Displacements of bodies that joints hold in place are magnified. Rigid motions of other bodies are not magnified.
+pub struct Magnifier<'a> {
+    simulation: &'a Simulation,
+    factor: f64,
+    travel: Travel,
+    start: Configuration,
+    /// Stations of joints of each body.
+    joints: Vec<Vec<Station>>,
+}
+
+/// Rigid motion of a body since the start.
+#[derive(Clone, Copy, Default)]
+struct RigidMotion {
+    from: Vec2,
+    to: Vec2,
+    /// Rotation: cosine and sine.
+    turn: Option<Vec2>,
+    /// Displacement that keeps joints and sliders at magnified bodies.
+    shift: Vec2,
+}
+
+/// Magnified positions at a time.
+pub struct MagnifiedBodies {
+    factor: f64,
+    motions: Vec<RigidMotion>,
+}
+
+impl MagnifiedBodies {
+    pub fn see(&self, body: usize, start: Vec2, now: Vec2) -> Vec2 {
+        let RigidMotion { from, to, turn, shift } = self.motions[body];
+        let arm = start - from;
+        let arm = turn.map_or(arm, |turn| arm * turn.x + perpendicular(arm) * turn.y);
+        let rest = to + arm;
+        rest + (now - rest) * self.factor + shift
+    }
+
+    fn see_all(&self, body: usize, start: &[Vec2], now: &[Vec2]) -> Vec<Vec2> {
+        start.iter().zip(now).map(|(start, now)| self.see(body, *start, *now)).collect()
+    }
+}
+
+impl<'a> Magnifier<'a> {
+    /// Magnifier of a simulation; `None` if nothing is recorded.
+    ///
+    /// # Errors
+    /// Fails if an axis has a point without a tangent.
+    pub fn new(simulation: &'a Simulation, factor: f64) -> Result<Option<Self>, SystemError> {
+        let Some(start) = simulation.configuration_near(0.0)? else { return Ok(None) };
+        let scene = simulation.scene();
+        let count = first_rigid_body(scene) + scene.rigid_bodies.len();
+        let mut joints = vec![Vec::new(); count];
+        sides(scene).for_each(|(station, ..)| joints[number(scene, &station)].push(station));
+        Ok(Some(Self { simulation, factor, travel: Travel::of(scene), start, joints }))
+    }
+
+    /// Returns true for a body whose rigid motion is not magnified.
+    pub fn travels(&self, body: usize) -> bool {
+        !self.travel.is_held(body)
+    }
+
+    /// Magnified configuration.
+    ///
+    /// # Errors
+    /// Fails if a station lies outside its beam.
+    pub fn configuration(&self, now: &Configuration) -> Result<Configuration, SystemError> {
+        let bodies = self.bodies(now)?;
+        let start = &self.start;
+        let first = self.simulation.scene().beams.len();
+        let lines = start.lines.iter().zip(&now.lines).enumerate();
+        let outlines = self.outlined().zip(start.bodies.iter().zip(&now.bodies));
+        let particles = start.particles.iter().zip(&now.particles);
+        let particles = (first..).zip(particles);
+        let owners = self.owners_of_marks();
+        let marks = owners.zip(start.marks.iter().zip(&now.marks));
+        Ok(Configuration {
+            time: now.time,
+            lines: lines.map(|(body, (start, now))| bodies.see_all(body, start, now)).collect(),
+            bodies: outlines.map(|(body, (start, now))| bodies.see_all(body, start, now)).collect(),
+            marks: marks.map(|(body, (start, now))| bodies.see(body, *start, *now)).collect(),
+            particles: particles
+                .map(|(body, (start, now))| bodies.see(body, *start, *now))
+                .collect(),
+        })
+    }
+
+    /// Rigid motions of all bodies.
+    ///
+    /// # Errors
+    /// Fails if a station lies outside its beam.
+    pub fn bodies(&self, now: &Configuration) -> Result<MagnifiedBodies, SystemError> {
+        let mut motions = Vec::new();
+        for (body, joints) in self.joints.iter().enumerate() {
+            let is_held = self.travel.is_held(body);
+            motions.push(if is_held {
+                RigidMotion::default()
+            } else {
+                self.motion(body, joints, now)?
+            });
+        }
+        let mut bodies = MagnifiedBodies { factor: self.factor, motions };
+        for (body, shift) in self.shifts(&bodies, now)? {
+            let group = self.travel.group(body);
+            for (other, motion) in bodies.motions.iter_mut().enumerate() {
+                if self.travel.group(other) == group {
+                    motion.shift = shift;
+                }
+            }
+        }
+        Ok(bodies)
+    }
+
+    /// Rigid motion of a body: that of its joints if there are several, otherwise the motion closest to that of its points.
+    fn motion(
+        &self,
+        body: usize,
+        joints: &[Station],
+        now: &Configuration,
+    ) -> Result<RigidMotion, SystemError> {
+        let [start, end] = [0.0, now.time].map(|time| positions(self.simulation, joints, time));
+        let joints = [start?, end?];
+        let all = [self.points(body, &self.start), self.points(body, now)];
+        let [from, to] =
+            if joints[0].is_empty() { &all } else { &joints }.each_ref().map(|points| mean(points));
+        let [start, now] = if joints[0].len() < 2 { all } else { joints };
+        let turn = start.iter().zip(&now).map(|(start, now)| {
+            let (start, now) = (start - from, now - to);
+            Vec2::new(start.dot(&now), cross(start, now))
+        });
+        let turn = turn.sum::<Vec2>();
+        let turn = (turn.norm() > 0.0).then(|| turn.normalize());
+        Ok(RigidMotion { from, to, turn, shift: Vec2::zeros() })
+    }
+
+    fn points(&self, body: usize, of: &Configuration) -> Vec<Vec2> {
+        let particle = body.checked_sub(self.simulation.scene().beams.len());
+        let Some(particle) = particle else { return of.lines[body].clone() };
+        let outline = self.outlined().position(|other| other == body);
+        let outline = outline.map_or(&[][..], |index| &of.bodies[index]);
+        [of.particles[particle]].iter().chain(outline).copied().collect()
+    }
+
+    /// Displacements of travelling bodies that keep them at magnified held bodies.
+    fn shifts(
+        &self,
+        bodies: &MagnifiedBodies,
+        now: &Configuration,
+    ) -> Result<Vec<(usize, Vec2)>, SystemError> {
+        let scene = self.simulation.scene();
+        let mut shifts = Vec::new();
+        for slider in &scene.sliders {
+            let body = number(scene, &slider.slave);
+            if self.travel.is_held(body) || self.travels(slider.master) || slider.track.is_some() {
+                continue;
+            }
+            let at = positions(self.simulation, &[slider.slave], now.time)?[0];
+            let seen = bodies.see_all(
+                slider.master,
+                &self.start.lines[slider.master],
+                &now.lines[slider.master],
+            );
+            shifts.extend(displacement(at, &now.lines[slider.master], &seen).map(|by| (body, by)));
+        }
+        for (station, partner, _) in sides(scene) {
+            let body = number(scene, &station);
+            let Partner::Station(other) = partner else { continue };
+            if self.travels(body) && !self.travels(number(scene, &other)) {
+                let [start, now] =
+                    [0.0, now.time].map(|time| positions(self.simulation, &[station], time));
+                shifts.push((body, (now?[0] - start?[0]) * (self.factor - 1.0)));
+            }
+        }
+        Ok(shifts)
+    }
+
+    /// Rigid bodies with an outline.
+    fn outlined(&self) -> impl Iterator<Item = usize> + '_ {
+        let scene = self.simulation.scene();
+        let bodies = (first_rigid_body(scene)..).zip(&scene.rigid_bodies);
+        bodies.filter(|(_, body)| body.links().next().is_some()).map(|(index, _)| index)
+    }
+
+    fn owners_of_marks(&self) -> impl Iterator<Item = usize> + '_ {
+        let meshes = self.simulation.model().meshes().iter().enumerate();
+        meshes.flat_map(|(beam, mesh)| std::iter::repeat_n(beam, mesh.basis().breaks().len()))
+    }
+}
+
+/// Positions of stations at the present time, or in the recorded configuration nearest to an earlier time [length].
+///
+/// # Errors
+/// Fails if a station lies outside its beam.
+pub fn positions(
+    simulation: &Simulation,
+    stations: &[Station],
+    time: f64,
+) -> Result<Vec<Vec2>, SystemError> {
+    match time >= simulation.time() && time > 0.0 {
+        true => simulation.stations(stations),
+        false => simulation.stations_near(stations, time),
+    }
+}
+
+fn mean(points: &[Vec2]) -> Vec2 {
+    points.iter().sum::<Vec2>() / points.len().max(1) as f64
+}
+
+/// Displacement between two polylines at the point of the first one that is nearest to a given point.
+fn displacement(at: Vec2, from: &[Vec2], to: &[Vec2]) -> Option<Vec2> {
+    let part = |index: usize| {
+        let along = from[index + 1] - from[index];
+        let part = ((at - from[index]).dot(&along) / along.norm_squared()).clamp(0.0, 1.0);
+        let on = |line: &[Vec2]| line[index] + (line[index + 1] - line[index]) * part;
+        ((at - on(from)).norm(), on(to) - on(from))
+    };
+    let parts = (0..from.len().saturating_sub(1)).map(part).filter(|(apart, _)| !apart.is_nan());
+    parts.min_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, displacement)| displacement)
+}
