@@ -250,6 +250,10 @@ impl StepSolver {
         if chord < SHORTEST_CHORD {
             return Err(StepError::Chord { interval, chord, iterations: report.iterations });
         }
+        if let Some(obstacle) = balance.mechanism.crossed_obstacle(balance.increments) {
+            let obstacle = obstacle.to_owned();
+            return Err(StepError::Crossing { interval, obstacle, iterations: report.iterations });
+        }
         let (_, constraints) = self.unknowns.split_at(self.free_increments.len());
         match mechanism.check_constraints(constraints) {
             Ok(()) => Ok(report),

@@ -97,6 +97,17 @@ pub enum StepError {
         chord: f64,
         iterations: usize,
     },
+    #[error(
+        "a body would pass through obstacle '{obstacle}' in the step of {:.3e} from t = {}; use a smaller step",
+        interval.duration(), interval.start
+    )]
+    Crossing {
+        /// Interval of the step [time].
+        interval: Interval,
+        /// Name of the obstacle.
+        obstacle: String,
+        iterations: usize,
+    },
     /// A limit of a constraint was passed within the step. The step must be repeated so that it ends at the limit.
     #[error(
         "limit {} of a constraint is exceeded within the step of {:.3e} from t = {}",
@@ -125,6 +136,7 @@ impl StepError {
             Self::Newton { source, before, .. } => source.factorisations() + before,
             Self::Rotation { iterations, .. }
             | Self::Chord { iterations, .. }
+            | Self::Crossing { iterations, .. }
             | Self::Overshoot { iterations, .. } => *iterations,
             Self::Load { .. } => 0,
         }
@@ -140,6 +152,9 @@ impl StepError {
             }
             Self::Chord { chord, iterations, .. } => {
                 Self::Chord { interval, chord, iterations: iterations + before }
+            }
+            Self::Crossing { obstacle, iterations, .. } => {
+                Self::Crossing { interval, obstacle, iterations: iterations + before }
             }
             Self::Overshoot { overshoot, iterations, .. } => {
                 Self::Overshoot { interval, overshoot, iterations: iterations + before }

@@ -75,6 +75,11 @@ pub trait Forces {
         None
     }
 
+    /// Name of an obstacle through which a body passes within a step with the given increments.
+    fn crossed_obstacle(&self, _increments: &[f64]) -> Option<&str> {
+        None
+    }
+
     /// Largest rotation increment `Δω` of a section in the last evaluation [rad].
     fn largest_rotation(&self) -> f64;
 }

@@ -93,6 +93,11 @@ pub trait InternalForce {
         Vec::new()
     }
 
+    /// Returns true if a point of a body enters and leaves an obstacle within the step.
+    fn crosses(&self, _bodies: &[Body], _increments: &[f64]) -> bool {
+        false
+    }
+
     /// Branch of the law at the end of the last step; `None` for laws without sharp corners, or other elements.
     fn branch(&self, _bodies: &[Body], _rates: &[f64]) -> Option<Branch> {
         None

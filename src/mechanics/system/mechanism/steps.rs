@@ -157,6 +157,11 @@ impl Forces for System {
         self.worst_of(part, residual)
     }
 
+    fn crossed_obstacle(&self, increments: &[f64]) -> Option<&str> {
+        let mut all = self.elements.resistances();
+        Some(all.find(|one| one.crosses(&self.bodies, increments))?.name())
+    }
+
     fn largest_rotation(&self) -> f64 {
         larger(self.step.summary.rotation, self.supports.prescribed().largest_rotation())
     }

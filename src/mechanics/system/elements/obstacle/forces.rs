@@ -77,20 +77,22 @@ impl TouchingBody {
         position: impl Fn(usize) -> Vec2,
         count: usize,
     ) -> bool {
-        let all = || (0..count).map(&position);
-        let (normal, offset) = match surface.shape {
-            ObstacleShape::HalfPlane { point, normal } => (normal, normal.dot(&point)),
-            ObstacleShape::Disc { centre, radius } => {
-                let towards = position(0) + position(count - 1) - centre * 2.0;
-                let length = towards.norm();
-                if length == 0.0 {
-                    return false;
-                }
-                let normal = towards / length;
-                (normal, normal.dot(&centre) + radius)
-            }
-        };
-        self.is_convex && all().all(|at| normal.dot(&at) - offset >= surface.radius)
+        let middle = (position(0) + position(count - 1)) * 0.5;
+        self.is_convex && surface.is_beyond(middle, (0..count).map(position))
+    }
+
+    /// Returns true if a point passes through the obstacle in a step. Paths are straight, so only discs can be crossed.
+    fn crosses(&self, surface: &Surface, body: &Body, increments: &[f64]) -> bool {
+        if matches!(surface.shape, ObstacleShape::HalfPlane { .. }) {
+            return false;
+        }
+        let controls = body.dynamics.control_points();
+        let middle = (controls[0] + controls[controls.len() - 1]) * 0.5;
+        let ends = controls.iter().enumerate();
+        let ends = ends.map(|(at, start)| start + body.vector_at(at, increments));
+        let is_clear = self.is_far && surface.is_beyond(middle, ends);
+        let path = |point: &ContactPoint| point.vector(body, increments);
+        !is_clear && self.points.iter().any(|point| point.crosses(surface, path(point)))
     }
 
     fn begin_movement(&mut self, surface: &Surface, body: &Body) {
@@ -304,6 +306,12 @@ impl InternalForce for ObstacleForces {
             Penetration { body: own.body, depth, force: force.norm(), energy }
         });
         all.filter(|one| one.depth > 0.0).collect()
+    }
+
+    fn crosses(&self, bodies: &[Body], increments: &[f64]) -> bool {
+        let crosses =
+            |own: &TouchingBody| own.crosses(&self.surface, &bodies[own.body], increments);
+        self.bodies.iter().any(crosses)
     }
 
     fn short_bounce(&self) -> Option<ShortBounce> {

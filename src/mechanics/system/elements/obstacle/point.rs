@@ -16,6 +16,10 @@ use crate::system::elements::mixed_force::{CORNER_TOLERANCE, ForceTarget, MixedF
 /// Stiffness relative to the impedance of the body, up to which a contact is linearised at the present iterate.
 pub(super) const SOFT: f64 = 1e-2;
 
+/// Largest ratio of the path of an open point in a step to the chord that it cuts off a disc. Shorter chords are grazing and are ignored.
+/// The limit is below the smallest fraction of a step that retries use.
+const LONGEST_PATH: f64 = 1e3;
+
 /// Surface of an obstacle with its contact law.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Surface {
@@ -41,6 +45,27 @@ impl Surface {
                 (from_centre.norm() - radius - self.radius, from_centre)
             }
         }
+    }
+
+    /// Returns true if all positions lie beyond the tangent of the obstacle that faces the position `towards`.
+    pub(super) fn is_beyond(
+        &self,
+        towards: Vec2,
+        mut positions: impl Iterator<Item = Vec2>,
+    ) -> bool {
+        let (normal, offset) = match self.shape {
+            ObstacleShape::HalfPlane { point, normal } => (normal, normal.dot(&point)),
+            ObstacleShape::Disc { centre, radius } => {
+                let towards = towards - centre;
+                let length = towards.norm();
+                if length == 0.0 {
+                    return false;
+                }
+                let normal = towards / length;
+                (normal, normal.dot(&centre) + radius)
+            }
+        };
+        positions.all(|at| normal.dot(&at) - offset >= self.radius)
     }
 
     /// Gradient of the gap at the given vector from the obstacle [-].
@@ -234,6 +259,21 @@ impl ContactPoint {
         if !self.is_closed() {
             self.approach = surface.gradient(self.start).dot(&velocity).abs();
         }
+    }
+
+    /// Returns true if a straight movement leads through a disc: from outside to outside, or around its centre by more than 60°.
+    pub(super) fn crosses(&self, surface: &Surface, movement: Vec2) -> bool {
+        let ObstacleShape::Disc { radius, .. } = surface.shape else { return false };
+        let (radius, length) = (radius + surface.radius, movement.norm());
+        let nearest = -self.start.dot(&movement) / square(length);
+        let is_within = nearest > 0.0 && nearest < 1.0;
+        let deepest = self.start + movement * nearest;
+        // The part of the path that lies deeper than both ends.
+        let ends = self.start.norm().min((self.start + movement).norm());
+        let hidden = square(ends.min(radius)) - deepest.norm_squared();
+        let is_open = ends >= radius && !self.is_closed();
+        let allowed = if is_open { length / LONGEST_PATH } else { ends };
+        is_within && 2.0 * hidden.max(0.0).sqrt() > allowed
     }
 
     /// Removes the force, because no contact is possible in the present iterate.
