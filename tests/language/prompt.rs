@@ -211,6 +211,34 @@ fn a_terminal_gets_a_chart_and_the_words() {
 }
 
 #[test]
+fn what_probably_means_something_else_is_noted() {
+    let mut prompt = Prompt::spinning();
+    for (input, note) in [
+        ("let n = 7 // 2\n;", "column 11: // begins a comment"),
+        ("let a = 2; let words = \"a is {a}\";", "write `… ${a} …` in backticks"),
+        ("let sum = [1, 2] + [3, 4];", "vec(1, 2) + [3, 4]"),
+        ("scene.force(rod.end, [0, -5], 2.5);", "hold_for(2.5)"),
+        ("scene.moment(rod.end, max(1, 2), 2.5, #{ name: \"turn\" });", "moment: 2.5 is a factor"),
+    ] {
+        let (_, told) = prompt.ask_both(input);
+        assert!(told.contains("note: line") && told.contains(note), "{input}: {told}");
+    }
+    for input in [
+        "let n = 7; // 2",
+        "let n = 7 // 2 elements\n;",
+        "let words = \"{} {1}\";",
+        "let joined = [1, 2] + [3, 4, 5];",
+        "let joined = [[1, 2]] + [[3, 4]];",
+        "scene.force(rod.end, [0, -5], 1);",
+        "scene.force(rod.end, [0, -5], hold_for(2.5));",
+        "scene.moment(rod.end, 2.5);",
+    ] {
+        let (_, told) = prompt.ask_both(input);
+        assert!(!told.contains("note: line"), "{input}: {told}");
+    }
+}
+
+#[test]
 fn what_cannot_be_drawn_is_refused_with_what_to_do() {
     let mut prompt = Prompt::spinning();
     prompt.ask(":step 2");

@@ -24,6 +24,10 @@ pub fn hint(kind: &Kind, value: &Dynamic, given: &str) -> Option<String> {
             as_number(value).map(|_| "write x.to_string(), or `${x}`".into())
         }
         Kind::Boolean => as_number(value).map(|_| "write true or false, without quotes".into()),
+        Kind::Point if value.is::<FnPtr>() => Some(
+            "a function of time follows a constant direction: scene.force(rod.end, [1, 0], |t| sin(t))"
+                .into(),
+        ),
         Kind::Point => of_point(value, given),
         Kind::Array | Kind::Numbers => of_array(value),
         Kind::Points => of_points(value),

@@ -13,6 +13,8 @@ use crate::script::messages::nouns::{type_word, with_article};
 use crate::script::messages::suggest::{nearest, related};
 use crate::script::source::outline::ScriptOutline;
 use crate::script::source::program::Program;
+use crate::simulation::History;
+use crate::system::RECORDABLE;
 
 pub struct UnknownName<'a> {
     pub catalog: &'a Catalog,
@@ -147,6 +149,14 @@ impl UnknownName<'_> {
         let own_function =
             nearest(name, self.outline.functions.iter().map(|(known, _)| known.as_str()));
         let is_variable = self.outline.variables.iter().any(|known| known == name);
+        let members = receiver.map(|of| self.catalog.members(of)).unwrap_or_default();
+        let is_property = |row: &&&FunctionBinding| {
+            row.name == name && matches!(row.form, CallSyntax::Property(_))
+        };
+        if let Some(property) = members.iter().find(is_property) {
+            let hint = format!("'{name}' is a property: write {} without ()", property.signature());
+            return (message, Some(hint));
+        }
         if !is_owned
             && !is_variable
             && own_function.is_none()
@@ -180,7 +190,6 @@ impl UnknownName<'_> {
         if let Some(hint) = of_library(name).filter(|_| !dotted) {
             return (message, Some(hint));
         }
-        let members = receiver.map(|of| self.catalog.members(of)).unwrap_or_default();
         let mut known: Vec<String> = members.iter().map(|row| row.name.to_owned()).collect();
         let takes = |row: &&FunctionBinding| {
             let first = row.parameters.first();
@@ -249,6 +258,9 @@ impl UnknownName<'_> {
         let message = format!("{owner} has no property '{name}'");
         let is_own = members.iter().any(|row| row.name == name)
             || self.catalog.built_ins_named(name).any(|known| known.is_of(of));
+        if let Some(hint) = recorded(of, name) {
+            return (message, Some(hint));
+        }
         if let Some(found) = foreign_names::find(name).filter(|_| !is_own) {
             return (message, Some(found.cure.into()));
         }
@@ -294,6 +306,21 @@ impl UnknownName<'_> {
     fn is_dotted(&self, at: Position) -> bool {
         let (Some(line), Some(column)) = (at.line(), at.position()) else { return false };
         self.program.text[..self.program.offset(line, column)].trim_end().ends_with('.')
+    }
+}
+
+/// Hint for a column or a recorded quantity that is used as a property.
+fn recorded(of: &str, name: &str) -> Option<String> {
+    let [(_, of_stations), ..] = RECORDABLE;
+    match of {
+        "history" if History::COLUMNS.iter().any(|column| column.name == name) => {
+            Some(format!("columns are read by their names: history.column(\"{name}\")"))
+        }
+        "station" if of_stations.iter().any(|quantity| quantity.name == name) => Some(format!(
+            "write the name in quotes to record it: scene.record(\"rod.end.{name}\"); \
+            sim.position(rod.end) is the position in a simulation"
+        )),
+        _ => None,
     }
 }
 

@@ -211,6 +211,9 @@ impl Explainer<'_> {
                         "use linspace(0, 1, 5) for an array; ranges are for loops and parts \
                             of arrays",
                     ),
+                    "beam" => Some(
+                        "rod.at(2) is the station at the arc length 2; rod.start, rod.middle and rod.end are stations too",
+                    ),
                     "vector" => Some("the components of a vector are v.x and v.y"),
                     "function" => Some("call a function by f.call(x)"),
                     "history" => Some(

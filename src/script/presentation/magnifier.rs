@@ -24,7 +24,7 @@ pub struct Magnifier<'a> {
 struct RigidMotion {
     from: Vec2,
     to: Vec2,
-    /// Rotation: cosine and sine.
+    /// Rotation: cosine and sine, times the ratio of the distances of joints.
     turn: Option<Vec2>,
     /// Displacement that keeps joints and sliders at magnified bodies.
     shift: Vec2,
@@ -132,13 +132,17 @@ impl<'a> Magnifier<'a> {
         let all = [self.points(body, &self.start), self.points(body, now)];
         let [from, to] =
             if joints[0].is_empty() { &all } else { &joints }.each_ref().map(|points| mean(points));
-        let [start, now] = if joints[0].len() < 2 { all } else { joints };
-        let turn = start.iter().zip(&now).map(|(start, now)| {
-            let (start, now) = (start - from, now - to);
-            Vec2::new(start.dot(&now), cross(start, now))
-        });
-        let turn = turn.sum::<Vec2>();
-        let turn = (turn.norm() > 0.0).then(|| turn.normalize());
+        let has_several = joints[0].len() > 1;
+        let [start, now] = if has_several { joints } else { all };
+        let arms = || start.iter().zip(&now).map(|(start, now)| (start - from, now - to));
+        let turn: Vec2 =
+            arms().map(|(start, now)| Vec2::new(start.dot(&now), cross(start, now))).sum();
+        // Joints keep their positions, also where a bent beam brings them closer together.
+        let size = match has_several {
+            true => arms().map(|(start, _)| start.norm_squared()).sum(),
+            false => turn.norm(),
+        };
+        let turn = (size > 0.0).then(|| turn / size);
         Ok(RigidMotion { from, to, turn, shift: Vec2::zeros() })
     }
 

@@ -33,7 +33,7 @@ pub const WORDS: &[ForeignName] = &[
         &["strings", "fixed", "sci"],
     ),
     entry(
-        &["str", "repr", "toString", "char"],
+        &["str", "string", "repr", "toString", "char"],
         "write x.to_string(), or `${x}` in a text",
         &["to_string", "strings"],
     ),
@@ -170,9 +170,20 @@ pub const WORDS: &[ForeignName] = &[
         &["functions"],
     ),
     entry(
-        &["clear", "clc", "close", "clearvars", "who", "whos", "hold"],
+        &["clear", "clc", "close", "clearvars", "who", "whos"],
         "at the prompt :reset deletes all variables, :vars lists them",
         &["variables"],
+    ),
+    entry(
+        &["hold"],
+        "hold_for(2.5) is a schedule that is 1 until t = 2.5 and 0 later; plots draw several \
+        curves in one call",
+        &["hold_for", "plot"],
+    ),
+    entry(
+        &["back_to", "go_back", "seek", "set_time"],
+        "sim.rewind(t) goes back to an earlier time, sim.back(n) goes back n steps",
+        &["rewind", "back"],
     ),
     entry(&["pass"], "an empty block is written { }", &["conditions"]),
     entry(

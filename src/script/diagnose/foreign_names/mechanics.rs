@@ -202,7 +202,7 @@ pub const WORDS: &[ForeignName] = &[
         &["wall", "disc", "slider", "spring"],
     ),
     entry(
-        &["cable", "rope", "string", "wire", "chain", "thread", "pulley", "sheave"],
+        &["cable", "rope", "wire", "chain", "thread", "pulley", "sheave"],
         "scene.tendon(places, #{ stiffness: k, acts: \"pull\" }) is a massless rope over pulleys \
         without radius; a rope with mass is a beam with a small EI; std/mechanisms has a chain",
         &["tendon", "section", "std/mechanisms"],
