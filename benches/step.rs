@@ -79,6 +79,7 @@ fn beaded_beam(spans: usize, beads: usize) -> System {
             ends: EndAction::Bounce,
             restitution: 1.0,
             friction: 0.0,
+            side: None,
             velocities: StartVelocities::Check,
         };
         scene.add_slider(slider).unwrap();

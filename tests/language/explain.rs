@@ -56,6 +56,7 @@ fn with_bead() -> Scene {
         ends: EndAction::Stop,
         restitution: 1.0,
         friction: 0.0,
+        side: None,
         velocities: StartVelocities::Check,
     };
     scene.add_slider(slider).unwrap();

@@ -20,5 +20,6 @@ mod orders;
 mod relaxed;
 mod together;
 mod tracks;
+mod unilateral;
 
 mod wild;

@@ -119,6 +119,19 @@ pub trait Constraints {
     /// Fails if a slider passes a limit within the step, or misses the limit at which the step has to end.
     fn check_constraints(&mut self, unknowns: &[f64]) -> Result<(), Overshoot>;
 
+    /// Returns true if [`check_end`](Self::check_end) may fail.
+    fn has_end_conditions(&self) -> bool {
+        false
+    }
+
+    /// Checks the state at the end of an accepted step.
+    ///
+    /// # Errors
+    /// Fails if the present forces violate a condition of the constraints. The step must then be undone.
+    fn check_end(&mut self) -> Result<(), Overshoot> {
+        Ok(())
+    }
+
     /// Shortest chord of the path of a slider in the mean configuration of the last evaluation [-]. Its unit is the initial length of the path.
     fn shortest_chord(&self) -> f64;
 }

@@ -1,6 +1,7 @@
 //! Time integrators for an abstract mechanism. This module does not depend on beams.
 
 mod balance;
+mod end_check;
 mod energy_decaying;
 mod energy_momentum;
 mod error;

@@ -2,6 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::end_check::EndCheck;
 use super::{
     EnergyDecaying, EnergyMomentum, FourthOrder, GeneralizedAlpha, Integrator, Mechanism, Stage,
     Trapezoidal,
@@ -269,7 +270,7 @@ impl Method {
         mechanism: &mut dyn Mechanism,
         tolerance: Tolerance,
     ) -> Box<dyn Integrator> {
-        match *self {
+        let integrator: Box<dyn Integrator> = match *self {
             Self::EnergyMomentum => Box::new(EnergyMomentum::new(mechanism, tolerance)),
             Self::Trapezoidal => Box::new(Trapezoidal::new(mechanism, tolerance)),
             Self::EnergyDecaying { chi } => {
@@ -279,7 +280,11 @@ impl Method {
             Self::GeneralizedAlpha { rho_infinity } => {
                 Box::new(GeneralizedAlpha::new(rho_infinity, mechanism, tolerance))
             }
+        };
+        if mechanism.has_end_conditions() {
+            return Box::new(EndCheck::new(integrator));
         }
+        integrator
     }
 }
 

@@ -8,7 +8,7 @@ mod track;
 
 pub use joint::{Component, Components, Joint, JointKind, Partner};
 pub use release::{Releasable, Release, Trigger};
-pub use slider::{EndAction, Slider, StartVelocities};
+pub use slider::{EndAction, Side, Slider, StartVelocities};
 pub use sliding::{
     AtStop, CONTACT_UNKNOWNS, Conserving, Contact, ContactUnknowns, Equation, Exact, Friction,
     FrictionForces, FrictionMode, Frozen, HeldSlider, Kink, KinkMotion, KinkState, Kinked,

@@ -6,6 +6,7 @@ use super::SlidingRule;
 use crate::beams::Station;
 
 /// Point that stays on the axis of a beam and slides along it, with or without friction.
+/// A slider with a side only pushes, and may leave the axis on that side.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Slider {
     /// Name in messages and columns.
@@ -22,10 +23,12 @@ pub struct Slider {
     pub rule: SlidingRule,
     /// Behaviour at the ends of the master or track.
     pub ends: EndAction,
-    /// Coefficient of restitution at the ends, from 0 to 1 [-].
+    /// Coefficient of restitution at the ends, or of landings with a side, from 0 to 1 [-].
     pub restitution: f64,
     /// Coefficient of friction along the master [-].
     pub friction: f64,
+    /// Side of the master on which the slave may leave the axis; `None` for a slider that never leaves it.
+    pub side: Option<Side>,
     /// Treatment of velocities of the slave across the master at the start.
     pub velocities: StartVelocities,
 }
@@ -43,13 +46,41 @@ impl Slider {
             ends: EndAction::default(),
             restitution: 1.0,
             friction: 0.0,
+            side: None,
             velocities: StartVelocities::default(),
         }
     }
 
-    /// Returns true if the slider loses energy at its ends or by friction.
+    /// Returns true if the slider loses energy at its ends, by friction or when it lands on its master.
     pub fn dissipates(&self) -> bool {
-        self.restitution < 1.0 || self.friction > 0.0
+        self.restitution < 1.0 || self.friction > 0.0 || self.side.is_some()
+    }
+}
+
+/// Side of a beam, for an observer who looks along the beam from its start to its end.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Side {
+    /// The side of the left normal.
+    Left,
+    /// The side of the right normal.
+    Right,
+}
+
+impl Side {
+    /// Name for messages and scripts, such as `left`.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Left => "left",
+            Self::Right => "right",
+        }
+    }
+
+    /// Sign of the distance from the axis along the left normal on this side [-].
+    pub fn sign(self) -> f64 {
+        match self {
+            Self::Left => 1.0,
+            Self::Right => -1.0,
+        }
     }
 }
 

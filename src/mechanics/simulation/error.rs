@@ -30,6 +30,11 @@ pub enum SimulationError {
         "{object} has friction, which the method {method} does not support; use the method energy_momentum"
     )]
     FrictionMethod { object: String, method: &'static str },
+    /// A scene contains a slider that only pushes, which the method does not support.
+    #[error(
+        "slider '{slider}' has a side, which the method {method} does not support; use the method energy_momentum"
+    )]
+    SideMethod { slider: String, method: &'static str },
     #[error(
         "a controller with a sampling period of {period:e} would be sampled more than {most} times in a step of dt = {dt:e}"
     )]

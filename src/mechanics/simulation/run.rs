@@ -139,6 +139,11 @@ impl Simulation {
             let method = settings.method.entry().name;
             return Err(SimulationError::FrictionMethod { object, method });
         }
+        let with_side = scene.sliders.iter().find(|slider| slider.side.is_some());
+        if let Some(slider) = with_side.filter(|_| settings.method != Method::EnergyMomentum) {
+            let (slider, method) = (slider.name.clone(), settings.method.entry().name);
+            return Err(SimulationError::SideMethod { slider, method });
+        }
         model.divide(cores());
         let integrator = settings.method.build(&mut model, settings.tolerance);
         let breaks = scene.schedules().flat_map(|(_, schedule)| schedule.breaks());

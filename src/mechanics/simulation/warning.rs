@@ -117,6 +117,13 @@ pub enum Warning {
         /// Number of such steps.
         steps: usize,
     },
+    /// Slider that only pushes, and that stayed in contact under a tensile force after too many changes between contact and flight.
+    KeptContact {
+        /// Name of the slider.
+        slider: String,
+        /// Number of attempted steps with such a contact.
+        steps: usize,
+    },
     /// Slider on a master with a kink. The slider moves almost as fast as the shear waves of the master.
     WaveSpeed {
         /// Name of the slider.
@@ -209,7 +216,7 @@ impl Warning {
             Self::ManySteps { steps, .. } => *steps as f64,
             Self::Rotation { angle, .. } => *angle,
             Self::SpansPerStep { spans, .. } => *spans,
-            Self::Friction { steps, .. } => *steps as f64,
+            Self::Friction { steps, .. } | Self::KeptContact { steps, .. } => *steps as f64,
             Self::WaveSpeed { speed, .. } => *speed,
             Self::Bounce { steps_per_impact: blows, .. } => *blows,
             Self::Drift { drift, .. } => *drift,
@@ -233,6 +240,7 @@ impl Warning {
             | Self::EnergyGain { .. } => None,
             Self::SpansPerStep { slider, .. }
             | Self::Friction { slider, .. }
+            | Self::KeptContact { slider, .. }
             | Self::WaveSpeed { slider, .. }
             | Self::Bounce { slider, .. } => Some(slider),
             Self::Beam { beam, .. } => Some(beam),
@@ -328,6 +336,11 @@ impl fmt::Display for Warning {
             Self::Friction { slider, steps } => write!(
                 f,
                 "the friction law of slider '{slider}' has no solution in {steps} {}, which used the friction force of the previous step. Energy and momenta are balanced, but the motion is inaccurate; use a smaller dt or a smoother mesh",
+                if *steps == 1 { "step" } else { "steps" }
+            ),
+            Self::KeptContact { slider, steps } => write!(
+                f,
+                "slider '{slider}' left its beam and landed again several times within a step, and then stayed in contact for the rest of the step, in {steps} {}. Energy and momenta are balanced; use a smaller dt to resolve the contact",
                 if *steps == 1 { "step" } else { "steps" }
             ),
             Self::Uneven { shortest, longest } => write!(

@@ -22,6 +22,7 @@ mod step_power;
 mod steps;
 mod stiffness;
 mod stop_impact;
+mod unilateral;
 
 pub use energies::BodyEnergy;
 pub use instant::Instant;

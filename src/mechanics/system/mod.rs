@@ -38,5 +38,6 @@ pub use scene::{
 pub use sensors::{
     Quantity, RECORDABLE, Sensor, SensorSource, Timing, body_energies, section_values,
 };
+pub(crate) use sliders::END_TOLERANCE;
 pub use sliders::{AxialImpact, MasterEnd, MasterLimit, SliderEvent, SliderState};
 pub use state::{Resolution, UnknownKind};

@@ -88,6 +88,7 @@ fn simulation_hint(error: &SimulationError) -> Option<String> {
         | SimulationError::StepSize(_)
         | SimulationError::EventLocation { .. }
         | SimulationError::FrictionMethod { .. }
+        | SimulationError::SideMethod { .. }
         | SimulationError::Interrupted { .. } => return None,
     })
 }

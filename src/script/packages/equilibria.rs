@@ -344,6 +344,12 @@ fn find(call: &mut Call) -> Result<Dynamic, ScriptError> {
             "note: the equilibrium of '{scene}' does not include the friction of {object}"
         ));
     }
+    if let Some(slider) = rest.scene().sliders.iter().find(|slider| slider.side.is_some()) {
+        let (scene, slider) = (&rest.scene().name, &slider.name);
+        context.print_message(&format!(
+            "note: in the equilibrium of '{scene}', slider '{slider}' does not leave its beam or land on it"
+        ));
+    }
     let path = rest.path();
     if path.load_factor() != loading.factor {
         let (points, factor) = (path.points().len(), significant(path.load_factor(), 6));

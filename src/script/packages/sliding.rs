@@ -6,7 +6,7 @@ use super::scenes::{BEAM, SCENE, STATION};
 use super::simulations::SIMULATION;
 use super::tracks::{SliderGuide, TRACK};
 use super::vectors::VECTOR;
-use crate::joints::{EndAction, Slider, SlidingRule, StartVelocities};
+use crate::joints::{EndAction, Side, Slider, SlidingRule, StartVelocities};
 use crate::output::significant;
 use crate::script::bindings::call::Call;
 use crate::script::bindings::kind::{Details, Kind, Scripted, Type};
@@ -28,7 +28,8 @@ pub const TABLE: BindingTable = BindingTable {
     doc: "A slider keeps a station (of a beam or a particle) on the axis of another beam, along \
         which it moves, with or without friction. A rule selects the discretisation. The history \
         has the columns NAME.position (from 0 to 1 along the beam), NAME.speed (length/time), \
-        NAME.force, NAME.force_x, NAME.force_y and, with friction, NAME.friction.",
+        NAME.force, NAME.force_x, NAME.force_y, with friction NAME.friction, and with a side \
+        NAME.gap.",
     types: &[RULE, SLIDER],
     setup: "let scene = new_scene(\"example\");\n\
             let s = section(#{ EA: 1e4, GA: 1e4, EI: 100, rho_A: 1, rho_I: 1 });\n\
@@ -93,7 +94,14 @@ pub const TABLE: BindingTable = BindingTable {
                  friction is in the column dissipated.NAME, and the friction force on the beam, \
                  positive towards its end, in NAME.friction. Friction needs rule: conserving() \
                  and the integrator energy_momentum(); equilibria, modes and impacts are without \
-                 friction. Default names: slider1, slider2, …",
+                 friction. With `side`, the slider only pushes: it leaves the beam on that side \
+                 where the present contact force becomes tensile, flies, and lands where its \
+                 distance from the axis vanishes. A landing has the `restitution`; the lost \
+                 energy is in the column dissipated.NAME, and the distance in NAME.gap. The \
+                 station may start at a distance from the beam on that side. Beyond the ends of \
+                 the beam there is no landing. A side needs a single beam, rule: conserving() \
+                 and the integrator energy_momentum(), and is not available with friction or \
+                 with ends: \"bounce\" and \"contact\". Default names: slider1, slider2, …",
             )
             .example(
                 "let hook = scene.beam(#{ name: \"hook\", axis: line([1, 0], [1, 1]), basis: bspline(4), section: s });\n\
@@ -103,7 +111,12 @@ pub const TABLE: BindingTable = BindingTable {
                  scene.slider(block, rod, #{ name: \"brake\", friction: 0.3 });\n\
                  let sim = scene.start(#{ dt: 0.01 });\n\
                  sim.run_to(0.2);\n\
-                 check(sim.history.last(\"dissipated.brake\") > 0);",
+                 check(sim.history.last(\"dissipated.brake\") > 0);\n\
+                 let ball = scene.particle([1, 0.1], 0.1);\n\
+                 scene.slider(ball, rod, #{ name: \"hop\", side: \"above\", restitution: 0.5 });\n\
+                 let sim = scene.start(#{ dt: 0.01 });\n\
+                 sim.run_to(0.2);\n\
+                 check(sim.history.last(\"dissipated.hop\") > 0);",
             )
             .with_related(&["particle", "track", "conserving", "contact_force"]),
         property(SLIDER, "name", |call| Ok(call.receiver::<SliderHandle>()?.name().into()))
@@ -208,6 +221,9 @@ const ENDS: [(&str, EndAction); 4] = [
 ];
 const VELOCITIES: [(&str, StartVelocities); 2] =
     [("check", StartVelocities::Check), ("project", StartVelocities::Project)];
+/// Horizontal part of the direction of a beam, below which the beam is vertical [-].
+const STEEP: f64 = 1e-3;
+
 const SLIDER_KEYS: &[Parameter] = &[
     number("at")
         .between(0.0, 1.0)
@@ -227,8 +243,14 @@ const SLIDER_KEYS: &[Parameter] = &[
     number("restitution")
         .between(0.0, 1.0)
         .doc(
-            "ratio of the speeds after and before a bounce, for ends: \"bounce\"; default: 1, \
-            no loss",
+            "ratio of the speeds after and before a bounce, for ends: \"bounce\" (default: 1, \
+            no loss), or of a landing with `side` (default: 0, no rebound)",
+        )
+        .optional(),
+    choice("side", &["left", "right", "above", "below"])
+        .doc(
+            "side of the beam on which the slider may leave it: left or right of the direction \
+            of the beam, or above or below; default: the slider never leaves the beam",
         )
         .optional(),
     number("friction")
@@ -334,12 +356,16 @@ fn slider(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let name = options.optional_text("name")?;
     let ends = meant(&ENDS, &options.text("ends")?);
     let restitution = options.optional_number("restitution");
-    if restitution.is_some() && ends != EndAction::Bounce {
-        let message = "slider: 'restitution' is allowed only with ends: \"bounce\"";
+    let (master, arc_length) = guide.start(&scene.borrow(), slave, at)?;
+    let side = match options.optional_text("side")? {
+        Some(word) => Some(side_of(&scene.borrow(), (master, arc_length), &word)?),
+        None => None,
+    };
+    if restitution.is_some() && ends != EndAction::Bounce && side.is_none() {
+        let message = "slider: 'restitution' is allowed only with ends: \"bounce\" or with 'side'";
         return Err(ScriptError::new(message).at(CallPart::Key("restitution".into())));
     }
-    let restitution = restitution.unwrap_or(1.0);
-    let (master, arc_length) = guide.start(&scene.borrow(), slave, at)?;
+    let restitution = restitution.unwrap_or(if side.is_some() { 0.0 } else { 1.0 });
     let definition = Slider {
         name: name.unwrap_or_else(|| scene.borrow().free_name("slider")),
         slave,
@@ -350,11 +376,39 @@ fn slider(call: &mut Call) -> Result<Dynamic, ScriptError> {
         ends,
         restitution,
         friction: options.optional_number("friction").unwrap_or(0.0),
+        side,
         velocities: meant(&VELOCITIES, &options.text("velocities")?),
     };
     let added = scene.borrow_mut().add_slider(definition);
     let index = added.map_err(|error| slider_error(error, at.is_some()))?;
     Ok(Dynamic::from(SliderHandle { scene: handle, index }))
+}
+
+/// Side of a beam with the given name, at an arc length of the beam as drawn [length].
+fn side_of(
+    scene: &Scene,
+    (beam, arc_length): (usize, f64),
+    word: &str,
+) -> Result<Side, ScriptError> {
+    let (above, below) = match word {
+        "left" => return Ok(Side::Left),
+        "right" => return Ok(Side::Right),
+        _ => {
+            let along = scene.drawn_tangent(beam, arc_length)?.x;
+            if along.abs() < STEEP {
+                let name = &scene.beams[beam].name;
+                let message = format!(
+                    "slider: 'side' is \"{word}\", but beam '{name}' is vertical at the slider, so that \
+                    neither of its sides is {word} it"
+                );
+                return Err(ScriptError::new(message)
+                    .at(CallPart::Key("side".into()))
+                    .hint("use \"left\" or \"right\" of the direction of the beam"));
+            }
+            if along > 0.0 { (Side::Left, Side::Right) } else { (Side::Right, Side::Left) }
+        }
+    };
+    Ok(if word == "above" { above } else { below })
 }
 
 pub(super) fn meant<T: Copy + Default>(words: &[(&str, T)], word: &str) -> T {
@@ -371,6 +425,9 @@ fn slider_error(error: SystemError, is_placed: bool) -> ScriptError {
             SliderError::Open { .. } if is_placed => CallPart::Key("at".into()),
             SliderError::SlaveOnMaster(_) => CallPart::Argument(1),
             SliderError::FrictionRule { .. } => CallPart::Key("rule".into()),
+            SliderError::SideWith { .. } | SliderError::OtherSide { .. } => {
+                CallPart::Key("side".into())
+            }
             _ => CallPart::Argument(0),
         },
         _ => CallPart::Argument(0),

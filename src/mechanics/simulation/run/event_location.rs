@@ -1,4 +1,4 @@
-//! Location of the arrivals of sliders at the ends of their masters and of friction transitions, and execution of these events.
+//! Location of the arrivals of sliders at the ends of their masters, of landings, take-offs and friction transitions, and execution of these events.
 
 use super::Simulation;
 use crate::elementary::whole_power;
@@ -8,7 +8,7 @@ use crate::joints::EndAction;
 use crate::newton::NewtonReport;
 use crate::simulation::first_step::shortest_wave_time;
 use crate::simulation::{Arrival, ArrivalKind, SimulationError, StepSize};
-use crate::system::{Arriving, MasterEnd, MasterLimit, SliderEvent, SliderState};
+use crate::system::{Arriving, END_TOLERANCE, MasterEnd, MasterLimit, SliderEvent, SliderState};
 
 /// Largest number of attempts to find the time of an arrival. A few attempts are usual.
 const MOST_TRIES: usize = 60;
@@ -17,7 +17,7 @@ const MOST_TRIES: usize = 60;
 /// A step over a shorter distance would convert rounding errors of positions to velocities.
 const NEAR: f64 = 1e-10;
 
-/// Fraction of a step. An end of slip within this fraction of the start of the step is moved to the start.
+/// Fraction of a step. An end of slip or a take-off within this fraction of the start of the step is moved to the start.
 /// In a shorter step, rounding errors of positions would become velocities, and the energy balance would be inaccurate.
 const SHORT: f64 = 1e-6;
 
@@ -49,6 +49,13 @@ enum ArrivalEstimate {
     Between(TimeBracket),
     /// A step that ends at the event was taken, or no step is needed.
     Located(EventStep),
+}
+
+impl ArrivalEstimate {
+    /// Event at the start of the step.
+    fn at_once(number: usize) -> Self {
+        Self::Located(EventStep { step: None, event: Event::Slider(SliderEvent::of(number)) })
+    }
 }
 
 /// Two steps that bracket an event: one ends before the slider reaches the limit, the other one after.
@@ -115,6 +122,21 @@ impl TimeBracket {
     }
 }
 
+/// Brackets the change of sign of a quantity of a slider, which is `start` at the start of the interval and negative at its end.
+/// An event in less than the time `shortest` is moved to the start [time].
+fn bracket_sign_change(
+    (interval, Overshoot { event, distance }): (Interval, Overshoot),
+    start: f64,
+    shortest: f64,
+) -> ArrivalEstimate {
+    let bracket =
+        TimeBracket::new((0.0, -start), (interval.duration(), distance)).with_shortest(shortest);
+    match start <= 0.0 || distance <= 0.0 || bracket.estimate() < shortest {
+        true => ArrivalEstimate::at_once(event),
+        false => ArrivalEstimate::Between(bracket),
+    }
+}
+
 impl Simulation {
     /// Takes a step that ends at the arrival of a slider. Over the whole interval, the slider would pass its limit.
     pub(super) fn locate_arrival(
@@ -142,8 +164,14 @@ impl Simulation {
                     self.bracket_arrival(cut, limit, overshoot.distance)?
                 }
                 SliderEvent::SlipEnd(slider) => {
-                    self.bracket_slip_end(cut, slider, overshoot.distance)
+                    let (speed, shortest) = (self.model.slip_speed(slider), SHORT * self.dt());
+                    bracket_sign_change((cut, overshoot), speed, shortest)
                 }
+                SliderEvent::TakeOff(slider) => {
+                    let (push, shortest) = (self.model.push(slider), SHORT * self.dt());
+                    bracket_sign_change((cut, overshoot), push, shortest)
+                }
+                SliderEvent::Landing(slider) => self.bracket_landing((cut, overshoot), slider)?,
                 SliderEvent::SlipStart(_) => {
                     return Ok(EventStep { step: None, event: Event::Slider(target) });
                 }
@@ -189,18 +217,27 @@ impl Simulation {
         limit: MasterLimit,
         distance: f64,
     ) -> Result<ArrivalEstimate, StepError> {
-        let mut after = (interval.duration(), distance);
+        let after = (interval.duration(), distance);
         let left = self.model.distance_to(limit);
-        let at_once = EventStep { step: None, event: Event::Slider(SliderEvent::Limit(limit)) };
         let number = SliderEvent::Limit(limit).number();
         let is_near = self.model.leads_beyond(limit) && left <= NEAR;
         if is_near && (!self.model.is_at(limit) || self.has_impact(limit)) {
-            return Ok(ArrivalEstimate::Located(at_once));
+            return Ok(ArrivalEstimate::at_once(number));
         }
         if !self.model.is_at(limit) {
             return Ok(ArrivalEstimate::Between(TimeBracket::new((0.0, -left), after)));
         }
-        // If the slider hardly moves in the whole step, it is held at the end. Shorter steps would only show rounding errors.
+        self.probe(interval, number, after)
+    }
+
+    /// Searches for a step that ends before an event of a slider that is already at its limit. A step that ends after the event is given.
+    fn probe(
+        &mut self,
+        interval: Interval,
+        number: usize,
+        mut after: (f64, f64),
+    ) -> Result<ArrivalEstimate, StepError> {
+        // If the slider hardly moves in the whole step, it is held at the limit. Shorter steps would only show rounding errors.
         for halving in 1..=PROBES {
             if after.1 <= NEAR {
                 break;
@@ -209,7 +246,7 @@ impl Simulation {
             let cut = Interval::lasting(interval.start, duration);
             match self.attempt(cut)? {
                 Ok(report) => {
-                    let event = Event::Slider(SliderEvent::Limit(limit));
+                    let event = Event::Slider(SliderEvent::of(number));
                     return Ok(ArrivalEstimate::Located(EventStep {
                         step: Some((cut, report)),
                         event,
@@ -225,22 +262,24 @@ impl Simulation {
                 Err(Overshoot { distance, .. }) => after = (duration, distance),
             }
         }
-        Ok(ArrivalEstimate::Located(at_once))
+        Ok(ArrivalEstimate::at_once(number))
     }
 
-    /// Brackets the end of slip of a slider with friction. A step that ends after the end of slip is given.
-    fn bracket_slip_end(&self, interval: Interval, slider: usize, beyond: f64) -> ArrivalEstimate {
-        let speed = self.model.slip_speed(slider);
-        let bracket = TimeBracket::new((0.0, -speed), (interval.duration(), beyond))
-            .with_shortest(SHORT * self.dt());
-        let is_at_start = speed <= 0.0 || beyond <= 0.0 || bracket.estimate() < bracket.shortest;
-        match is_at_start {
-            true => ArrivalEstimate::Located(EventStep {
-                step: None,
-                event: Event::Slider(SliderEvent::SlipEnd(slider)),
-            }),
-            false => ArrivalEstimate::Between(bracket),
+    /// Searches for a step that ends before the landing of a slider in flight. A step that ends after the landing is given.
+    fn bracket_landing(
+        &mut self,
+        (interval, Overshoot { event, distance }): (Interval, Overshoot),
+        slider: usize,
+    ) -> Result<ArrivalEstimate, StepError> {
+        let (after, left) = ((interval.duration(), distance), self.model.relative_gap(slider));
+        if left <= NEAR && self.model.approaches_axis(slider) {
+            return Ok(ArrivalEstimate::at_once(event));
         }
+        if left <= END_TOLERANCE {
+            return self.probe(interval, event, after);
+        }
+        let bracket = TimeBracket::new((0.0, -left), after).with_shortest(NEAR * self.dt());
+        Ok(ArrivalEstimate::Between(bracket))
     }
 
     fn is_held(&self, limit: MasterLimit) -> bool {
@@ -281,6 +320,13 @@ impl Simulation {
             }
             Event::Slider(SliderEvent::SlipStart(slider)) => {
                 self.model.start_slip(slider);
+                return Ok(());
+            }
+            Event::Slider(SliderEvent::Landing(slider)) => {
+                return Ok(self.model.land(slider, self.dt())?);
+            }
+            Event::Slider(SliderEvent::TakeOff(slider)) => {
+                self.model.take_off(slider);
                 return Ok(());
             }
         };

@@ -52,7 +52,7 @@ impl Simulation {
             if let Err(StepError::Overshoot { overshoot, iterations, .. }) = stepped {
                 self.progress.count_try(iterations);
                 self.disable_derivatives(
-                    "a slider reaches an end of its beam, leaves a stop, or begins to slip or stick",
+                    "a slider reaches an end of its beam, leaves a stop, leaves or lands on its beam, or begins to slip or stick",
                 );
                 match self.locate_arrival(interval, overshoot) {
                     Ok(landing) => {
@@ -79,6 +79,7 @@ impl Simulation {
                 Ok(report) => {
                     self.count_step(interval, report, halving.retries);
                     halving.succeed();
+                    self.model.clear_contact_changes();
                     if self.model.has_friction() {
                         self.model.end_reversed_slips()?;
                     }
@@ -158,6 +159,8 @@ impl Simulation {
                 }
                 SliderEvent::SlipEnd(slider) => (slider, "begins to stick".to_owned()),
                 SliderEvent::SlipStart(slider) => (slider, "begins to slip".to_owned()),
+                SliderEvent::Landing(slider) => (slider, "lands on its beam".to_owned()),
+                SliderEvent::TakeOff(slider) => (slider, "leaves its beam".to_owned()),
             };
             return SimulationError::EventLocation {
                 slider: self.scene.sliders[slider].name.clone(),

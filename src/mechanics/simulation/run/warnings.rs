@@ -100,6 +100,10 @@ impl Simulation {
             if steps > 0 {
                 notes.push(Warning::Friction { slider: slider.clone(), steps });
             }
+            let steps = self.model.steps_with_kept_contact(index);
+            if steps > 0 {
+                notes.push(Warning::KeptContact { slider: slider.clone(), steps });
+            }
             if let Some(limit) = self.model.kink_speed_limit(index) {
                 let speeds = self.history().column(&format!("{slider}.speed"));
                 let fastest = |speeds: Vec<f64>| speeds.into_iter().map(f64::abs).fold(0.0, larger);

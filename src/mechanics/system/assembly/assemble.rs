@@ -204,6 +204,9 @@ impl<'a> Assembly<'a> {
         for _ in &self.scene.sliders {
             let mut is_settled = true;
             for (slider, (place, nodes)) in self.scene.sliders.iter().zip(&places) {
+                if self.scene.starts_apart(slider)? {
+                    continue;
+                }
                 let target = place.interpolate(&points[slider.master]);
                 for node in nodes {
                     let point = &mut points[node.body][node.nearest_control_point()];

@@ -9,8 +9,8 @@ use crate::joints::{Slider, SlidingRule, StartVelocities, Track, TrackBeam};
 use crate::system::elements::AssemblyContext;
 use crate::system::errors::SliderError;
 use crate::system::sliders::{
-    Connection, ImpactBar, KinkedAxis, MasterCurve, MasterKink, SliderContact, TrackPath,
-    TrackPathSegment,
+    Connection, ImpactBar, KinkedAxis, MasterCurve, MasterKink, SliderContact, SliderState,
+    TrackPath, TrackPathSegment,
 };
 use crate::system::{BeamDefinition, Scene, System, SystemError};
 
@@ -60,6 +60,9 @@ impl Assembly<'_> {
                     route.get_or_insert_with(|| self.track_path(legs, &mut passages)).clone();
                 let own = legs.iter().position(|leg| leg.beam == slider.master).unwrap_or(0);
                 new.set_track(TrackPath::new(route, *course, own));
+            }
+            if self.scene.starts_apart(slider)? {
+                new.state = SliderState::Separated;
             }
             sliders.push(new);
         }
@@ -145,6 +148,7 @@ impl System {
     /// A speed `w` across a master counts as zero if the strain `w/c` of its wave is below the rounding error `ε`. The wave speed is `c`.
     pub(super) fn project_start_velocities(&mut self, scene: &Scene) -> Result<(), SystemError> {
         let negligible = self.negligible_velocity(scene);
+        self.follow_masters();
         let mut is_projected = false;
         for (index, described) in scene.sliders.iter().enumerate() {
             match described.velocities {
@@ -152,6 +156,7 @@ impl System {
                 StartVelocities::Project => is_projected = true,
             }
         }
+        self.clear_contact_changes();
         if is_projected {
             self.project_velocities()?;
         }
@@ -175,11 +180,17 @@ impl System {
         SAME_VELOCITY * self.fastest_speed() + f64::EPSILON * scene.fastest_wave()
     }
 
-    fn check_start_velocity(&self, slider: usize, negligible: f64) -> Result<(), SystemError> {
-        let speed = self.speed_across(slider).abs();
-        if speed <= negligible {
+    /// Checks the velocity across the master. A slave that leaves its master on the side of a slider that only pushes starts in flight.
+    fn check_start_velocity(&mut self, slider: usize, negligible: f64) -> Result<(), SystemError> {
+        let speed = self.speed_across(slider);
+        if speed.abs() <= negligible || self.slider(slider).is_separated() {
             return Ok(());
         }
+        if speed > 0.0 && self.slider(slider).may_take_off() {
+            self.take_off(slider);
+            return Ok(());
+        }
+        let speed = speed.abs();
         Err(SliderError::LeavesMaster { slider: self.slider(slider).name.clone(), speed }.into())
     }
 }

@@ -107,6 +107,18 @@ pub enum SliderError {
         "slider '{slider}': friction is available with the conserving rule only, not with the {rule} rule"
     )]
     FrictionRule { slider: String, rule: &'static str },
+    #[error("slider '{slider}': a side is not available {what}; {remedy}, or remove the side")]
+    SideWith { slider: String, what: &'static str, remedy: &'static str },
+    #[error(
+        "slider '{}': {} is {gap:.3e} away from the {}, but not on its {side} side; move it there or choose the other side",
+        parts.slider, parts.slave, parts.guide
+    )]
+    OtherSide {
+        parts: SliderParts,
+        side: &'static str,
+        /// Distance from the axis [length].
+        gap: f64,
+    },
     #[error(
         "slider '{slider}': at the start its point moves across its beam with a velocity of {}", rounded(*speed)
     )]

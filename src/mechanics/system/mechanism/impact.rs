@@ -68,6 +68,8 @@ pub(super) enum ImpactLaw {
     Ends,
     /// Condition `w̄ = 0`, with an impulse of either sign and without work.
     Elastic,
+    /// Condition `0 ≤ P ⟂ w̄ ≥ 0`, without work, of a slider in contact that only pushes.
+    Unilateral,
     /// Condition `0 ≤ P ⟂ 2 w̄ - min(u, 0) ≥ 0` of a slider held at a stop.
     Held,
     /// Condition `0 ≤ P ⟂ 2 w̄ - (1 - e) min(u, 0) ≥ 0` with the coefficient of restitution `e`: a stop with compressive impulses only.
@@ -82,7 +84,9 @@ impl ImpactLaw {
     pub(super) fn pairing(self) -> Pairing {
         match self {
             Self::Ends | Self::Elastic | Self::Rest => Pairing::Equality,
-            Self::Restitution(_) | Self::Held | Self::StoredEnergy(_) => Pairing::Complementary,
+            Self::Unilateral | Self::Restitution(_) | Self::Held | Self::StoredEnergy(_) => {
+                Pairing::Complementary
+            }
         }
     }
 }
@@ -114,6 +118,14 @@ impl ImpactImpulses {
     pub(super) fn works(&self) -> impl Iterator<Item = f64> {
         self.values.iter().zip(&self.mean_velocities).map(|(impulse, velocity)| impulse * velocity)
     }
+
+    /// Impulses without the first ones.
+    pub(super) fn after(mut self, first: usize) -> Self {
+        Self {
+            values: self.values.split_off(first),
+            mean_velocities: self.mean_velocities.split_off(first),
+        }
+    }
 }
 
 impl ImpactProblem {
@@ -144,7 +156,7 @@ impl ImpactProblem {
             let (twice, of_stop) = (2.0 * means[at], of_stops[at]);
             match law {
                 ImpactLaw::Ends => self.before[first + at] + self.by_links(first + at),
-                ImpactLaw::Elastic => twice,
+                ImpactLaw::Elastic | ImpactLaw::Unilateral => twice,
                 ImpactLaw::Held => twice - of_stop.min(0.0),
                 ImpactLaw::Restitution(restitution) => {
                     twice - (1.0 - restitution) * of_stop.min(0.0)
@@ -251,7 +263,8 @@ impl System {
         let prescribed = self.supports.prescribed();
         let Ok(Some(jumps)) = prescribed.jumps(interval, &self.motion.rates) else { return false };
         let directions = self.sliders.directions(&self.bodies);
-        let laws = vec![ImpactLaw::Elastic; directions.len()];
+        let laws: Vec<ImpactLaw> =
+            directions.iter().map(|(slider, _)| self.law_across(*slider)).collect();
         // A singular matrix is ignored, because the following step reports it.
         let Ok(problem) =
             self.impact_problem_with_jumps(&[(&directions, Deformation::All)], -2.0, jumps)
@@ -260,6 +273,7 @@ impl System {
         };
         let Ok(impulses) = problem.impulses(&laws) else { return false };
         self.apply(problem, &impulses.values);
+        self.separate_after_impact(directions.into_iter().zip(laws), &impulses);
         self.choose_friction_modes();
         true
     }
@@ -286,7 +300,9 @@ impl System {
     }
 
     fn across(&self) -> Vec<ImpactDirection> {
-        self.sliders.iter().map(|slider| slider.across(&self.bodies)).enumerate().collect()
+        let sliders = self.sliders.iter().enumerate();
+        let closed = sliders.filter(|(_, slider)| slider.state.has_contact());
+        closed.map(|(at, slider)| (at, slider.across(&self.bodies))).collect()
     }
 
     /// Column of `Gᵀ` for a direction: the generalised forces of a unit impulse at all degrees of freedom.

@@ -167,7 +167,7 @@ impl System {
             let slider = &self.sliders[*slider];
             let carried = match slider.state {
                 SliderState::Sliding => slider.carried(&self.bodies, &self.motion.rates).dot(unit),
-                SliderState::Held(_) | SliderState::Released => 0.0,
+                SliderState::Held(_) | SliderState::Separated | SliderState::Released => 0.0,
             };
             carried - answer.velocity(&accelerations)
         });

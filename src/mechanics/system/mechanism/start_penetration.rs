@@ -8,8 +8,8 @@ use crate::system::elements::{InternalForce, Penetration, TrialState};
 /// Ratio of the contact force to the other forces on a body, up to which these forces explain the penetration.
 const EXPLAINED: f64 = 2.0;
 
-/// Penetration that rounding of the coordinates explains, as a fraction of the largest coordinate of the body.
-const ROUNDING: f64 = 1e-12;
+/// Penetration that the approximation of a curved axis by the mesh explains, as a fraction of the largest coordinate of the body.
+const APPROXIMATION: f64 = 1e-5;
 
 impl System {
     /// Bodies inside obstacles at the start, with the names of the obstacles, sorted by decreasing energy.
@@ -20,7 +20,7 @@ impl System {
             let all = obstacle.penetrations(bodies).into_iter();
             all.map(|one| (obstacle.name().to_owned(), one))
         });
-        let mut inside: Vec<_> = inside.filter(|(_, one)| one.depth > self.rounding(one)).collect();
+        let mut inside: Vec<_> = inside.filter(|(_, one)| one.depth > self.tolerance(one)).collect();
         // A load without a value is reported by the first step.
         if !inside.is_empty() && self.elements.evaluate_after(self.motion.time).is_ok() {
             let others = self.resultants_without_contact();
@@ -30,9 +30,9 @@ impl System {
         inside
     }
 
-    fn rounding(&self, Penetration { body, .. }: &Penetration) -> f64 {
+    fn tolerance(&self, Penetration { body, .. }: &Penetration) -> f64 {
         let points = self.bodies[*body].dynamics.control_points();
-        ROUNDING * points.iter().map(Vec2::amax).fold(0.0, f64::max)
+        APPROXIMATION * points.iter().map(Vec2::amax).fold(0.0, f64::max)
     }
 
     /// Sums of the forces of loads, weight, springs and dampers on each body [force].

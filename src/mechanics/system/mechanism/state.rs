@@ -119,6 +119,11 @@ impl System {
         if !numbers.iter().all(|number| number.is_finite()) {
             return Err(refused("it has a value that is not finite"));
         }
+        let states = self.sliders.iter().zip(&state.sliders);
+        let mut in_flight = states.filter(|(_, state)| **state == SliderState::Separated);
+        if in_flight.any(|(slider, _)| slider.unilateral.is_none()) {
+            return Err(refused("a slider without a side is in flight"));
+        }
         // The values of the sliders are at the end of `numbers`.
         let of_sliders = &numbers[numbers.len() - self.sliders.saved()..];
         if !self.sliders.fit(of_sliders) {

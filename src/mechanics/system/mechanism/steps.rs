@@ -214,6 +214,14 @@ impl Constraints for System {
         self.sliders.check(unknowns, self.step.interval.ending())
     }
 
+    fn has_end_conditions(&self) -> bool {
+        self.sliders.iter().any(|slider| slider.unilateral.is_some())
+    }
+
+    fn check_end(&mut self) -> Result<(), Overshoot> {
+        self.check_contact_forces()
+    }
+
     fn shortest_chord(&self) -> f64 {
         self.sliders.shortest_chord()
     }

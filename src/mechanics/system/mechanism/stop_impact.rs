@@ -25,13 +25,13 @@ pub(super) const RIGID: f64 = 4.0;
 pub const RESOLVED_IMPACT: f64 = 0.125;
 
 /// Smallest approach speed, as a fraction of the speed of the fastest point of the model.
-const APPROACHES: f64 = 1e-12;
+pub(super) const APPROACHES: f64 = 1e-12;
 
 /// Direction of a contact impulse, with the law of the contact.
 #[derive(Debug, Clone, Copy)]
-struct ImpactContact {
-    direction: ImpactDirection,
-    law: ImpactLaw,
+pub(super) struct ImpactContact {
+    pub(super) direction: ImpactDirection,
+    pub(super) law: ImpactLaw,
 }
 
 /// Sliders that reach an end of their master at the same time, grouped by their behaviour at the end.
@@ -204,7 +204,7 @@ impl System {
 
     /// Applies impulses at several contacts at once.
     /// Corners rotate the velocities of the sliders that pass them. All other contacts follow their impact laws.
-    fn apply_impulses(
+    pub(super) fn apply_impulses(
         &mut self,
         hits: &[ImpactContact],
         corners: &[SeamCorner],
@@ -235,6 +235,8 @@ impl System {
             slider.is_pulled = leaves && !slider.stop_may_pull;
             slider.crosses_seam = false;
         }
+        let of_hits = impulses.after(turned.len());
+        self.separate_after_impact(directions.into_iter().zip(laws), &of_hits);
         Ok(())
     }
 
@@ -319,7 +321,7 @@ impl System {
     /// Returns the directions of all contact impulses with their laws [-].
     /// For a slider that is held or has an impact law at a limit, the directions are along and across the master.
     /// For any other slider on a master without a kink, the direction is across the master.
-    fn impulse_directions(
+    pub(super) fn impulse_directions(
         &self,
         law: impl Fn(&Self, MasterLimit) -> Option<ImpactLaw>,
     ) -> Vec<ImpactContact> {
@@ -328,15 +330,16 @@ impl System {
             let mut limits = MasterLimit::both(at).into_iter();
             let own = limits.find_map(|limit| law(self, limit).map(|law| (limit, law)));
             let stop = match slider.state {
-                SliderState::Released => continue,
+                SliderState::Released | SliderState::Separated => continue,
                 SliderState::Sliding => own,
                 SliderState::Held(end) => {
                     own.or(Some((MasterLimit { slider: at, end }, ImpactLaw::Held)))
                 }
             };
             if stop.is_some() || !slider.is_compliant() {
-                let across = perpendicular(slider.along_contact(&self.bodies));
-                hits.push(ImpactContact { direction: (at, across), law: ImpactLaw::Elastic });
+                let normal = perpendicular(slider.along_contact(&self.bodies));
+                let across = slider.unilateral.as_ref().map_or(normal, |side| normal * side.sign);
+                hits.push(ImpactContact { direction: (at, across), law: self.law_across(at) });
             }
             if let Some((limit, law)) = stop {
                 hits.push(ImpactContact { direction: (at, self.stop_direction(limit)), law });

@@ -234,6 +234,9 @@ impl System {
         };
         let on_tracks = scene.sliders.iter().any(|slider| slider.track.is_some());
         let seams = if on_tracks { ", steps end at seams of tracks" } else { "" };
+        let leaves = scene.sliders.iter().any(|slider| slider.side.is_some());
+        let flights =
+            if leaves { ", steps end where sliders leave beams and land on them" } else { "" };
         let may_kink = |slider: &Slider| {
             let basis = self.meshes()[slider.master].basis();
             let is_smooth = basis.breaks().len() == 2 || basis.continuity() > 0;
@@ -245,7 +248,9 @@ impl System {
             }
             false => "",
         };
-        let how = format!("{rules}: {solved}; arrivals at beam ends are detected{seams}{choice}");
+        let how = format!(
+            "{rules}: {solved}; arrivals at beam ends are detected{seams}{flights}{choice}"
+        );
         SystemFeature::used("sliders", how)
     }
 

@@ -65,6 +65,17 @@ impl System {
         self.slider(slider).friction_force()
     }
 
+    /// Distance of the slave of a slider that only pushes from the axis of its master [length], positive on the side of the flight.
+    /// It is zero in contact, and `None` for a slider that never leaves its master.
+    pub fn flight_gap(&self, slider: usize) -> Option<f64> {
+        self.slider(slider).flight_gap(self.bodies())
+    }
+
+    /// Number of steps in which a slider that only pushes stayed in contact under a tensile force, because of too many changes.
+    pub fn steps_with_kept_contact(&self, slider: usize) -> usize {
+        self.slider(slider).unilateral.as_ref().map_or(0, |contact| contact.kept_steps)
+    }
+
     /// Position of a slider along its initial master or track, from 0 at the start to 1 at the end [-]. On closed tracks, completed rounds are added.
     pub fn slider_position(&self, slider: usize) -> f64 {
         self.slider(slider).position()

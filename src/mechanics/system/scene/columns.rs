@@ -6,7 +6,8 @@ use crate::loads::LoadKind;
 use crate::system::elements::{DriveKind, Element, SpringKind};
 use crate::system::sensors::quantities::{
     COLUMNS_OF_LOADS, COLUMNS_OF_MOVES, COLUMNS_OF_OBSTACLES, COLUMNS_OF_SLIDERS,
-    COLUMNS_OF_SPRINGS, COLUMNS_OF_TORSION_SPRINGS, DISSIPATED, STORED, TORQUE, WORK,
+    COLUMNS_OF_SPRINGS, COLUMNS_OF_TORSION_SPRINGS, DISSIPATED, FLIGHT_GAP, FRICTION, STORED,
+    TORQUE, WORK,
 };
 use crate::system::{Sensor, SensorSource};
 
@@ -15,8 +16,9 @@ impl Scene {
     pub(crate) fn history_sensors(&self) -> Vec<Sensor> {
         let (mut all, mut others, mut winds) = (Vec::new(), Vec::new(), Vec::new());
         for (at, slider) in self.sliders.iter().enumerate() {
-            let count = COLUMNS_OF_SLIDERS.len() - usize::from(slider.friction == 0.0);
-            let own = COLUMNS_OF_SLIDERS[..count].iter();
+            let friction = (slider.friction > 0.0).then_some(&FRICTION);
+            let gap = slider.side.map(|_| &FLIGHT_GAP);
+            let own = COLUMNS_OF_SLIDERS.iter().chain(friction).chain(gap);
             all.extend(own.map(|own| Sensor::of(&slider.name, own, SensorSource::Slider(at))));
         }
         let stores = self.springs().next().is_some() || self.obstacles().next().is_some();

@@ -3,14 +3,24 @@
 use super::Scene;
 use super::ties::same_place;
 use crate::beams::Station;
-use crate::geometry::nearest;
+use crate::geometry::{Vec2, cross, nearest};
 use crate::joints::{Slider, SlidingRule};
-use crate::system::SystemError;
 use crate::system::errors::{Approach, SliderError, SliderParts, written};
+use crate::system::{BeamDefinition, SystemError};
 
 /// Largest initial distance of a slave from its master, as a fraction of the length of the master plus the distance from the origin.
 /// The tolerance admits coordinates with six digits. The slave is then moved exactly onto its master.
 const CLOSED: f64 = 1e-6;
+
+/// Points of a slave and its master at the start.
+struct StartGap {
+    from: Vec2,
+    to: Vec2,
+    /// Distance of the two points [length].
+    gap: f64,
+    /// Distance below which the slave is moved onto the axis [length].
+    tolerance: f64,
+}
 
 /// Reason why a sliding rule cannot be used on tracks; `None` if it can be used.
 fn at_seams(rule: SlidingRule) -> Option<&'static str> {
@@ -76,6 +86,7 @@ impl Scene {
             let (rule, slider) = (slider.rule.entry().name, slider.name.clone());
             return Err(SliderError::FrictionRule { slider, rule }.into());
         }
+        self.check_side(slider)?;
         let is_same = |other: &Slider| {
             let is_on = self.masters(other).iter().any(|master| masters.contains(master));
             is_on && same_place(&other.slave, &slider.slave, self)
@@ -83,15 +94,22 @@ impl Scene {
         if self.sliders.iter().any(is_same) {
             return Err(SliderError::Duplicate(parts).into());
         }
-        let on_master = Station::on_beam(slider.master, slider.arc_length);
-        let (from, to) = (self.drawn_at(&slider.slave)?, self.drawn_at(&on_master)?);
-        let length = self.beams[slider.master].axis.length();
-        let (gap, tolerance) = ((from - to).norm(), CLOSED * (length + from.norm()));
+        let StartGap { from, to, gap, tolerance } = self.start_gap(slider)?;
         if gap <= tolerance {
             return Ok(());
         }
+        let length = self.beams[slider.master].axis.length();
         let (master, best) = self.nearest_of(masters.into_iter(), &slider.slave)?;
         let distance = (from - self.drawn_at(&Station::on_beam(master, best))?).norm();
+        if let Some(side) = slider.side
+            && gap <= distance + tolerance
+        {
+            let along = self.drawn_tangent(slider.master, slider.arc_length)?;
+            return match side.sign() * cross(along, from - to) > 0.0 {
+                true => Ok(()),
+                false => Err(SliderError::OtherSide { parts, side: side.name(), gap }.into()),
+            };
+        }
         let (guide, place) = match slider.track {
             None => ("beam", best / length),
             Some(track) => {
@@ -104,6 +122,57 @@ impl Scene {
             false => Approach::Distant { place, guide, distance },
         };
         Err(SliderError::Open { parts, from: written(from), to: written(to), gap, nearest }.into())
+    }
+
+    /// Returns true if a slider that only pushes starts in flight, at a distance from its master.
+    ///
+    /// # Errors
+    /// Fails if the slave or the start lies outside its beam.
+    pub(in crate::system) fn starts_apart(&self, slider: &Slider) -> Result<bool, SystemError> {
+        if slider.side.is_none() {
+            return Ok(false);
+        }
+        let StartGap { gap, tolerance, .. } = self.start_gap(slider)?;
+        Ok(gap > tolerance)
+    }
+
+    fn start_gap(&self, slider: &Slider) -> Result<StartGap, SystemError> {
+        let on_master = Station::on_beam(slider.master, slider.arc_length);
+        let (from, to) = (self.drawn_at(&slider.slave)?, self.drawn_at(&on_master)?);
+        let length = self.beams[slider.master].axis.length();
+        let (gap, tolerance) = ((from - to).norm(), CLOSED * (length + from.norm()));
+        Ok(StartGap { from, to, gap, tolerance })
+    }
+
+    /// Unit tangent of a beam at an arc length [-].
+    ///
+    /// # Errors
+    /// Fails if the arc length is outside the beam.
+    pub fn drawn_tangent(&self, beam: usize, arc_length: f64) -> Result<Vec2, SystemError> {
+        let BeamDefinition { axis, name, .. } = &self.beams[beam];
+        let tangent = axis.parameter_at(arc_length).and_then(|xi| axis.derivative(xi, 1));
+        tangent.map(|tangent| tangent.normalize()).map_err(SystemError::geometry(name))
+    }
+
+    /// Checks that a slider with a side has no option that is not available with a side.
+    fn check_side(&self, slider: &Slider) -> Result<(), SystemError> {
+        if slider.side.is_none() {
+            return Ok(());
+        }
+        let refused = [
+            (slider.track.is_some(), "on a track", "choose a single beam"),
+            (slider.friction > 0.0, "with friction", "remove the friction"),
+            (slider.rule != SlidingRule::Conserving, "with this rule", "use the conserving rule"),
+            (
+                slider.ends.has_stop(),
+                "with ends that hold or reflect it",
+                "choose the ends stop or release",
+            ),
+        ];
+        let Some((_, what, remedy)) = refused.into_iter().find(|(is_given, ..)| *is_given) else {
+            return Ok(());
+        };
+        Err(SliderError::SideWith { slider: slider.name.clone(), what, remedy }.into())
     }
 
     pub(in crate::system) fn parts(&self, slider: &Slider) -> SliderParts {

@@ -112,15 +112,22 @@ pub(in crate::system) static OF_JOINTS: [Quantity; 9] = [
     quantity("present_moment", "force·length", Instant, Force(|_, moment| moment)),
 ];
 
-/// Columns of each slider: its motion, and the force on its master. The last one is that of sliders with friction.
-pub(in crate::system) static COLUMNS_OF_SLIDERS: [Quantity; 6] = [
+/// Columns of each slider: its motion, and the force on its master.
+pub(in crate::system) static COLUMNS_OF_SLIDERS: [Quantity; 5] = [
     quantity("position", "-", Present, Index(System::slider_position)),
     quantity("speed", "length/time", Present, Index(System::slider_speed)),
     quantity("force", "force", StepMean, Index(|model, at| model.contact_force(at).norm())),
     quantity("force_x", "force", StepMean, Index(|model, at| model.contact_force(at).x)),
     quantity("force_y", "force", StepMean, Index(|model, at| model.contact_force(at).y)),
-    quantity("friction", "force", StepMean, Index(friction)),
 ];
+
+/// Column of sliders with friction: the force along the master.
+pub(in crate::system) static FRICTION: Quantity =
+    quantity("friction", "force", StepMean, Index(friction));
+
+/// Column of sliders that only push: the distance from the axis.
+pub(in crate::system) static FLIGHT_GAP: Quantity =
+    quantity("gap", "length", Present, Index(flight_gap));
 
 /// Quantities of sliders that are recorded on request: the instantaneous force on the master, and the arc length from the start of the master or
 /// track.
@@ -192,6 +199,10 @@ pub(in crate::system) static OF_CALLER: Quantity = quantity("", "-", Present, Ex
 
 fn friction(model: &System, slider: usize) -> f64 {
     model.friction_force(slider).unwrap_or(f64::NAN)
+}
+
+fn flight_gap(model: &System, slider: usize) -> f64 {
+    model.flight_gap(slider).unwrap_or(f64::NAN)
 }
 
 fn internal_force(model: &System, at: usize) -> &dyn InternalForce {

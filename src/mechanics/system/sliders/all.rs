@@ -181,7 +181,7 @@ impl Sliders {
     ///
     /// # Errors
     /// Fails if a slider passes an end of its master, or if it misses the event at which the step has to end.
-    /// Also fails if a stop force becomes tensile, or if a slider with friction begins to slip or to stick.
+    /// Also fails if a stop force becomes tensile, if a slider with friction begins to slip or to stick, or if a slider in flight lands.
     pub fn check(&mut self, unknowns: &[f64], ending: IntervalEnd) -> Result<(), Overshoot> {
         let mut furthest: Option<Overshoot> = None;
         let aim = self.target.filter(|_| ending == IntervalEnd::Step);
@@ -197,14 +197,15 @@ impl Sliders {
                 furthest = Some(overshoot);
             }
         }
-        if let Some(overshoot) = self.friction_overshoot(unknowns, aim) {
+        let other = self.friction_overshoot(unknowns, aim).or_else(|| self.landing_overshoot(aim));
+        if let Some(overshoot) = other {
             return Err(furthest.unwrap_or(overshoot));
         }
         self.iter_mut().for_each(|slider| slider.record_tension(ending));
         let pulled = self.iter().position(|slider| slider.is_pulled);
         let leaves = pulled.and_then(|slider| match self[slider].state {
             SliderState::Held(end) => Some(MasterLimit { slider, end }),
-            SliderState::Sliding | SliderState::Released => None,
+            SliderState::Sliding | SliderState::Separated | SliderState::Released => None,
         });
         let leaves = leaves
             .map(|limit| Overshoot { event: SliderEvent::Limit(limit).number(), distance: 0.0 });
@@ -238,6 +239,24 @@ impl Sliders {
             }
         }
         starts
+    }
+
+    /// Landing of a slider in the attempted step. The distance is that of the slave behind the axis, as a fraction of the size of the contact [-].
+    /// If `aim` is a landing, the step must end at this event, and a distance of either sign is returned.
+    fn landing_overshoot(&self, aim: Option<SliderEvent>) -> Option<Overshoot> {
+        self.iter().enumerate().find_map(|(index, slider)| {
+            let event = SliderEvent::Landing(index);
+            let distance = match aim == Some(event) {
+                true => slider.missed_landing(),
+                false => slider.landing(),
+            };
+            distance.map(|distance| Overshoot { event: event.number(), distance })
+        })
+    }
+
+    /// Event at which the next step has to end.
+    pub fn target(&self) -> Option<SliderEvent> {
+        self.target
     }
 
     /// Shortest chord of the path of a slider, as a fraction of the length of the path [-].
@@ -279,7 +298,7 @@ impl Sliders {
         let of_slider = |(at, slider): (usize, &SliderContact)| {
             let (across, along) = (slider.across(bodies), slider.along(bodies));
             match slider.state {
-                SliderState::Released => vec![],
+                SliderState::Released | SliderState::Separated => vec![],
                 SliderState::Sliding if slider.is_compliant() => vec![],
                 SliderState::Sliding if slider.sticks() => vec![(at, across), (at, along)],
                 SliderState::Sliding => vec![(at, across)],

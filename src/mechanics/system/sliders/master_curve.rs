@@ -48,6 +48,8 @@ pub enum SliderState {
     Sliding,
     /// Held at the stop at an end of its master.
     Held(MasterEnd),
+    /// In flight: a slider that only pushes has left its master, and can land on it.
+    Separated,
     /// Released from its master.
     Released,
 }
@@ -58,7 +60,16 @@ impl SliderState {
         match self {
             Self::Sliding => "sliding",
             Self::Held(_) => "held",
+            Self::Separated => "separated",
             Self::Released => "released",
+        }
+    }
+
+    /// Returns true if the slave is on the axis of its master.
+    pub(in crate::system) fn has_contact(self) -> bool {
+        match self {
+            Self::Sliding | Self::Held(_) => true,
+            Self::Separated | Self::Released => false,
         }
     }
 }
@@ -87,24 +98,35 @@ pub enum SliderEvent {
     SlipEnd(usize),
     /// The slip of this slider with friction starts.
     SlipStart(usize),
+    /// This slider in flight reaches the axis of its master.
+    Landing(usize),
+    /// The contact force of this slider, which only pushes, becomes tensile.
+    TakeOff(usize),
 }
+
+/// Number of events of a slider.
+const EVENTS: usize = 6;
 
 impl SliderEvent {
     /// Index of this event among the events of all sliders.
     pub fn number(self) -> usize {
         match self {
-            Self::Limit(MasterLimit { slider, end }) => 4 * slider + end as usize,
-            Self::SlipEnd(slider) => 4 * slider + 2,
-            Self::SlipStart(slider) => 4 * slider + 3,
+            Self::Limit(MasterLimit { slider, end }) => EVENTS * slider + end as usize,
+            Self::SlipEnd(slider) => EVENTS * slider + 2,
+            Self::SlipStart(slider) => EVENTS * slider + 3,
+            Self::Landing(slider) => EVENTS * slider + 4,
+            Self::TakeOff(slider) => EVENTS * slider + 5,
         }
     }
 
     /// Event with the given index.
     pub fn of(number: usize) -> Self {
-        let slider = number / 4;
-        match number % 4 {
+        let slider = number / EVENTS;
+        match number % EVENTS {
             2 => Self::SlipEnd(slider),
             3 => Self::SlipStart(slider),
+            4 => Self::Landing(slider),
+            5 => Self::TakeOff(slider),
             end => Self::Limit(MasterLimit::both(slider)[end]),
         }
     }
@@ -189,8 +211,10 @@ mod tests {
     fn events_are_numbered_by_slider() {
         for slider in 0..3 {
             let [start, end] = MasterLimit::both(slider).map(SliderEvent::Limit);
-            let events = [start, end, SliderEvent::SlipEnd(slider), SliderEvent::SlipStart(slider)];
-            for (number, event) in (4 * slider..).zip(events) {
+            let friction = [SliderEvent::SlipEnd(slider), SliderEvent::SlipStart(slider)];
+            let contact = [SliderEvent::Landing(slider), SliderEvent::TakeOff(slider)];
+            let events = [start, end].into_iter().chain(friction).chain(contact);
+            for (number, event) in (EVENTS * slider..).zip(events) {
                 assert_eq!((event.number(), SliderEvent::of(number)), (number, event));
             }
         }

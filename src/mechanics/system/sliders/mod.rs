@@ -12,6 +12,8 @@ pub use all::Sliders;
 pub use axial_impact::{AxialImpact, ImpactBar};
 pub use connection::Connection;
 pub use kinked_axis::{KinkedAxis, MasterKink};
-pub use master_curve::{MasterCurve, MasterEnd, MasterLimit, SliderEvent, SliderState};
+pub use master_curve::{
+    END_TOLERANCE, MasterCurve, MasterEnd, MasterLimit, SliderEvent, SliderState,
+};
 pub use slider_contact::{AtRest, InStep, Passing, SliderContact};
 pub use track_path::{Seam, TrackPath, TrackPathSegment};

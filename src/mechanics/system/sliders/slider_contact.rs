@@ -19,9 +19,11 @@ mod place;
 mod saved;
 mod seams;
 mod stops;
+mod unilateral;
 
 pub use friction::{FrictionTransition, SliderFriction};
 pub use passing::{AtRest, InStep, Passing};
+pub use unilateral::UnilateralContact;
 
 #[derive(Debug, Clone)]
 pub struct SliderContact {
@@ -56,6 +58,8 @@ pub struct SliderContact {
     pub steps_per_impact: f64,
     /// Friction along the master; `None` without friction.
     pub friction: Option<Box<SliderFriction>>,
+    /// Contact that only pushes; `None` for a slider that never leaves its master.
+    pub unilateral: Option<Box<UnilateralContact>>,
     master: MasterCurve,
     /// Path along the track; `None` for a slider on a single beam.
     track: Option<Box<TrackPath>>,
@@ -137,6 +141,7 @@ impl SliderContact {
             size: rail.length(),
             friction: (slider.friction > 0.0)
                 .then(|| Box::new(SliderFriction::new(slider.friction))),
+            unilateral: slider.side.map(|side| Box::new(UnilateralContact::new(side.sign()))),
             master: rail,
             track: None,
             bars,
@@ -181,7 +186,7 @@ impl SliderContact {
             SliderState::Sliding if self.is_frozen() => &Frozen,
             SliderState::Sliding => self.rule.law(),
             SliderState::Held(_) => &HeldSlider,
-            SliderState::Released => &Released,
+            SliderState::Released | SliderState::Separated => &Released,
         }
     }
 
@@ -190,9 +195,9 @@ impl SliderContact {
         std::mem::replace(&mut self.kinked_axis, axis)
     }
 
-    /// Returns true if the slider loses energy at its ends or by friction.
+    /// Returns true if the slider loses energy at its ends, by friction or when it lands on its master.
     pub fn dissipates(&self) -> bool {
-        self.restitution < 1.0 || self.friction.is_some()
+        self.restitution < 1.0 || self.friction.is_some() || self.unilateral.is_some()
     }
 
     pub fn is_sliding(&self) -> bool {
@@ -361,13 +366,14 @@ impl SliderContact {
             // A stop with an infinite tensile force releases the slider at once.
             SliderState::Held(_) if leans_on_nothing => f64::NEG_INFINITY,
             SliderState::Held(end) => contact.outward_push(end.outward()),
-            SliderState::Sliding | SliderState::Released => 0.0,
+            SliderState::Sliding | SliderState::Separated | SliderState::Released => 0.0,
         };
         (self.size, self.chord) = (contact.length + contact.slave_movement.norm(), chord);
         self.units = equations.map(|(_, unit)| unit);
         (self.push, self.contact_force) = (push, force);
         self.record_friction(friction);
         self.push_beyond = self.seam_push(bodies, increments, pressing);
+        self.follow_master(bodies, increments);
         force
     }
 
@@ -418,6 +424,7 @@ impl SliderContact {
             self.record_friction(forces);
             self.dissipate(increment);
         }
+        self.follow_master(bodies, increments);
         if self.kinked_axis.is_none() {
             return;
         }
@@ -438,6 +445,7 @@ impl SliderContact {
             true => axis.accept_frozen_jump(kink),
             false => axis.advance(mean, kink),
         });
+        self.accept_flight();
         self.count_friction_step();
         if interval.ending() == IntervalEnd::Step {
             self.stop_may_pull = false;

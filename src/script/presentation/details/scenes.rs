@@ -178,5 +178,9 @@ pub fn of_slider(scene: &Scene, index: usize) -> Details {
         line("at the ends", ends),
         line("start velocities", velocities),
     ];
-    lines.into_iter().chain(friction).collect()
+    let side = slider.side.map(|side| {
+        let restitution = number(slider.restitution);
+        line("leaves on", format!("the {} side, lands with restitution {restitution}", side.name()))
+    });
+    lines.into_iter().chain(friction).chain(side).collect()
 }

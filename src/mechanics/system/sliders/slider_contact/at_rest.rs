@@ -61,7 +61,7 @@ impl SliderContact {
     fn distance_to_stop(&self) -> Option<f64> {
         match self.state {
             SliderState::Held(end) => Some(self.master.end(end) - self.parameter),
-            SliderState::Sliding | SliderState::Released => None,
+            SliderState::Sliding | SliderState::Separated | SliderState::Released => None,
         }
     }
 
@@ -72,7 +72,7 @@ impl SliderContact {
         contact: &Contact<'_>,
     ) -> [Equation; CONTACT_UNKNOWNS] {
         match (state, way) {
-            (SliderState::Released, _) => Released.equations(contact),
+            (SliderState::Released | SliderState::Separated, _) => Released.equations(contact),
             (_, Some(way)) => AtStop { increment: way }.equations(contact),
             (_, None) => Resting.equations(contact),
         }
@@ -106,7 +106,7 @@ impl SliderContact {
 
     pub fn movements_held(&self) -> usize {
         match self.state {
-            SliderState::Released => 0,
+            SliderState::Released | SliderState::Separated => 0,
             SliderState::Held(_) => 2,
             SliderState::Sliding => usize::from(!self.is_compliant()),
         }
@@ -145,7 +145,7 @@ impl SliderContact {
         if !self.is_sliding() {
             take(&[own], &still);
         }
-        if self.state == SliderState::Released {
+        if !self.state.has_contact() {
             return;
         }
         let degrees = self.static_coupling(bodies, own);

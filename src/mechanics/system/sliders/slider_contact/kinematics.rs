@@ -87,9 +87,10 @@ impl SliderContact {
         self.kinked_axis.iter_mut().for_each(KinkedAxis::straighten);
     }
 
-    /// Unit normal of the master at the slider [-].
+    /// Unit normal of the master at the slider, on the side of the flight for a slider that only pushes [-].
     pub fn across(&self, bodies: &[Body]) -> Vec2 {
-        perpendicular(self.along(bodies))
+        let normal = perpendicular(self.along(bodies));
+        self.unilateral.as_ref().map_or(normal, |contact| normal * contact.sign)
     }
 
     /// Adds `Gᵀ P` for an impulse or force `P` of the contact to `out`. The slave receives `P`, and the master `-P`.
@@ -98,17 +99,20 @@ impl SliderContact {
         self.connection.add_forces(bodies, impulse, self.start_path.first(), on_master, out);
     }
 
-    /// Vector from the slave to the contact point on the master [length].
+    /// Vector from the slave to the contact point on the master [length]. It is zero for a slider without contact.
     pub fn gap(&self, bodies: &[Body]) -> Vec2 {
-        if self.state == SliderState::Released {
+        if !self.state.has_contact() {
             return Vec2::zeros();
         }
+        self.to_axis(bodies) + self.kinked_axis.as_ref().map_or(Vec2::zeros(), KinkedAxis::offset)
+    }
+
+    /// Vector from the slave to its point on the smooth axis of the master [length].
+    pub(super) fn to_axis(&self, bodies: &[Body]) -> Vec2 {
         let (body, point) = self.connection.slave;
         let slave = bodies[body].dynamics.control_points()[point];
         let master = bodies[self.connection.master].dynamics.control_points();
-        let to_axis: Vec2 =
-            self.weights().map(|(index, weight)| (master[index] - slave) * weight).sum();
-        to_axis + self.kinked_axis.as_ref().map_or(Vec2::zeros(), KinkedAxis::offset)
+        self.weights().map(|(index, weight)| (master[index] - slave) * weight).sum()
     }
 
     /// Velocity of the slave relative to the contact point on the master [length/time].
@@ -143,7 +147,13 @@ impl SliderContact {
     /// Rate `dξ/dt` of the parameter at the present velocities [1/time].
     pub fn rate(&self, bodies: &[Body], rates: &[f64]) -> f64 {
         match (self.state, &self.kinked_axis) {
-            (SliderState::Sliding, Some(axis)) => self.rate_on_kinked_axis(axis, bodies, rates),
+            (SliderState::Sliding, Some(axis)) => {
+                self.rate_at_offset(axis.offset(), axis.slopes(), bodies, rates)
+            }
+            (SliderState::Separated, _) => {
+                let offset = -self.to_axis(bodies);
+                self.rate_at_offset(offset, (Vec2::zeros(), 0.0), bodies, rates)
+            }
             (SliderState::Sliding, None) => {
                 let tangent = self.tangent(bodies);
                 self.relative_velocity(bodies, rates).dot(&tangent) / tangent.norm_squared()
@@ -152,10 +162,15 @@ impl SliderContact {
         }
     }
 
-    /// Rate `dξ/dt` on a kinked axis. It follows from the time derivative of `r·x' + ½ |r|² g'/g = 0`.
-    /// The offset of the slave from the smooth axis is `r = g p/GA`.
-    fn rate_on_kinked_axis(&self, axis: &KinkedAxis, bodies: &[Body], rates: &[f64]) -> f64 {
-        let (offset, (slope, bend)) = (axis.offset(), axis.slopes());
+    /// Rate `dξ/dt` for an offset `r` of the slave from the smooth axis [length].
+    /// It follows from the time derivative of `r·x' = 0` in flight, and of `r·x' + ½ |r|² g'/g = 0` with the offset `r = g p/GA` of a kinked axis.
+    fn rate_at_offset(
+        &self,
+        offset: Vec2,
+        (slope, bend): (Vec2, f64),
+        bodies: &[Body],
+        rates: &[f64],
+    ) -> f64 {
         let (points, master) = (self.window(bodies), &bodies[self.connection.master]);
         let bent = self.bend(bodies);
         let turning = self.start_path.slope().iter().zip(self.start_path.first()..);

@@ -12,11 +12,15 @@ const ROUTE: usize = 3;
 /// Number of values that the friction of a slider contributes to the state.
 const FRICTION: usize = 2;
 
+/// Number of values that a contact that only pushes contributes to the state.
+const UNILATERAL: usize = 2;
+
 impl SliderContact {
     pub fn saved(&self) -> usize {
         let of_route = if self.is_on_track() { ROUTE } else { 0 };
         let of_friction = if self.friction.is_some() { FRICTION } else { 0 };
-        13 + of_friction + CONTACT_UNKNOWNS + of_route
+        let of_side = if self.unilateral.is_some() { UNILATERAL } else { 0 };
+        13 + of_friction + of_side + CONTACT_UNKNOWNS + of_route
     }
 
     pub fn is_valid(&self, numbers: &[f64]) -> bool {
@@ -43,6 +47,7 @@ impl SliderContact {
             f64::from(u8::from(self.stop_may_pull)),
         ]);
         numbers.extend(self.friction.iter().flat_map(|friction| friction.numbers()));
+        numbers.extend(self.unilateral.iter().flat_map(|contact| contact.numbers()));
         numbers.extend(self.track.iter().flat_map(|route| route.numbers()));
     }
 
@@ -58,6 +63,9 @@ impl SliderContact {
         self.stop_may_pull = next() != 0.0;
         if let Some(friction) = &mut self.friction {
             friction.restore(std::array::from_fn(|_| next()));
+        }
+        if let Some(contact) = &mut self.unilateral {
+            contact.restore(std::array::from_fn(|_| next()));
         }
         if let Some(route) = &mut self.track {
             route.restore(std::array::from_fn(|_| next()));

@@ -1,0 +1,174 @@
+//! Sliders that only push: take-off, landing, and the impact across the master at a landing.
+
+use super::System;
+use super::impact::{ImpactDirection, ImpactImpulses, ImpactLaw};
+use super::rigidity::Deformation;
+use super::stop_impact::{APPROACHES, ImpactContact, RIGID};
+use crate::geometry::Vec2;
+use crate::integrators::Overshoot;
+use crate::linalg::LinearError;
+use crate::system::SystemError;
+use crate::system::sliders::SliderEvent;
+
+/// Tensile contact force that counts as zero, as a fraction of the forces of the step.
+const TENSILE: f64 = 1e-10;
+
+/// Distance from the axis below which a slider lands together with another one, as a fraction of the size of the contact.
+const TOGETHER: f64 = 1e-12;
+
+impl System {
+    /// Take-off of a slider at the end of an accepted step, because its present contact force is tensile.
+    /// If the step has to end at a take-off, the present contact force of this slider must be zero.
+    ///
+    /// # Errors
+    /// Fails if a slider takes off before the end of the step, or if it misses the take-off at which the step has to end.
+    pub(super) fn check_contact_forces(&mut self) -> Result<(), Overshoot> {
+        if !self.sliders.iter().any(|slider| slider.may_take_off()) {
+            return Ok(());
+        }
+        let Ok(now) = self.instant() else { return Ok(()) };
+        for at in 0..self.sliders.len() {
+            if !self.sliders[at].may_take_off() {
+                continue;
+            }
+            let push = -now.contact(at).dot(&self.sliders[at].across(&self.bodies));
+            let (event, relative) = (SliderEvent::TakeOff(at), self.step.relative_force(push));
+            let is_missed = self.sliders.target() == Some(event) && relative > TENSILE;
+            let is_tensile = relative < -TENSILE;
+            if is_tensile && self.sliders[at].is_changing_often() {
+                self.sliders[at].count_kept_step();
+            } else if is_tensile || is_missed {
+                return Err(Overshoot { event: event.number(), distance: -push });
+            }
+        }
+        Ok(())
+    }
+
+    /// Present force with which a slider pushes its master [force]; zero if the contact force is not determined.
+    pub(crate) fn push(&mut self, slider: usize) -> f64 {
+        let across = self.sliders[slider].across(&self.bodies);
+        self.instant().map_or(0.0, |now| -now.contact(slider).dot(&across))
+    }
+
+    /// Distance of a slider in flight from the axis, as a fraction of the size of the contact [-].
+    pub(crate) fn relative_gap(&mut self, slider: usize) -> f64 {
+        self.sliders[slider].relative_gap(&self.bodies)
+    }
+
+    /// Returns true if the velocity of a slider in flight points at the axis of its master.
+    pub(crate) fn approaches_axis(&self, slider: usize) -> bool {
+        self.speed_across(slider) < 0.0
+    }
+
+    /// Moves all sliders in flight to the nearest points of their masters in the present configuration.
+    pub(in crate::system) fn follow_masters(&mut self) {
+        let Self { sliders, bodies, .. } = self;
+        sliders.iter_mut().for_each(|slider| slider.move_to_nearest_point(bodies));
+    }
+
+    /// Allows all sliders to change between contact and flight again, after a regular step.
+    pub(crate) fn clear_contact_changes(&mut self) {
+        self.sliders.iter_mut().for_each(|slider| slider.clear_changes());
+    }
+
+    /// Starts the flight of a slider. Positions, velocities and energy do not change.
+    pub(crate) fn take_off(&mut self, slider: usize) {
+        self.sliders[slider].take_off();
+        self.motion.accelerations.mark_unknown();
+    }
+
+    /// Ends the flight of a slider, and of all sliders that land simultaneously. The length of the steps is `dt` [time].
+    /// A slider that strikes its master bounces, or slides along it from now on. A slider beyond an end of its master passes it.
+    ///
+    /// # Errors
+    /// Fails if the impulses are undetermined.
+    pub(crate) fn land(&mut self, slider: usize, dt: f64) -> Result<(), SystemError> {
+        let mut striking = Vec::new();
+        for at in 0..self.sliders.len() {
+            if !self.sliders[at].is_separated() {
+                continue;
+            }
+            let approaches = self.approaches_axis(at);
+            let Self { sliders, bodies, .. } = self;
+            let together = approaches && sliders[at].relative_gap(bodies).abs() <= TOGETHER;
+            if at != slider && !together {
+                continue;
+            }
+            let is_inside = sliders[at].nearest_point(bodies, &[]).is_inside;
+            sliders[at].record_passage(is_inside);
+            if is_inside && approaches {
+                striking.push(at);
+            } else if is_inside {
+                sliders[at].start_contact();
+            }
+        }
+        self.motion.accelerations.mark_unknown();
+        if striking.is_empty() {
+            return Ok(());
+        }
+        self.sliders.iter_mut().for_each(|slider| slider.impulse = Vec2::zeros());
+        self.solve_landing(&striking, dt).map_err(|_| self.sliders.overdetermined())?;
+        self.choose_friction_modes();
+        self.leave_tensile_stops()
+    }
+
+    /// Computes the impact of sliders that strike their masters. A slider without rebound slides along its master from now on.
+    /// The impact includes the deformations that the steps resolve.
+    /// A second impact with all deformations removes the remaining velocities of sliders without rebound.
+    fn solve_landing(&mut self, striking: &[usize], dt: f64) -> Result<(), LinearError> {
+        let restitution = |model: &Self, at: usize| match model.sliders[at].is_changing_often() {
+            true => 0.0,
+            false => model.sliders[at].restitution,
+        };
+        let hits = self.landing_directions(striking, |model, at| {
+            ImpactLaw::Restitution(restitution(model, at))
+        });
+        let resolved = Deformation::Resolved(RIGID * dt);
+        self.apply_impulses(&hits, &[], [Deformation::All, resolved])?;
+        let mut resting = striking.to_vec();
+        resting.retain(|at| restitution(self, *at) == 0.0);
+        if !resting.is_empty() {
+            let hits = self.landing_directions(&resting, |_, _| ImpactLaw::Rest);
+            self.apply_impulses(&hits, &[], [Deformation::All; 2])?;
+        }
+        resting.iter().for_each(|at| self.sliders[*at].start_contact());
+        Ok(())
+    }
+
+    /// Directions across the masters of landing sliders with their laws, followed by the directions of all contacts.
+    fn landing_directions(
+        &self,
+        landing: &[usize],
+        law: impl Fn(&Self, usize) -> ImpactLaw,
+    ) -> Vec<ImpactContact> {
+        let across = |at: &usize| ImpactContact {
+            direction: (*at, self.sliders[*at].across(&self.bodies)),
+            law: law(self, *at),
+        };
+        landing.iter().map(across).chain(self.impulse_directions(|_, _| None)).collect()
+    }
+
+    /// Law across the master for a slider that is in contact during an impact.
+    pub(super) fn law_across(&self, slider: usize) -> ImpactLaw {
+        match self.sliders[slider].unilateral {
+            Some(_) => ImpactLaw::Unilateral,
+            None => ImpactLaw::Elastic,
+        }
+    }
+
+    /// Starts the flight of sliders that an impact moves away from their masters.
+    /// The directions and laws are those of the given impulses.
+    pub(super) fn separate_after_impact(
+        &mut self,
+        laws: impl Iterator<Item = (ImpactDirection, ImpactLaw)>,
+        impulses: &ImpactImpulses,
+    ) {
+        let tolerance = APPROACHES * self.fastest_speed();
+        let of_impulses = impulses.values.iter().zip(&impulses.mean_velocities);
+        for (((slider, _), law), (impulse, velocity)) in laws.zip(of_impulses) {
+            if law == ImpactLaw::Unilateral && *impulse == 0.0 && *velocity > tolerance {
+                self.take_off(slider);
+            }
+        }
+    }
+}

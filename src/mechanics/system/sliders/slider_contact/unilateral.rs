@@ -1,0 +1,223 @@
+//! Contact of a slider that only pushes: flight, landing and take-off.
+
+use super::SliderContact;
+use crate::geometry::{Vec2, cross};
+use crate::joints::ContactUnknowns;
+use crate::system::bodies::Body;
+use crate::system::sliders::SliderState;
+use crate::system::sliders::master_curve::END_TOLERANCE;
+
+/// Largest number of changes between contact and flight without a regular step between them.
+/// After these changes, the slider stays in contact until the next regular step.
+const MOST_CHANGES: usize = 4;
+
+/// Largest number of iterations of the search for the nearest point of the master.
+const MOST_ITERATIONS: usize = 64;
+
+/// Largest change of the parameter in an iteration of the search, as a fraction of the parameter range.
+const LARGEST_CHANGE: f64 = 0.125;
+
+/// Smallest second derivative of the squared distance in the search, as a fraction of its value for a straight master.
+const SMALLEST_CURVATURE: f64 = 0.5;
+
+/// Cosine of the angle between the axis and the vector to the slave, above which the slave is beyond an end of the master.
+const BEYOND: f64 = 1e-9;
+
+/// Contact of a slider that only pushes.
+#[derive(Debug, Clone)]
+pub struct UnilateralContact {
+    /// Sign of the distance from the axis, along the left normal, on the side of the flight [-].
+    pub sign: f64,
+    /// Nearest point of the master at the end of the last attempted step.
+    nearest: NearestPoint,
+    /// True if the slave is not on the other side of the master, which it can reach beyond an end of the master.
+    may_land: bool,
+    /// Number of changes between contact and flight since the last regular step.
+    changes: usize,
+    /// Number of steps in which the slider stayed in contact because of too many changes.
+    pub kept_steps: usize,
+}
+
+/// Nearest point of the master.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct NearestPoint {
+    parameter: f64,
+    /// Distance of the slave from the axis, positive on the side of the flight [length].
+    pub gap: f64,
+    /// True if the slave is not beyond an end of the master.
+    pub is_inside: bool,
+}
+
+impl UnilateralContact {
+    pub fn new(sign: f64) -> Self {
+        Self { sign, nearest: NearestPoint::default(), may_land: true, changes: 0, kept_steps: 0 }
+    }
+
+    /// Numeric state: permission to land, and number of changes.
+    pub(super) fn numbers(&self) -> [f64; 2] {
+        [f64::from(u8::from(self.may_land)), self.changes as f64]
+    }
+
+    pub(super) fn restore(&mut self, [may_land, changes]: [f64; 2]) {
+        (self.may_land, self.changes) = (may_land != 0.0, changes as usize);
+    }
+}
+
+impl SliderContact {
+    pub fn is_separated(&self) -> bool {
+        self.state == SliderState::Separated
+    }
+
+    /// Returns true if the slider only pushes and is in contact.
+    pub fn may_take_off(&self) -> bool {
+        self.is_sliding() && self.unilateral.is_some()
+    }
+
+    /// Returns true if the slider changed too often between contact and flight since the last regular step.
+    pub fn is_changing_often(&self) -> bool {
+        self.unilateral.as_ref().is_some_and(|contact| contact.changes >= MOST_CHANGES)
+    }
+
+    pub fn clear_changes(&mut self) {
+        self.unilateral.iter_mut().for_each(|contact| contact.changes = 0);
+    }
+
+    pub fn count_kept_step(&mut self) {
+        self.unilateral.iter_mut().for_each(|contact| contact.kept_steps += 1);
+    }
+
+    /// Starts a flight. The contact force is zero from now on.
+    pub fn take_off(&mut self) {
+        self.state = SliderState::Separated;
+        self.unknowns = ContactUnknowns::zeros();
+        if let Some(contact) = &mut self.unilateral {
+            (contact.may_land, contact.changes) = (true, contact.changes + 1);
+        }
+    }
+
+    /// Ends a flight. The slider slides along its master from now on.
+    pub fn start_contact(&mut self) {
+        self.state = SliderState::Sliding;
+    }
+
+    /// Records that the slave passed the axis of its master beyond an end, or landed on it.
+    pub fn record_passage(&mut self, lands: bool) {
+        if let Some(contact) = &mut self.unilateral {
+            (contact.may_land, contact.changes) = (lands, contact.changes + 1);
+        }
+    }
+
+    /// Nearest point of the master after given increments of all bodies.
+    /// The search starts at the present parameter. If `increments` is empty, the present configuration is used.
+    pub fn nearest_point(&mut self, bodies: &[Body], increments: &[f64]) -> NearestPoint {
+        let sign = self.unilateral.as_ref().map_or(1.0, |contact| contact.sign);
+        let (first, last) = self.master.domain();
+        let range = last - first;
+        let mut parameter = self.parameter.clamp(first, last);
+        let mut at = self.offset(bodies, increments, parameter);
+        for _ in 0..MOST_ITERATIONS {
+            let [to_axis, tangent, bend] = at;
+            let straight = tangent.norm_squared();
+            let curvature = straight + to_axis.dot(&bend);
+            let change = -to_axis.dot(&tangent) / curvature.max(SMALLEST_CURVATURE * straight);
+            let most = LARGEST_CHANGE * range;
+            let next = (parameter + change.clamp(-most, most)).clamp(first, last);
+            let is_found = (next - parameter).abs() <= END_TOLERANCE * range;
+            parameter = next;
+            at = self.offset(bodies, increments, parameter);
+            if is_found {
+                break;
+            }
+        }
+        let [to_axis, tangent, _] = at;
+        let is_at_end = parameter == first || parameter == last;
+        let is_beyond = to_axis.dot(&tangent).abs() > BEYOND * to_axis.norm() * tangent.norm();
+        NearestPoint {
+            parameter,
+            gap: -sign * cross(tangent.normalize(), to_axis),
+            is_inside: !(is_at_end && is_beyond),
+        }
+    }
+
+    /// Vector from the slave to a point of the master, and its first and second derivative with respect to the parameter [length].
+    fn offset(&mut self, bodies: &[Body], increments: &[f64], parameter: f64) -> [Vec2; 3] {
+        self.path.set_interval(parameter, parameter);
+        let (body, point) = self.connection.slave;
+        let (slave, master) = (&bodies[body], &bodies[self.connection.master]);
+        let (origin, cut_off) = slave.precise_point(point);
+        let moved = slave.vector_at(point, increments);
+        let from_slave = |index: usize| {
+            let (position, remainder) = master.precise_point(index);
+            let movement = master.vector_at(index, increments) - moved;
+            (position - origin) + (remainder - cut_off) + movement
+        };
+        let path = &self.path;
+        let sum = |weights: &[f64]| -> Vec2 {
+            weights.iter().zip(path.first()..).map(|(by, at)| from_slave(at) * *by).sum()
+        };
+        // For a path of zero length, the derivative of divided differences is half the second derivative.
+        [sum(path.end()), sum(path.slope()), sum(path.change()) * 2.0]
+    }
+
+    /// Finds the nearest point of the master after given increments, for a slider in flight.
+    pub(super) fn follow_master(&mut self, bodies: &[Body], increments: &[f64]) {
+        if !self.is_separated() {
+            return;
+        }
+        let nearest = self.nearest_point(bodies, increments);
+        self.unilateral.iter_mut().for_each(|contact| contact.nearest = nearest);
+    }
+
+    /// Moves a slider in flight to the nearest point of its master in the present configuration.
+    pub fn move_to_nearest_point(&mut self, bodies: &[Body]) {
+        self.follow_master(bodies, &[]);
+        self.accept_flight();
+    }
+
+    /// Accepts the nearest point at the end of a step.
+    pub(super) fn accept_flight(&mut self) {
+        let tolerance = self.touching_distance();
+        if let Some(contact) =
+            self.unilateral.as_mut().filter(|_| self.state == SliderState::Separated)
+        {
+            contact.may_land = contact.nearest.gap >= -tolerance;
+            let parameter = contact.nearest.parameter;
+            self.set_parameter(parameter);
+        }
+    }
+
+    /// Distance from the axis that counts as zero [length].
+    fn touching_distance(&self) -> f64 {
+        END_TOLERANCE * self.size
+    }
+
+    /// Distance of a slave in flight behind the axis at the end of the attempted step, as a fraction of the size of the contact [-].
+    /// The value is `None` unless the slider lands in the step.
+    pub fn landing(&self) -> Option<f64> {
+        let contact = self.unilateral.as_deref().filter(|_| self.is_separated())?;
+        let NearestPoint { gap, is_inside, .. } = contact.nearest;
+        let lands = contact.may_land && is_inside && gap < -self.touching_distance();
+        lands.then_some(-gap / self.size)
+    }
+
+    /// Distance of a slave in flight behind the axis at the end of the attempted step, like [`landing`](Self::landing), with its sign.
+    /// The value is `None` if the slave is on the axis.
+    pub fn missed_landing(&self) -> Option<f64> {
+        let contact = self.unilateral.as_deref().filter(|_| self.is_separated())?;
+        let gap = contact.nearest.gap;
+        (gap.abs() > self.touching_distance()).then_some(-gap / self.size)
+    }
+
+    /// Present distance of the slave from the axis, as a fraction of the size of the contact [-].
+    pub fn relative_gap(&mut self, bodies: &[Body]) -> f64 {
+        self.nearest_point(bodies, &[]).gap / self.size
+    }
+
+    /// Distance of the slave from the axis at the end of the last step [length]; `None` for a slider that never leaves its master.
+    pub fn flight_gap(&self, bodies: &[Body]) -> Option<f64> {
+        let contact = self.unilateral.as_deref()?;
+        let to_axis = self.to_axis(bodies);
+        let distance = -contact.sign * cross(self.along(bodies), to_axis);
+        Some(if self.is_separated() { distance.signum() * to_axis.norm() } else { 0.0 })
+    }
+}

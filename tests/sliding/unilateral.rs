@@ -1,0 +1,330 @@
+//! Sliders that only push: take-off, flight, landing and their ledgers.
+#![allow(clippy::unwrap_used)]
+
+use crate::common::scenes::{add_beam, line};
+use std::f64::consts::PI;
+
+use crate::common::{at, run, settings, step};
+use withy::beams::{Mesh, Section, Station};
+use withy::geometry::{Curve, Vec2, perpendicular, unit};
+use withy::integrators::Method;
+use withy::joints::{JointKind, Partner, Side, Slider, StartVelocities};
+use withy::loads::{LoadFrame, LoadKind, Schedule};
+use withy::simulation::{Invariant, Simulation, StepControl, StepSize};
+use withy::system::{ParticleDefinition, Scene, SliderState, StartMotion, StationVelocity};
+
+const METHOD: Method = Method::EnergyMomentum;
+
+/// Section that hardly deforms.
+const STIFF: Section = Section {
+    axial_stiffness: 1e10,
+    shear_stiffness: 1e10,
+    bending_stiffness: 1e10,
+    mass_per_length: 1.0,
+    rotary_inertia: 1e-2,
+};
+
+/// Section that hardly moves because of its mass. Its vibrations are slow, so steps resolve them.
+const HEAVY: Section = Section {
+    axial_stiffness: 1e9,
+    shear_stiffness: 1e9,
+    bending_stiffness: 1e8,
+    mass_per_length: 1e9,
+    rotary_inertia: 1e8,
+};
+
+fn bead(scene: &mut Scene, position: Vec2, velocity: Vec2, mass: f64) -> Station {
+    let name = scene.free_name("bead");
+    let station = scene.add_particle(ParticleDefinition { name, position }, mass).unwrap();
+    scene.velocities.push(StationVelocity { station, velocity, spin: None });
+    station
+}
+
+fn add_slider(scene: &mut Scene, bead: Station, beam: usize, along: f64, restitution: f64) {
+    let slider = Slider::new(scene.free_name("slider"), bead, beam, along);
+    scene.add_slider(Slider { side: Some(Side::Left), restitution, ..slider }).unwrap();
+}
+
+fn fix(scene: &mut Scene, beam: usize, count: usize) {
+    let length = scene.beams[beam].axis.length();
+    for at in 0..=count {
+        let station = scene.station(beam, length * at as f64 / count as f64).unwrap();
+        scene.join(JointKind::Rigid, station, Partner::Ground).unwrap();
+    }
+}
+
+/// Bead on the top of a heavy circle with radius 1, with the start speed `√(q g)`.
+fn sphere(q: f64) -> Scene {
+    let mut scene = Scene::new("sphere");
+    let (from, to) = (SPHERE_START.to_radians(), -100.0_f64.to_radians());
+    let axis = Curve::arc(Vec2::zeros(), 1.0, from, to).unwrap();
+    let rod = add_beam(&mut scene, axis, &Mesh::bspline(60, 3, 2).unwrap(), HEAVY);
+    let top = bead(&mut scene, at(0.0, 1.0), at((9.81 * q).sqrt(), 0.0), 1.0);
+    let weight = LoadKind::Force { station: top, force: at(0.0, -9.81), frame: LoadFrame::Dead };
+    scene.add_load(weight, Schedule::constant(1.0).unwrap());
+    let along = (SPHERE_START - 90.0).to_radians();
+    let slider = Slider::new("slider1", top, rod, along);
+    let velocities = StartVelocities::Project;
+    let side = Some(Side::Left);
+    scene.add_slider(Slider { side, velocities, restitution: 0.0, ..slider }).unwrap();
+    scene
+}
+
+/// Angle of the start of the circle [°].
+const SPHERE_START: f64 = 120.0;
+
+/// Time and position of the first take-off.
+fn take_off(simulation: &Simulation) -> [f64; 2] {
+    let gaps = simulation.history().column("slider1.gap").unwrap();
+    let flies = gaps.iter().position(|gap| *gap != 0.0).unwrap();
+    ["t", "slider1.position"].map(|name| simulation.history().column(name).unwrap()[flies - 1])
+}
+
+fn drifts(simulation: &Simulation) -> f64 {
+    let drift = |(_, invariant)| simulation.history().drift(invariant);
+    Invariant::ALL.into_iter().map(drift).fold(0.0, f64::max)
+}
+
+/// A bead leaves a circle where `cos φ = (2 + q)/3` (closed form). The angle depends on the mesh only, and the time has the order 2.
+#[test]
+fn a_bead_leaves_a_circle_at_the_exact_angle() {
+    for q in [0.3, 1e-3] {
+        let exact = ((2.0 + q) / 3.0_f64).acos().to_degrees();
+        let times = [0.04, 0.02, 0.01].map(|dt| {
+            let mut simulation = Simulation::start(sphere(q), settings(METHOD, dt)).unwrap();
+            while simulation.model().slider_state(0) == SliderState::Sliding {
+                step(&mut simulation).unwrap();
+                assert!(simulation.time() < 5.0);
+            }
+            step(&mut simulation).unwrap();
+            assert!(drifts(&simulation) < 1e-12, "{:e}", drifts(&simulation));
+            let [time, place] = take_off(&simulation);
+            let error = place * (SPHERE_START + 100.0) - (SPHERE_START - 90.0) - exact;
+            assert!(error.abs() < 1e-2, "q {q} dt {dt}: {error:e}");
+            time
+        });
+        let [coarse, middle, fine] = times;
+        let order = ((coarse - middle) / (middle - fine)).log2();
+        assert!((order - 2.0).abs() < 0.3, "q {q}: order {order}");
+    }
+}
+
+/// Mass that crosses a simply supported beam with half of the critical speed. It takes off at `v t/L = 0.9374` (modal solution of Frýba's problem).
+#[test]
+fn a_moving_mass_takes_off_near_the_end_of_a_beam() {
+    let section = Section {
+        axial_stiffness: 1e6,
+        shear_stiffness: 1e6,
+        bending_stiffness: 1.0,
+        mass_per_length: 1.0,
+        rotary_inertia: 1e-6,
+    };
+    let speed = 0.5 * PI;
+    let place = |spans: usize, dt: f64| {
+        let mut scene = Scene::new("moving mass");
+        let mesh = Mesh::bspline(spans, 3, 2).unwrap();
+        let rod = add_beam(&mut scene, line(Vec2::zeros(), at(1.0, 0.0)), &mesh, section);
+        for along in [0.0, 1.0] {
+            let end = scene.station(rod, along).unwrap();
+            scene.join(JointKind::Hinge, end, Partner::Ground).unwrap();
+        }
+        let mass = bead(&mut scene, Vec2::zeros(), at(speed, 0.0), 0.5);
+        add_slider(&mut scene, mass, rod, 0.0, 0.0);
+        let (force, frame) = (at(0.0, -5e-4), LoadFrame::Dead);
+        let load = LoadKind::Force { station: mass, force, frame };
+        scene.add_load(load, Schedule::constant(1.0).unwrap());
+        let mut simulation = Simulation::start(scene, settings(METHOD, dt)).unwrap();
+        while simulation.model().slider_state(0) == SliderState::Sliding {
+            step(&mut simulation).unwrap();
+        }
+        step(&mut simulation).unwrap();
+        assert!(drifts(&simulation) < 1e-9, "{:e}", drifts(&simulation));
+        take_off(&simulation)[1]
+    };
+    let places = [place(16, 2e-3), place(16, 1e-3), place(32, 1e-3)];
+    assert!(places.iter().all(|place| (place - 0.9374).abs() < 2e-3), "{places:?}");
+}
+
+/// A bead drops on a fixed beam. The times of the impacts follow from Newton's law of restitution.
+#[test]
+fn a_bead_bounces_on_a_beam() {
+    for (restitution, dt) in [(0.8, 0.05), (0.8, 0.01), (0.5, 0.01), (1.0, 0.013), (0.0, 0.01)] {
+        let mut scene = Scene::new("drop");
+        let mesh = Mesh::bspline(4, 3, 2).unwrap();
+        let rod = add_beam(&mut scene, line(at(-1.0, 0.0), at(1.0, 0.0)), &mesh, STIFF);
+        fix(&mut scene, rod, 4);
+        scene.gravity = at(0.0, -9.81);
+        let ball = bead(&mut scene, at(0.1, 1.0), at(0.1, 0.0), 1.0);
+        add_slider(&mut scene, ball, rod, 1.1, restitution);
+        let mut simulation = Simulation::start(scene, settings(METHOD, dt)).unwrap();
+        run(&mut simulation, 2.5).unwrap();
+        let history = simulation.history();
+        let (times, gaps) = (history.column("t").unwrap(), history.column("slider1.gap").unwrap());
+        let touches = times.iter().zip(&gaps).filter(|(_, gap)| gap.abs() < 1e-12);
+        let first = (2.0 / 9.81_f64).sqrt();
+        let mut exact = first;
+        let known = if restitution > 0.0 { 3 } else { 1 };
+        for (bounce, (time, _)) in (1..=known).zip(touches) {
+            assert!((time - exact).abs() < 1e-8, "e {restitution} dt {dt}: {time} {exact}");
+            exact += 2.0 * first * restitution.powi(bounce);
+        }
+        assert!(drifts(&simulation) < 1e-13, "{:e}", drifts(&simulation));
+        let lost = history.column("dissipated.slider1").unwrap();
+        assert!(lost.windows(2).all(|pair| pair[1] >= pair[0] - 1e-15));
+        // With a rebound of one half, the bounces end after a finite time.
+        if restitution == 0.5 {
+            assert_eq!(simulation.model().slider_state(0), SliderState::Sliding);
+            assert!((lost.last().unwrap() - 9.81).abs() < 1e-8, "{:?}", lost.last());
+        }
+    }
+}
+
+/// Flexible cantilever under its weight, with a bead that drops on it, turned by an angle and optionally mirrored.
+fn cantilever(turn: f64, side: Side, restitution: f64) -> Scene {
+    let mut scene = Scene::new("cantilever");
+    let place = |x: f64, y: f64| {
+        let (along, across) = (unit(turn), perpendicular(unit(turn)) * side.sign());
+        along * x + across * y
+    };
+    let section = Section {
+        axial_stiffness: 1e4,
+        shear_stiffness: 4e3,
+        bending_stiffness: 20.0,
+        mass_per_length: 0.5,
+        rotary_inertia: 1e-2,
+    };
+    let mesh = Mesh::bspline(6, 3, 2).unwrap();
+    let rod = add_beam(&mut scene, line(Vec2::zeros(), place(4.0, 0.0)), &mesh, section);
+    let start = scene.station(rod, 0.0).unwrap();
+    scene.join(JointKind::Rigid, start, Partner::Ground).unwrap();
+    scene.gravity = place(0.0, -1.0);
+    let ball = bead(&mut scene, place(1.5, 0.3), place(0.1, 0.0), 0.2);
+    let slider = Slider::new("slider1", ball, rod, 1.5);
+    scene.add_slider(Slider { side: Some(side), restitution, ..slider }).unwrap();
+    scene
+}
+
+/// Number of rows after which the slider has left its master.
+fn take_offs(simulation: &Simulation) -> usize {
+    let gaps = simulation.history().column("slider1.gap").unwrap();
+    gaps.windows(2).filter(|pair| pair[0].abs() < 1e-12 && pair[1] > 1e-12).count()
+}
+
+#[test]
+fn a_flexible_beam_keeps_its_ledger_through_many_landings() {
+    for restitution in [0.0, 0.5, 1.0] {
+        for dt in [0.01, 0.03, 0.1] {
+            let scene = cantilever(0.0, Side::Left, restitution);
+            let mut simulation = Simulation::start(scene, settings(METHOD, dt)).unwrap();
+            run(&mut simulation, 6.0).unwrap();
+            let (drift, count) = (drifts(&simulation), take_offs(&simulation));
+            assert!(drift < 1e-11, "e {restitution} dt {dt}: {drift:e}");
+            assert!(count > 2 || (restitution == 0.0 && dt == 0.1), "{count}");
+            let gaps = simulation.history().column("slider1.gap").unwrap();
+            let places = simulation.history().column("slider1.position").unwrap();
+            let is_above = |(gap, place): (&f64, &f64)| *gap > -1e-12 || *place == 1.0;
+            assert!(gaps.iter().zip(&places).all(is_above), "e {restitution} dt {dt}");
+            let lost = simulation.history().column("dissipated.slider1").unwrap();
+            assert!(lost.windows(2).all(|pair| pair[1] >= pair[0] - 1e-14));
+        }
+    }
+}
+
+/// A beam and a bead fly freely and meet repeatedly: both momenta are kept.
+#[test]
+fn a_free_beam_and_a_bead_keep_their_momenta() {
+    for restitution in [0.0, 0.7] {
+        let mut scene = cantilever(0.4, Side::Left, restitution);
+        scene.joints.clear();
+        scene.gravity = Vec2::zeros();
+        scene.beams[0].motion =
+            StartMotion { velocity: at(0.0, 0.2), spin: -0.8, centre: Some(unit(0.4) * 2.0) };
+        let mut simulation = Simulation::start(scene, settings(METHOD, 0.02)).unwrap();
+        run(&mut simulation, 2.0).unwrap();
+        assert!(drifts(&simulation) < 1e-12, "{:e}", drifts(&simulation));
+        assert!(*simulation.history().column("dissipated.slider1").unwrap().last().unwrap() > 0.0);
+    }
+}
+
+#[test]
+fn turned_and_mirrored_copies_agree() {
+    let gaps = |turn: f64, side: Side| {
+        let scene = cantilever(turn, side, 0.5);
+        let mut simulation = Simulation::start(scene, settings(METHOD, 0.02)).unwrap();
+        run(&mut simulation, 2.0).unwrap();
+        simulation.history().column("slider1.gap").unwrap()
+    };
+    let straight = gaps(0.0, Side::Left);
+    for (turn, side) in [(1.0, Side::Left), (0.0, Side::Right), (-2.3, Side::Right)] {
+        let other = gaps(turn, side);
+        assert_eq!(other.len(), straight.len());
+        let apart = straight.iter().zip(&other).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+        assert!(apart < 1e-8, "{turn} {side:?}: {apart:e}");
+    }
+}
+
+/// An impact beside a bead in contact moves the beam away from the bead.
+#[test]
+fn a_landing_leaves_another_slider_behind() {
+    let mut scene = Scene::new("seesaw");
+    let mesh = Mesh::bspline(4, 3, 2).unwrap();
+    let rod = add_beam(&mut scene, line(at(-1.0, 0.0), at(1.0, 0.0)), &mesh, STIFF);
+    let middle = scene.station(rod, 1.0).unwrap();
+    scene.join(JointKind::Hinge, middle, Partner::Ground).unwrap();
+    let falling = bead(&mut scene, at(0.8, 0.1), at(0.0, -1.0), 1.0);
+    let resting = bead(&mut scene, at(0.5, 0.0), Vec2::zeros(), 1.0);
+    add_slider(&mut scene, falling, rod, 1.8, 0.0);
+    add_slider(&mut scene, resting, rod, 1.5, 0.0);
+    let mut simulation = Simulation::start(scene, settings(METHOD, 0.01)).unwrap();
+    run(&mut simulation, 0.15).unwrap();
+    assert!(drifts(&simulation) < 1e-12, "{:e}", drifts(&simulation));
+    let gaps = simulation.history().column("slider2.gap").unwrap();
+    // The seesaw has the moment of inertia 2/3 + 1/50 at the hinge, and the falling bead 0.64.
+    let spin = 0.8 / (2.0 / 3.0 + 0.02 + 0.64);
+    let exact = 0.5 * (spin * 0.05_f64).sin();
+    assert!((gaps.last().unwrap() / exact - 1.0).abs() < 0.02, "{:?} {exact}", gaps.last());
+}
+
+/// Beyond the end of a beam there is no landing, also when the slave returns from the other side.
+#[test]
+fn a_bead_passes_beyond_the_end_of_a_beam() {
+    let mut scene = Scene::new("passing");
+    let rod = add_beam(
+        &mut scene,
+        line(at(-1.0, 0.0), at(1.0, 0.0)),
+        &Mesh::bspline(4, 3, 2).unwrap(),
+        STIFF,
+    );
+    fix(&mut scene, rod, 4);
+    let passing = bead(&mut scene, at(1.5, 0.5), at(-0.5, -1.0), 1.0);
+    add_slider(&mut scene, passing, rod, 2.0, 0.5);
+    let mut simulation = Simulation::start(scene, settings(METHOD, 0.03)).unwrap();
+    run(&mut simulation, 2.0).unwrap();
+    assert_eq!(simulation.model().slider_state(0), SliderState::Separated);
+    let gap = *simulation.history().column("slider1.gap").unwrap().last().unwrap();
+    assert!((gap + 1.5).abs() < 1e-12, "{gap}");
+}
+
+#[test]
+fn going_back_and_continuing_gives_the_same_bits() {
+    let scene = cantilever(0.0, Side::Left, 0.5);
+    let mut simulation = Simulation::start(scene, settings(METHOD, 0.03)).unwrap();
+    simulation.enable_snapshots(1 << 26);
+    run(&mut simulation, 3.0).unwrap();
+    let straight = simulation.history().column("slider1.gap").unwrap();
+    for time in [0.3, 1.2, 2.7] {
+        simulation.rewind(time).unwrap();
+        run(&mut simulation, 3.0).unwrap();
+        assert_eq!(simulation.history().column("slider1.gap").unwrap(), straight, "{time}");
+    }
+}
+
+#[test]
+fn adaptive_steps_keep_the_ledger() {
+    let scene = cantilever(0.0, Side::Left, 0.5);
+    let steps = StepSize::from(StepControl::to(1e-4));
+    let mut simulation = Simulation::start(scene, settings(METHOD, steps)).unwrap();
+    run(&mut simulation, 2.0).unwrap();
+    assert!(drifts(&simulation) < 1e-11, "{:e}", drifts(&simulation));
+    assert!(take_offs(&simulation) > 1);
+}
