@@ -20,7 +20,8 @@ impl System {
             let all = obstacle.penetrations(bodies).into_iter();
             all.map(|one| (obstacle.name().to_owned(), one))
         });
-        let mut inside: Vec<_> = inside.filter(|(_, one)| one.depth > self.tolerance(one)).collect();
+        let mut inside: Vec<_> =
+            inside.filter(|(_, one)| one.depth > self.tolerance(one)).collect();
         // A load without a value is reported by the first step.
         if !inside.is_empty() && self.elements.evaluate_after(self.motion.time).is_ok() {
             let others = self.resultants_without_contact();
