@@ -13,13 +13,16 @@ use withy::system::{ContactTarget, Obstacle, PointMass, RigidBodyDefinition, Sce
 
 const GRAVITY: f64 = 9.81;
 
-/// Block on an incline, in static equilibrium with the normal force at the start, that is pushed up with speed 2.
+/// Speed of the block up the incline at the start.
+const SPEED: f64 = 2.0;
+
+/// Block on an incline, in static equilibrium with the normal force at the start, that slides up the incline.
 fn incline(degrees: f64, friction: f64, stiffness: f64) -> (Scene, Vec2) {
     let angle = degrees.to_radians();
     let (up, normal) = (at(angle.cos(), angle.sin()), at(-angle.sin(), angle.cos()));
     let start = normal * (-GRAVITY * angle.cos() / stiffness);
     let floor = wall(at(0.0, 0.0), normal, stiffness, 0.5);
-    let mut scene = ball(start, up * 2.0, Obstacle { friction, ..floor });
+    let mut scene = ball(start, up * SPEED, Obstacle { friction, ..floor });
     scene.gravity = at(0.0, -GRAVITY);
     (scene, up)
 }
@@ -33,7 +36,7 @@ fn a_block_on_an_incline_moves_as_in_closed_form() {
         let (sin, cos) = degrees.to_radians().sin_cos();
         let (climbing, sliding) =
             (GRAVITY * (sin + friction * cos), GRAVITY * (sin - friction * cos));
-        let (stop, top) = (2.0 / climbing, 2.0 / climbing);
+        let (stop, top) = (SPEED / climbing, SPEED * SPEED / (2.0 * climbing));
         for dt in [0.01, 0.0025] {
             let after = |end: f64| {
                 let (scene, up) = incline(degrees, friction, 1e8);
@@ -41,7 +44,7 @@ fn a_block_on_an_incline_moves_as_in_closed_form() {
                 assert_balanced(&simulation, 1e-12);
                 up.dot(&position(&simulation))
             };
-            let climbed = 2.0 * 0.25 - 0.5 * climbing * 0.0625;
+            let climbed = SPEED * 0.25 - 0.5 * climbing * 0.0625;
             assert!((after(0.25) - climbed).abs() < 1e-8, "{degrees}, {dt}");
             let later = top - 0.5 * sliding.max(0.0) * (1.0 - stop).powi(2);
             let largest = 2.0 * friction * GRAVITY * cos * dt;

@@ -124,7 +124,7 @@ pub trait Constraints {
         false
     }
 
-    /// Checks the state at the end of an accepted step.
+    /// Checks the state at the end of a step that has converged.
     ///
     /// # Errors
     /// Fails if the present forces violate a condition of the constraints. The step must then be undone.

@@ -75,7 +75,7 @@ impl Side {
         }
     }
 
-    /// Sign of the distance from the axis along the left normal on this side [-].
+    /// Sign of coordinates along the left normal on this side: 1 on the left, -1 on the right [-].
     pub fn sign(self) -> f64 {
         match self {
             Self::Left => 1.0,

@@ -5,7 +5,7 @@ use std::ops::Range;
 use super::elimination::{PANEL, SMALLEST_HALF_BANDWIDTH};
 use crate::elementary::square;
 
-/// Largest ratio of the two largest scaled entries in the row of a constraint, squared.
+/// Limit of the largest squared scaled entry in the row of a constraint, relative to the second largest [-].
 /// Elimination with the smaller diagonal entry loses half of the digits at this ratio. Corrections with the same factors recover them.
 const LARGEST_RATIO: f64 = 1e8;
 
@@ -120,7 +120,7 @@ impl Storage {
 
     /// Sets the squared sizes of the rows to their diagonal entries, as if rows and columns were scaled to a unit diagonal.
     /// Rows of constraints have no diagonal entry. Their size is the largest scaled entry.
-    /// If one scaled entry is far above all others, its diagonal entry is negligible and would be an inaccurate pivot.
+    /// If one scaled entry is far above all others, the diagonal entry of its column is negligible and would be an inaccurate pivot.
     /// The size is then limited, so that the row of the constraint becomes the pivot row.
     /// Rows that are coupled only to constraints are treated like rows of constraints.
     pub(super) fn weigh_rows(&mut self) {

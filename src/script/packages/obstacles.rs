@@ -40,7 +40,7 @@ pub const TABLE: BindingTable = BindingTable {
                 span, its ends included. On a beam, stiffness is the force per length and \
                 penetration, on a point the force per penetration. With friction, contact \
                 sticks or slips (Coulomb); the friction force acts at the surface, at the distance \
-                radius from the axis, so a disc rolls. Choose the stiffness so that the largest \
+                radius from the axis, so a round body rolls. Choose the stiffness so that the largest \
                 expected force gives a small penetration. With a restitution below 1 the contact \
                 is damped so that a resolved impact of a single mass rebounds with this fraction \
                 of its speed. sim.notes states impacts that the steps do not resolve, and \
@@ -55,8 +55,10 @@ pub const TABLE: BindingTable = BindingTable {
         method(SCENE, "disc", &[point("centre").unit("length"), number("radius").positive().unit("length"), options("options", KEYS)], disc)
             .summary("Adds a disc that bodies can touch from outside, such as a pin or a peg.")
             .doc("The contact force points from the centre to the body. Its potential is infinite \
-                at the centre, so a body that touches the disc cannot pass its centre; a body that \
-                crosses the whole disc within one step misses it. Options and columns are those \
+                at the centre, so a body that touches the disc cannot pass its centre. A step in \
+                which a point would pass through the disc is halved. A disc that is smaller than \
+                the distance of the contact points of a beam can pass between them: use more \
+                spans. Options and columns are those \
                 of wall. Default names: disc1, disc2, …")
             .example("let ball = scene.particle([1.1, 2], 0.5, #{ name: \"ball\" });\n\
                       scene.gravity([0, -9.81]);\n\

@@ -221,7 +221,8 @@ const ENDS: [(&str, EndAction); 4] = [
 ];
 const VELOCITIES: [(&str, StartVelocities); 2] =
     [("check", StartVelocities::Check), ("project", StartVelocities::Project)];
-/// Horizontal part of the direction of a beam, below which the beam is vertical [-].
+
+/// Largest horizontal component of the direction of a vertical beam [-].
 const STEEP: f64 = 1e-3;
 
 const SLIDER_KEYS: &[Parameter] = &[

@@ -1,6 +1,6 @@
 //! Magnified deformations in pictures of motion.
 
-use super::travel::{Travel, first_rigid_body, number, sides};
+use super::travel::{Travel, number, sides};
 use crate::beams::Station;
 use crate::geometry::{Vec2, cross, perpendicular};
 use crate::joints::Partner;
@@ -58,7 +58,7 @@ impl<'a> Magnifier<'a> {
     pub fn new(simulation: &'a Simulation, factor: f64) -> Result<Option<Self>, SystemError> {
         let Some(start) = simulation.configuration_near(0.0)? else { return Ok(None) };
         let scene = simulation.scene();
-        let count = first_rigid_body(scene) + scene.rigid_bodies.len();
+        let count = scene.first_rigid_body() + scene.rigid_bodies.len();
         let mut joints = vec![Vec::new(); count];
         sides(scene).for_each(|(station, ..)| joints[number(scene, &station)].push(station));
         Ok(Some(Self { simulation, factor, travel: Travel::of(scene), start, joints }))
@@ -190,7 +190,7 @@ impl<'a> Magnifier<'a> {
     /// Rigid bodies with an outline.
     fn outlined(&self) -> impl Iterator<Item = usize> + '_ {
         let scene = self.simulation.scene();
-        let bodies = (first_rigid_body(scene)..).zip(&scene.rigid_bodies);
+        let bodies = (scene.first_rigid_body()..).zip(&scene.rigid_bodies);
         bodies.filter(|(_, body)| body.links().next().is_some()).map(|(index, _)| index)
     }
 

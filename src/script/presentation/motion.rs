@@ -31,7 +31,7 @@ pub struct MotionOptions {
     pub times: Times,
     /// Stations whose paths are drawn, with their names.
     pub traces: Vec<(String, BodyPoint)>,
-    /// Magnification of displacements from the start; `None` for the value 1.
+    /// Magnification of deformations since the start; `None` for no magnification.
     pub magnify: Option<f64>,
     /// Marks at knots or nodes. If `None`, marks are drawn only for a small number of spans.
     pub dots: Option<bool>,
@@ -237,7 +237,7 @@ fn magnifier(
     Ok(factor.map(|factor| Magnifier::new(simulation, factor)).transpose()?.flatten())
 }
 
-/// Symbols in the recorded configuration nearest to a time. Displacements are magnified.
+/// Symbols in the recorded configuration nearest to a time. Deformations are magnified.
 ///
 /// # Errors
 /// Fails if a station lies outside its beam.

@@ -14,7 +14,7 @@ pub struct Travel {
 impl Travel {
     /// Counts the degrees of freedom that joints leave to rigid bodies. Sliders, drives and springs do not hold a body.
     pub fn of(scene: &Scene) -> Self {
-        let count = first_rigid_body(scene) + scene.rigid_bodies.len();
+        let count = scene.first_rigid_body() + scene.rigid_bodies.len();
         let mut travel = Self { is_held: vec![false; count], group: (0..count).collect() };
         while travel.hold_bodies(scene) {}
         travel.join(scene);
@@ -81,15 +81,10 @@ impl Travel {
     }
 
     fn freedoms(&self, scene: &Scene) -> Vec<usize> {
-        let particles = scene.beams.len()..first_rigid_body(scene);
+        let particles = scene.beams.len()..scene.first_rigid_body();
         let of = |body| if particles.contains(&body) { 2 } else { 3 };
         (0..self.group.len()).map(of).collect()
     }
-}
-
-/// Number of the first rigid body.
-pub fn first_rigid_body(scene: &Scene) -> usize {
-    scene.beams.len() + scene.particles.len()
 }
 
 /// Number of the body of a station.
@@ -97,7 +92,7 @@ pub fn number(scene: &Scene, station: &Station) -> usize {
     match station.body {
         BodyIndex::Beam(beam) => beam,
         BodyIndex::Particle(particle) => scene.beams.len() + particle,
-        BodyIndex::Rigid(body, _) => first_rigid_body(scene) + body,
+        BodyIndex::Rigid(body, _) => scene.first_rigid_body() + body,
     }
 }
 

@@ -227,11 +227,12 @@ impl Simulation {
         if !self.model.is_at(limit) {
             return Ok(ArrivalEstimate::Between(TimeBracket::new((0.0, -left), after)));
         }
-        self.probe(interval, number, after)
+        self.halve_until_before(interval, number, after)
     }
 
-    /// Searches for a step that ends before an event of a slider that is already at its limit. A step that ends after the event is given.
-    fn probe(
+    /// Halves a step until it ends before an event of a slider that starts at its limit or on the axis.
+    /// `after` contains the duration and the distance of a step that ends after the event.
+    fn halve_until_before(
         &mut self,
         interval: Interval,
         number: usize,
@@ -265,7 +266,7 @@ impl Simulation {
         Ok(ArrivalEstimate::at_once(number))
     }
 
-    /// Searches for a step that ends before the landing of a slider in flight. A step that ends after the landing is given.
+    /// Brackets the landing of a slider in flight. The given interval ends after the landing.
     fn bracket_landing(
         &mut self,
         (interval, Overshoot { event, distance }): (Interval, Overshoot),
@@ -276,7 +277,7 @@ impl Simulation {
             return Ok(ArrivalEstimate::at_once(event));
         }
         if left <= END_TOLERANCE {
-            return self.probe(interval, event, after);
+            return self.halve_until_before(interval, event, after);
         }
         let bracket = TimeBracket::new((0.0, -left), after).with_shortest(NEAR * self.dt());
         Ok(ArrivalEstimate::Between(bracket))
@@ -306,7 +307,7 @@ impl Simulation {
             || self.model.approaches(limit, dt).unwrap_or(true)
     }
 
-    /// Executes the events of all simultaneous arrivals: the run stops, or sliders bounce, are held, or are released.
+    /// Executes the event at the end of a located step, and all simultaneous arrivals at ends.
     pub(super) fn execute_arrivals(&mut self, landing: &EventStep) -> Result<(), SimulationError> {
         let limit = match landing.event {
             Event::Slider(SliderEvent::Limit(limit)) => limit,

@@ -152,7 +152,7 @@ impl System {
         let mut is_projected = false;
         for (index, described) in scene.sliders.iter().enumerate() {
             match described.velocities {
-                StartVelocities::Check => self.check_start_velocity(index, negligible)?,
+                StartVelocities::Check => self.apply_start_velocity(index, negligible)?,
                 StartVelocities::Project => is_projected = true,
             }
         }
@@ -180,8 +180,9 @@ impl System {
         SAME_VELOCITY * self.fastest_speed() + f64::EPSILON * scene.fastest_wave()
     }
 
-    /// Checks the velocity across the master. A slave that leaves its master on the side of a slider that only pushes starts in flight.
-    fn check_start_velocity(&mut self, slider: usize, negligible: f64) -> Result<(), SystemError> {
+    /// Checks the velocity of the slave across the master.
+    /// The slave of a slider that only pushes starts in flight if it moves away from the axis on the side of the flight.
+    fn apply_start_velocity(&mut self, slider: usize, negligible: f64) -> Result<(), SystemError> {
         let speed = self.speed_across(slider);
         if speed.abs() <= negligible || self.slider(slider).is_separated() {
             return Ok(());

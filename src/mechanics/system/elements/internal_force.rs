@@ -88,12 +88,12 @@ pub trait InternalForce {
         None
     }
 
-    /// Bodies inside an obstacle at present.
+    /// Bodies that are inside this obstacle at present.
     fn penetrations(&self, _bodies: &[Body]) -> Vec<Penetration> {
         Vec::new()
     }
 
-    /// Returns true if a point of a body enters and leaves an obstacle within the step.
+    /// Returns true if the straight path of a point in the step leads through this obstacle.
     fn crosses(&self, _bodies: &[Body], _increments: &[f64]) -> bool {
         false
     }

@@ -17,8 +17,8 @@ const TENSILE: f64 = 1e-10;
 const TOGETHER: f64 = 1e-12;
 
 impl System {
-    /// Take-off of a slider at the end of an accepted step, because its present contact force is tensile.
-    /// If the step has to end at a take-off, the present contact force of this slider must be zero.
+    /// Checks the present contact forces of sliders that only push, at the end of a step that has converged.
+    /// A tensile force is a take-off. If the step has to end at a take-off, the force of that slider must be zero.
     ///
     /// # Errors
     /// Fails if a slider takes off before the end of the step, or if it misses the take-off at which the step has to end.

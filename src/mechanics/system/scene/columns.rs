@@ -6,8 +6,8 @@ use crate::loads::LoadKind;
 use crate::system::elements::{DriveKind, Element, SpringKind};
 use crate::system::sensors::quantities::{
     COLUMNS_OF_LOADS, COLUMNS_OF_MOVES, COLUMNS_OF_OBSTACLES, COLUMNS_OF_SLIDERS,
-    COLUMNS_OF_SPRINGS, COLUMNS_OF_TORSION_SPRINGS, DISSIPATED, FLIGHT_GAP, FRICTION, STORED,
-    TORQUE, WORK,
+    COLUMNS_OF_SPRINGS, COLUMNS_OF_TORSION_SPRINGS, DISSIPATED, FLIGHT_GAP, OBSTACLE_FRICTION,
+    SLIDER_FRICTION, STORED, TORQUE, WORK,
 };
 use crate::system::{Sensor, SensorSource};
 
@@ -16,7 +16,7 @@ impl Scene {
     pub(crate) fn history_sensors(&self) -> Vec<Sensor> {
         let (mut all, mut others, mut winds) = (Vec::new(), Vec::new(), Vec::new());
         for (at, slider) in self.sliders.iter().enumerate() {
-            let friction = (slider.friction > 0.0).then_some(&FRICTION);
+            let friction = (slider.friction > 0.0).then_some(&SLIDER_FRICTION);
             let gap = slider.side.map(|_| &FLIGHT_GAP);
             let own = COLUMNS_OF_SLIDERS.iter().chain(friction).chain(gap);
             all.extend(own.map(|own| Sensor::of(&slider.name, own, SensorSource::Slider(at))));
@@ -51,8 +51,8 @@ impl Scene {
                     winds.extend(has_wind.then(|| Sensor::in_sum(&WORK, &drag.name, source)));
                 }
                 Element::Obstacle(obstacle) => {
-                    let count = COLUMNS_OF_OBSTACLES.len() - usize::from(obstacle.friction == 0.0);
-                    let own = COLUMNS_OF_OBSTACLES[..count].iter();
+                    let friction = (obstacle.friction > 0.0).then_some(&OBSTACLE_FRICTION);
+                    let own = COLUMNS_OF_OBSTACLES.iter().chain(friction);
                     all.extend(own.map(|own| Sensor::of(&obstacle.name, own, source)));
                     all.push(Sensor::in_sum(&STORED, &obstacle.name, source));
                     others.push(Sensor::in_sum(&DISSIPATED, &obstacle.name, source));

@@ -12,7 +12,7 @@ const CENTRE: &str = "centre";
 
 impl Scene {
     /// Index of the first rigid body among all bodies, after beams and particles.
-    pub(crate) fn first_rigid_body(&self) -> usize {
+    pub fn first_rigid_body(&self) -> usize {
         self.beams.len() + self.particles.len()
     }
 

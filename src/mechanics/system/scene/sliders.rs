@@ -162,11 +162,15 @@ impl Scene {
         let refused = [
             (slider.track.is_some(), "on a track", "choose a single beam"),
             (slider.friction > 0.0, "with friction", "remove the friction"),
-            (slider.rule != SlidingRule::Conserving, "with this rule", "use the conserving rule"),
+            (
+                slider.rule != SlidingRule::Conserving,
+                "with a rule other than conserving",
+                "use the conserving rule",
+            ),
             (
                 slider.ends.has_stop(),
                 "with ends that hold or reflect it",
-                "choose the ends stop or release",
+                "choose ends that stop the run or release it",
             ),
         ];
         let Some((_, what, remedy)) = refused.into_iter().find(|(is_given, ..)| *is_given) else {

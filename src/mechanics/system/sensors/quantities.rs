@@ -122,7 +122,7 @@ pub(in crate::system) static COLUMNS_OF_SLIDERS: [Quantity; 5] = [
 ];
 
 /// Column of sliders with friction: the force along the master.
-pub(in crate::system) static FRICTION: Quantity =
+pub(in crate::system) static SLIDER_FRICTION: Quantity =
     quantity("friction", "force", StepMean, Index(friction));
 
 /// Column of sliders that only push: the distance from the axis.
@@ -157,14 +157,17 @@ pub(in crate::system) static COLUMNS_OF_TORSION_SPRINGS: [Quantity; 2] = [
     Quantity { dimension: "force·length", ..COLUMNS_OF_SPRINGS[1] },
 ];
 
-/// Columns of obstacles: the force on the bodies, and the smallest gap. The last one is that of obstacles with friction.
-pub(in crate::system) static COLUMNS_OF_OBSTACLES: [Quantity; 5] = [
+/// Columns of obstacles: the force on the bodies, and the smallest gap.
+pub(in crate::system) static COLUMNS_OF_OBSTACLES: [Quantity; 4] = [
     quantity("force", "force", MeanOfMethod, Index(|model, at| contact(model, at).force.norm())),
     quantity("force_x", "force", MeanOfMethod, Index(|model, at| contact(model, at).force.x)),
     quantity("force_y", "force", MeanOfMethod, Index(|model, at| contact(model, at).force.y)),
     quantity("gap", "length", Present, Index(|model, at| contact(model, at).gap)),
-    quantity("friction", "force", MeanOfMethod, Index(|model, at| contact(model, at).friction)),
 ];
+
+/// Column of obstacles with friction: the friction force on the bodies.
+pub(in crate::system) static OBSTACLE_FRICTION: Quantity =
+    quantity("friction", "force", MeanOfMethod, Index(|model, at| contact(model, at).friction));
 
 /// Columns of named loads: a force, a force per length, or a moment.
 pub(in crate::system) static COLUMNS_OF_LOADS: [Quantity; 3] = [

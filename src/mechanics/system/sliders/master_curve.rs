@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::geometry::{Curve, corresponding};
 
-/// Distance from an end of the master below which a slider is at the end, as a fraction of the parameter range [-].
+/// Relative rounding tolerance of positions of sliders: a fraction of the parameter range, or of the size of a contact [-].
 pub const END_TOLERANCE: f64 = 4e-15;
 
 /// End of the master of a slider.

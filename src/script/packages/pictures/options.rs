@@ -85,7 +85,7 @@ pub fn expect_one_axis(options: &Options, panels: usize) -> Result<(), OptionErr
         Some(Parameter { name, .. }) if panels > 1 => Err(OptionError {
             key: name.to_owned(),
             message: format!("'{name}' is for one axis, but the columns have {panels} units"),
-            hint: "plot the columns of each unit separately, or leave it out",
+            hint: "remove this option, or plot the columns of each unit separately",
         }),
         _ => Ok(()),
     }

@@ -160,6 +160,10 @@ impl ElementDef for Obstacle {
             }
         };
         let (targets, surface) = (self.targets_in(site.scene()), self.surface());
+        if targets.is_empty() {
+            let allowed = "at least 1; name points of rigid bodies as its bodies";
+            return Err(self.refuse("number of bodies that can touch it", 0.0, allowed));
+        }
         let bodies = targets.iter().map(|target| {
             let mut points = touching(target)?;
             if surface.friction > 0.0 {

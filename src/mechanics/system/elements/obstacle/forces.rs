@@ -88,11 +88,11 @@ impl TouchingBody {
         }
         let controls = body.dynamics.control_points();
         let middle = (controls[0] + controls[controls.len() - 1]) * 0.5;
-        let ends = controls.iter().enumerate();
-        let ends = ends.map(|(at, start)| start + body.vector_at(at, increments));
+        let control_points = controls.iter().enumerate();
+        let ends = control_points.map(|(at, start)| start + body.vector_at(at, increments));
         let is_clear = self.is_far && surface.is_beyond(middle, ends);
-        let path = |point: &ContactPoint| point.vector(body, increments);
-        !is_clear && self.points.iter().any(|point| point.crosses(surface, path(point)))
+        let movement = |point: &ContactPoint| point.vector(body, increments);
+        !is_clear && self.points.iter().any(|point| point.crosses(surface, movement(point)))
     }
 
     fn begin_movement(&mut self, surface: &Surface, body: &Body) {

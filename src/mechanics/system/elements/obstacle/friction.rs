@@ -2,10 +2,10 @@
 //!
 //! ```text
 //! limit of the force:       B = μ N
-//! deflection at the start:  e₀' = e₀ limited to ±B/k
-//! deflection at the end:    e₁ = e₀' + s limited to ±B/k
-//! mean force:               f = (½ k (e₁² - e₀'²) + B |e₀' + s - e₁|)/s
-//! dissipated energy:        D = f s - ½ k (e₁² - e₀²) ≥ 0
+//! deflection at the start:  q₀' = q₀ limited to ±B/k
+//! deflection at the end:    q₁ = q₀' + s limited to ±B/k
+//! mean force:               f = (½ k (q₁² - q₀'²) + B |q₀' + s - q₁|)/s
+//! dissipated energy:        D = f s - ½ k (q₁² - q₀²) ≥ 0
 //! ```
 //!
 //! Here `s` is the slip in the step, `N` the mean normal force, `μ` the coefficient of friction and `k` the stiffness of the contact.
@@ -28,7 +28,8 @@ struct FrictionLaw {
     stiffness: f64,
     /// Largest magnitude of the force [force].
     limit: f64,
-    /// Deflection at the start of the step [length]. It may be above the limit.
+    /// Deflection at the start of the step [length].
+    /// Its magnitude may exceed `limit/stiffness`, because the limit of the last step may have been larger.
     deflection: f64,
     /// Viscous force per slip [force/length].
     damping: f64,
@@ -48,20 +49,20 @@ impl FrictionLaw {
         self.limit / self.stiffness
     }
 
-    fn start(&self) -> f64 {
+    fn start_deflection(&self) -> f64 {
         let most = self.yield_deflection();
         self.deflection.clamp(-most, most)
     }
 
-    fn end(&self, slip: f64) -> f64 {
+    fn end_deflection(&self, slip: f64) -> f64 {
         let most = self.yield_deflection();
-        (self.start() + slip).clamp(-most, most)
+        (self.start_deflection() + slip).clamp(-most, most)
     }
 
-    fn mean(&self, slip: f64) -> FrictionTarget {
+    fn mean_force(&self, slip: f64) -> FrictionTarget {
         let Self { stiffness, limit, deflection, damping, share } = *self;
         let sign = 1.0_f64.copysign(slip);
-        let (slip, start) = (slip.abs(), sign * self.start());
+        let (slip, start) = (slip.abs(), sign * self.start_deflection());
         let start_by_limit = match deflection.abs() > self.yield_deflection() {
             true => (sign * deflection).signum() / stiffness,
             false => 0.0,
@@ -122,11 +123,13 @@ pub(super) struct PointFriction {
     coefficient: f64,
     /// Radius of the body around the point [length].
     radius: f64,
+    /// Stiffness along the surface [force/length].
     stiffness: f64,
     /// Damping coefficient while the contact sticks [force·time/length].
     damping: f64,
     /// Elastic deflection along the surface at the start of the step [length].
     deflection: f64,
+    /// Friction force, as an internal force along the turned normal [force].
     force: MixedForce,
     /// Derivative of the force with respect to the normal force, at the last linearisation [-].
     by_normal: f64,
@@ -134,7 +137,7 @@ pub(super) struct PointFriction {
     linearised: SlipTrial,
 }
 
-/// Contact of a friction force in an iterate.
+/// Normal force that limits a friction force in an iterate, and the time in which both act.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct NormalContact {
     /// Normal force; negative in an iterate that pulls [force].
@@ -160,7 +163,7 @@ impl PointFriction {
         }
     }
 
-    /// Prepares the start of a simulation. The damping factor is that of the normal force.
+    /// Sets stiffness and damping at the start of a simulation. `damping_factor` is the factor of the normal damping [-].
     pub(super) fn begin(&mut self, stiffness: f64, mass: f64, damping_factor: f64) {
         self.stiffness = stiffness;
         let factor = damping_factor.min(MOST_DAMPING);
@@ -172,7 +175,7 @@ impl PointFriction {
         self.force.begin_step();
     }
 
-    /// Removes the force.
+    /// Sets the force to zero for an open contact. The deflection is kept until the end of the step.
     pub(super) fn release(&mut self) {
         (self.force.force, self.force.mismatch, self.by_normal) = (0.0, 0.0, 0.0);
         (self.trial, self.linearised) = (SlipTrial::default(), SlipTrial::default());
@@ -194,7 +197,7 @@ impl PointFriction {
 
     /// Compares the force with the law. Returns the relative difference; zero if the rounding error of the increments explains it.
     pub(super) fn compare(&mut self, contact: NormalContact) -> f64 {
-        let target = self.law(contact).mean(self.trial.slip).by_slip;
+        let target = self.law(contact).mean_force(self.trial.slip).by_slip;
         let stiffness = larger(target.stiffness, self.stiffness);
         let extent = CORNER_TOLERANCE * larger(self.trial.moved, self.deflection.abs());
         let missed = self.force.compare(ForceTarget { stiffness, ..target }, extent);
@@ -207,12 +210,12 @@ impl PointFriction {
         let (law, slip) = (self.law(contact), self.trial.slip);
         let point = match self.stiffness > SOFT * impedance {
             true => ForceTarget::intersection_point(slip, self.force.force, impedance, |slip| {
-                law.mean(slip).by_slip
+                law.mean_force(slip).by_slip
             }),
             false => slip,
         };
         let FrictionTarget { by_slip: ForceTarget { force, stiffness }, by_limit } =
-            law.mean(point);
+            law.mean_force(point);
         let is_pushed = contact.force >= 0.0;
         self.by_normal = if is_pushed { self.coefficient * by_limit } else { 0.0 };
         let force = force + stiffness * (slip - point);
@@ -265,7 +268,7 @@ impl PointFriction {
         // The slip fits the force, so that the rounding error of increments stores no energy.
         let slip = self.trial.slip + if is_met { self.force.missing_change() } else { 0.0 };
         let before = self.energy();
-        self.deflection = self.law(contact).end(slip);
+        self.deflection = self.law(contact).end_deflection(slip);
         self.force.last = self.force.force;
         contact.share * self.force.force * slip - (self.energy() - before)
     }
@@ -280,7 +283,8 @@ impl PointFriction {
         self.force.last
     }
 
-    /// Generalised force at the start of the step, for the rates of the point.
+    /// Generalised internal force at the start of the step, for rates of the point.
+    /// The slip is linear in the movement, so the slip rate follows from the rates.
     pub(super) fn at_start(&self, normal: Vec2, normal_force: f64, rates: Movement) -> Movement {
         let gap = GapTrial::along(normal);
         let SlipTrial { slip: rate, direction, .. } = SlipTrial::new(&gap, self.radius, rates);
@@ -321,15 +325,15 @@ mod tests {
             for slip in SLIPS {
                 let pieces = 200_000;
                 let part = slip / f64::from(pieces);
-                let (mut at, mut work) = (law.start(), 0.0);
+                let (mut at, mut work) = (law.start_deflection(), 0.0);
                 for _ in 0..pieces {
-                    let next = FrictionLaw { deflection: at, ..law }.end(part);
+                    let next = FrictionLaw { deflection: at, ..law }.end_deflection(part);
                     work += 0.5 * law.stiffness * (at + next) * part;
                     at = next;
                 }
-                let met = law.mean(slip).by_slip.force * slip;
+                let met = law.mean_force(slip).by_slip.force * slip;
                 assert!((met - work).abs() < 1e-5, "{law:?} {slip}: {met} {work}");
-                assert!((at - law.end(slip)).abs() < 1e-12);
+                assert!((at - law.end_deflection(slip)).abs() < 1e-12);
             }
         }
     }
@@ -338,10 +342,10 @@ mod tests {
     fn the_force_stays_below_its_limit_and_dissipates() {
         for law in laws() {
             for slip in SLIPS {
-                let force = law.mean(slip).by_slip.force;
+                let force = law.mean_force(slip).by_slip.force;
                 assert!(force.abs() <= law.limit * (1.0 + 1e-15), "{law:?} {slip}");
                 let energy = |at: f64| 0.5 * law.stiffness * at * at;
-                let lost = force * slip - energy(law.end(slip)) + energy(law.deflection);
+                let lost = force * slip - energy(law.end_deflection(slip)) + energy(law.deflection);
                 assert!(lost > -1e-14, "{law:?} {slip}: {lost}");
             }
         }
@@ -352,14 +356,14 @@ mod tests {
         let step = 1e-7;
         for law in laws() {
             for slip in SLIPS.map(|slip| slip + 1e-4) {
-                let force = |slip: f64, limit: f64| FrictionLaw { limit, ..law }.mean(slip);
+                let force = |slip: f64, limit: f64| FrictionLaw { limit, ..law }.mean_force(slip);
                 let difference = |slip_step: f64, limit_step: f64| {
                     let of = |sign: f64| {
                         force(slip + sign * slip_step, law.limit + sign * limit_step).by_slip.force
                     };
                     (of(1.0) - of(-1.0)) / (2.0 * step)
                 };
-                let met = law.mean(slip);
+                let met = law.mean_force(slip);
                 let by_slip = difference(step, 0.0);
                 let by_limit = difference(0.0, step);
                 let tolerance = 1e-5 * law.stiffness;

@@ -16,8 +16,8 @@ use crate::system::elements::mixed_force::{CORNER_TOLERANCE, ForceTarget, MixedF
 /// Stiffness relative to the impedance of the body, up to which a contact is linearised at the present iterate.
 pub(super) const SOFT: f64 = 1e-2;
 
-/// Largest ratio of the path of an open point in a step to the chord that it cuts off a disc. Shorter chords are grazing and are ignored.
-/// The limit is below the smallest fraction of a step that retries use.
+/// Largest ratio of the path of an open point in a step to its chord inside a disc. Shorter chords are ignored.
+/// The limit is below the largest number of parts of a halved step, so halving resolves longer chords.
 const LONGEST_PATH: f64 = 1e3;
 
 /// Surface of an obstacle with its contact law.
@@ -262,18 +262,18 @@ impl ContactPoint {
     }
 
     /// Returns true if a straight movement leads through a disc: from outside to outside, or around its centre by more than 60°.
+    /// A chord that is longer than the distance of its ends from the centre subtends more than 60°.
     pub(super) fn crosses(&self, surface: &Surface, movement: Vec2) -> bool {
         let ObstacleShape::Disc { radius, .. } = surface.shape else { return false };
         let (radius, length) = (radius + surface.radius, movement.norm());
-        let nearest = -self.start.dot(&movement) / square(length);
-        let is_within = nearest > 0.0 && nearest < 1.0;
-        let deepest = self.start + movement * nearest;
-        // The part of the path that lies deeper than both ends.
-        let ends = self.start.norm().min((self.start + movement).norm());
-        let hidden = square(ends.min(radius)) - deepest.norm_squared();
-        let is_open = ends >= radius && !self.is_closed();
-        let allowed = if is_open { length / LONGEST_PATH } else { ends };
-        is_within && 2.0 * hidden.max(0.0).sqrt() > allowed
+        let fraction = -self.start.dot(&movement) / square(length);
+        let is_within = fraction > 0.0 && fraction < 1.0;
+        let deepest = self.start + movement * fraction;
+        let nearest_end = self.start.norm().min((self.start + movement).norm());
+        let half_chord_squared = square(nearest_end.min(radius)) - deepest.norm_squared();
+        let is_open = nearest_end >= radius && !self.is_closed();
+        let allowed = if is_open { length / LONGEST_PATH } else { nearest_end };
+        is_within && 2.0 * half_chord_squared.max(0.0).sqrt() > allowed
     }
 
     /// Removes the force, because no contact is possible in the present iterate.
@@ -385,16 +385,19 @@ impl ContactPoint {
         }
         let mut strain_mismatch = self.compare(surface, target);
         let force = self.tension.force;
+        let mut moment = 0.0;
         self.applied[1] = secant * (time.weight * force);
         if let (Some(contact), Some(friction)) = (self.normal_contact(time), &mut self.friction) {
             strain_mismatch = larger(strain_mismatch, friction.compare(contact));
-            let [x, y, moment] = friction.present().map(|by| by * time.weight);
+            let [x, y, applied] = friction.present().map(|by| by * time.weight);
+            // The rounding error of the normal force limits the accuracy of the moment.
+            moment = applied.abs() + surface.radius * force.abs();
             self.applied[1] += Vec2::new(x, y);
-            self.applied_moment = moment;
-            self.scatter_moment(body, moment, out);
+            self.applied_moment = applied;
+            self.scatter_moment(body, applied, out);
         }
         self.scatter(body, self.applied[1], out);
-        ForceSummary { force: force.abs(), strain_mismatch, ..ForceSummary::default() }
+        ForceSummary { force: force.abs(), moment, strain_mismatch, ..ForceSummary::default() }
     }
 
     /// Adds the force with its difference from the law condensed out to `out`, and its derivatives to `tangent`.

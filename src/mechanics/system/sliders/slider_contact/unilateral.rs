@@ -7,8 +7,8 @@ use crate::system::bodies::Body;
 use crate::system::sliders::SliderState;
 use crate::system::sliders::master_curve::END_TOLERANCE;
 
-/// Largest number of changes between contact and flight without a regular step between them.
-/// After these changes, the slider stays in contact until the next regular step.
+/// Largest number of take-offs, landings and passages of the axis without a regular step between them. No event cuts a regular step.
+/// After these events, the slider stays in contact until the next regular step.
 const MOST_CHANGES: usize = 4;
 
 /// Largest number of iterations of the search for the nearest point of the master.
@@ -30,11 +30,11 @@ pub struct UnilateralContact {
     pub sign: f64,
     /// Nearest point of the master at the end of the last attempted step.
     nearest: NearestPoint,
-    /// True if the slave is not on the other side of the master, which it can reach beyond an end of the master.
+    /// True if the slave is on the side of the flight. It can reach the other side beyond an end of the master, and cannot land from there.
     may_land: bool,
-    /// Number of changes between contact and flight since the last regular step.
+    /// Number of take-offs, landings and passages of the axis since the last regular step.
     changes: usize,
-    /// Number of steps in which the slider stayed in contact because of too many changes.
+    /// Number of attempted steps in which the slider stayed in contact because of too many changes.
     pub kept_steps: usize,
 }
 
@@ -42,7 +42,7 @@ pub struct UnilateralContact {
 #[derive(Debug, Clone, Copy, Default)]
 pub struct NearestPoint {
     parameter: f64,
-    /// Distance of the slave from the axis, positive on the side of the flight [length].
+    /// Component of the distance from the axis along the normal, positive on the side of the flight [length].
     pub gap: f64,
     /// True if the slave is not beyond an end of the master.
     pub is_inside: bool,
@@ -109,6 +109,7 @@ impl SliderContact {
 
     /// Nearest point of the master after given increments of all bodies.
     /// The search starts at the present parameter. If `increments` is empty, the present configuration is used.
+    /// The path of the slider is overwritten.
     pub fn nearest_point(&mut self, bodies: &[Body], increments: &[f64]) -> NearestPoint {
         let sign = self.unilateral.as_ref().map_or(1.0, |contact| contact.sign);
         let (first, last) = self.master.domain();
@@ -200,8 +201,8 @@ impl SliderContact {
         lands.then_some(-gap / self.size)
     }
 
-    /// Distance of a slave in flight behind the axis at the end of the attempted step, like [`landing`](Self::landing), with its sign.
-    /// The value is `None` if the slave is on the axis.
+    /// Distance of a slave in flight behind the axis at the end of the attempted step, negative in front of it, as a fraction of the size of the
+    /// contact [-]. The value is `None` within rounding of the axis.
     pub fn missed_landing(&self) -> Option<f64> {
         let contact = self.unilateral.as_deref().filter(|_| self.is_separated())?;
         let gap = contact.nearest.gap;
@@ -213,7 +214,7 @@ impl SliderContact {
         self.nearest_point(bodies, &[]).gap / self.size
     }
 
-    /// Distance of the slave from the axis at the end of the last step [length]; `None` for a slider that never leaves its master.
+    /// Distance of the slave from the axis at the end of the last step, zero in contact [length]; `None` for a slider that never leaves its master.
     pub fn flight_gap(&self, bodies: &[Body]) -> Option<f64> {
         let contact = self.unilateral.as_deref()?;
         let to_axis = self.to_axis(bodies);
