@@ -60,7 +60,7 @@ impl SessionRecord {
             let (time, steps) = (was.handle.time(), was.handle.simulation().counts().steps);
             if steps != was.steps {
                 let method = if time > was.time { "run_to" } else { "rewind" };
-                // When the saved script repeats the movement, it may call the failed script function again, and this call may also fail.
+                // The saved script repeats the movement. It may call the failed script function again, and this call may also fail.
                 // The generated script catches the error of the repeated call.
                 let call = format!("{}.{method}({});", was.name, format_number(time));
                 self.entries

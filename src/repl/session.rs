@@ -240,9 +240,7 @@ impl Session {
         let piece = SourcePiece { name: PROMPT, text, before, scope };
         let parse = |engine: &Engine| parse_piece(engine, &piece, || transcript.variables());
         let ast = host.run(&guard, || transcript.to_program(), parse).map_err(reply)?;
-        for pitfall in pitfalls(text, before) {
-            host.context().print_message(&format!("note: {pitfall}"));
-        }
+        pitfalls(text, before).iter().for_each(|note| host.context().print_message(note));
         self.library = self.library.merge(&ast.clone_functions_only());
         // The source name distinguishes errors in functions of the session from errors in functions of imported files.
         self.library.set_source(PROMPT);

@@ -42,6 +42,22 @@ pub fn slider(slave: Station, master: usize, arc_length: f64, rule: SlidingRule)
     }
 }
 
+/// Section that hardly deforms.
+pub const STIFF: Section = Section {
+    axial_stiffness: 1e10,
+    shear_stiffness: 1e10,
+    bending_stiffness: 1e10,
+    mass_per_length: 1.0,
+    rotary_inertia: 1e-2,
+};
+
+/// Particle with a start velocity.
+pub fn moving_particle(scene: &mut Scene, position: Vec2, velocity: Vec2, mass: f64) -> Station {
+    let station = particle(scene, position, mass);
+    scene.velocities.push(StationVelocity { station, velocity, spin: None });
+    station
+}
+
 pub fn hinge_start(scene: &mut Scene, beam: usize) {
     let start = scene.station(beam, 0.0).unwrap();
     scene.join(JointKind::Hinge, start, Partner::Ground).unwrap();

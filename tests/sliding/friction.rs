@@ -4,6 +4,7 @@
 use std::rc::Rc;
 
 use crate::common::scenes::{add_beam, line};
+use crate::common::sliding::{STIFF, moving_particle};
 use crate::common::{at, run, sci, settings, simulate, step, wild_scenes};
 use withy::beams::{Mesh, Section, Station};
 use withy::geometry::{Vec2, unit};
@@ -11,30 +12,12 @@ use withy::integrators::Method;
 use withy::joints::{EndAction, JointKind, Partner, Slider, SlidingRule};
 use withy::loads::{PrescribedMotion, Schedule};
 use withy::simulation::{Invariant, Simulation, SimulationError, Warning};
-use withy::system::{
-    Drive, DriveKind, ParticleDefinition, Scene, StartMotion, StationVelocity, SystemError,
-};
+use withy::system::{Drive, DriveKind, Scene, StartMotion, SystemError};
 
 const METHOD: Method = Method::EnergyMomentum;
 
-/// Section that hardly deforms.
-const STIFF: Section = Section {
-    axial_stiffness: 1e10,
-    shear_stiffness: 1e10,
-    bending_stiffness: 1e10,
-    mass_per_length: 1.0,
-    rotary_inertia: 1e-2,
-};
-
 fn mesh() -> Mesh {
     Mesh::bspline(4, 3, 2).unwrap()
-}
-
-fn bead(scene: &mut Scene, position: Vec2, velocity: Vec2, mass: f64) -> Station {
-    let name = scene.free_name("bead");
-    let station = scene.add_particle(ParticleDefinition { name, position }, mass).unwrap();
-    scene.velocities.push(StationVelocity { station, velocity, spin: None });
-    station
 }
 
 fn add_slider(scene: &mut Scene, bead: Station, beam: usize, along: f64, friction: f64) {
@@ -53,7 +36,7 @@ fn incline(degrees: f64, friction: f64) -> Scene {
         scene.join(JointKind::Rigid, end, Partner::Ground).unwrap();
     }
     scene.gravity = at(0.0, -9.81);
-    let block = bead(&mut scene, Vec2::zeros(), uphill * 2.0, 1.0);
+    let block = moving_particle(&mut scene, Vec2::zeros(), uphill * 2.0, 1.0);
     add_slider(&mut scene, block, rod, 5.0, friction);
     scene
 }
@@ -69,7 +52,7 @@ fn turning_bar(friction: f64, velocity: f64) -> Scene {
     let rate = PrescribedMotion::Rate(Schedule::Constant(1.0));
     let (kind, motions) = (DriveKind::Motor, [None, None, Some(rate)]);
     scene.drives.push(Drive { name: "motor".to_owned(), kind, station, motions });
-    let ring = bead(&mut scene, at(1.0, 0.0), at(velocity, 1.0), 1.0);
+    let ring = moving_particle(&mut scene, at(1.0, 0.0), at(velocity, 1.0), 1.0);
     add_slider(&mut scene, ring, rod, 4.0, friction);
     scene
 }
@@ -90,7 +73,7 @@ fn flying(friction: f64, rotation: f64) -> Scene {
     let rod = add_beam(&mut scene, line(Vec2::zeros(), along * 4.0), &mesh, section);
     scene.beams[rod].motion =
         StartMotion { velocity: Vec2::zeros(), spin: 1.0, centre: Some(along * 2.0) };
-    let ring = bead(&mut scene, along, along * 2.0 - across, 1.0);
+    let ring = moving_particle(&mut scene, along, along * 2.0 - across, 1.0);
     add_slider(&mut scene, ring, rod, 1.0, friction);
     scene
 }
@@ -187,7 +170,7 @@ fn friction_does_not_follow_the_alternating_part_of_the_contact_force() {
             let (name, station) = (format!("drive{along}"), scene.station(bar, along).unwrap());
             scene.drives.push(Drive { name, kind: DriveKind::Move, station, motions });
         }
-        let ring = bead(&mut scene, at(1.0, 0.0), at(1.0, 0.0), 1.0);
+        let ring = moving_particle(&mut scene, at(1.0, 0.0), at(1.0, 0.0), 1.0);
         add_slider(&mut scene, ring, bar, 1.0, 0.3);
         let simulation = simulate(scene, METHOD, 1.0 / steps, 2.0);
         let column = |name: &str| simulation.history().column(name).unwrap();

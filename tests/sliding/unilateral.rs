@@ -2,27 +2,21 @@
 #![allow(clippy::unwrap_used)]
 
 use crate::common::scenes::{add_beam, line};
-use std::f64::consts::PI;
-
+use crate::common::sliding::{STIFF, moving_particle};
 use crate::common::{at, run, settings, step};
+use std::f64::consts::PI;
 use withy::beams::{Mesh, Section, Station};
 use withy::geometry::{Curve, Vec2, perpendicular, unit};
 use withy::integrators::Method;
 use withy::joints::{JointKind, Partner, Side, Slider, StartVelocities};
 use withy::loads::{LoadFrame, LoadKind, Schedule};
 use withy::simulation::{Invariant, Simulation, StepControl, StepSize};
-use withy::system::{ParticleDefinition, Scene, SliderState, StartMotion, StationVelocity};
+use withy::system::{Scene, SliderState, StartMotion};
 
 const METHOD: Method = Method::EnergyMomentum;
 
-/// Section that hardly deforms.
-const STIFF: Section = Section {
-    axial_stiffness: 1e10,
-    shear_stiffness: 1e10,
-    bending_stiffness: 1e10,
-    mass_per_length: 1.0,
-    rotary_inertia: 1e-2,
-};
+/// Angle of the start of the circle [°].
+const SPHERE_START: f64 = 120.0;
 
 /// Section that hardly moves because of its mass. Its vibrations are slow, so steps resolve them.
 const HEAVY: Section = Section {
@@ -32,13 +26,6 @@ const HEAVY: Section = Section {
     mass_per_length: 1e9,
     rotary_inertia: 1e8,
 };
-
-fn bead(scene: &mut Scene, position: Vec2, velocity: Vec2, mass: f64) -> Station {
-    let name = scene.free_name("bead");
-    let station = scene.add_particle(ParticleDefinition { name, position }, mass).unwrap();
-    scene.velocities.push(StationVelocity { station, velocity, spin: None });
-    station
-}
 
 fn add_slider(scene: &mut Scene, bead: Station, beam: usize, along: f64, restitution: f64) {
     let slider = Slider::new(scene.free_name("slider"), bead, beam, along);
@@ -59,7 +46,7 @@ fn sphere(q: f64) -> Scene {
     let (from, to) = (SPHERE_START.to_radians(), -100.0_f64.to_radians());
     let axis = Curve::arc(Vec2::zeros(), 1.0, from, to).unwrap();
     let rod = add_beam(&mut scene, axis, &Mesh::bspline(60, 3, 2).unwrap(), HEAVY);
-    let top = bead(&mut scene, at(0.0, 1.0), at((9.81 * q).sqrt(), 0.0), 1.0);
+    let top = moving_particle(&mut scene, at(0.0, 1.0), at((9.81 * q).sqrt(), 0.0), 1.0);
     let weight = LoadKind::Force { station: top, force: at(0.0, -9.81), frame: LoadFrame::Dead };
     scene.add_load(weight, Schedule::constant(1.0).unwrap());
     let along = (SPHERE_START - 90.0).to_radians();
@@ -69,9 +56,6 @@ fn sphere(q: f64) -> Scene {
     scene.add_slider(Slider { side, velocities, restitution: 0.0, ..slider }).unwrap();
     scene
 }
-
-/// Angle of the start of the circle [°].
-const SPHERE_START: f64 = 120.0;
 
 /// Time and position of the first take-off.
 fn take_off(simulation: &Simulation) -> [f64; 2] {
@@ -128,7 +112,7 @@ fn a_moving_mass_takes_off_near_the_end_of_a_beam() {
             let end = scene.station(rod, along).unwrap();
             scene.join(JointKind::Hinge, end, Partner::Ground).unwrap();
         }
-        let mass = bead(&mut scene, Vec2::zeros(), at(speed, 0.0), 0.5);
+        let mass = moving_particle(&mut scene, Vec2::zeros(), at(speed, 0.0), 0.5);
         add_slider(&mut scene, mass, rod, 0.0, 0.0);
         let (force, frame) = (at(0.0, -5e-4), LoadFrame::Dead);
         let load = LoadKind::Force { station: mass, force, frame };
@@ -154,7 +138,7 @@ fn a_bead_bounces_on_a_beam() {
         let rod = add_beam(&mut scene, line(at(-1.0, 0.0), at(1.0, 0.0)), &mesh, STIFF);
         fix(&mut scene, rod, 4);
         scene.gravity = at(0.0, -9.81);
-        let ball = bead(&mut scene, at(0.1, 1.0), at(0.1, 0.0), 1.0);
+        let ball = moving_particle(&mut scene, at(0.1, 1.0), at(0.1, 0.0), 1.0);
         add_slider(&mut scene, ball, rod, 1.1, restitution);
         let mut simulation = Simulation::start(scene, settings(METHOD, dt)).unwrap();
         run(&mut simulation, 2.5).unwrap();
@@ -198,7 +182,7 @@ fn cantilever(turn: f64, side: Side, restitution: f64) -> Scene {
     let start = scene.station(rod, 0.0).unwrap();
     scene.join(JointKind::Rigid, start, Partner::Ground).unwrap();
     scene.gravity = place(0.0, -1.0);
-    let ball = bead(&mut scene, place(1.5, 0.3), place(0.1, 0.0), 0.2);
+    let ball = moving_particle(&mut scene, place(1.5, 0.3), place(0.1, 0.0), 0.2);
     let slider = Slider::new("slider1", ball, rod, 1.5);
     scene.add_slider(Slider { side: Some(side), restitution, ..slider }).unwrap();
     scene
@@ -271,8 +255,8 @@ fn a_landing_leaves_another_slider_behind() {
     let rod = add_beam(&mut scene, line(at(-1.0, 0.0), at(1.0, 0.0)), &mesh, STIFF);
     let middle = scene.station(rod, 1.0).unwrap();
     scene.join(JointKind::Hinge, middle, Partner::Ground).unwrap();
-    let falling = bead(&mut scene, at(0.8, 0.1), at(0.0, -1.0), 1.0);
-    let resting = bead(&mut scene, at(0.5, 0.0), Vec2::zeros(), 1.0);
+    let falling = moving_particle(&mut scene, at(0.8, 0.1), at(0.0, -1.0), 1.0);
+    let resting = moving_particle(&mut scene, at(0.5, 0.0), Vec2::zeros(), 1.0);
     add_slider(&mut scene, falling, rod, 1.8, 0.0);
     add_slider(&mut scene, resting, rod, 1.5, 0.0);
     let mut simulation = Simulation::start(scene, settings(METHOD, 0.01)).unwrap();
@@ -296,7 +280,7 @@ fn a_bead_passes_beyond_the_end_of_a_beam() {
         STIFF,
     );
     fix(&mut scene, rod, 4);
-    let passing = bead(&mut scene, at(1.5, 0.5), at(-0.5, -1.0), 1.0);
+    let passing = moving_particle(&mut scene, at(1.5, 0.5), at(-0.5, -1.0), 1.0);
     add_slider(&mut scene, passing, rod, 2.0, 0.5);
     let mut simulation = Simulation::start(scene, settings(METHOD, 0.03)).unwrap();
     run(&mut simulation, 2.0).unwrap();

@@ -4,7 +4,7 @@
 //! A few spans have control points on both sides of a cut.
 //! The terms of each sum must be added in the order of the spans, because the order affects rounding.
 //! Hence the contributions of spans across a cut are computed twice. The first computation adds them to the control points after the cut.
-//! When all parts are completed, the second computation adds them to the control points before the cut.
+//! After all parts are completed, the second computation adds them to the control points before the cut.
 
 use std::ops::Range;
 

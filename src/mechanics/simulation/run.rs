@@ -130,20 +130,7 @@ impl Simulation {
         settings: SimulationSettings,
     ) -> Result<Self, SimulationError> {
         settings.dt.check()?;
-        settings.method.check()?;
-        let sliders =
-            scene.sliders_with_friction().filter(|_| settings.method != Method::EnergyMomentum);
-        let obstacles =
-            scene.obstacles_with_friction().filter(|_| settings.method == Method::FourthOrder);
-        if let Some(object) = sliders.chain(obstacles).next() {
-            let method = settings.method.entry().name;
-            return Err(SimulationError::FrictionMethod { object, method });
-        }
-        let with_side = scene.sliders.iter().find(|slider| slider.side.is_some());
-        if let Some(slider) = with_side.filter(|_| settings.method != Method::EnergyMomentum) {
-            let (slider, method) = (slider.name.clone(), settings.method.entry().name);
-            return Err(SimulationError::SideMethod { slider, method });
-        }
+        check_method(&scene, settings.method)?;
         model.divide(cores());
         let integrator = settings.method.build(&mut model, settings.tolerance);
         let breaks = scene.schedules().flat_map(|(_, schedule)| schedule.breaks());
@@ -381,4 +368,20 @@ impl Simulation {
         let interval = Interval::between(self.time(), end);
         self.cover_with_arrivals(begun_before.unwrap_or_else(|| StepRetry::new(interval)), monitor)
     }
+}
+
+/// Checks the parameter of a method, and that the method supports all objects of the scene.
+fn check_method(scene: &Scene, method: Method) -> Result<(), SimulationError> {
+    method.check()?;
+    let name = method.entry().name;
+    let sliders = scene.sliders_with_friction().filter(|_| method != Method::EnergyMomentum);
+    let obstacles = scene.obstacles_with_friction().filter(|_| method == Method::FourthOrder);
+    if let Some(object) = sliders.chain(obstacles).next() {
+        return Err(SimulationError::FrictionMethod { object, method: name });
+    }
+    if let Some(slider) = scene.slider_with_side().filter(|_| method != Method::EnergyMomentum) {
+        let slider = slider.name.clone();
+        return Err(SimulationError::SideMethod { slider, method: name });
+    }
+    Ok(())
 }

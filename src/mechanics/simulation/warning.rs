@@ -117,7 +117,7 @@ pub enum Warning {
         /// Number of such steps.
         steps: usize,
     },
-    /// Slider that only pushes, and that stayed in contact under a tensile force after too many changes between contact and flight.
+    /// Slider that only pushes, and that stayed in contact under a tensile force after too many take-offs and landings.
     KeptContact {
         /// Name of the slider.
         slider: String,
@@ -340,7 +340,7 @@ impl fmt::Display for Warning {
             ),
             Self::KeptContact { slider, steps } => write!(
                 f,
-                "slider '{slider}' left its beam and landed again several times within a step, and then stayed in contact for the rest of the step, in {steps} {}. Energy and momenta are balanced; use a smaller dt to resolve the contact",
+                "slider '{slider}' left its beam and landed again several times within a step, and then stayed in contact under a tensile force, in {steps} attempted {}. Energy and momenta are balanced; use a smaller dt to resolve the contact",
                 if *steps == 1 { "step" } else { "steps" }
             ),
             Self::Uneven { shortest, longest } => write!(

@@ -22,7 +22,7 @@ pub use elements::{
 pub(crate) use errors::rounded;
 pub use errors::{
     Approach, SliderError, SliderParts, SystemError, TrackError, Turning, check_name,
-    refusal as refusal_of_name,
+    refusal as refusal_of_name, with_article,
 };
 pub use mechanism::{
     Arriving, BodyEnergy, Energy, Instant, Measures, RESOLVED_IMPACT, Reactions, StaticForces,

@@ -117,16 +117,12 @@ pub fn error_estimate(shell: &mut Shell, operand: &str) -> CommandOutcome {
                 Ok(columns.iter().map(line).collect::<Result<Vec<_>, ScriptError>>()?.join("\n"))
             }
             ReplyTarget::Terminal(style) => {
-                let groups = plots::by_dimension(&columns, |name| history.dimension(name));
-                let chart = |columns: &Vec<String>| {
-                    let mut chart = plots::history_lines(history, columns);
+                plots::history_charts(history, &columns, &style, |chart, columns| {
                     for (index, name) in columns.iter().enumerate() {
                         chart.add_band(index, &estimate.of_rows(name, history)?);
                     }
-                    Ok(chart)
-                };
-                let charts = groups.iter().map(chart).collect::<Result<Vec<_>, ScriptError>>()?;
-                Ok(plots::stacked_text(&charts, &style))
+                    Ok(())
+                })
             }
         }
     })

@@ -111,9 +111,7 @@ fn run_here(program: &Program, catalog: &Catalog, settings: RunSettings) -> RunO
     let mut errors = Vec::new();
     let run = |engine: &Engine| {
         let (ast, context) = (parse(engine, program)?, host.context());
-        for pitfall in pitfalls(&program.text, 0) {
-            context.print_message(&format!("note: {pitfall}"));
-        }
+        pitfalls(&program.text, 0).iter().for_each(|note| context.print_message(note));
         let names = match context.inputs().are_defaults() && context.mode() == RunMode::Run {
             true => Vec::new(),
             false => declare_inputs(engine, context, (&ast, &program.text), &program.folder)?,

@@ -7,7 +7,7 @@ use std::fmt;
 use rhai::EvalAltResult;
 
 /// Error of a script function, wrapped for the lower layers, which use only its message.
-/// When the error returns to the script, the original error is unwrapped with its position, trace and thrown value.
+/// On return to the script, the original error is unwrapped with its position, trace and thrown value.
 #[derive(Debug)]
 pub struct Raised {
     words: String,

@@ -26,6 +26,7 @@ use crate::script::handles::scene::SceneHandle;
 use crate::script::handles::simulation::RunStart;
 use crate::script::handles::station::StationHandle;
 use crate::script::messages::error::ScriptError;
+use crate::script::state::context::Context;
 use crate::script::state::settings::RunMode;
 use crate::simulation::Simulation;
 use crate::statics::{ArcLength, Control, Equilibrium, Loading, Stability, StaticsError};
@@ -331,9 +332,14 @@ fn find(call: &mut Call) -> Result<Dynamic, ScriptError> {
         }
         found => found?,
     };
-    let is_unstable =
-        |rest: &Equilibrium| rest.stability(&mut || !context.is_stopped()) == Stability::Unstable;
-    if context.mode() == RunMode::Run && is_unstable(&rest) {
+    print_notes(context, &rest, loading.factor);
+    Ok(Dynamic::from(EquilibriumHandle::new(scene, rest)))
+}
+
+/// Prints notes on an unstable equilibrium, on what an equilibrium leaves out, and on a path that ends before `load_factor`.
+fn print_notes(context: &Context, rest: &Equilibrium, load_factor: f64) {
+    let is_unstable = || rest.stability(&mut || !context.is_stopped()) == Stability::Unstable;
+    if context.mode() == RunMode::Run && is_unstable() {
         let name = &rest.scene().name;
         context.print_message(&format!("note: the equilibrium of '{name}' is not stable"));
     }
@@ -344,21 +350,20 @@ fn find(call: &mut Call) -> Result<Dynamic, ScriptError> {
             "note: the equilibrium of '{scene}' does not include the friction of {object}"
         ));
     }
-    if let Some(slider) = rest.scene().sliders.iter().find(|slider| slider.side.is_some()) {
+    if let Some(slider) = rest.scene().slider_with_side() {
         let (scene, slider) = (&rest.scene().name, &slider.name);
         context.print_message(&format!(
             "note: in the equilibrium of '{scene}', slider '{slider}' does not leave its beam or land on it"
         ));
     }
     let path = rest.path();
-    if path.load_factor() != loading.factor {
+    if path.load_factor() != load_factor {
         let (points, factor) = (path.points().len(), significant(path.load_factor(), 6));
         let name = &rest.scene().name;
         context.print_message(&format!(
             "note: the path of '{name}' ends after {points} points, at load factor {factor}"
         ));
     }
-    Ok(Dynamic::from(EquilibriumHandle::new(scene, rest)))
 }
 
 fn is_stable(call: &mut Call) -> Result<Dynamic, ScriptError> {

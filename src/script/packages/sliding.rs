@@ -359,7 +359,7 @@ fn slider(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let restitution = options.optional_number("restitution");
     let (master, arc_length) = guide.start(&scene.borrow(), slave, at)?;
     let side = match options.optional_text("side")? {
-        Some(word) => Some(side_of(&scene.borrow(), (master, arc_length), &word)?),
+        Some(word) => Some(side_of(&scene.borrow(), master, arc_length, &word)?),
         None => None,
     };
     if restitution.is_some() && ends != EndAction::Bounce && side.is_none() {
@@ -386,11 +386,7 @@ fn slider(call: &mut Call) -> Result<Dynamic, ScriptError> {
 }
 
 /// Side of a beam with the given name, at an arc length of the beam as drawn [length].
-fn side_of(
-    scene: &Scene,
-    (beam, arc_length): (usize, f64),
-    word: &str,
-) -> Result<Side, ScriptError> {
+fn side_of(scene: &Scene, beam: usize, arc_length: f64, word: &str) -> Result<Side, ScriptError> {
     let (above, below) = match word {
         "left" => return Ok(Side::Left),
         "right" => return Ok(Side::Right),

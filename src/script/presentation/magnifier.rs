@@ -1,6 +1,6 @@
 //! Magnified deformations in pictures of motion.
 
-use super::travel::{Travel, number, sides};
+use super::travel::{Travel, joint_ends};
 use crate::beams::Station;
 use crate::geometry::{Vec2, cross, perpendicular};
 use crate::joints::Partner;
@@ -24,29 +24,34 @@ pub struct Magnifier<'a> {
 struct RigidMotion {
     from: Vec2,
     to: Vec2,
-    /// Rotation: cosine and sine, times the ratio of the distances of joints.
+    /// Rotation: cosine and sine. With several joints, they are multiplied by the ratio of the distances of the joints.
     turn: Option<Vec2>,
     /// Displacement that keeps joints and sliders at magnified bodies.
     shift: Vec2,
 }
 
-/// Magnified positions at a time.
+/// Rigid motions of all bodies at a time, from which magnified positions follow.
 pub struct MagnifiedBodies {
     factor: f64,
     motions: Vec<RigidMotion>,
 }
 
 impl MagnifiedBodies {
-    pub fn see(&self, body: usize, start: Vec2, now: Vec2) -> Vec2 {
+    /// Magnified position of a point of a body, from its position at the start and its present position [length].
+    pub fn magnified_position(&self, body: usize, start: Vec2, now: Vec2) -> Vec2 {
         let RigidMotion { from, to, turn, shift } = self.motions[body];
         let arm = start - from;
-        let arm = turn.map_or(arm, |turn| arm * turn.x + perpendicular(arm) * turn.y);
-        let rest = to + arm;
-        rest + (now - rest) * self.factor + shift
+        let turned_arm = turn.map_or(arm, |turn| arm * turn.x + perpendicular(arm) * turn.y);
+        let undeformed = to + turned_arm;
+        undeformed + (now - undeformed) * self.factor + shift
     }
 
-    fn see_all(&self, body: usize, start: &[Vec2], now: &[Vec2]) -> Vec<Vec2> {
-        start.iter().zip(now).map(|(start, now)| self.see(body, *start, *now)).collect()
+    fn magnified_positions(&self, body: usize, start: &[Vec2], now: &[Vec2]) -> Vec<Vec2> {
+        start
+            .iter()
+            .zip(now)
+            .map(|(start, now)| self.magnified_position(body, *start, *now))
+            .collect()
     }
 }
 
@@ -60,7 +65,8 @@ impl<'a> Magnifier<'a> {
         let scene = simulation.scene();
         let count = scene.first_rigid_body() + scene.rigid_bodies.len();
         let mut joints = vec![Vec::new(); count];
-        sides(scene).for_each(|(station, ..)| joints[number(scene, &station)].push(station));
+        joint_ends(scene)
+            .for_each(|(station, ..)| joints[scene.index_of_body(&station)].push(station));
         Ok(Some(Self { simulation, factor, travel: Travel::of(scene), start, joints }))
     }
 
@@ -74,7 +80,7 @@ impl<'a> Magnifier<'a> {
     /// # Errors
     /// Fails if a station lies outside its beam.
     pub fn configuration(&self, now: &Configuration) -> Result<Configuration, SystemError> {
-        let bodies = self.bodies(now)?;
+        let bodies = self.rigid_motions(now)?;
         let start = &self.start;
         let first = self.simulation.scene().beams.len();
         let lines = start.lines.iter().zip(&now.lines).enumerate();
@@ -85,11 +91,17 @@ impl<'a> Magnifier<'a> {
         let marks = owners.zip(start.marks.iter().zip(&now.marks));
         Ok(Configuration {
             time: now.time,
-            lines: lines.map(|(body, (start, now))| bodies.see_all(body, start, now)).collect(),
-            bodies: outlines.map(|(body, (start, now))| bodies.see_all(body, start, now)).collect(),
-            marks: marks.map(|(body, (start, now))| bodies.see(body, *start, *now)).collect(),
+            lines: lines
+                .map(|(body, (start, now))| bodies.magnified_positions(body, start, now))
+                .collect(),
+            bodies: outlines
+                .map(|(body, (start, now))| bodies.magnified_positions(body, start, now))
+                .collect(),
+            marks: marks
+                .map(|(body, (start, now))| bodies.magnified_position(body, *start, *now))
+                .collect(),
             particles: particles
-                .map(|(body, (start, now))| bodies.see(body, *start, *now))
+                .map(|(body, (start, now))| bodies.magnified_position(body, *start, *now))
                 .collect(),
         })
     }
@@ -98,7 +110,7 @@ impl<'a> Magnifier<'a> {
     ///
     /// # Errors
     /// Fails if a station lies outside its beam.
-    pub fn bodies(&self, now: &Configuration) -> Result<MagnifiedBodies, SystemError> {
+    pub fn rigid_motions(&self, now: &Configuration) -> Result<MagnifiedBodies, SystemError> {
         let mut motions = Vec::new();
         for (body, joints) in self.joints.iter().enumerate() {
             let is_held = self.travel.is_held(body);
@@ -130,8 +142,8 @@ impl<'a> Magnifier<'a> {
         let [start, end] = [0.0, now.time].map(|time| positions(self.simulation, joints, time));
         let joints = [start?, end?];
         let all = [self.points(body, &self.start), self.points(body, now)];
-        let [from, to] =
-            if joints[0].is_empty() { &all } else { &joints }.each_ref().map(|points| mean(points));
+        let reference = if joints[0].is_empty() { &all } else { &joints };
+        let [from, to] = reference.each_ref().map(|points| mean(points));
         let has_several = joints[0].len() > 1;
         let [start, now] = if has_several { joints } else { all };
         let arms = || start.iter().zip(&now).map(|(start, now)| (start - from, now - to));
@@ -163,22 +175,24 @@ impl<'a> Magnifier<'a> {
         let scene = self.simulation.scene();
         let mut shifts = Vec::new();
         for slider in &scene.sliders {
-            let body = number(scene, &slider.slave);
+            let body = scene.index_of_body(&slider.slave);
             if self.travel.is_held(body) || self.travels(slider.master) || slider.track.is_some() {
                 continue;
             }
             let at = positions(self.simulation, &[slider.slave], now.time)?[0];
-            let seen = bodies.see_all(
+            let magnified = bodies.magnified_positions(
                 slider.master,
                 &self.start.lines[slider.master],
                 &now.lines[slider.master],
             );
-            shifts.extend(displacement(at, &now.lines[slider.master], &seen).map(|by| (body, by)));
+            shifts.extend(
+                displacement(at, &now.lines[slider.master], &magnified).map(|by| (body, by)),
+            );
         }
-        for (station, partner, _) in sides(scene) {
-            let body = number(scene, &station);
+        for (station, partner, _) in joint_ends(scene) {
+            let body = scene.index_of_body(&station);
             let Partner::Station(other) = partner else { continue };
-            if self.travels(body) && !self.travels(number(scene, &other)) {
+            if self.travels(body) && !self.travels(scene.index_of_body(&other)) {
                 let [start, now] =
                     [0.0, now.time].map(|time| positions(self.simulation, &[station], time));
                 shifts.push((body, (now?[0] - start?[0]) * (self.factor - 1.0)));

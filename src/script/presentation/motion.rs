@@ -2,7 +2,6 @@
 
 use super::magnifier::{Magnifier, positions};
 use super::symbols::{SceneAt, symbols, uncrowded};
-use super::travel::number;
 use crate::beams::{BodyPoint, Station};
 use crate::geometry::Vec2;
 use crate::output::{
@@ -251,11 +250,11 @@ pub fn placed(
         let now = positions(simulation, stations, time)?;
         let shown = configuration(simulation, time)?;
         let (Some(magnifier), Some(shown)) = (magnifier, shown) else { return Ok(now) };
-        let bodies = magnifier.bodies(&shown)?;
+        let bodies = magnifier.rigid_motions(&shown)?;
         let start = positions(simulation, stations, 0.0)?;
         let pairs = stations.iter().zip(start.iter().zip(&now));
         let see = |(station, (start, now)): (&Station, (&Vec2, &Vec2))| {
-            bodies.see(number(simulation.scene(), station), *start, *now)
+            bodies.magnified_position(simulation.scene().index_of_body(station), *start, *now)
         };
         Ok(pairs.map(see).collect())
     };

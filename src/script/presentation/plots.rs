@@ -24,8 +24,26 @@ pub fn history_chart(
     style: &TerminalStyle,
 ) -> Result<String, ScriptError> {
     expect_columns(history, columns)?;
+    history_charts(history, columns, style, |_, _| Ok(()))
+}
+
+/// Charts of history columns, one for each dimension, as text for a terminal. `add_bands` adds bands to the chart of the given columns.
+///
+/// # Errors
+/// Fails if `add_bands` fails.
+pub fn history_charts(
+    history: &History,
+    columns: &[String],
+    style: &TerminalStyle,
+    add_bands: impl Fn(&mut LineChart, &[String]) -> Result<(), ScriptError>,
+) -> Result<String, ScriptError> {
     let groups = by_dimension(columns, |name| history.dimension(name));
-    let charts = groups.iter().map(|columns| history_lines(history, columns)).collect::<Vec<_>>();
+    let draw = |columns: &Vec<String>| {
+        let mut chart = history_lines(history, columns);
+        add_bands(&mut chart, columns)?;
+        Ok(chart)
+    };
+    let charts = groups.iter().map(draw).collect::<Result<Vec<_>, ScriptError>>()?;
     Ok(stacked_text(&charts, style))
 }
 
@@ -65,7 +83,7 @@ pub fn expect_columns(history: &History, columns: &[String]) -> Result<(), Scrip
 }
 
 /// Chart of history columns over time for a terminal, with the columns in the title.
-pub fn history_lines(history: &History, columns: &[String]) -> LineChart {
+fn history_lines(history: &History, columns: &[String]) -> LineChart {
     let title = columns.iter().map(|name| series_name(name)).collect::<Vec<_>>().join(", ");
     let label = match dimension_of(history, columns) {
         "" => String::new(),

@@ -7,13 +7,14 @@ pub fn pitfalls(text: &str, lines_before: usize) -> Vec<String> {
     let all = scan(text);
     let tokens: Vec<Token> = all.iter().copied().filter(Token::is_significant).collect();
     let comments = all.iter().filter(|token| token.kind == TokenKind::Comment);
-    let mut found: Vec<(usize, String)> = comments.filter_map(|at| division(text, at)).collect();
+    let mut found: Vec<(usize, String)> =
+        comments.filter_map(|at| note_on_comment(text, at)).collect();
     for (index, token) in tokens.iter().enumerate() {
         let note = match token.kind {
-            TokenKind::Text => interpolation(token.of(text)),
-            TokenKind::Word => factor(text, &tokens[index.saturating_sub(1)..]),
+            TokenKind::Text => note_on_braces(token.of(text)),
+            TokenKind::Word => note_on_schedule(text, &tokens[index.saturating_sub(1)..]),
             TokenKind::Symbol if token.of(text) == "+" => {
-                joined_points(text, &tokens[..index], &tokens[index + 1..])
+                note_on_sum(text, &tokens[..index], &tokens[index + 1..])
             }
             _ => None,
         };
@@ -24,13 +25,13 @@ pub fn pitfalls(text: &str, lines_before: usize) -> Vec<String> {
         let before = &text[..at];
         let line = before.matches('\n').count() + 1 + lines_before;
         let column = before.rsplit('\n').next().unwrap_or_default().chars().count() + 1;
-        format!("line {line}, column {column}: {note}")
+        format!("note: line {line}, column {column}: {note}")
     };
     found.into_iter().map(placed).collect()
 }
 
-/// Comment of a single number after a value, as in `7 // 2`.
-fn division(text: &str, comment: &Token) -> Option<(usize, String)> {
+/// Note on a comment of a single number after a value, as in `7 // 2`, with its place in the text.
+fn note_on_comment(text: &str, comment: &Token) -> Option<(usize, String)> {
     let divisor = comment.of(text).strip_prefix("//")?.trim().trim_end_matches(';').trim_end();
     divisor.parse::<f64>().ok()?;
     let before = text[..comment.start].trim_end_matches([' ', '\t']);
@@ -40,8 +41,8 @@ fn division(text: &str, comment: &Token) -> Option<(usize, String)> {
     })
 }
 
-/// Name in braces in a text in quotes.
-fn interpolation(literal: &str) -> Option<String> {
+/// Note on a name in braces in a text in quotes.
+fn note_on_braces(literal: &str) -> Option<String> {
     let inside = literal.strip_prefix('"')?;
     let name = inside.split('{').skip(1).find_map(|part| {
         let name = part.split_once('}')?.0;
@@ -52,8 +53,8 @@ fn interpolation(literal: &str) -> Option<String> {
     ))
 }
 
-/// Number as the schedule of a load. `tokens` begins before the name of the method.
-fn factor(text: &str, tokens: &[Token]) -> Option<String> {
+/// Note on a number that is given as the schedule of a load. `tokens` begins with the token before the name of the method.
+fn note_on_schedule(text: &str, tokens: &[Token]) -> Option<String> {
     let [dot, name, open, rest @ ..] = tokens else { return None };
     let name = name.of(text);
     let is_load = dot.of(text) == "." && matches!(name, "force" | "moment" | "line_load");
@@ -85,8 +86,8 @@ fn factor(text: &str, tokens: &[Token]) -> Option<String> {
     None
 }
 
-/// Sum of two arrays of two elements.
-fn joined_points(text: &str, before: &[Token], after: &[Token]) -> Option<String> {
+/// Note on a sum of two arrays of two elements. The tokens are those before and after the operator.
+fn note_on_sum(text: &str, before: &[Token], after: &[Token]) -> Option<String> {
     let is_point = |inside: &[Token]| {
         let is_flat = !inside.iter().any(|token| matches!(token.kind, TokenKind::Open(_)));
         is_flat && inside.iter().filter(|token| token.of(text) == ",").count() == 1
@@ -102,7 +103,7 @@ fn joined_points(text: &str, before: &[Token], after: &[Token]) -> Option<String
     let are_closed =
         left.last()?.kind == TokenKind::Close(square) && after[0].kind == TokenKind::Open(square);
     (are_closed && !is_index && is_point(&left[1..left.len() - 1]) && is_point(right)).then(|| {
-        "+ joins the arrays to one of 4 elements: write vec(1, 2) + [3, 4] for a sum of vectors"
+        "+ joins two arrays of 2 elements to one of 4: write vec(1, 2) + [3, 4] for the sum of vectors"
             .to_owned()
     })
 }

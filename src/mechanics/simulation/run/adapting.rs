@@ -69,7 +69,7 @@ impl Simulation {
                     }
                     self.clock.step_size = Some(state);
                     self.count_step(interval, report, tries);
-                    self.model.clear_contact_changes();
+                    self.model.clear_contact_events();
                     self.store_present();
                     return self.query_monitor(monitor);
                 }

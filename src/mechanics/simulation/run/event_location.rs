@@ -125,7 +125,8 @@ impl TimeBracket {
 /// Brackets the change of sign of a quantity of a slider, which is `start` at the start of the interval and negative at its end.
 /// An event in less than the time `shortest` is moved to the start [time].
 fn bracket_sign_change(
-    (interval, Overshoot { event, distance }): (Interval, Overshoot),
+    interval: Interval,
+    Overshoot { event, distance }: Overshoot,
     start: f64,
     shortest: f64,
 ) -> ArrivalEstimate {
@@ -144,9 +145,9 @@ impl Simulation {
         interval: Interval,
         overshoot: Overshoot,
     ) -> Result<EventStep, StepError> {
-        let landing = self.search(interval, overshoot);
+        let located = self.search(interval, overshoot);
         self.model.set_target(None);
-        landing
+        located
     }
 
     fn search(&mut self, interval: Interval, first: Overshoot) -> Result<EventStep, StepError> {
@@ -165,20 +166,20 @@ impl Simulation {
                 }
                 SliderEvent::SlipEnd(slider) => {
                     let (speed, shortest) = (self.model.slip_speed(slider), SHORT * self.dt());
-                    bracket_sign_change((cut, overshoot), speed, shortest)
+                    bracket_sign_change(cut, overshoot, speed, shortest)
                 }
                 SliderEvent::TakeOff(slider) => {
                     let (push, shortest) = (self.model.push(slider), SHORT * self.dt());
-                    bracket_sign_change((cut, overshoot), push, shortest)
+                    bracket_sign_change(cut, overshoot, push, shortest)
                 }
-                SliderEvent::Landing(slider) => self.bracket_landing((cut, overshoot), slider)?,
+                SliderEvent::Landing(slider) => self.bracket_landing(cut, overshoot, slider)?,
                 SliderEvent::SlipStart(_) => {
                     return Ok(EventStep { step: None, event: Event::Slider(target) });
                 }
             };
             let mut bracket = match bracket {
                 ArrivalEstimate::Between(bracket) => bracket,
-                ArrivalEstimate::Located(landing) => return Ok(landing),
+                ArrivalEstimate::Located(event) => return Ok(event),
             };
             loop {
                 if bracket.is_at_start() {
@@ -269,7 +270,8 @@ impl Simulation {
     /// Brackets the landing of a slider in flight. The given interval ends after the landing.
     fn bracket_landing(
         &mut self,
-        (interval, Overshoot { event, distance }): (Interval, Overshoot),
+        interval: Interval,
+        Overshoot { event, distance }: Overshoot,
         slider: usize,
     ) -> Result<ArrivalEstimate, StepError> {
         let (after, left) = ((interval.duration(), distance), self.model.relative_gap(slider));
@@ -307,30 +309,29 @@ impl Simulation {
             || self.model.approaches(limit, dt).unwrap_or(true)
     }
 
-    /// Executes the event at the end of a located step, and all simultaneous arrivals at ends.
-    pub(super) fn execute_arrivals(&mut self, landing: &EventStep) -> Result<(), SimulationError> {
-        let limit = match landing.event {
-            Event::Slider(SliderEvent::Limit(limit)) => limit,
-            Event::JustBefore => return Ok(()),
+    /// Executes the event at the end of a located step.
+    pub(super) fn execute(&mut self, located: &EventStep) -> Result<(), SimulationError> {
+        match located.event {
+            Event::JustBefore => (),
             Event::StopRelease => {
                 self.model.leave_tensile_stops()?;
-                return self.restart_kinks();
+                self.restart_kinks()?;
             }
-            Event::Slider(SliderEvent::SlipEnd(slider)) => {
-                return Ok(self.model.end_slip(slider)?);
-            }
-            Event::Slider(SliderEvent::SlipStart(slider)) => {
-                self.model.start_slip(slider);
-                return Ok(());
-            }
-            Event::Slider(SliderEvent::Landing(slider)) => {
-                return Ok(self.model.land(slider, self.dt())?);
-            }
-            Event::Slider(SliderEvent::TakeOff(slider)) => {
-                self.model.take_off(slider);
-                return Ok(());
-            }
-        };
+            Event::Slider(SliderEvent::Limit(limit)) => self.execute_arrivals(limit, located)?,
+            Event::Slider(SliderEvent::SlipEnd(slider)) => self.model.end_slip(slider)?,
+            Event::Slider(SliderEvent::SlipStart(slider)) => self.model.start_slip(slider),
+            Event::Slider(SliderEvent::Landing(slider)) => self.model.land(slider, self.dt())?,
+            Event::Slider(SliderEvent::TakeOff(slider)) => self.model.take_off(slider),
+        }
+        Ok(())
+    }
+
+    /// Executes an arrival at an end, and all simultaneous arrivals: the run stops, or sliders bounce, are held, or are released.
+    fn execute_arrivals(
+        &mut self,
+        limit: MasterLimit,
+        located: &EventStep,
+    ) -> Result<(), SimulationError> {
         let dt = self.dt();
         let mut arriving = Arriving::default();
         let mut arrivals = Vec::new();
@@ -339,10 +340,10 @@ impl Simulation {
             let kind = match self.model.end_action(limit.slider) {
                 _ if self.model.continues_beyond(limit) => {
                     // The slider only touched the seam, or its velocity was reversed exactly at the seam.
-                    if landing.step.is_some() && !strikes {
+                    if located.step.is_some() && !strikes {
                         continue;
                     }
-                    let (group, kind) = match self.is_held_at_seam(limit, landing, dt) {
+                    let (group, kind) = match self.is_held_at_seam(limit, located, dt) {
                         true => (&mut arriving.held, ArrivalKind::Held),
                         false => (&mut arriving.crossing, ArrivalKind::Passed),
                     };
@@ -355,10 +356,10 @@ impl Simulation {
                     ArrivalKind::Released
                 }
                 // The slider only touched the stop, or its velocity was reversed exactly at the stop.
-                _ if landing.step.is_some() && !strikes && !self.model.approaches(limit, dt)? => {
+                _ if located.step.is_some() && !strikes && !self.model.approaches(limit, dt)? => {
                     ArrivalKind::Bounced
                 }
-                _ if self.stays_held(limit, landing, dt)? => {
+                _ if self.stays_held(limit, located, dt)? => {
                     arriving.held.push(limit);
                     ArrivalKind::Held
                 }
@@ -402,20 +403,20 @@ impl Simulation {
     fn stays_held(
         &mut self,
         limit: MasterLimit,
-        landing: &EventStep,
+        located: &EventStep,
         dt: f64,
     ) -> Result<bool, SimulationError> {
         let is_contact = self.model.end_action(limit.slider) == EndAction::Contact;
         if self.chatters(limit, dt) || (is_contact && self.model.resolves_impact(limit, dt)?) {
             return Ok(true);
         }
-        Ok(landing.step.is_none() && !self.model.approaches(limit, dt)?)
+        Ok(located.step.is_none() && !self.model.approaches(limit, dt)?)
     }
 
     /// Returns true if a slider is held at a seam instead of passing it.
     /// Either both sides return the slider to the seam at once, or the slider oscillates about the seam within few steps.
-    fn is_held_at_seam(&self, limit: MasterLimit, landing: &EventStep, dt: f64) -> bool {
-        let is_led_back = landing.step.is_none() && self.model.is_at_seam_event(limit.slider);
+    fn is_held_at_seam(&self, limit: MasterLimit, located: &EventStep, dt: f64) -> bool {
+        let is_led_back = located.step.is_none() && self.model.is_at_seam_event(limit.slider);
         is_led_back || self.oscillates_at_seam(limit, dt)
     }
 

@@ -1,7 +1,7 @@
 //! Names of the object or degree of freedom at which a step failed.
 
 use super::Simulation;
-use crate::beams::{BodyIndex, Station};
+use crate::beams::Station;
 use crate::integrators::{FailureSource, StepError};
 use crate::joints::CONTACT_UNKNOWNS;
 
@@ -20,16 +20,6 @@ impl Simulation {
         error
     }
 
-    fn name_of_body(&self, body: usize) -> String {
-        let (beams, particles) = (self.scene.beams.len(), self.scene.particles.len());
-        let index = match body {
-            at if at < beams => BodyIndex::Beam(at),
-            at if at < beams + particles => BodyIndex::Particle(at - beams),
-            at => BodyIndex::Rigid(at - beams - particles, 0),
-        };
-        self.scene.name_of_body(&Station { body: index, arc_length: 0.0 })
-    }
-
     fn name_of_unknown(&self, unknown: usize) -> Option<String> {
         if let Some(of_contact) = unknown.checked_sub(self.model.unknown_count()) {
             let slider = self.scene.sliders.get(of_contact / CONTACT_UNKNOWNS)?;
@@ -43,12 +33,10 @@ impl Simulation {
     }
 
     fn name_of_point(&self, body: usize, point: usize) -> String {
-        let (beams, particles) = (self.scene.beams.len(), self.scene.particles.len());
-        if let Some(rigid) = body.checked_sub(beams + particles) {
-            let station = Station { body: BodyIndex::Rigid(rigid, point), arc_length: 0.0 };
-            return self.scene.describe(&station);
+        if let Some(rigid) = body.checked_sub(self.scene.first_rigid_body()) {
+            return self.scene.describe(&Station::on_rigid_body(rigid, point));
         }
-        let name = self.name_of_body(body);
+        let name = self.scene.name_of_body_at(body);
         match self.model.control_points().nth(body).map_or(1, <[_]>::len) {
             1 => name,
             _ if point == 0 => format!("the start of {name}"),

@@ -55,16 +55,16 @@ impl Simulation {
                     "a slider reaches an end of its beam, leaves a stop, leaves or lands on its beam, or begins to slip or stick",
                 );
                 match self.locate_arrival(interval, overshoot) {
-                    Ok(landing) => {
+                    Ok(located) => {
                         self.model.unfreeze_contacts();
                         self.clock.retry = None;
-                        if let Some((interval, report)) = landing.step {
+                        if let Some((interval, report)) = located.step {
                             self.count_step(interval, report, halving.retries);
                             self.keep_row();
                         }
-                        let arrived = self.execute_arrivals(&landing);
+                        let arrived = self.execute(&located);
                         // If the slider arrived without a step, no snapshot is stored. A run from the previous snapshot reaches the arrival again.
-                        if landing.step.is_some() {
+                        if located.step.is_some() {
                             self.store_snapshot();
                         }
                         arrived?;
@@ -79,7 +79,7 @@ impl Simulation {
                 Ok(report) => {
                     self.count_step(interval, report, halving.retries);
                     halving.succeed();
-                    self.model.clear_contact_changes();
+                    self.model.clear_contact_events();
                     if self.model.has_friction() {
                         self.model.end_reversed_slips()?;
                     }

@@ -156,7 +156,7 @@ impl System {
                 StartVelocities::Project => is_projected = true,
             }
         }
-        self.clear_contact_changes();
+        self.clear_contact_events();
         if is_projected {
             self.project_velocities()?;
         }

@@ -32,10 +32,16 @@ pub fn plural(count: usize, noun: &str) -> String {
     format!("{count} {noun}{}", if count == 1 { "" } else { "s" })
 }
 
-/// Noun with its article, as in `a beam`, `an obstacle`.
+/// Adds the indefinite article to a noun, as in `a beam` or `an obstacle`. A plural such as `knots` has no article.
 pub fn with_article(noun: &str) -> String {
-    let article = if noun.starts_with(['a', 'e', 'i', 'o', 'u']) { "an" } else { "a" };
-    format!("{article} {noun}")
+    // The noun before "of" or "with" determines the article, as in "a table of costs".
+    let head =
+        [" of ", " with "].iter().fold(noun, |head, of| head.split(of).next().unwrap_or(head));
+    match noun.chars().next() {
+        _ if head.ends_with('s') || head == "nothing" => noun.to_owned(),
+        Some('a' | 'e' | 'i' | 'o' | 'A' | 'E' | 'I' | 'O') => format!("an {noun}"),
+        _ => format!("a {noun}"),
+    }
 }
 
 #[cfg(test)]

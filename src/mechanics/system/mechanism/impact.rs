@@ -119,11 +119,11 @@ impl ImpactImpulses {
         self.values.iter().zip(&self.mean_velocities).map(|(impulse, velocity)| impulse * velocity)
     }
 
-    /// Impulses without the first ones.
-    pub(super) fn after(mut self, first: usize) -> Self {
+    /// Impulses without the first `count`.
+    pub(super) fn without_first(mut self, count: usize) -> Self {
         Self {
-            values: self.values.split_off(first),
-            mean_velocities: self.mean_velocities.split_off(first),
+            values: self.values.split_off(count),
+            mean_velocities: self.mean_velocities.split_off(count),
         }
     }
 }

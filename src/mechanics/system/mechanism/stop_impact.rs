@@ -1,6 +1,6 @@
 //! Impacts at the ends of masters: simultaneous impacts, energy stored in stops, and release of sliders from stops.
 //!
-//! When a slider comes to rest at a stop and is held there, an impulse reduces its speed along the master to zero.
+//! A slider that comes to rest at a stop and is held there receives an impulse, which reduces its speed along the master to zero.
 //! The stop acts like an elastic body: it stores the lost kinetic energy and returns it when the slider leaves.
 //! With a coefficient of restitution below one, the lost kinetic energy is not returned.
 
@@ -9,7 +9,7 @@ use super::impact::{GIVES, ImpactDirection, ImpactLaw};
 use super::rigidity::Deformation;
 use super::seam_impact::{SeamCorner, deflect_at_corners};
 use crate::elementary::square;
-use crate::geometry::{Vec2, larger, perpendicular};
+use crate::geometry::{Vec2, larger};
 use crate::joints::EndAction;
 use crate::linalg::LinearError;
 use crate::system::SystemError;
@@ -24,8 +24,8 @@ pub(super) const RIGID: f64 = 4.0;
 /// Largest ratio of step length to impact duration for which the steps resolve the impact [-].
 pub const RESOLVED_IMPACT: f64 = 0.125;
 
-/// Smallest approach speed, as a fraction of the speed of the fastest point of the model.
-pub(super) const APPROACHES: f64 = 1e-12;
+/// Largest speed across a contact that counts as zero, as a fraction of the speed of the fastest point of the model.
+pub(super) const NEGLIGIBLE_SPEED: f64 = 1e-12;
 
 /// Direction of a contact impulse, with the law of the contact.
 #[derive(Debug, Clone, Copy)]
@@ -79,7 +79,7 @@ impl System {
     /// Fails if the impulse is undetermined.
     pub(crate) fn approaches(&mut self, limit: MasterLimit, dt: f64) -> Result<bool, SystemError> {
         let speed = self.stop_velocity(limit, dt).map_err(|_| self.sliders.overdetermined())?;
-        Ok(speed < -APPROACHES * self.fastest_speed())
+        Ok(speed < -NEGLIGIBLE_SPEED * self.fastest_speed())
     }
 
     fn stop_velocity(&mut self, limit: MasterLimit, dt: f64) -> Result<f64, LinearError> {
@@ -204,6 +204,7 @@ impl System {
 
     /// Applies impulses at several contacts at once.
     /// Corners rotate the velocities of the sliders that pass them. All other contacts follow their impact laws.
+    /// Sliders that only push leave their masters if they move away without an impulse.
     pub(super) fn apply_impulses(
         &mut self,
         hits: &[ImpactContact],
@@ -223,7 +224,7 @@ impl System {
             return self.deflect(corners, at_corners);
         };
         self.apply(problem, &impulses.values);
-        let tolerance = APPROACHES * self.fastest_speed();
+        let tolerance = NEGLIGIBLE_SPEED * self.fastest_speed();
         let of_impulses = impulses.values.iter().zip(&impulses.mean_velocities);
         let of_others = of_impulses.zip(impulses.works()).skip(turned.len());
         for ((direction, law), ((impulse, velocity), work)) in
@@ -235,7 +236,7 @@ impl System {
             slider.is_pulled = leaves && !slider.stop_may_pull;
             slider.crosses_seam = false;
         }
-        let of_hits = impulses.after(turned.len());
+        let of_hits = impulses.without_first(turned.len());
         self.separate_after_impact(directions.into_iter().zip(laws), &of_hits);
         Ok(())
     }
@@ -337,8 +338,7 @@ impl System {
                 }
             };
             if stop.is_some() || !slider.is_compliant() {
-                let normal = perpendicular(slider.along_contact(&self.bodies));
-                let across = slider.unilateral.as_ref().map_or(normal, |side| normal * side.sign);
+                let across = slider.normal_to(slider.along_contact(&self.bodies));
                 hits.push(ImpactContact { direction: (at, across), law: self.law_across(at) });
             }
             if let Some((limit, law)) = stop {

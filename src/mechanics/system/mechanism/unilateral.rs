@@ -3,7 +3,7 @@
 use super::System;
 use super::impact::{ImpactDirection, ImpactImpulses, ImpactLaw};
 use super::rigidity::Deformation;
-use super::stop_impact::{APPROACHES, ImpactContact, RIGID};
+use super::stop_impact::{ImpactContact, NEGLIGIBLE_SPEED, RIGID};
 use crate::geometry::Vec2;
 use crate::integrators::Overshoot;
 use crate::linalg::LinearError;
@@ -35,7 +35,7 @@ impl System {
             let (event, relative) = (SliderEvent::TakeOff(at), self.step.relative_force(push));
             let is_missed = self.sliders.target() == Some(event) && relative > TENSILE;
             let is_tensile = relative < -TENSILE;
-            if is_tensile && self.sliders[at].is_changing_often() {
+            if is_tensile && self.sliders[at].has_many_events() {
                 self.sliders[at].count_kept_step();
             } else if is_tensile || is_missed {
                 return Err(Overshoot { event: event.number(), distance: -push });
@@ -66,9 +66,9 @@ impl System {
         sliders.iter_mut().for_each(|slider| slider.move_to_nearest_point(bodies));
     }
 
-    /// Allows all sliders to change between contact and flight again, after a regular step.
-    pub(crate) fn clear_contact_changes(&mut self) {
-        self.sliders.iter_mut().for_each(|slider| slider.clear_changes());
+    /// Clears the numbers of take-offs and landings of all sliders, after a regular step.
+    pub(crate) fn clear_contact_events(&mut self) {
+        self.sliders.iter_mut().for_each(|slider| slider.clear_events());
     }
 
     /// Starts the flight of a slider. Positions, velocities and energy do not change.
@@ -95,11 +95,14 @@ impl System {
                 continue;
             }
             let is_inside = sliders[at].nearest_point(bodies, &[]).is_inside;
-            sliders[at].record_passage(is_inside);
-            if is_inside && approaches {
-                striking.push(at);
-            } else if is_inside {
-                sliders[at].start_contact();
+            if !is_inside {
+                sliders[at].record_passage();
+                continue;
+            }
+            sliders[at].record_landing();
+            match approaches {
+                true => striking.push(at),
+                false => sliders[at].start_contact(),
             }
         }
         self.motion.accelerations.mark_unknown();
@@ -116,7 +119,7 @@ impl System {
     /// The impact includes the deformations that the steps resolve.
     /// A second impact with all deformations removes the remaining velocities of sliders without rebound.
     fn solve_landing(&mut self, striking: &[usize], dt: f64) -> Result<(), LinearError> {
-        let restitution = |model: &Self, at: usize| match model.sliders[at].is_changing_often() {
+        let restitution = |model: &Self, at: usize| match model.sliders[at].has_many_events() {
             true => 0.0,
             false => model.sliders[at].restitution,
         };
@@ -163,7 +166,7 @@ impl System {
         laws: impl Iterator<Item = (ImpactDirection, ImpactLaw)>,
         impulses: &ImpactImpulses,
     ) {
-        let tolerance = APPROACHES * self.fastest_speed();
+        let tolerance = NEGLIGIBLE_SPEED * self.fastest_speed();
         let of_impulses = impulses.values.iter().zip(&impulses.mean_velocities);
         for (((slider, _), law), (impulse, velocity)) in laws.zip(of_impulses) {
             if law == ImpactLaw::Unilateral && *impulse == 0.0 && *velocity > tolerance {

@@ -71,7 +71,7 @@ impl System {
         self.slider(slider).flight_gap(self.bodies())
     }
 
-    /// Number of attempted steps in which a slider that only pushes stayed in contact under a tensile force, because of too many changes.
+    /// Number of attempted steps in which a slider that only pushes stayed in contact under a tensile force, because of too many take-offs and landings.
     pub fn steps_with_kept_contact(&self, slider: usize) -> usize {
         self.slider(slider).unilateral.as_ref().map_or(0, |contact| contact.kept_steps)
     }

@@ -361,6 +361,15 @@ impl Scene {
         }
     }
 
+    /// Index of the body of a station in the model: beams, then particles, then rigid bodies.
+    pub fn index_of_body(&self, station: &Station) -> usize {
+        match station.body {
+            BodyIndex::Beam(beam) => beam,
+            BodyIndex::Particle(particle) => self.beams.len() + particle,
+            BodyIndex::Rigid(body, _) => self.first_rigid_body() + body,
+        }
+    }
+
     /// Description of the body with the given index in the model.
     pub(crate) fn name_of_body_at(&self, index: usize) -> String {
         let particle = index.checked_sub(self.beams.len());

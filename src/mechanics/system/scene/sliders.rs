@@ -144,6 +144,11 @@ impl Scene {
         Ok(StartGap { from, to, gap, tolerance })
     }
 
+    /// First slider that only pushes.
+    pub fn slider_with_side(&self) -> Option<&Slider> {
+        self.sliders.iter().find(|slider| slider.side.is_some())
+    }
+
     /// Unit tangent of a beam at an arc length [-].
     ///
     /// # Errors

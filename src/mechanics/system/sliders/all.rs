@@ -247,8 +247,8 @@ impl Sliders {
         self.iter().enumerate().find_map(|(index, slider)| {
             let event = SliderEvent::Landing(index);
             let distance = match aim == Some(event) {
-                true => slider.missed_landing(),
-                false => slider.landing(),
+                true => slider.signed_depth(),
+                false => slider.depth_at_landing(),
             };
             distance.map(|distance| Overshoot { event: event.number(), distance })
         })

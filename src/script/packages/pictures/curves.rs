@@ -5,7 +5,7 @@ use rhai::{Dynamic, Map};
 use super::files::{FILE, write_picture};
 use super::options::{
     LABELS, MARKERS, OptionError, TITLE, X_LABEL, X_LIMITS, X_LOG, Y_LABEL, Y_LIMITS, Y_LOG,
-    curves, expect_one_axis, labels, marked, with_options,
+    curves, expect_options_for_panels, labels, marked, with_options,
 };
 use crate::output::{LineChart, Point, Series};
 use crate::script::bindings::call::Call;
@@ -121,7 +121,7 @@ pub fn typed_charts(
     let options = Options::read(engine, ":plot", OPTIONS, map)?;
     let title = options.optional_text("title")?;
     let draw = || {
-        expect_one_axis(&options, groups.len())?;
+        expect_options_for_panels(&options, groups.len())?;
         let counts: Vec<usize> = groups.iter().map(Vec::len).collect();
         let mut named = labelled(&options, groups.into_iter().flatten().collect())?.into_iter();
         let draw_group = |count: usize| {

@@ -4,7 +4,7 @@ use rhai::Dynamic;
 
 use super::files::write_picture;
 use super::options::{
-    MARKERS, X_LABEL, X_LIMITS, X_LOG, Y_LABEL, Y_LIMITS, Y_LOG, expect_one_axis, marked,
+    MARKERS, X_LABEL, X_LIMITS, X_LOG, Y_LABEL, Y_LIMITS, Y_LOG, expect_options_for_panels, marked,
     with_options,
 };
 use super::subjects::histories_over_time;
@@ -46,7 +46,7 @@ pub const HISTORY_OPTIONS: &[Parameter] = &[
 pub fn plot_history(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let options = call.options_or_defaults("options")?;
     let histories = histories_over_time(call)?;
-    if options.boolean("average").unwrap_or(false) {
+    if is_asked(&options, "average") {
         let whose = histories.iter().map(|history| &history.of);
         whose.into_iter().try_for_each(|of| expect_all_rows(call, of, "`average`"))?;
     }
@@ -55,7 +55,7 @@ pub fn plot_history(call: &mut Call) -> Result<Dynamic, ScriptError> {
         "one" => vec![names],
         _ => histories[0].read(|history| by_dimension(&names, |name| history.dimension(name))),
     };
-    expect_one_axis(&options, groups.len()).map_err(|wrong| wrong.in_call(call))?;
+    expect_options_for_panels(&options, groups.len()).map_err(|wrong| wrong.in_call(call))?;
     let estimate = |of: &HistoryHandle| wanted_estimate(call, &options, &of.of);
     let estimates = histories.iter().map(estimate).collect::<Result<_, _>>()?;
     let charts_of = HistoryCharts { call, options: &options, histories, estimates };
@@ -80,6 +80,10 @@ fn write_charts(
     }
 }
 
+fn is_asked(options: &Options, name: &str) -> bool {
+    options.boolean(name).unwrap_or(false)
+}
+
 /// Histories with the options of their charts.
 struct HistoryCharts<'a> {
     call: &'a Call<'a, 'a>,
@@ -89,10 +93,6 @@ struct HistoryCharts<'a> {
 }
 
 impl HistoryCharts<'_> {
-    fn is_asked(&self, name: &str) -> bool {
-        self.options.boolean(name).unwrap_or(false)
-    }
-
     /// Charts of columns: one for each history, or one with shared axes.
     fn of(&self, names: &[String]) -> Result<Vec<LineChart>, ScriptError> {
         let title = self.options.optional_text("title")?;
@@ -124,16 +124,17 @@ impl HistoryCharts<'_> {
     }
 
     fn values(&self, history: &History, name: &str) -> Option<Vec<f64>> {
-        let read = if self.is_asked("average") { History::averaged } else { History::column };
+        let read =
+            if is_asked(self.options, "average") { History::averaged } else { History::column };
         let mut values = read(history, name)?;
-        if self.is_asked("logarithmic") {
+        if is_asked(self.options, "logarithmic") {
             values.iter_mut().for_each(|value| *value = value.abs());
         }
         Some(values)
     }
 
     fn dressed(&self, mut chart: LineChart) -> Result<LineChart, ScriptError> {
-        if self.is_asked("logarithmic") {
+        if is_asked(self.options, "logarithmic") {
             chart = chart.y_scale(AxisScale::Logarithmic);
         }
         let chart = chart.each(|at, series| marked(self.options, at, series));

@@ -80,7 +80,7 @@ pub fn limits(options: &Options) -> Result<AxisLimits, OptionError> {
 }
 
 /// Rejects a label or limits of the vertical axis if panels of different units have such axes.
-pub fn expect_one_axis(options: &Options, panels: usize) -> Result<(), OptionError> {
+pub fn expect_options_for_panels(options: &Options, panels: usize) -> Result<(), OptionError> {
     match [Y_LABEL, Y_LIMITS].into_iter().find(|option| options.has(option.name)) {
         Some(Parameter { name, .. }) if panels > 1 => Err(OptionError {
             key: name.to_owned(),

@@ -135,6 +135,8 @@ pub(super) struct PointFriction {
     by_normal: f64,
     trial: SlipTrial,
     linearised: SlipTrial,
+    /// Applied moment in the present iterate, as an internal moment [force·length].
+    applied_moment: f64,
 }
 
 /// Normal force that limits a friction force in an iterate, and the time in which both act.
@@ -160,6 +162,7 @@ impl PointFriction {
             by_normal: 0.0,
             trial: SlipTrial::default(),
             linearised: SlipTrial::default(),
+            applied_moment: 0.0,
         }
     }
 
@@ -179,6 +182,7 @@ impl PointFriction {
     pub(super) fn release(&mut self) {
         (self.force.force, self.force.mismatch, self.by_normal) = (0.0, 0.0, 0.0);
         (self.trial, self.linearised) = (SlipTrial::default(), SlipTrial::default());
+        self.applied_moment = 0.0;
     }
 
     pub(super) fn evaluate(&mut self, gap: &GapTrial, movement: Movement) {
@@ -223,9 +227,16 @@ impl PointFriction {
         self.linearised = self.trial;
     }
 
-    /// Generalised force of the present iterate: force [force] and moment [force·length], as internal forces.
-    pub(super) fn present(&self) -> Movement {
-        self.trial.direction.map(|by| by * self.force.force)
+    /// Applies `weight` times the force of the present iterate. Returns the generalised internal force: force [force] and moment [force·length].
+    pub(super) fn apply(&mut self, weight: f64) -> Movement {
+        let applied = self.trial.direction.map(|by| by * self.force.force).map(|by| by * weight);
+        self.applied_moment = applied[2];
+        applied
+    }
+
+    /// Moment on the body in the completed step [force·length].
+    pub(super) fn mean_moment(&self) -> f64 {
+        -self.applied_moment
     }
 
     /// Generalised force with its difference from the law condensed out. `normal_mismatch` is the difference of the normal force from its law.

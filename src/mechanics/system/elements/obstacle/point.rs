@@ -165,8 +165,6 @@ pub(super) struct ContactPoint {
     linearised: GapTrial,
     /// Applied forces at the start of the step and in the present iterate [force].
     applied: [Vec2; 2],
-    /// Applied moment of friction in the present iterate [force·length].
-    applied_moment: f64,
     /// Friction; `None` without friction.
     friction: Option<Box<PointFriction>>,
 }
@@ -185,7 +183,6 @@ impl ContactPoint {
             trial: GapTrial::NONE,
             linearised: GapTrial::NONE,
             applied: [Vec2::zeros(); 2],
-            applied_moment: 0.0,
             friction: None,
         }
     }
@@ -244,7 +241,6 @@ impl ContactPoint {
     }
 
     fn release_friction(&mut self) {
-        self.applied_moment = 0.0;
         if let Some(friction) = &mut self.friction {
             friction.release();
         }
@@ -389,11 +385,10 @@ impl ContactPoint {
         self.applied[1] = secant * (time.weight * force);
         if let (Some(contact), Some(friction)) = (self.normal_contact(time), &mut self.friction) {
             strain_mismatch = larger(strain_mismatch, friction.compare(contact));
-            let [x, y, applied] = friction.present().map(|by| by * time.weight);
+            let [x, y, applied] = friction.apply(time.weight);
             // The rounding error of the normal force limits the accuracy of the moment.
             moment = applied.abs() + surface.radius * force.abs();
             self.applied[1] += Vec2::new(x, y);
-            self.applied_moment = applied;
             self.scatter_moment(body, applied, out);
         }
         self.scatter(body, self.applied[1], out);
@@ -448,8 +443,7 @@ impl ContactPoint {
         let force = friction.condensed(-self.tension.mismatch).map(|by| by * time.weight);
         let normal_slope = self.linearised.slope * -self.tension.stiffness;
         let derivative = friction.tangent(normal_slope);
-        self.scatter(body, Vec2::new(force[0], force[1]), out);
-        self.scatter_moment(body, force[2], out);
+        self.scatter_friction(body, force, out);
         for (row, share) in self.place.weights() {
             for (column, other) in self.place.weights() {
                 let (rows, columns) =
@@ -500,9 +494,8 @@ impl ContactPoint {
     pub(super) fn add_mismatch_force(&self, body: &Body, weight: f64, out: &mut [f64]) {
         self.scatter(body, self.linearised.secant * (weight * self.tension.mismatch), out);
         if let Some(friction) = &self.friction {
-            let [x, y, moment] = friction.missing(-self.tension.mismatch).map(|by| by * weight);
-            self.scatter(body, Vec2::new(x, y), out);
-            self.scatter_moment(body, moment, out);
+            let missing = friction.missing(-self.tension.mismatch).map(|by| by * weight);
+            self.scatter_friction(body, missing, out);
         }
     }
 
@@ -521,6 +514,12 @@ impl ContactPoint {
             out[x] += share * force.x;
             out[y] += share * force.y;
         }
+    }
+
+    /// Adds a force [force] and a moment [force·length] at the point to `out`.
+    fn scatter_friction(&self, body: &Body, [x, y, moment]: Movement, out: &mut [f64]) {
+        self.scatter(body, Vec2::new(x, y), out);
+        self.scatter_moment(body, moment, out);
     }
 
     fn scatter_moment(&self, body: &Body, moment: f64, out: &mut [f64]) {
@@ -545,7 +544,8 @@ impl ContactPoint {
     pub(super) fn angular_impulse(&self, body: &Body, duration: f64) -> f64 {
         let [x, y, _] = self.interpolate(body.moved());
         let middle = self.position(body) + Vec2::new(x, y) * 0.5;
-        cross(middle, self.mean_force() * duration) - self.applied_moment * duration
+        let of_force = cross(middle, self.mean_force() * duration);
+        self.friction.as_ref().map_or(of_force, |by| of_force + by.mean_moment() * duration)
     }
 
     /// State of a closed contact at the start of the step; `None` for an open contact.
@@ -576,9 +576,7 @@ impl ContactPoint {
         let tension = contact.tension(Vec2::new(x, y));
         self.scatter(body, contact.gradient * tension, out);
         if let Some(friction) = &self.friction {
-            let [x, y, moment] = friction.at_start(contact.gradient, -tension, rates);
-            self.scatter(body, Vec2::new(x, y), out);
-            self.scatter_moment(body, moment, out);
+            self.scatter_friction(body, friction.at_start(contact.gradient, -tension, rates), out);
         }
     }
 

@@ -89,7 +89,12 @@ impl SliderContact {
 
     /// Unit normal of the master at the slider, on the side of the flight for a slider that only pushes [-].
     pub fn across(&self, bodies: &[Body]) -> Vec2 {
-        let normal = perpendicular(self.along(bodies));
+        self.normal_to(self.along(bodies))
+    }
+
+    /// Normal of a direction along the master, on the side of the flight for a slider that only pushes.
+    pub fn normal_to(&self, along: Vec2) -> Vec2 {
+        let normal = perpendicular(along);
         self.unilateral.as_ref().map_or(normal, |contact| normal * contact.sign)
     }
 

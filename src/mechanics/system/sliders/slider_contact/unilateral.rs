@@ -9,7 +9,7 @@ use crate::system::sliders::master_curve::END_TOLERANCE;
 
 /// Largest number of take-offs, landings and passages of the axis without a regular step between them. No event cuts a regular step.
 /// After these events, the slider stays in contact until the next regular step.
-const MOST_CHANGES: usize = 4;
+const MOST_EVENTS: usize = 4;
 
 /// Largest number of iterations of the search for the nearest point of the master.
 const MOST_ITERATIONS: usize = 64;
@@ -33,8 +33,8 @@ pub struct UnilateralContact {
     /// True if the slave is on the side of the flight. It can reach the other side beyond an end of the master, and cannot land from there.
     may_land: bool,
     /// Number of take-offs, landings and passages of the axis since the last regular step.
-    changes: usize,
-    /// Number of attempted steps in which the slider stayed in contact because of too many changes.
+    events: usize,
+    /// Number of attempted steps in which the slider stayed in contact because of too many events.
     pub kept_steps: usize,
 }
 
@@ -50,16 +50,16 @@ pub struct NearestPoint {
 
 impl UnilateralContact {
     pub fn new(sign: f64) -> Self {
-        Self { sign, nearest: NearestPoint::default(), may_land: true, changes: 0, kept_steps: 0 }
+        Self { sign, nearest: NearestPoint::default(), may_land: true, events: 0, kept_steps: 0 }
     }
 
-    /// Numeric state: permission to land, and number of changes.
+    /// Numeric state: permission to land, and number of events.
     pub(super) fn numbers(&self) -> [f64; 2] {
-        [f64::from(u8::from(self.may_land)), self.changes as f64]
+        [f64::from(u8::from(self.may_land)), self.events as f64]
     }
 
-    pub(super) fn restore(&mut self, [may_land, changes]: [f64; 2]) {
-        (self.may_land, self.changes) = (may_land != 0.0, changes as usize);
+    pub(super) fn restore(&mut self, [may_land, events]: [f64; 2]) {
+        (self.may_land, self.events) = (may_land != 0.0, events as usize);
     }
 }
 
@@ -73,13 +73,13 @@ impl SliderContact {
         self.is_sliding() && self.unilateral.is_some()
     }
 
-    /// Returns true if the slider changed too often between contact and flight since the last regular step.
-    pub fn is_changing_often(&self) -> bool {
-        self.unilateral.as_ref().is_some_and(|contact| contact.changes >= MOST_CHANGES)
+    /// Returns true if the slider had too many take-offs, landings and passages since the last regular step.
+    pub fn has_many_events(&self) -> bool {
+        self.unilateral.as_ref().is_some_and(|contact| contact.events >= MOST_EVENTS)
     }
 
-    pub fn clear_changes(&mut self) {
-        self.unilateral.iter_mut().for_each(|contact| contact.changes = 0);
+    pub fn clear_events(&mut self) {
+        self.unilateral.iter_mut().for_each(|contact| contact.events = 0);
     }
 
     pub fn count_kept_step(&mut self) {
@@ -91,7 +91,7 @@ impl SliderContact {
         self.state = SliderState::Separated;
         self.unknowns = ContactUnknowns::zeros();
         if let Some(contact) = &mut self.unilateral {
-            (contact.may_land, contact.changes) = (true, contact.changes + 1);
+            (contact.may_land, contact.events) = (true, contact.events + 1);
         }
     }
 
@@ -100,10 +100,17 @@ impl SliderContact {
         self.state = SliderState::Sliding;
     }
 
-    /// Records that the slave passed the axis of its master beyond an end, or landed on it.
-    pub fn record_passage(&mut self, lands: bool) {
+    /// Records that the slave landed on its master.
+    pub fn record_landing(&mut self) {
         if let Some(contact) = &mut self.unilateral {
-            (contact.may_land, contact.changes) = (lands, contact.changes + 1);
+            (contact.may_land, contact.events) = (true, contact.events + 1);
+        }
+    }
+
+    /// Records that the slave passed the axis of its master beyond an end. It cannot land from the other side.
+    pub fn record_passage(&mut self) {
+        if let Some(contact) = &mut self.unilateral {
+            (contact.may_land, contact.events) = (false, contact.events + 1);
         }
     }
 
@@ -115,7 +122,7 @@ impl SliderContact {
         let (first, last) = self.master.domain();
         let range = last - first;
         let mut parameter = self.parameter.clamp(first, last);
-        let mut at = self.offset(bodies, increments, parameter);
+        let mut at = self.offset_and_derivatives(bodies, increments, parameter);
         for _ in 0..MOST_ITERATIONS {
             let [to_axis, tangent, bend] = at;
             let straight = tangent.norm_squared();
@@ -125,7 +132,7 @@ impl SliderContact {
             let next = (parameter + change.clamp(-most, most)).clamp(first, last);
             let is_found = (next - parameter).abs() <= END_TOLERANCE * range;
             parameter = next;
-            at = self.offset(bodies, increments, parameter);
+            at = self.offset_and_derivatives(bodies, increments, parameter);
             if is_found {
                 break;
             }
@@ -141,7 +148,12 @@ impl SliderContact {
     }
 
     /// Vector from the slave to a point of the master, and its first and second derivative with respect to the parameter [length].
-    fn offset(&mut self, bodies: &[Body], increments: &[f64], parameter: f64) -> [Vec2; 3] {
+    fn offset_and_derivatives(
+        &mut self,
+        bodies: &[Body],
+        increments: &[f64],
+        parameter: f64,
+    ) -> [Vec2; 3] {
         self.path.set_interval(parameter, parameter);
         let (body, point) = self.connection.slave;
         let (slave, master) = (&bodies[body], &bodies[self.connection.master]);
@@ -194,7 +206,7 @@ impl SliderContact {
 
     /// Distance of a slave in flight behind the axis at the end of the attempted step, as a fraction of the size of the contact [-].
     /// The value is `None` unless the slider lands in the step.
-    pub fn landing(&self) -> Option<f64> {
+    pub fn depth_at_landing(&self) -> Option<f64> {
         let contact = self.unilateral.as_deref().filter(|_| self.is_separated())?;
         let NearestPoint { gap, is_inside, .. } = contact.nearest;
         let lands = contact.may_land && is_inside && gap < -self.touching_distance();
@@ -203,7 +215,7 @@ impl SliderContact {
 
     /// Distance of a slave in flight behind the axis at the end of the attempted step, negative in front of it, as a fraction of the size of the
     /// contact [-]. The value is `None` within rounding of the axis.
-    pub fn missed_landing(&self) -> Option<f64> {
+    pub fn signed_depth(&self) -> Option<f64> {
         let contact = self.unilateral.as_deref().filter(|_| self.is_separated())?;
         let gap = contact.nearest.gap;
         (gap.abs() > self.touching_distance()).then_some(-gap / self.size)
