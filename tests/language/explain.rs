@@ -12,7 +12,8 @@ use withy::loads::{LoadFrame, LoadKind, Schedule};
 use withy::newton::Tolerance;
 use withy::simulation::{NoMonitor, Simulation, SimulationSettings};
 use withy::system::{
-    BeamDefinition, ParticleDefinition, Scene, StartMotion, System, SystemFeature, Usage,
+    BeamDefinition, ParticleDefinition, RigidBodyDefinition, Scene, StartMotion, System,
+    SystemFeature, Usage,
 };
 
 fn add_beam(scene: &mut Scene, name: &str, from: Vec2, to: Vec2) -> usize {
@@ -203,5 +204,16 @@ fn start_velocities_are_given_checked_or_projected() {
     );
     let (mut scene, _) = rod();
     scene.beams[0].motion.spin = 1.0;
+    assert_eq!(used(&scene.explain().unwrap(), "start velocities"), "as given");
+    let mut scene = Scene::new("wheel");
+    let wheel = RigidBodyDefinition {
+        name: "wheel".into(),
+        position: Vec2::zeros(),
+        angle: 0.0,
+        points: Vec::new(),
+        outline: Vec::new(),
+        motion: StartMotion { velocity: Vec2::x(), ..StartMotion::default() },
+    };
+    scene.add_rigid_body(wheel, 1.0, 1.0).unwrap();
     assert_eq!(used(&scene.explain().unwrap(), "start velocities"), "as given");
 }

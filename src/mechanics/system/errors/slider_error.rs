@@ -110,8 +110,8 @@ pub enum SliderError {
     #[error("slider '{slider}': a side is not available {what}; {remedy}, or remove the side")]
     SideWith { slider: String, what: &'static str, remedy: &'static str },
     #[error(
-        "slider '{}': {} is {gap:.3e} away from the {}, but not on its {side} side; move it there or choose the other side",
-        parts.slider, parts.slave, parts.guide
+        "slider '{}': {} is {} away from the {}, but not on its {side} side; move it there or choose the other side",
+        parts.slider, parts.slave, rounded(*gap), parts.guide
     )]
     OtherSide {
         parts: SliderParts,

@@ -340,11 +340,13 @@ fn explain_releases(scene: &Scene) -> Option<SystemFeature> {
 
 fn explain_start(scene: &Scene) -> SystemFeature {
     let is_zero = |velocity: Vec2, spin: f64| velocity == Vec2::zeros() && spin == 0.0;
-    let beams_rest = scene.beams.iter().all(|beam| is_zero(beam.motion.velocity, beam.motion.spin));
+    let of_beams = scene.beams.iter().map(|beam| &beam.motion);
+    let mut motions = of_beams.chain(scene.rigid_bodies.iter().map(|body| &body.motion));
+    let bodies_rest = motions.all(|motion| is_zero(motion.velocity, motion.spin));
     let nodes_rest = scene.velocities.iter().all(|at| is_zero(at.velocity, at.spin.unwrap_or(0.0)));
     let is_projected =
         scene.sliders.iter().any(|slider| slider.velocities == StartVelocities::Project);
-    let how = match (beams_rest && nodes_rest, is_projected) {
+    let how = match (bodies_rest && nodes_rest, is_projected) {
         (_, true) => "projected onto the slider constraints with the mass matrix",
         (true, false) => {
             return SystemFeature::omitted("start velocities", "everything starts at rest");
