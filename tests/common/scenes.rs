@@ -8,9 +8,9 @@ use withy::geometry::{Curve, Vec2};
 use withy::joints::{Component, Components, JointKind, Partner};
 use withy::loads::{LoadFrame, LoadKind, PrescribedMotion, Schedule};
 use withy::system::{
-    Anchor, BeamDefinition, DampingLaw, Drag, Dragged, Drive, DriveKind, Obstacle, ObstacleShape,
-    Origin, ParticleDefinition, PointMass, RigidBodyDefinition, Scene, SpeedLaw, Spring,
-    SpringKind, SpringLaw, StartMotion,
+    Anchor, BeamDefinition, ContactMember, ContactTarget, DampingLaw, Drag, Dragged, Drive,
+    DriveKind, Obstacle, ObstacleShape, Origin, PairContact, ParticleDefinition, PointMass,
+    RigidBodyDefinition, Scene, SpeedLaw, Spring, SpringKind, SpringLaw, StartMotion,
 };
 
 /// The section of the flying spaghetti with `EA = GA` and `EI` as given.
@@ -380,6 +380,23 @@ pub fn pressed(mesh: &Mesh) -> Scene {
         scene.add_obstacle(obstacle).unwrap();
     }
     scene.gravity = at(0.0, -0.5);
+    scene
+}
+
+/// A bent beam, a straight beam and a bead that push each other apart by soft contact. The contacts stay closed, so the forces are smooth.
+pub fn crowded(mesh: &Mesh) -> Scene {
+    let mut scene = Scene::new("crowded");
+    let axis = Curve::through(&[at(0.0, 0.0), at(1.0, 0.1), at(2.0, 0.3), at(3.0, 0.8)]).unwrap();
+    let bent = add_beam(&mut scene, axis, mesh, rod());
+    scene.beams[bent].motion = StartMotion { velocity: at(0.5, 0.2), spin: 0.3, centre: None };
+    let straight = add_beam(&mut scene, line(at(0.4, 2.5), at(3.0, 2.8)), mesh, rod());
+    let bead = ParticleDefinition { name: "bead".to_owned(), position: at(1.4, -1.5) };
+    let bead = scene.add_particle(bead, 0.8).unwrap();
+    let beams = [ContactTarget::Beam(bent), ContactTarget::Beam(straight)];
+    let targets = beams.into_iter().chain([ContactTarget::Point(bead)]);
+    let members = targets.map(|target| ContactMember { target, radius: 4.0 }).collect();
+    let name = scene.free_name("contact");
+    scene.add_contact(PairContact { name, members, stiffness: 0.5, restitution: 1.0 }).unwrap();
     scene
 }
 

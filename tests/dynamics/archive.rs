@@ -52,6 +52,7 @@ fn every_scene_comes_back_and_goes_on_bit_for_bit() {
     for entry in INTEGRATORS {
         for (name, mesh) in meshes(4) {
             let all = scenes::all(&mesh).into_iter().chain(body_scenes::all(&mesh));
+            let all = all.chain([scenes::crowded(&mesh)]);
             // Controllers are functions, which no file keeps.
             for scene in all.filter(|scene| !is_steered(scene)) {
                 let label = format!("{}, {}, {name}", entry.name, scene.name);

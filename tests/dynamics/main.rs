@@ -8,6 +8,7 @@ mod archive;
 mod bodies;
 mod composition;
 mod consistency;
+mod contacts;
 mod cores;
 mod damping;
 mod damping_laws;

@@ -26,6 +26,13 @@ impl BasisValues {
         Self { first, degree, rows: [ZERO; WIDTH] }
     }
 
+    /// A single function with the value one everywhere.
+    pub(crate) fn constant(index: usize) -> Self {
+        let mut values = Self::zeros(index, 0);
+        values.rows[0][0] = 1.0;
+        values
+    }
+
     /// Derivatives with respect to ξ, of order 0 to `degree`, one row for each order.
     pub(super) fn rows_mut(&mut self) -> &mut [FunctionRow] {
         &mut self.rows[..=self.degree]

@@ -98,7 +98,7 @@ pub enum StepError {
         iterations: usize,
     },
     #[error(
-        "a body would pass through obstacle '{obstacle}' in the step of {:.3e} from t = {}; use a smaller step",
+        "a body would pass through the surface of '{obstacle}' in the step of {:.3e} from t = {}; use a smaller step",
         interval.duration(), interval.start
     )]
     Crossing {

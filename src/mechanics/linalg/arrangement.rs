@@ -1,6 +1,7 @@
 //! Elimination order of the unknowns of a band, including the delayed unknowns of blocks, and the resulting profile of the matrix.
 
 use super::block::{Block, MOST_DELAYED, UNTOUCHED};
+use super::distant::DistantBlocks;
 use super::{BlockLayout, reverse_cuthill_mckee};
 
 /// Largest ratio of the elimination work to the work for the same band without blocks. Below this ratio, the order of the band is kept.
@@ -8,7 +9,7 @@ const LARGEST_WORK: usize = 4;
 
 /// Order of the unknowns that are not eliminated in blocks, including delayed unknowns, and the resulting profile of the matrix.
 ///
-/// The order depends only on the unknowns that the blocks touch.
+/// The order depends only on the unknowns that the blocks and the distant blocks couple.
 /// The delayed unknowns of a block follow the last unknown that the block touches. At this position in the order, the delayed unknowns have a pivot.
 #[derive(Debug, Clone)]
 pub(super) struct Arrangement {
@@ -43,7 +44,7 @@ impl Arrangement {
             layout,
         };
         new.use_natural_order();
-        new.number(&[]);
+        new.number(&[], &DistantBlocks::default());
         new
     }
 
@@ -51,22 +52,26 @@ impl Arrangement {
         self.ends.len()
     }
 
-    /// Updates the profile. Updates also the order, if the blocks touch different unknowns than before.
-    pub(super) fn fit(&mut self, blocks: &[Block]) {
+    /// Updates the profile. Updates also the order, if the blocks or the distant blocks couple other unknowns than before.
+    pub(super) fn fit(&mut self, blocks: &[Block], distant: &DistantBlocks) {
         self.touched.clear();
         for block in blocks.iter().filter(|block| block.can_delay_unknowns()) {
             self.touched.extend(&block.touched);
             self.touched.push(UNTOUCHED);
         }
+        for group in distant.groups() {
+            self.touched.extend(group);
+            self.touched.push(UNTOUCHED);
+        }
         if self.touched != self.ordered_for {
             std::mem::swap(&mut self.touched, &mut self.ordered_for);
             self.use_natural_order();
-            self.number(&[]);
+            self.number(&[], &DistantBlocks::default());
             let alone = work(&self.own_ends);
-            self.number(blocks);
+            self.number(blocks, distant);
             if work(&self.own_ends) > LARGEST_WORK * alone {
-                self.use_level_order(blocks);
-                self.number(blocks);
+                self.use_level_order(blocks, distant);
+                self.number(blocks, distant);
             }
         }
         self.ends.clone_from(&self.own_ends);
@@ -85,13 +90,15 @@ impl Arrangement {
     }
 
     /// Replaces the order by an order with a small bandwidth, which includes the couplings of unknowns by blocks.
-    fn use_level_order(&mut self, blocks: &[Block]) {
+    fn use_level_order(&mut self, blocks: &[Block], distant: &DistantBlocks) {
         self.use_natural_order();
         let position = |&at: &usize| Some(self.position[at]).filter(|&place| place != UNTOUCHED);
         let of_band = self.layout.groups.iter();
         let delaying = blocks.iter().filter(|block| block.can_delay_unknowns());
         let groups: Vec<Vec<usize>> = of_band
             .chain(delaying.map(|block| &block.touched))
+            .map(Vec::as_slice)
+            .chain(distant.groups())
             .map(|group| group.iter().filter_map(position).collect())
             .collect();
         let count = self.position.iter().filter(|&&place| place != UNTOUCHED).count();
@@ -103,7 +110,7 @@ impl Arrangement {
 
     /// Numbers the unknowns and computes the profile.
     /// The delayed unknowns of a block follow the last unknown of the band that is coupled to the block.
-    fn number(&mut self, blocks: &[Block]) {
+    fn number(&mut self, blocks: &[Block], distant: &DistantBlocks) {
         let delaying = |block: &&Block| block.can_delay_unknowns() && !block.touched.is_empty();
         self.delayed_after.fill(0);
         let last = |block: &Block, position: &[usize]| {
@@ -150,6 +157,9 @@ impl Arrangement {
                 let places = block.touched.iter().map(|&at| self.position[at]);
                 couple(&mut self.own_ends, places.chain(delayed..delayed + MOST_DELAYED));
             }
+        }
+        for group in distant.groups() {
+            couple(&mut self.own_ends, group.iter().map(|&at| self.position[at]));
         }
         let mut furthest = 0;
         for end in &mut self.own_ends {

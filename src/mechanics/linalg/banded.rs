@@ -5,6 +5,7 @@
 
 use pulp::Arch;
 
+use super::distant::DistantBlocks;
 use super::elimination::Elimination;
 use super::storage::{Factors, Storage};
 use super::substitution::{StripSubstitution, Substitution};
@@ -16,6 +17,7 @@ pub struct BandedMatrix {
     size: usize,
     half_bandwidth: usize,
     storage: Storage,
+    distant: DistantBlocks,
 }
 
 /// Factors `P A = L U` of a [`BandedMatrix`], stored in the memory of its entries.
@@ -27,7 +29,8 @@ pub struct BandedLu<'a> {
 impl BandedMatrix {
     /// Creates a zero matrix of `size` rows. Entries can be up to `half_bandwidth` columns away from the diagonal.
     pub fn zeros(size: usize, half_bandwidth: usize) -> Self {
-        Self { size, half_bandwidth, storage: Storage::zeros(size, half_bandwidth) }
+        let storage = Storage::zeros(size, half_bandwidth);
+        Self { size, half_bandwidth, storage, distant: DistantBlocks::default() }
     }
 
     /// Number of rows.
@@ -43,6 +46,18 @@ impl BandedMatrix {
     /// Sets every entry to zero.
     pub fn clear(&mut self) {
         self.storage.clear();
+        self.distant.clear();
+    }
+
+    /// Adds a dense block of entries, row by row, for unknowns at any distance from each other.
+    ///
+    /// Blocks can be factorised with a local border or by joint elimination only.
+    pub(crate) fn add_block(&mut self, unknowns: &[usize], entries: impl Iterator<Item = f64>) {
+        self.distant.add(unknowns, entries);
+    }
+
+    pub(super) fn distant(&self) -> &DistantBlocks {
+        &self.distant
     }
 
     /// View of all rows, for adding entries.
@@ -59,8 +74,15 @@ impl BandedMatrix {
         self.rows_mut().add(row, column, value);
     }
 
-    /// Entry at `(row, column)`; zero outside the band.
+    /// Entry at `(row, column)`; zero outside the band and the distant blocks.
     pub fn get(&self, row: usize, column: usize) -> f64 {
+        let here = |(r, c, _): &(usize, usize, f64)| (*r, *c) == (row, column);
+        let distant: f64 = self.distant.iter().filter(here).map(|(.., value)| value).sum();
+        distant + self.in_band(row, column)
+    }
+
+    /// Entry of the band at `(row, column)`; zero outside the band.
+    pub(super) fn in_band(&self, row: usize, column: usize) -> f64 {
         if row.abs_diff(column) > self.half_bandwidth {
             0.0
         } else {
@@ -98,6 +120,7 @@ impl BandedMatrix {
     /// # Errors
     /// Fails if a column has no nonzero finite pivot. The entries are then lost.
     pub fn factorise(&mut self) -> Result<BandedLu<'_>, LinearError> {
+        debug_assert!(self.distant.is_empty(), "entries outside the band");
         Arch::new().dispatch(Elimination(self.storage.rows_mut()))?;
         Ok(self.factors())
     }

@@ -186,7 +186,7 @@ impl Block {
     #[inline(always)]
     fn eliminate(&mut self, band: &BandedMatrix, places: &mut [usize]) -> Result<(), LinearError> {
         self.gather(band, places);
-        let largest = self.touched.iter().map(|&at| band.get(at, at).abs()).fold(0.0, f64::max);
+        let largest = self.touched.iter().map(|&at| band.in_band(at, at).abs()).fold(0.0, f64::max);
         self.stiffness = if largest > 0.0 { largest } else { 1.0 };
         self.set_scale_factors(band);
         let candidates = self.candidates();
@@ -243,7 +243,7 @@ impl Block {
         }
         for (row, &at) in self.own.iter().enumerate() {
             for (column, &other) in self.own.iter().enumerate() {
-                self.front[row * stride + column] += band.get(at, other);
+                self.front[row * stride + column] += band.in_band(at, other);
             }
         }
         self.own.iter().chain(&self.touched).for_each(|&at| places[at] = UNTOUCHED);
@@ -253,7 +253,7 @@ impl Block {
     fn set_scale_factors(&mut self, band: &BandedMatrix) {
         let Self { own, touched, units, row_factors, column_factors, stiffness, .. } = self;
         let of_band = |at: &usize| {
-            let diagonal = band.get(*at, *at).abs();
+            let diagonal = band.in_band(*at, *at).abs();
             if diagonal > 0.0 { (*stiffness / diagonal).sqrt() } else { 1.0 }
         };
         row_factors.clear();

@@ -106,7 +106,7 @@ impl FullBorder {
     /// Rows of lengths are scaled by the largest compliance, which makes them comparable with rows of forces.
     fn weigh_rows(&mut self) {
         let compliances = self.units.iter().enumerate().map(|(at, units)| match units {
-            (BorderUnit::Length(_), BorderUnit::Force) => self.corner.get(at, at).abs(),
+            (BorderUnit::Length(_), BorderUnit::Force) => self.corner.in_band(at, at).abs(),
             _ => 0.0,
         });
         let compliance = compliances.fold(0.0, f64::max);
@@ -137,7 +137,7 @@ impl FullBorder {
         let reach = band.half_bandwidth();
         let in_band = (0..n).flat_map(|row| {
             let columns = row.saturating_sub(reach)..(row + reach + 1).min(n);
-            columns.map(move |column| (row, column, band.get(row, column)))
+            columns.map(move |column| (row, column, band.in_band(row, column)))
         });
         let in_columns = (0..*width).flat_map(|column| {
             let rows = strips[column / STRIP].rows.iter().enumerate();
@@ -148,7 +148,8 @@ impl FullBorder {
             let (row, column) = (at / width, at % width);
             (n + row, n + column, corner.get(row, column))
         });
-        let all = in_band.chain(in_columns).chain(in_rows).chain(in_corner);
+        let all =
+            in_band.chain(band.distant().iter()).chain(in_columns).chain(in_rows).chain(in_corner);
         all.filter(|(.., value)| *value != 0.0).collect()
     }
 

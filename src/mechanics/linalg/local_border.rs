@@ -110,7 +110,7 @@ impl LocalBorder {
         Arch::new()
             .dispatch(BlockElimination { blocks, band, places })
             .map_err(|(index, error)| error.at(band.size() + BLOCK * index, size))?;
-        self.arrangement.fit(&self.blocks);
+        self.arrangement.fit(&self.blocks, band.distant());
         self.matrix.remake(&self.arrangement.ends, band.half_bandwidth());
         self.copy(band);
         self.matrix.weigh_rows();
@@ -126,7 +126,7 @@ impl LocalBorder {
         Ok(LocalLu { blocks, arrangement, factors, right, own, all })
     }
 
-    /// Copies the band, in the order of the arrangement.
+    /// Copies the band and its distant blocks, in the order of the arrangement.
     fn copy(&mut self, band: &BandedMatrix) {
         let Arrangement { position, run_ends: runs_to, .. } = &self.arrangement;
         for (row, &place) in position.iter().enumerate().filter(|(_, place)| **place != UNTOUCHED) {
@@ -140,6 +140,9 @@ impl LocalBorder {
                     self.matrix.add(place, column, value);
                 }
             }
+        }
+        for (row, column, value) in band.distant().iter() {
+            self.matrix.add(position[row], position[column], value);
         }
     }
 }
@@ -292,13 +295,19 @@ mod tests {
             size in 12_usize..50, reach in 0_usize..5, own in prop::collection::vec(any::<bool>(), 1..8),
             touches in prop::collection::vec((0_usize..50, 1_usize..7, prop::option::of(0_usize..50)), 16),
             entries in prop::collection::vec(-1.0..1.0_f64, 997),
+            distant in prop::collection::vec([0_usize..50, 0_usize..50], 0..4),
         ) {
+            let mut distant = distant.into_iter().map(|pair| pair.map(|at| at % size)).cycle();
             let (layout, all) = layout(size, reach, &own);
             let reach = reach.max(OWN - 1);
             let mut matrix = BorderedMatrix::with_blocks(all, reach, layout.clone());
             let mut entries = entries.into_iter().cycle();
             for touches in [&touches[..8], &touches[8..], &touches[..8]] {
                 fill(&mut matrix, &layout, touches, || entries.next().unwrap());
+                for [a, b] in distant.by_ref().take(3).filter(|[a, b]| a != b) {
+                    let block: Vec<f64> = entries.by_ref().take(4).collect();
+                    matrix.band_mut().add_block(&[a, b], block.into_iter());
+                }
                 let dense = DMatrix::from_fn(matrix.size(), matrix.size(), |i, j| matrix.get(i, j));
                 prop_assume!(dense.clone().svd(false, false).singular_values.min() > 1e-2);
                 let right = DVector::from_fn(matrix.size(), |i, _| (i as f64 + 1.0).sin());

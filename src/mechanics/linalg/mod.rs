@@ -7,6 +7,7 @@ mod banded;
 mod block;
 mod bordered;
 mod complementarity;
+mod distant;
 mod double_double;
 mod elimination;
 mod error;

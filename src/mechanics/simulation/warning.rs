@@ -451,7 +451,7 @@ impl fmt::Display for Warning {
             }
             Self::StartInside { obstacle, body, depth, energy } => write!(
                 f,
-                "{body} starts inside {obstacle}, up to {} deep: the contact stores an energy of {} that the loads do not explain, and pushes the body out. Move the body out of the obstacle, or start from an equilibrium",
+                "{body} starts inside {obstacle}, up to {} deep: the contact stores an energy of {} that the loads do not explain, and pushes the body out. Move the body, or start from an equilibrium",
                 short(*depth),
                 short(*energy)
             ),

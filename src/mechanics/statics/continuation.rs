@@ -368,7 +368,8 @@ pub(super) fn update_stop_contacts(
     model.update_stop_contacts(unknowns, factor).map_err(leaves)
 }
 
-/// Tangent matrix of a model with `full` additional dense rows. In models with sliders, the band without contacts may be singular.
+/// Tangent matrix of a model with `full` additional dense rows.
+/// In models with sliders, the band without contacts may be singular. Contact between bodies couples distant unknowns.
 pub(super) fn tangent(model: &System, full: usize) -> BorderedMatrix {
     let (unknowns, contacts) = (model.unknowns(), model.constraint_shape());
     let border = BorderShape {
@@ -376,7 +377,10 @@ pub(super) fn tangent(model: &System, full: usize) -> BorderedMatrix {
         row_entries: contacts.row_entries + full * unknowns,
     };
     let tangent = BorderedMatrix::zeros(unknowns, model.half_bandwidth(), border);
-    if contacts.width == 0 { tangent } else { tangent.with_joint_elimination(full) }
+    match contacts.width > 0 || model.constraint_blocks().is_some() {
+        true => tangent.with_joint_elimination(full),
+        false => tangent,
+    }
 }
 
 fn metric(model: &System, length: f64) -> Vec<f64> {

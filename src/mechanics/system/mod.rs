@@ -14,10 +14,10 @@ mod state;
 mod step_mean;
 
 pub use elements::{
-    Along, Anchor, Branch, ContactState, ContactTarget, DampingLaw, Drag, Dragged, Drive,
-    DriveKind, DriveState, Element, LawArgument, LoadAccount, MaterialDamping, MotionCurvature,
-    Obstacle, ObstacleShape, Origin, OutsideLaw, Penetration, PointMass, ShortBounce, SpeedLaw,
-    Spring, SpringKind, SpringLaw, UnsampledChange,
+    Along, Anchor, Branch, ContactMember, ContactState, ContactTarget, DampingLaw, Drag, Dragged,
+    Drive, DriveKind, DriveState, Element, LawArgument, LoadAccount, MaterialDamping,
+    MotionCurvature, Obstacle, ObstacleShape, Origin, OutsideLaw, PairContact, Penetration,
+    PointMass, ShortBounce, SpeedLaw, Spring, SpringKind, SpringLaw, UnsampledChange,
 };
 pub(crate) use errors::rounded;
 pub use errors::{

@@ -1,26 +1,29 @@
-//! Obstacles of a scene: walls and discs that bodies can touch.
+//! Contact of a scene: walls and discs that bodies can touch, and bodies that can touch each other.
 
 use rhai::Dynamic;
 
 use super::scenes::{BEAM, SCENE, STATION};
 use crate::geometry::Vec2;
 use crate::script::bindings::call::Call;
-use crate::script::bindings::kind::Kind;
+use crate::script::bindings::kind::{Kind, NumberRange};
 use crate::script::bindings::options::Options;
 use crate::script::bindings::parameter::{
-    Parameter, Presence, array, number, options, point, text,
+    Parameter, Presence, array, either, number, options, point, text,
 };
 use crate::script::bindings::table::{BindingTable, method};
 use crate::script::handles::beam::BeamHandle;
 use crate::script::handles::scene::SceneHandle;
 use crate::script::handles::station::StationHandle;
 use crate::script::messages::error::{CallPart, ScriptError};
-use crate::system::{ContactTarget, Obstacle, ObstacleShape, SystemError};
+use crate::script::messages::numbers::as_number;
+use crate::system::{
+    ContactMember, ContactTarget, Obstacle, ObstacleShape, PairContact, SystemError,
+};
 
 pub const TABLE: BindingTable = BindingTable {
     name: "obstacles",
-    doc: "Walls and discs that are fixed to the ground, and the contact of beams, particles and \
-        points of rigid bodies with them. The contact is compliant: its force follows from a \
+    doc: "Walls and discs that are fixed to the ground, the contact of beams, particles and \
+        points of rigid bodies with them, and contact among bodies. The contact is compliant: its force follows from a \
         potential of the penetration. E - W + D and both momenta stay constant to rounding with \
         energy_momentum() and fourth_order(), at any step size and stiffness. The history has \
         the columns NAME.force, NAME.force_x, NAME.force_y (the force on the bodies, mean of the \
@@ -66,7 +69,28 @@ pub const TABLE: BindingTable = BindingTable {
                       let sim = scene.start(#{ dt: 0.002 });\nsim.run_to(1);\n\
                       check(max(sim.history.column(\"peg.force\")) > 10);\n\
                       check(sim.history.drift(\"energy\") < 1e-12);")
-            .with_related(&["wall"]),
+            .with_related(&["wall", "contact"]),
+        method(SCENE, "contact", &[array("bodies"), options("options", CONTACT_KEYS)], contact)
+            .summary("Lets bodies touch each other: beams, particles, and stations of rigid bodies. A single \
+                beam touches itself.")
+            .doc("Each body has a radius: half the thickness of a beam, or the radius of a disc around \
+                a particle or a station. A beam has the shape of its axis with this radius. Its contact \
+                points (four per span) touch the nearest points of the other axes. The contact is \
+                compliant: its potential is infinite where two axes meet, so beams that touch do not pass \
+                through each other, and a step in which a point would jump through an axis is halved. \
+                Between two beams, stiffness is the force per length and penetration, otherwise the \
+                force per penetration. Bodies that share a joint or a slider do not touch each other. \
+                NAME.force_x and NAME.force_y are the force on the first body of the list. Default \
+                names: contact1, contact2, …")
+            .example("let rod = scene.beam(line([0, 0], [2, 0]), bspline(8), isotropic(#{ E: 1e6, A: 0.01, I: 1e-5, rho: 100 }), #{ name: \"rod\" });\n\
+                      scene.clamp(rod.start);\nscene.clamp(rod.end);\n\
+                      let ball = scene.particle([0.7, 1], 0.5, #{ name: \"ball\" });\n\
+                      scene.gravity([0, -9.81]);\n\
+                      scene.contact([rod, ball], #{ stiffness: 1e4, radius: 0.05, name: \"hit\" });\n\
+                      let sim = scene.start(#{ dt: 0.002 });\nsim.run_to(0.6);\n\
+                      check(max(sim.history.column(\"hit.force\")) > 1);\n\
+                      check(sim.history.drift(\"energy\") < 1e-12);")
+            .with_related(&["wall", "disc", "slider"]),
     ],
 };
 
@@ -96,6 +120,48 @@ const KEYS: &[Parameter] = &[
         .optional(),
     text("name").optional(),
 ];
+
+const CONTACT_KEYS: &[Parameter] = &[
+    number("stiffness")
+        .positive()
+        .unit("force/length, force/length² between beams")
+        .doc("force per penetration; between two beams per length"),
+    either("radius", &[Kind::Number(NumberRange::Positive), Kind::Numbers])
+        .unit("length")
+        .doc("radius of the bodies around their axes and points; a number for all bodies, or an array with one number per body"),
+    number("restitution")
+        .between(0.05, 1.0)
+        .doc("fraction of the approach speed after a resolved impact; 1 is elastic")
+        .or(Presence::Number(1.0)),
+    text("name").optional(),
+];
+
+fn contact(call: &mut Call) -> Result<Dynamic, ScriptError> {
+    let scene = call.receiver::<SceneHandle>()?;
+    let options = call.options("options")?;
+    let bodies = call.get::<rhai::Array>("bodies")?;
+    let count = bodies.len();
+    let targets = read_targets(call, "contact", &scene, (bodies, CallPart::Argument(0)))?;
+    let radii = match as_number(&options.value("radius")?) {
+        Some(radius) => vec![radius; count],
+        None => options.numbers("radius")?,
+    };
+    if radii.len() != count {
+        let message = format!("radius has {} numbers, but {count} bodies are listed", radii.len());
+        let hint = "give one radius per body, or one number for all bodies";
+        return Err(call.error(message).hint(hint).at(CallPart::Key("radius".into())));
+    }
+    let member = |(target, radius)| ContactMember { target, radius };
+    let name = options.optional_text("name")?;
+    let contact = PairContact {
+        name: name.unwrap_or_else(|| scene.scene().borrow().free_name("contact")),
+        members: targets.into_iter().zip(radii).map(member).collect(),
+        stiffness: options.number("stiffness")?,
+        restitution: options.number("restitution")?,
+    };
+    scene.change().add_contact(contact).map_err(place_of_error)?;
+    Ok(Dynamic::UNIT)
+}
 
 fn wall(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let (point, normal) = (call.get::<Vec2>("point")?, call.get::<Vec2>("normal")?);
@@ -127,16 +193,18 @@ fn add(call: &mut Call, shape: ObstacleShape, function: &str) -> Result<Dynamic,
         restitution: options.number("restitution")?,
         friction: options.number("friction")?,
     };
-    scene.change().add_obstacle(obstacle).map_err(|error| {
-        let place = match &error {
-            SystemError::Unnamed { .. } | SystemError::DuplicateName { .. } => {
-                CallPart::Key("name".into())
-            }
-            _ => CallPart::Argument(0),
-        };
-        ScriptError::from(error).at(place)
-    })?;
+    scene.change().add_obstacle(obstacle).map_err(place_of_error)?;
     Ok(Dynamic::UNIT)
+}
+
+fn place_of_error(error: SystemError) -> ScriptError {
+    let place = match &error {
+        SystemError::Unnamed { .. } | SystemError::DuplicateName { .. } => {
+            CallPart::Key("name".into())
+        }
+        _ => CallPart::Argument(0),
+    };
+    ScriptError::from(error).at(place)
 }
 
 const TARGET: &[Kind] = &[Kind::Object(BEAM), Kind::Object(STATION)];
@@ -153,10 +221,19 @@ fn targets(
         let hint = "leave bodies out for all beams and particles of the scene";
         return Err(call.error(message).hint(hint).at(CallPart::Key("bodies".into())));
     }
+    read_targets(call, function, scene, (bodies, CallPart::Key("bodies".into())))
+}
+
+fn read_targets(
+    call: &Call,
+    function: &str,
+    scene: &SceneHandle,
+    (bodies, part): (rhai::Array, CallPart),
+) -> Result<Vec<ContactTarget>, ScriptError> {
     let target = |(at, body): (usize, Dynamic)| {
         let wanted = (&Kind::Either(TARGET), "a beam, a particle, or a station");
         let accepted = call.accept(function, &format!("body {}", at + 1), wanted, body);
-        let accepted = accepted.map_err(|error| error.at(CallPart::Key("bodies".into())))?;
+        let accepted = accepted.map_err(|error| error.at(part.clone()))?;
         match accepted.read_lock::<BeamHandle>() {
             Some(beam) => Ok(ContactTarget::Beam(beam.index_in(scene)?)),
             None => {

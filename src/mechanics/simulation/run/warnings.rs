@@ -10,8 +10,7 @@ use crate::simulation::adaptive::Adaptive;
 use crate::simulation::warning::{LARGEST_ROTATION, MOST_SPANS, RateChangeCause, short};
 use crate::simulation::{Invariant, Sample, StepSize, Warning};
 use crate::system::{
-    LawArgument, Obstacle, Penetration, RESOLVED_IMPACT, Resolution, SpringLaw, System,
-    SystemFeature,
+    LawArgument, Penetration, RESOLVED_IMPACT, Resolution, SpringLaw, System, SystemFeature,
 };
 use crate::vibration::{Modes, VibrationError};
 
@@ -143,8 +142,8 @@ impl Simulation {
         let bounces = self.model.short_bounces();
         let tolerance = self.adaptive.as_ref().map(|adaptive| adaptive.tolerance);
         let object = |name: &str| {
-            let obstacle = self.scene.obstacles().find(|obstacle| obstacle.name == name);
-            obstacle.map_or_else(|| format!("spring '{name}'"), Obstacle::object)
+            let object = self.scene.contact_object(name);
+            object.unwrap_or_else(|| format!("spring '{name}'"))
         };
         let warning = |(name, bounce): (&str, _)| Warning::Contact {
             object: object(name),
@@ -160,7 +159,7 @@ impl Simulation {
     /// The penetrations are sorted by decreasing energy.
     pub(super) fn warn_of_penetrations(&mut self, penetrations: Vec<(String, Penetration)>) {
         for (obstacle, Penetration { body, depth, energy, .. }) in penetrations {
-            let obstacle = format!("obstacle '{obstacle}'");
+            let obstacle = self.scene.contact_object(&obstacle).unwrap_or(obstacle);
             let body = self.scene.name_of_body_at(body);
             let warning = Warning::StartInside { obstacle, body, depth, energy };
             if warning.is_new_or_worse(&self.initial_geometry.warnings) {

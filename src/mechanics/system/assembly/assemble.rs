@@ -105,7 +105,7 @@ impl System {
             Numbering::new(scene, &[], &own, border, |station| assembly.place(station))?;
         query(scene, goes_on)?;
         let sliders = assembly.sliders(&numbering)?;
-        let blocks = numbering.contact_blocks(&sliders);
+        let blocks = numbering.contact_blocks(scene, &sliders);
         let sliders = Sliders::new(sliders, blocks);
         let elements = assembly.elements()?;
         let links = assembly.links(&numbering);

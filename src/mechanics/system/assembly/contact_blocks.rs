@@ -3,6 +3,7 @@
 
 use super::Numbering;
 use crate::linalg::BlockLayout;
+use crate::system::Scene;
 use crate::system::scene::Ties;
 use crate::system::sliders::SliderContact;
 
@@ -13,8 +14,10 @@ const MANY: usize = 4;
 const MOST_POINTS: usize = 4;
 
 impl Numbering {
-    pub fn contact_blocks(&self, sliders: &[SliderContact]) -> Option<BlockLayout> {
-        if sliders.len() < MANY {
+    /// Blocks of the sliders; `None` if a dense border is faster. Scenes with contact between bodies always have blocks, because contact couples distant unknowns.
+    pub fn contact_blocks(&self, scene: &Scene, sliders: &[SliderContact]) -> Option<BlockLayout> {
+        let touches = scene.contacts().next().is_some();
+        if sliders.len() < MANY && !touches {
             return None;
         }
         let mut coupled = Ties::new(self.unknowns);
@@ -41,7 +44,9 @@ impl Numbering {
             let own = self.unknowns_of_free_slave(slider);
             let root = component[*own.first()?];
             let is_one = own.iter().all(|at| component[*at] == root);
-            (is_one && sizes[root] == own.len() && sliders_on[root] == 1).then_some(own)
+            // A contact between bodies may couple the slave with others.
+            let is_alone = is_one && sizes[root] == own.len() && sliders_on[root] == 1;
+            (is_alone && !touches).then_some(own)
         });
         let own = own.map(Option::unwrap_or_default);
         Some(BlockLayout {

@@ -57,7 +57,7 @@ impl System {
         let (prescribed, held, unknowns) = numbering.supports_and_unknowns(scene, released, border);
         Ok(DofNumbers {
             joined: joined(scene, released, meshes)?,
-            contacts: numbering.contact_blocks(self.sliders()),
+            contacts: numbering.contact_blocks(scene, self.sliders()),
             links: numbering.links.iter().map(|link| link.force).collect(),
             rollers: numbering
                 .rollers

@@ -167,6 +167,20 @@ impl Elements {
         self.forces.iter().for_each(|force| force.add_tangent(at, unknowns, tangent));
     }
 
+    /// Contacts between bodies that exist at present.
+    pub fn save_contacts(&self, contacts: &mut Vec<f64>) {
+        self.resistances.iter().for_each(|resistance| resistance.save_contacts(contacts));
+    }
+
+    /// Restores the contacts of a saved state. Returns `None` if they are not contacts of these elements.
+    pub fn restore_contacts(&mut self, bodies: &[Body], contacts: &[f64]) -> Option<()> {
+        let mut numbers = contacts.iter().copied();
+        let next = &mut || numbers.next();
+        let mut all = self.resistances.iter_mut();
+        all.try_for_each(|resistance| resistance.restore_contacts(bodies, next))?;
+        numbers.next().is_none().then_some(())
+    }
+
     pub fn begin_movement(&mut self, bodies: &[Body]) {
         self.resistances.iter_mut().for_each(|resistance| resistance.begin_movement(bodies));
     }

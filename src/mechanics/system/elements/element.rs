@@ -4,9 +4,10 @@ use serde::{Deserialize, Serialize};
 
 use super::point_mass::NodalMass;
 use super::{
-    ContactTarget, Drag, ExternalForce, InternalForce, MaterialDamping, Obstacle, PointMass, Spring,
+    ContactTarget, Drag, ExternalForce, InternalForce, MaterialDamping, Obstacle, PairContact,
+    PointMass, Spring,
 };
-use crate::beams::{BodyDynamics, BodyPoint, Mesh, SectionVariation, Station};
+use crate::beams::{BodyDynamics, BodyIndex, BodyPoint, Mesh, SectionVariation, Station};
 use crate::geometry::GeometryError;
 use crate::loads::{Load, Schedule};
 use crate::system::SystemError;
@@ -29,6 +30,8 @@ pub enum Element {
     Drag(Drag),
     /// Obstacle fixed to the ground.
     Obstacle(Obstacle),
+    /// Contact among bodies.
+    Contact(PairContact),
 }
 
 impl Element {
@@ -41,6 +44,7 @@ impl Element {
             Self::Damping(_) => "damping",
             Self::Drag(_) => "drag",
             Self::Obstacle(_) => "obstacle",
+            Self::Contact(_) => "contact",
         }
     }
 
@@ -52,6 +56,7 @@ impl Element {
             Self::Damping(damping) => Some(&mut damping.name),
             Self::Drag(drag) => Some(&mut drag.name),
             Self::Obstacle(obstacle) => Some(&mut obstacle.name),
+            Self::Contact(contact) => Some(&mut contact.name),
         }
     }
 
@@ -63,6 +68,7 @@ impl Element {
             Self::Damping(damping) => damping,
             Self::Drag(drag) => drag,
             Self::Obstacle(obstacle) => obstacle,
+            Self::Contact(contact) => contact,
         }
     }
 }
@@ -110,6 +116,9 @@ pub trait SceneChecks {
     fn contact_targets(&self) -> Vec<ContactTarget>;
 
     fn describe(&self, station: &Station) -> String;
+
+    /// Returns true if a joint or a slider connects both bodies, or if they are points of the same body.
+    fn are_connected(&self, a: BodyIndex, b: BodyIndex) -> bool;
 
     /// Checks that a station exists. `object` describes the object at the station, for the error message.
     ///

@@ -31,6 +31,18 @@ pub trait InternalForce {
     /// Prepares the element for the start of a simulation. The last argument is the diagonal of the inertia matrix of the unknowns.
     fn begin(&mut self, _bodies: &[Body], _inertia: &[f64]) {}
 
+    /// Writes the contacts that exist at present. Their number changes during a simulation.
+    fn save_contacts(&self, _contacts: &mut Vec<f64>) {}
+
+    /// Replaces the contacts by those of a saved state, for bodies in this state. Returns `None` if they do not fit the element.
+    fn restore_contacts(
+        &mut self,
+        _bodies: &[Body],
+        _next: &mut dyn FnMut() -> Option<f64>,
+    ) -> Option<()> {
+        Some(())
+    }
+
     /// Prepares a step that starts with the given rates of the unknowns. Iterations start with the forces of the last step.
     fn begin_step(&mut self, interval: Interval, bodies: &[Body], rates: &[f64]);
 

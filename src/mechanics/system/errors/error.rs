@@ -47,6 +47,8 @@ pub enum SystemError {
         "{object}: a point of a rigid body has no start velocity of its own; set that of the body"
     )]
     PointAlone { object: String },
+    #[error("{object}: {body} is listed twice; list each body once")]
+    RepeatedBody { object: String, body: String },
     #[error("{body} has no cross section")]
     NoSection { body: String },
     #[error("forces and accelerations at t = {time} are undetermined: {reason}")]

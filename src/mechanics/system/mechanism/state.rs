@@ -16,6 +16,8 @@ pub struct SystemState {
     prediction: Prediction,
     knows_accelerations: bool,
     sliders: Vec<SliderState>,
+    /// Contacts between bodies. Their number changes during a simulation.
+    contacts: Vec<f64>,
 }
 
 impl SystemState {
@@ -35,12 +37,13 @@ impl SystemState {
 
     /// Sets the state to `from` plus `amount` times the vector `change`.
     pub(crate) fn displace(&mut self, from: &Self, change: &[f64], amount: f64) {
-        let Self { numbers, prediction: trend, knows_accelerations, sliders } = self;
+        let Self { numbers, prediction: trend, knows_accelerations, sliders, contacts } = self;
         numbers.clear();
         numbers.extend(from.numbers.iter().zip(change).map(|(own, by)| own + amount * by));
         (*trend, *knows_accelerations) = (from.prediction, from.knows_accelerations);
         sliders.clear();
         sliders.extend_from_slice(&from.sliders);
+        contacts.clone_from(&from.contacts);
     }
 
     /// Writes the difference between this state and `other`, divided by `distance`, to `change`.
@@ -55,7 +58,7 @@ impl SystemState {
 
     /// Heap memory of the state [bytes].
     pub fn bytes(&self) -> usize {
-        self.numbers.capacity() * size_of::<f64>()
+        (self.numbers.capacity() + self.contacts.capacity()) * size_of::<f64>()
             + self.sliders.capacity() * size_of::<SliderState>()
     }
 }
@@ -71,7 +74,8 @@ impl System {
 
     /// Writes the [`state`](Self::state) to a buffer. Nothing is allocated if the buffer already holds a state of this model.
     pub(crate) fn write_state(&self, state: &mut SystemState) {
-        let SystemState { numbers, prediction: trend, knows_accelerations, sliders } = state;
+        let SystemState { numbers, prediction: trend, knows_accelerations, sliders, contacts } =
+            state;
         numbers.clear();
         self.exchanged.save(numbers);
         self.motion.save(numbers);
@@ -85,6 +89,8 @@ impl System {
         *knows_accelerations = self.motion.accelerations.are_known();
         sliders.clear();
         sliders.extend(self.sliders.states());
+        contacts.clear();
+        self.elements.save_contacts(contacts);
     }
 
     /// Restores a [`state`](Self::state) of this model bit for bit.
@@ -103,6 +109,8 @@ impl System {
         self.motion.accelerations.restore(state.knows_accelerations, next);
         self.sliders.restore(&state.sliders, next);
         assert!(numbers.next().is_none(), "the state is one of this model");
+        let contacts = self.elements.restore_contacts(&self.bodies, &state.contacts);
+        contacts.expect("the state is one of this model");
     }
 
     /// Restores a state that was read from a file, with checks.
@@ -116,7 +124,8 @@ impl System {
         if numbers.len() != own.numbers.len() || state.sliders.len() != own.sliders.len() {
             return Err(refused("it has a different number of values"));
         }
-        if !numbers.iter().all(|number| number.is_finite()) {
+        let mut all = numbers.iter().chain(&state.contacts);
+        if !all.all(|number| number.is_finite()) {
             return Err(refused("it has a value that is not finite"));
         }
         let states = self.sliders.iter().zip(&state.sliders);
@@ -128,6 +137,9 @@ impl System {
         let of_sliders = &numbers[numbers.len() - self.sliders.saved()..];
         if !self.sliders.fit(of_sliders) {
             return Err(refused("a slider is outside its beam"));
+        }
+        if self.elements.restore_contacts(&self.bodies, &state.contacts).is_none() {
+            return Err(refused("its contacts are not contacts of this scene"));
         }
         self.restore(state);
         Ok(())

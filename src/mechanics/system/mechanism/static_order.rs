@@ -3,8 +3,8 @@
 use super::System;
 use crate::linalg::reverse_cuthill_mckee;
 
-/// Order of the unknowns in static and modal matrices. Without sliders, it is the order in time steps.
-/// With sliders, the positions of the sliders are additional unknowns, and all unknowns are reordered for a small bandwidth.
+/// Order of the unknowns in static and modal matrices. Without sliders and contact between bodies, it is the order in time steps.
+/// Otherwise the positions of the sliders are additional unknowns, and all unknowns are reordered for a small bandwidth.
 #[derive(Debug, Clone)]
 pub struct StaticOrder {
     count: usize,
@@ -51,7 +51,7 @@ impl System {
     /// Order of the unknowns for the present configuration.
     pub(crate) fn static_order(&self) -> StaticOrder {
         let movements = self.unknowns.count();
-        if self.sliders.is_empty() {
+        if self.sliders.is_empty() && self.sliders.blocks().is_none() {
             let half_bandwidth = self.half_bandwidth_at_rest();
             return StaticOrder { count: movements, half_bandwidth, position: None };
         }

@@ -21,7 +21,9 @@ impl Scene {
             let own = COLUMNS_OF_SLIDERS.iter().chain(friction).chain(gap);
             all.extend(own.map(|own| Sensor::of(&slider.name, own, SensorSource::Slider(at))));
         }
-        let stores = self.springs().next().is_some() || self.obstacles().next().is_some();
+        let stores = self.springs().next().is_some()
+            || self.obstacles().next().is_some()
+            || self.contacts().next().is_some();
         let dissipates = stores || self.dissipating().next().is_some();
         let sums = [(stores, &STORED), (dissipates, &DISSIPATED)].into_iter();
         all.extend(sums.filter(|(is_there, _)| *is_there).map(|(_, quantity)| {
@@ -56,6 +58,12 @@ impl Scene {
                     all.extend(own.map(|own| Sensor::of(&obstacle.name, own, source)));
                     all.push(Sensor::in_sum(&STORED, &obstacle.name, source));
                     others.push(Sensor::in_sum(&DISSIPATED, &obstacle.name, source));
+                }
+                Element::Contact(contact) => {
+                    let own = COLUMNS_OF_OBSTACLES.iter();
+                    all.extend(own.map(|own| Sensor::of(&contact.name, own, source)));
+                    all.push(Sensor::in_sum(&STORED, &contact.name, source));
+                    others.push(Sensor::in_sum(&DISSIPATED, &contact.name, source));
                 }
                 Element::PointMass(_) | Element::Load(_) => (),
             }

@@ -196,10 +196,11 @@ impl Scene {
         let loads = self.loads().filter_map(|load| Some(("load", load.title.as_ref()?)));
         let drags = self.drags().map(|drag| ("drag", &drag.name));
         let obstacles = self.obstacles().map(|obstacle| ("obstacle", &obstacle.name));
+        let contacts = self.contacts().map(|contact| ("contact", &contact.name));
         let bodies = self.rigid_bodies.iter().map(|body| ("body", &body.name));
         let tracks = self.tracks.iter().map(|track| ("track", &track.name));
         let all = beams.chain(particles).chain(bodies).chain(tracks).chain(sliders).chain(springs);
-        all.chain(drags).chain(obstacles).chain(drives).chain(loads)
+        all.chain(drags).chain(obstacles).chain(contacts).chain(drives).chain(loads)
     }
 
     pub(in crate::system) fn check_name(
@@ -404,6 +405,30 @@ impl SceneChecks for Scene {
 
     fn describe(&self, station: &Station) -> String {
         Self::describe(self, station)
+    }
+
+    fn are_connected(&self, a: BodyIndex, b: BodyIndex) -> bool {
+        // The points of a rigid body are one body.
+        let whole = |body: BodyIndex| match body {
+            BodyIndex::Rigid(body, _) => BodyIndex::Rigid(body, 0),
+            other => other,
+        };
+        let wanted = [whole(a), whole(b)];
+        let is_wanted = |one: BodyIndex, other: BodyIndex| {
+            let pair = [whole(one), whole(other)];
+            pair == wanted || [pair[1], pair[0]] == wanted
+        };
+        let is_joined = |joint: &Joint| match joint.partner {
+            Partner::Station(other) => is_wanted(joint.station.body, other.body),
+            Partner::Ground => false,
+        };
+        let slides = |slider: &Slider| {
+            let mut masters = self.masters(slider).into_iter();
+            masters.any(|beam| is_wanted(slider.slave.body, BodyIndex::Beam(beam)))
+        };
+        wanted[0] == wanted[1]
+            || self.joints.iter().any(is_joined)
+            || self.sliders.iter().any(slides)
     }
 
     fn check_station(&self, object: &'static str, station: &Station) -> Result<(), SystemError> {

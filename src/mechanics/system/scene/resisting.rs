@@ -3,7 +3,7 @@
 use super::Scene;
 use crate::beams::Relaxation;
 use crate::system::SystemError;
-use crate::system::elements::{Drag, Element, MaterialDamping, Obstacle};
+use crate::system::elements::{Drag, Element, MaterialDamping, Obstacle, PairContact};
 
 impl Scene {
     /// Drag elements, in the order of addition.
@@ -20,6 +20,7 @@ impl Scene {
             Element::Damping(damping) => Some(&*damping.name),
             Element::Drag(drag) => Some(&*drag.name),
             Element::Obstacle(obstacle) => Some(&*obstacle.name),
+            Element::Contact(contact) => Some(&*contact.name),
             _ => None,
         });
         let sliders = self.sliders.iter().filter(|slider| slider.dissipates());
@@ -50,6 +51,30 @@ impl Scene {
             Element::Obstacle(obstacle) => Some(obstacle),
             _ => None,
         })
+    }
+
+    /// Contacts among bodies, in the order of addition.
+    pub fn contacts(&self) -> impl Iterator<Item = &PairContact> + Clone {
+        self.elements.iter().filter_map(|element| match element {
+            Element::Contact(contact) => Some(contact),
+            _ => None,
+        })
+    }
+
+    /// Type and name of an obstacle or a contact among bodies with the given name.
+    pub fn contact_object(&self, name: &str) -> Option<String> {
+        let obstacle = self.obstacles().find(|one| one.name == name).map(Obstacle::object);
+        let contact = || self.contacts().find(|one| one.name == name).map(PairContact::object);
+        obstacle.or_else(contact)
+    }
+
+    /// Adds contact among bodies.
+    ///
+    /// # Errors
+    /// Fails if the name is taken, a number is out of range, or a body does not exist or is listed twice.
+    pub fn add_contact(&mut self, contact: PairContact) -> Result<(), SystemError> {
+        self.check_name("contact", &contact.name)?;
+        self.add_element(Element::Contact(contact))
     }
 
     /// Types and names of sliders with friction.

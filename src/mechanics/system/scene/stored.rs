@@ -133,6 +133,7 @@ impl Scene {
             Element::Damping(damping) => self.add_damping(damping.beam, damping.relaxation),
             Element::Drag(drag) => self.add_drag(drag),
             Element::Obstacle(obstacle) => self.add_obstacle(obstacle),
+            Element::Contact(contact) => self.add_contact(contact),
             Element::Load(load) => {
                 if let Some(title) = &load.title {
                     self.check_name("load", title)?;

@@ -4,8 +4,9 @@ use serde::{Deserialize, Serialize};
 
 use super::forces::{ObstacleForces, TouchingBody};
 use super::law::{ContactLaw, damping_factor};
+use super::normal_force::NormalLaw;
 use super::point::{ContactPoint, Surface};
-use crate::beams::Station;
+use crate::beams::{Mesh, Station};
 use crate::geometry::Vec2;
 use crate::system::SystemError;
 use crate::system::elements::element::{AssemblyContext, BuiltElement, ElementDef, SceneChecks};
@@ -22,7 +23,7 @@ const LOBATTO: [(f64, f64); 3] = [
 const LAST: f64 = 1.0 / 6.0;
 
 /// Smallest coefficient of restitution. Smaller coefficients need a damping that steps cannot resolve.
-const LEAST_RESTITUTION: f64 = 0.05;
+pub const LEAST_RESTITUTION: f64 = 0.05;
 
 /// Shape of an obstacle.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -72,6 +73,16 @@ pub struct Obstacle {
     pub friction: f64,
 }
 
+impl ContactTarget {
+    /// Station of the body; the start of a beam.
+    pub fn station(&self) -> Station {
+        match self {
+            Self::Beam(beam) => Station::on_beam(*beam, 0.0),
+            Self::Point(station) => *station,
+        }
+    }
+}
+
 impl Obstacle {
     /// Type and name for messages.
     pub fn object(&self) -> String {
@@ -94,7 +105,8 @@ impl Obstacle {
                 ContactLaw::Disc { stiffness, radius: of_disc + radius }
             }
         };
-        Surface { shape, radius, law, damping: damping_factor(restitution), friction }
+        let law = NormalLaw { elastic: law, damping: damping_factor(restitution) };
+        Surface { shape, radius, law, friction }
     }
 }
 
@@ -133,11 +145,7 @@ impl ElementDef for Obstacle {
             return Err(self.refuse("restitution", restitution, "a number from 0.05 to 1"));
         }
         for target in &self.targets {
-            let station = match target {
-                ContactTarget::Beam(beam) => Station::on_beam(*beam, 0.0),
-                ContactTarget::Point(station) => *station,
-            };
-            setting.check_station("an obstacle", &station)?;
+            setting.check_station("an obstacle", &target.station())?;
         }
         Ok(())
     }
@@ -177,19 +185,20 @@ impl ElementDef for Obstacle {
     }
 }
 
-/// Contact points of a beam: the points of a Gauss–Lobatto rule with four points per span.
+/// Contact points of a beam.
 fn points_of_beam(
     site: &dyn AssemblyContext,
     beam: usize,
 ) -> Result<Vec<ContactPoint>, SystemError> {
-    let basis = site.mesh(beam).basis();
-    let controls = site.body(beam).control_points();
+    let parameters = contact_parameters(site.mesh(beam), site.body(beam).control_points());
+    let point = |(xi, weight)| Ok(ContactPoint::new(site.place_at(beam, xi)?, weight));
+    parameters.into_iter().map(point).collect()
+}
+
+/// Parameters and quadrature weights [length] of the contact points of a beam: the points of a Gauss–Lobatto rule with four points per span.
+pub fn contact_parameters(mesh: &Mesh, controls: &[Vec2]) -> Vec<(f64, f64)> {
+    let basis = mesh.basis();
     let (mut points, mut at_end) = (Vec::new(), 0.0);
-    let mut add = |xi: f64, weight: f64| {
-        let place = site.place_at(beam, xi)?;
-        points.push(ContactPoint::new(place, weight));
-        Ok::<(), SystemError>(())
-    };
     let spans = basis.spans();
     for span in &spans {
         let (middle, half) = (0.5 * (span.start + span.end), 0.5 * (span.end - span.start));
@@ -197,12 +206,10 @@ fn points_of_beam(
         for (at, (x, weight)) in LOBATTO.into_iter().enumerate() {
             let xi = if at == 0 { span.start } else { middle + half * x };
             let before = if at == 0 { at_end } else { 0.0 };
-            add(xi, before + half * weight * speed(xi))?;
+            points.push((xi, before + half * weight * speed(xi)));
         }
         at_end = half * LAST * speed(span.end);
     }
-    if let Some(last) = spans.last() {
-        add(last.end, at_end)?;
-    }
-    Ok(points)
+    points.extend(spans.last().map(|last| (last.end, at_end)));
+    points
 }

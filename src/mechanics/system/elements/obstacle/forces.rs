@@ -11,7 +11,8 @@
 //! Its search intersects the law with the impedance `2m/h²` of the mass at the point, so the number of iterations does not depend on the stiffness.
 
 use super::definition::ObstacleShape;
-use super::point::{ClosedContact, ContactPoint, ContactTime, Surface};
+use super::normal_force::ContactTime;
+use super::point::{ClosedContact, ContactPoint, Surface};
 use crate::beams::{ForceSummary, Movement, SpanStiffness};
 use crate::geometry::{Vec2, larger, perpendicular};
 use crate::integrators::{Interval, Stage};
@@ -327,7 +328,7 @@ impl InternalForce for ObstacleForces {
     }
 
     fn each_damped_rate(&self, bodies: &[Body], rates: &[f64], take: &mut dyn FnMut(f64, f64)) {
-        if self.surface.damping > 0.0 {
+        if self.surface.law.damping > 0.0 {
             for (point, contact) in self.closed(bodies) {
                 let velocity = point.vector(&bodies[point.place.body], rates);
                 take(contact.damping, contact.gradient.dot(&velocity));
@@ -387,7 +388,7 @@ impl InternalForce for ObstacleForces {
             ObstacleShape::HalfPlane { .. } => "half-plane",
             ObstacleShape::Disc { .. } => "disc",
         };
-        let damped = if self.surface.damping > 0.0 { ", damped" } else { "" };
+        let damped = if self.surface.law.damping > 0.0 { ", damped" } else { "" };
         let friction = if self.surface.friction > 0.0 { ", with friction" } else { "" };
         format!(
             "{shape} with {points}{damped}{friction}; the contact forces are additional unknowns"

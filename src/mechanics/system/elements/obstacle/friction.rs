@@ -12,7 +12,8 @@
 //! The force is the mean over the exact elastic–plastic path, so `|f| ≤ B`, and a contact that sticks does not creep.
 //! A contact with a restitution below 1 also has a viscous force in parallel with the elastic one. The sum is limited to `±B`.
 
-use super::point::{GapTrial, SOFT};
+use super::normal_force::SOFT;
+use super::point::GapTrial;
 use crate::beams::Movement;
 use crate::geometry::{Vec2, larger, perpendicular};
 use crate::system::elements::coordinate::rounding_error;

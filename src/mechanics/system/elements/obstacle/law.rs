@@ -17,19 +17,19 @@ use crate::system::elements::mixed_force::ForceTarget;
 const LEAST_DISTANCE: f64 = 1e-6;
 
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) enum ContactLaw {
+pub enum ContactLaw {
     HalfPlane { stiffness: f64 },
     Disc { stiffness: f64, radius: f64 },
 }
 
 impl ContactLaw {
-    pub(super) fn stiffness(&self) -> f64 {
+    pub fn stiffness(&self) -> f64 {
         match self {
             Self::HalfPlane { stiffness } | Self::Disc { stiffness, .. } => *stiffness,
         }
     }
 
-    pub(super) fn energy(&self, gap: f64) -> f64 {
+    pub fn energy(&self, gap: f64) -> f64 {
         match *self {
             _ if gap >= 0.0 => 0.0,
             Self::HalfPlane { stiffness } => 0.5 * stiffness * gap * gap,
@@ -40,7 +40,7 @@ impl ContactLaw {
     }
 
     /// Tension at a gap, and its derivative.
-    pub(super) fn at(&self, gap: f64) -> ForceTarget {
+    pub fn at(&self, gap: f64) -> ForceTarget {
         match *self {
             _ if gap >= 0.0 => ForceTarget::default(),
             Self::HalfPlane { stiffness } => ForceTarget { force: stiffness * gap, stiffness },
@@ -54,7 +54,7 @@ impl ContactLaw {
 
     /// Mean tension over a change of the gap from `gap` by `change`, whose work is the change of the potential.
     /// The stiffness is the derivative with respect to the change.
-    pub(super) fn mean(&self, gap: f64, change: f64) -> ForceTarget {
+    pub fn mean(&self, gap: f64, change: f64) -> ForceTarget {
         let end = gap + change;
         match (gap < 0.0, end < 0.0) {
             (false, false) => ForceTarget::default(),
@@ -94,7 +94,7 @@ fn distance(radius: f64, gap: f64) -> f64 {
 /// Factor `x` of the contact damping for a coefficient of restitution `e`: `(1 + e) x = ln((1 + x)/(1 - e x))`; zero for `e = 1`.
 ///
 /// A linear contact with the force `F (1 + x ġ/v)` rebounds with `e` times its approach speed `v`, for any mass and stiffness.
-pub(super) fn damping_factor(restitution: f64) -> f64 {
+pub fn damping_factor(restitution: f64) -> f64 {
     if restitution >= 1.0 {
         return 0.0;
     }

@@ -7,7 +7,11 @@ mod definition;
 mod forces;
 mod friction;
 mod law;
+mod normal_force;
 mod point;
 
 pub use definition::{ContactTarget, Obstacle, ObstacleShape};
+pub(super) use definition::{LEAST_RESTITUTION, contact_parameters};
 pub use forces::{ContactState, Penetration};
+pub(super) use law::{ContactLaw, damping_factor};
+pub(super) use normal_force::{ContactTime, GapChange, NormalForce, NormalLaw};

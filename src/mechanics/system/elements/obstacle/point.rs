@@ -2,19 +2,16 @@
 
 use super::definition::ObstacleShape;
 use super::friction::{NormalContact, PointFriction};
-use super::law::ContactLaw;
-use crate::beams::{BodyPoint, ForceSummary, Movement, RateCollocation, RotationIncrement};
+use super::normal_force::{ContactTime, GapChange, NormalForce, NormalLaw};
+use crate::beams::{BodyPoint, ForceSummary, Movement, RotationIncrement};
 use crate::elementary::square;
 use crate::geometry::{Vec2, cross, larger};
 use crate::integrators::Stage;
 use crate::system::bodies::Body;
 use crate::system::elements::collocation;
-use crate::system::elements::coordinate::{Coordinate, rounding_error};
+use crate::system::elements::coordinate::Coordinate;
 use crate::system::elements::elongation::ElongationTerm;
-use crate::system::elements::mixed_force::{CORNER_TOLERANCE, ForceTarget, MixedForce};
-
-/// Stiffness relative to the impedance of the body, up to which a contact is linearised at the present iterate.
-pub(super) const SOFT: f64 = 1e-2;
+use crate::system::elements::mixed_force::ForceTarget;
 
 /// Largest ratio of the path of an open point in a step to its chord inside a disc. Shorter chords are ignored.
 /// The limit is below the largest number of parts of a halved step, so halving resolves longer chords.
@@ -26,9 +23,7 @@ pub(super) struct Surface {
     pub(super) shape: ObstacleShape,
     /// Radius of the bodies around their axes and points [length].
     pub(super) radius: f64,
-    pub(super) law: ContactLaw,
-    /// Factor of the damping for the coefficient of restitution [-].
-    pub(super) damping: f64,
+    pub(super) law: NormalLaw,
     /// Coefficient of friction [-].
     pub(super) friction: f64,
 }
@@ -128,39 +123,12 @@ impl GapTrial {
     }
 }
 
-/// Time and stage at which the force of a contact is evaluated.
-#[derive(Clone, Copy)]
-pub(super) struct ContactTime {
-    pub(super) stage: Stage,
-    /// Factor of the force [-].
-    pub(super) weight: f64,
-    /// Coefficients of rates; `None` if damping is not evaluated.
-    pub(super) rates: Option<RateCollocation>,
-    /// Duration of the step; infinite for an increment of zero duration [time].
-    pub(super) duration: f64,
-}
-
-impl ContactTime {
-    /// Share of the damping force in the tension. Methods with forces at both ends of a step evaluate the damping once per step, at the end.
-    fn share(&self) -> f64 {
-        if self.stage == Stage::End { self.weight } else { 1.0 }
-    }
-}
-
 #[derive(Debug, Clone)]
 pub(super) struct ContactPoint {
     pub(super) place: BodyPoint,
-    /// Quadrature weight [length]; 1 for a point.
-    weight: f64,
-    /// Effective mass of the body at the point [mass]. It scales the search for the force and limits the damping.
-    mass: f64,
-    gap: Coordinate,
+    normal: NormalForce,
     /// Vector from the obstacle to the point at the start of the step [length].
     start: Vec2,
-    /// Speed at which the point approached the obstacle before the contact [length/time].
-    approach: f64,
-    last_rate: f64,
-    tension: MixedForce,
     trial: GapTrial,
     linearised: GapTrial,
     /// Applied forces at the start of the step and in the present iterate [force].
@@ -173,13 +141,8 @@ impl ContactPoint {
     pub(super) fn new(place: BodyPoint, weight: f64) -> Self {
         Self {
             place,
-            weight,
-            mass: 0.0,
-            gap: Coordinate::default(),
+            normal: NormalForce::new(weight),
             start: Vec2::zeros(),
-            approach: 0.0,
-            last_rate: 0.0,
-            tension: MixedForce::default(),
             trial: GapTrial::NONE,
             linearised: GapTrial::NONE,
             applied: [Vec2::zeros(); 2],
@@ -201,15 +164,15 @@ impl ContactPoint {
         let mobility = |(at, share): (usize, f64)| square(share) / of(&body.degrees_of_freedom[at]);
         let mass = 1.0 / self.place.weights().map(mobility).sum::<f64>();
         let whole = body.degrees_of_freedom.iter().map(of).sum();
-        self.mass = if mass > 0.0 { mass } else { whole };
-        let (stiffness, mass) = (self.stiffness(surface), self.mass);
+        self.normal.mass = if mass > 0.0 { mass } else { whole };
+        let (stiffness, mass) = (self.normal.stiffness(&surface.law), self.normal.mass);
         if let Some(friction) = &mut self.friction {
-            friction.begin(stiffness, mass, surface.damping);
+            friction.begin(stiffness, mass, surface.law.damping);
         }
     }
 
     pub(super) fn is_closed(&self) -> bool {
-        self.gap.value < 0.0
+        self.normal.is_closed()
     }
 
     fn position(&self, body: &Body) -> Vec2 {
@@ -219,7 +182,7 @@ impl ContactPoint {
     /// Gap at the start of the step. A closed gap is the sum of its increments, because the rounding error of positions would store energy.
     pub(super) fn present_gap(&self, surface: &Surface, body: &Body) -> f64 {
         match self.is_closed() {
-            true => self.gap.value,
+            true => self.normal.gap.value,
             false => surface.gap(self.position(body)).0.max(0.0),
         }
     }
@@ -229,13 +192,13 @@ impl ContactPoint {
         let (gap, start) = surface.gap(self.position(body));
         self.start = start;
         if !self.is_closed() {
-            self.gap = Coordinate::from(gap);
+            self.normal.gap = Coordinate::from(gap);
         }
     }
 
     pub(super) fn begin_movement(&mut self, surface: &Surface, body: &Body) {
         self.locate(surface, body);
-        self.tension.force = self.tension.last;
+        self.normal.tension.force = self.normal.tension.last;
         self.applied = [Vec2::zeros(); 2];
         self.release_friction();
     }
@@ -248,12 +211,12 @@ impl ContactPoint {
 
     /// Prepares a step that starts with a velocity of the point. The velocity of an open contact is its approach speed.
     pub(super) fn begin_step(&mut self, surface: &Surface, velocity: Vec2) {
-        self.tension.begin_step();
+        self.normal.tension.begin_step();
         if let Some(friction) = &mut self.friction {
             friction.begin_step();
         }
         if !self.is_closed() {
-            self.approach = surface.gradient(self.start).dot(&velocity).abs();
+            self.normal.approach = surface.gradient(self.start).dot(&velocity).abs();
         }
     }
 
@@ -274,63 +237,10 @@ impl ContactPoint {
 
     /// Removes the force, because no contact is possible in the present iterate.
     pub(super) fn open(&mut self) {
-        self.tension.force = 0.0;
-        self.tension.mismatch = 0.0;
+        self.normal.open();
         self.linearised = GapTrial::NONE;
         self.applied[1] = Vec2::zeros();
         self.release_friction();
-    }
-
-    /// Tension that the law requires for a change of the gap, without the damping.
-    fn elastic(&self, surface: &Surface, stage: Stage, change: f64) -> ForceTarget {
-        let gap = self.gap.value;
-        let law = match stage {
-            Stage::Start => ForceTarget { stiffness: 0.0, ..surface.law.at(gap) },
-            Stage::End => surface.law.at(gap + change),
-            Stage::Midpoint | Stage::DampedMidpoint(_) => surface.law.mean(gap, change),
-        };
-        ForceTarget { force: self.weight * law.force, stiffness: self.weight * law.stiffness }
-    }
-
-    /// Tension that the law requires for a change of the gap. A contact does not pull, so it is not positive.
-    fn target(&self, surface: &Surface, time: ContactTime, change: f64) -> ForceTarget {
-        let elastic = self.elastic(surface, time.stage, change);
-        let Some(rates) = time.rates.filter(|_| surface.damping > 0.0) else { return elastic };
-        let (damping, by_change) = self.damping(surface, elastic);
-        let rate = change * rates.by_change - self.last_rate * rates.by_last;
-        let share = 1.0 / time.share();
-        let force = elastic.force + share * damping * rate;
-        let most = self.largest_tension(surface, time);
-        if force > most {
-            return ForceTarget { force: most, stiffness: 0.0 };
-        }
-        let stiffness = elastic.stiffness + share * (damping * rates.by_change + by_change * rate);
-        ForceTarget { force, stiffness }
-    }
-
-    /// Largest tension with which the contact does not pull. At the end of a step, it balances the tension at the start.
-    fn largest_tension(&self, surface: &Surface, time: ContactTime) -> f64 {
-        let share = time.share();
-        (1.0 - 1.0 / share) * self.elastic(surface, Stage::Start, 0.0).force
-    }
-
-    /// Damping coefficient at an elastic tension, and its derivative with respect to the change of the gap.
-    ///
-    /// The coefficient is limited to its largest value in an impact that is governed by the contact.
-    /// Without the limit, a resting contact would be damped without bound.
-    fn damping(&self, surface: &Surface, elastic: ForceTarget) -> (f64, f64) {
-        if elastic.force == 0.0 {
-            return (0.0, 0.0);
-        }
-        let most = (self.stiffness(surface) * self.mass).sqrt();
-        let by_force = -elastic.force / self.approach;
-        match by_force < most {
-            true => {
-                let by_change = -elastic.stiffness / self.approach;
-                (surface.damping * by_force, surface.damping * by_change)
-            }
-            false => (surface.damping * most, 0.0),
-        }
     }
 
     fn evaluate(&mut self, surface: &Surface, time: ContactTime, body: &Body, values: &[f64]) {
@@ -353,7 +263,8 @@ impl ContactPoint {
     /// Normal contact in the present iterate; `None` for an increment of zero duration, in which friction does not act.
     fn normal_contact(&self, time: ContactTime) -> Option<NormalContact> {
         let duration = time.duration;
-        let contact = NormalContact { force: -self.tension.force, duration, share: time.share() };
+        let contact =
+            NormalContact { force: -self.normal.tension.force, duration, share: time.share() };
         duration.is_finite().then_some(contact)
     }
 
@@ -372,15 +283,15 @@ impl ContactPoint {
         out: &mut [f64],
     ) -> ForceSummary {
         self.evaluate(surface, time, body, values);
-        let GapTrial { change, secant, .. } = self.trial;
-        let target = self.target(surface, time, change);
+        let GapTrial { change, secant, moved, .. } = self.trial;
+        let target = self.normal.target(&surface.law, time, change);
         if time.stage == Stage::Start {
             self.applied[0] = secant * (time.weight * target.force);
             self.scatter(body, self.applied[0], out);
             return ForceSummary { force: target.force.abs(), ..ForceSummary::default() };
         }
-        let mut strain_mismatch = self.compare(surface, target);
-        let force = self.tension.force;
+        let mut strain_mismatch = self.normal.compare(&surface.law, target, moved);
+        let force = self.normal.tension.force;
         let mut moment = 0.0;
         self.applied[1] = secant * (time.weight * force);
         if let (Some(contact), Some(friction)) = (self.normal_contact(time), &mut self.friction) {
@@ -405,12 +316,13 @@ impl ContactPoint {
         tangent: &mut dyn FnMut(usize, usize, f64),
     ) {
         self.evaluate(surface, time, body, values);
-        let target = self.linearisation_target(surface, time);
-        self.tension.linearise(target);
+        let target = self.normal.linearisation_target(&surface.law, time, self.trial.change);
+        self.normal.tension.linearise(target);
         self.linearised = self.trial;
         let GapTrial { secant, slope, secant_slope, .. } = self.trial;
         self.scatter(body, secant * (time.weight * target.force), out);
-        let (stiffness, force) = (time.weight * target.stiffness, time.weight * self.tension.force);
+        let (stiffness, force) =
+            (time.weight * target.stiffness, time.weight * self.normal.tension.force);
         let derivative =
             [0, 1].map(|row| slope * (stiffness * secant[row]) + secant_slope[row] * force);
         for (row, share) in self.place.weights() {
@@ -439,9 +351,9 @@ impl ContactPoint {
         else {
             return;
         };
-        friction.linearise(contact, 2.0 * self.mass / square(time.duration));
-        let force = friction.condensed(-self.tension.mismatch).map(|by| by * time.weight);
-        let normal_slope = self.linearised.slope * -self.tension.stiffness;
+        friction.linearise(contact, 2.0 * self.normal.mass / square(time.duration));
+        let force = friction.condensed(-self.normal.tension.mismatch).map(|by| by * time.weight);
+        let normal_slope = self.linearised.slope * -self.normal.tension.stiffness;
         let derivative = friction.tangent(normal_slope);
         self.scatter_friction(body, force, out);
         for (row, share) in self.place.weights() {
@@ -457,54 +369,21 @@ impl ContactPoint {
         }
     }
 
-    /// Target of a linearisation. A stiff contact intersects its law with the impedance of the body, in equilibria with a secant estimate of it.
-    fn linearisation_target(&mut self, surface: &Surface, time: ContactTime) -> ForceTarget {
-        let change = self.trial.change;
-        let estimate = self.tension.impedance(change);
-        let impedance = match time.duration.is_finite() {
-            true => Some(2.0 * self.mass / square(time.duration)),
-            false => estimate,
-        };
-        let is_stiff = |impedance: &f64| self.stiffness(surface) > SOFT * impedance;
-        match impedance.filter(is_stiff) {
-            Some(impedance) if impedance > 0.0 => {
-                ForceTarget::intersection(change, self.tension.force, impedance, |change| {
-                    self.target(surface, time, change)
-                })
-            }
-            _ => self.target(surface, time, change),
-        }
-    }
-
-    /// Stiffness at first touch [force/length].
-    fn stiffness(&self, surface: &Surface) -> f64 {
-        self.weight * surface.law.stiffness()
-    }
-
-    /// Compares the tension with its target. Returns the relative difference; zero if the rounding error of the increments explains it.
-    fn compare(&mut self, surface: &Surface, target: ForceTarget) -> f64 {
-        let GapTrial { moved, .. } = self.trial;
-        let stiffness = larger(target.stiffness, self.stiffness(surface));
-        let extent = CORNER_TOLERANCE * larger(moved, self.gap.value.abs());
-        let missed = self.tension.compare(ForceTarget { stiffness, ..target }, extent);
-        let is_rounding = self.tension.missing_change().abs() <= rounding_error(moved);
-        if is_rounding { 0.0 } else { missed }
-    }
-
     pub(super) fn add_mismatch_force(&self, body: &Body, weight: f64, out: &mut [f64]) {
-        self.scatter(body, self.linearised.secant * (weight * self.tension.mismatch), out);
+        self.scatter(body, self.linearised.secant * (weight * self.normal.tension.mismatch), out);
         if let Some(friction) = &self.friction {
-            let missing = friction.missing(-self.tension.mismatch).map(|by| by * weight);
+            let missing = friction.missing(-self.normal.tension.mismatch).map(|by| by * weight);
             self.scatter_friction(body, missing, out);
         }
     }
 
     pub(super) fn correct(&mut self, body: &Body, correction: &[f64]) {
         let moved @ [x, y, _] = body.at(&self.place, correction);
-        let before = self.tension.force;
-        self.tension.correct(self.linearised.slope.dot(&Vec2::new(x, y)));
+        let tension = &mut self.normal.tension;
+        let before = tension.force;
+        tension.correct(self.linearised.slope.dot(&Vec2::new(x, y)));
         if let Some(friction) = &mut self.friction {
-            friction.correct(moved, before - self.tension.force);
+            friction.correct(moved, before - tension.force);
         }
     }
 
@@ -554,13 +433,13 @@ impl ContactPoint {
             return None;
         }
         let from_obstacle = surface.gap(self.position(body)).1;
-        let tension = self.elastic(surface, Stage::End, 0.0);
+        let tension = self.normal.elastic(&surface.law, Stage::End, 0.0);
         let radius_of_curvature = match surface.shape {
             ObstacleShape::HalfPlane { .. } => f64::INFINITY,
             ObstacleShape::Disc { .. } => from_obstacle.norm(),
         };
         let gradient = surface.gradient(from_obstacle);
-        let damping = self.damping(surface, tension).0;
+        let damping = self.normal.damping(&surface.law, tension).0;
         Some(ClosedContact { gradient, tension, damping, radius_of_curvature })
     }
 
@@ -583,33 +462,21 @@ impl ContactPoint {
     /// Ends a step. Returns the dissipated energy [energy].
     pub(super) fn advance(&mut self, surface: &Surface, time: ContactTime, body: &Body) -> f64 {
         self.follow(surface, time, self.interpolate(body.moved()));
-        let GapTrial { change, .. } = self.trial;
-        let elastic = self.elastic(surface, time.stage, change);
-        let mut lost = match surface.damping > 0.0 && time.duration.is_finite() {
-            true => time.share() * (self.tension.force - elastic.force) * change,
-            false => 0.0,
-        };
-        let target = self.target(surface, time, change);
-        self.gap = self.gap.after(change);
-        if self.compare(surface, target) == 0.0 {
-            // The gap fits the tension, so that the rounding error of increments stores no energy.
-            self.gap = self.gap.after(self.tension.missing_change());
-        }
+        let GapTrial { change, moved, .. } = self.trial;
+        let mut lost = self.normal.advance(&surface.law, time, GapChange { value: change, moved });
         if let (Some(contact), Some(friction)) = (self.normal_contact(time), &mut self.friction) {
             lost += friction.advance(contact);
         }
-        self.tension.last = self.tension.force;
-        self.last_rate = if time.duration.is_finite() { change / time.duration } else { 0.0 };
         lost
     }
 
     /// Mean rate of the gap in the last step [length/time].
     pub(super) fn rate(&self) -> f64 {
-        self.last_rate
+        self.normal.last_rate
     }
 
     pub(super) fn energy(&self, surface: &Surface) -> f64 {
-        let energy = self.weight * surface.law.energy(self.gap.value);
+        let energy = self.normal.energy(&surface.law);
         self.friction.as_ref().map_or(energy, |friction| energy + friction.energy())
     }
 
@@ -620,20 +487,18 @@ impl ContactPoint {
 
     /// Contact force in the last step, averaged over the step [force].
     pub(super) fn force(&self) -> f64 {
-        -self.tension.last
+        self.normal.last()
     }
 
     pub(super) fn save(&self, state: &mut Vec<f64>) {
-        let Self { gap, approach, last_rate, tension, .. } = self;
-        state.extend([gap.value, gap.rest, *approach, *last_rate, tension.last]);
+        self.normal.save(state);
         if let Some(friction) = &self.friction {
             friction.save(state);
         }
     }
 
     pub(super) fn restore(&mut self, next: &mut dyn FnMut() -> f64) {
-        self.gap = Coordinate { value: next(), rest: next() };
-        (self.approach, self.last_rate, self.tension.last) = (next(), next(), next());
+        self.normal.restore(next);
         if let Some(friction) = &mut self.friction {
             friction.restore(next);
         }
@@ -661,7 +526,9 @@ impl ClosedContact {
 
 #[cfg(test)]
 mod tests {
+    use super::super::law::ContactLaw;
     use super::*;
+    use crate::beams::RateCollocation;
 
     /// A point that stays open has no force, whatever its approach speed before the step was.
     #[test]
@@ -669,17 +536,19 @@ mod tests {
         let (point, normal) = (Vec2::zeros(), Vec2::y());
         let shape = ObstacleShape::HalfPlane { point, normal };
         let law = ContactLaw::HalfPlane { stiffness: 1e4 };
-        let surface = Surface { shape, radius: 0.0, law, damping: 1.0, friction: 0.0 };
+        let law = NormalLaw { elastic: law, damping: 1.0 };
+        let surface = Surface { shape, radius: 0.0, law, friction: 0.0 };
         let rotations = RotationIncrement::TangentScaled;
         let rates = RateCollocation { fraction: 0.5, by_change: 100.0, by_last: 0.0, rotations };
         let time = |stage| ContactTime { stage, weight: 1.0, rates: Some(rates), duration: 0.01 };
         for approach in [0.0, 2.0] {
             let mut own = ContactPoint::new(BodyPoint::of_particle(0), 1.0);
-            (own.gap, own.approach, own.mass) = (Coordinate::from(0.5), approach, 1.0);
+            let normal = &mut own.normal;
+            (normal.gap, normal.approach, normal.mass) = (Coordinate::from(0.5), approach, 1.0);
             for stage in [Stage::Midpoint, Stage::End] {
-                let target = own.target(&surface, time(stage), -0.4);
+                let target = normal.target(&law, time(stage), -0.4);
                 assert_eq!((target.force, target.stiffness), (0.0, 0.0), "{approach}, {stage:?}");
-                assert!(own.target(&surface, time(stage), -0.6).force < 0.0);
+                assert!(normal.target(&law, time(stage), -0.6).force < 0.0);
             }
         }
     }

@@ -1,0 +1,45 @@
+//! Dense blocks of entries that may lie outside the band, for couplings that change during a simulation.
+
+/// Sum of small dense matrices. Each of them couples a few unknowns of a band, at any distance from each other.
+#[derive(Debug, Clone, Default)]
+pub(super) struct DistantBlocks {
+    /// Unknowns of all blocks, one block after the other.
+    unknowns: Vec<usize>,
+    /// For each block, the end of its unknowns.
+    ends: Vec<usize>,
+    /// Entries of all blocks, row by row.
+    entries: Vec<f64>,
+}
+
+impl DistantBlocks {
+    pub(super) fn clear(&mut self) {
+        self.unknowns.clear();
+        self.ends.clear();
+        self.entries.clear();
+    }
+
+    pub(super) fn is_empty(&self) -> bool {
+        self.ends.is_empty()
+    }
+
+    /// Adds a block with the given unknowns. The number of entries is the square of the number of unknowns.
+    pub(super) fn add(&mut self, unknowns: &[usize], entries: impl Iterator<Item = f64>) {
+        self.unknowns.extend(unknowns);
+        self.ends.push(self.unknowns.len());
+        self.entries.extend(entries);
+    }
+
+    /// Unknowns of each block.
+    pub(super) fn groups(&self) -> impl Iterator<Item = &[usize]> {
+        let starts = std::iter::once(&0).chain(&self.ends);
+        starts.zip(&self.ends).map(|(&start, &end)| &self.unknowns[start..end])
+    }
+
+    /// Row, column and value of all entries. Values for the same row and column must be added up.
+    pub(super) fn iter(&self) -> impl Iterator<Item = (usize, usize, f64)> {
+        let pairs = self.groups().flat_map(|group| {
+            group.iter().flat_map(move |&row| group.iter().map(move |&column| (row, column)))
+        });
+        pairs.zip(&self.entries).map(|((row, column), &value)| (row, column, value))
+    }
+}

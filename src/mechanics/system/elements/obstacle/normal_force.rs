@@ -1,0 +1,220 @@
+//! Normal force of a contact as an independent unknown, and its law.
+
+use super::law::ContactLaw;
+use crate::beams::RateCollocation;
+use crate::elementary::square;
+use crate::geometry::larger;
+use crate::integrators::Stage;
+use crate::system::elements::coordinate::{Coordinate, rounding_error};
+use crate::system::elements::mixed_force::{CORNER_TOLERANCE, ForceTarget, MixedForce};
+
+/// Stiffness relative to the impedance of the body, up to which a contact is linearised at the present iterate.
+pub const SOFT: f64 = 1e-2;
+
+/// Law of the normal force.
+#[derive(Debug, Clone, Copy)]
+pub struct NormalLaw {
+    /// Elastic tension as a function of the gap.
+    pub elastic: ContactLaw,
+    /// Factor of the damping for the coefficient of restitution [-].
+    pub damping: f64,
+}
+
+/// Time and stage at which the force of a contact is evaluated.
+#[derive(Clone, Copy)]
+pub struct ContactTime {
+    pub stage: Stage,
+    /// Factor of the force [-].
+    pub weight: f64,
+    /// Coefficients of rates; `None` if damping is not evaluated.
+    pub rates: Option<RateCollocation>,
+    /// Duration of the step; infinite for an increment of zero duration [time].
+    pub duration: f64,
+}
+
+impl ContactTime {
+    /// Share of the damping force in the tension. Methods with forces at both ends of a step evaluate the damping once per step, at the end.
+    pub fn share(&self) -> f64 {
+        if self.stage == Stage::End { self.weight } else { 1.0 }
+    }
+}
+
+/// Change of the gap in an iterate.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct GapChange {
+    /// Change of the gap [length].
+    pub value: f64,
+    /// Largest increment in the sum for the change [length].
+    pub moved: f64,
+}
+
+/// Normal force of a contact in a step.
+#[derive(Debug, Clone)]
+pub struct NormalForce {
+    /// Quadrature weight [length]; 1 for a point.
+    weight: f64,
+    /// Effective mass of the contact [mass]. It scales the search for the force and limits the damping.
+    pub mass: f64,
+    /// Gap at the start of the step [length].
+    pub gap: Coordinate,
+    /// Speed at which the gap closed before the contact [length/time].
+    pub approach: f64,
+    /// Mean rate of the gap in the last step [length/time].
+    pub last_rate: f64,
+    /// Internal force in the gap; negative in a closed contact [force].
+    pub tension: MixedForce,
+}
+
+impl NormalForce {
+    pub fn new(weight: f64) -> Self {
+        Self {
+            weight,
+            mass: 0.0,
+            gap: Coordinate::default(),
+            approach: 0.0,
+            last_rate: 0.0,
+            tension: MixedForce::default(),
+        }
+    }
+
+    pub fn is_closed(&self) -> bool {
+        self.gap.value < 0.0
+    }
+
+    /// Stiffness at first touch [force/length].
+    pub fn stiffness(&self, law: &NormalLaw) -> f64 {
+        self.weight * law.elastic.stiffness()
+    }
+
+    /// Removes the force, because no contact is possible in the present iterate.
+    pub fn open(&mut self) {
+        self.tension.force = 0.0;
+        self.tension.mismatch = 0.0;
+    }
+
+    /// Tension that the law requires for a change of the gap, without the damping.
+    pub fn elastic(&self, law: &NormalLaw, stage: Stage, change: f64) -> ForceTarget {
+        let gap = self.gap.value;
+        let law = match stage {
+            Stage::Start => ForceTarget { stiffness: 0.0, ..law.elastic.at(gap) },
+            Stage::End => law.elastic.at(gap + change),
+            Stage::Midpoint | Stage::DampedMidpoint(_) => law.elastic.mean(gap, change),
+        };
+        ForceTarget { force: self.weight * law.force, stiffness: self.weight * law.stiffness }
+    }
+
+    /// Tension that the law requires for a change of the gap. A contact does not pull, so it is not positive.
+    pub fn target(&self, law: &NormalLaw, time: ContactTime, change: f64) -> ForceTarget {
+        let elastic = self.elastic(law, time.stage, change);
+        let Some(rates) = time.rates.filter(|_| law.damping > 0.0) else { return elastic };
+        let (damping, by_change) = self.damping(law, elastic);
+        let rate = change * rates.by_change - self.last_rate * rates.by_last;
+        let share = 1.0 / time.share();
+        let force = elastic.force + share * damping * rate;
+        let most = self.largest_tension(law, time);
+        if force > most {
+            return ForceTarget { force: most, stiffness: 0.0 };
+        }
+        let stiffness = elastic.stiffness + share * (damping * rates.by_change + by_change * rate);
+        ForceTarget { force, stiffness }
+    }
+
+    /// Largest tension with which the contact does not pull. At the end of a step, it balances the tension at the start.
+    fn largest_tension(&self, law: &NormalLaw, time: ContactTime) -> f64 {
+        let share = time.share();
+        (1.0 - 1.0 / share) * self.elastic(law, Stage::Start, 0.0).force
+    }
+
+    /// Damping coefficient at an elastic tension, and its derivative with respect to the change of the gap.
+    ///
+    /// The coefficient is limited to its largest value in an impact that is governed by the contact.
+    /// Without the limit, a resting contact would be damped without bound.
+    pub fn damping(&self, law: &NormalLaw, elastic: ForceTarget) -> (f64, f64) {
+        if elastic.force == 0.0 {
+            return (0.0, 0.0);
+        }
+        let most = (self.stiffness(law) * self.mass).sqrt();
+        let by_force = -elastic.force / self.approach;
+        match by_force < most {
+            true => {
+                let by_change = -elastic.stiffness / self.approach;
+                (law.damping * by_force, law.damping * by_change)
+            }
+            false => (law.damping * most, 0.0),
+        }
+    }
+
+    /// Target of a linearisation. A stiff contact intersects its law with the impedance of the body, in equilibria with a secant estimate of it.
+    pub fn linearisation_target(
+        &mut self,
+        law: &NormalLaw,
+        time: ContactTime,
+        change: f64,
+    ) -> ForceTarget {
+        let estimate = self.tension.impedance(change);
+        let impedance = match time.duration.is_finite() {
+            true => Some(2.0 * self.mass / square(time.duration)),
+            false => estimate,
+        };
+        let is_stiff = |impedance: &f64| self.stiffness(law) > SOFT * impedance;
+        match impedance.filter(is_stiff) {
+            Some(impedance) if impedance > 0.0 => {
+                ForceTarget::intersection(change, self.tension.force, impedance, |change| {
+                    self.target(law, time, change)
+                })
+            }
+            _ => self.target(law, time, change),
+        }
+    }
+
+    /// Compares the tension with its target. Returns the relative difference; zero if the rounding error of the increments explains it.
+    pub fn compare(&mut self, law: &NormalLaw, target: ForceTarget, moved: f64) -> f64 {
+        let stiffness = larger(target.stiffness, self.stiffness(law));
+        let extent = CORNER_TOLERANCE * larger(moved, self.gap.value.abs());
+        let missed = self.tension.compare(ForceTarget { stiffness, ..target }, extent);
+        let is_rounding = self.tension.missing_change().abs() <= rounding_error(moved);
+        if is_rounding { 0.0 } else { missed }
+    }
+
+    /// Ends a step. Returns the dissipated energy [energy].
+    pub fn advance(
+        &mut self,
+        law: &NormalLaw,
+        time: ContactTime,
+        GapChange { value: change, moved }: GapChange,
+    ) -> f64 {
+        let elastic = self.elastic(law, time.stage, change);
+        let lost = match law.damping > 0.0 && time.duration.is_finite() {
+            true => time.share() * (self.tension.force - elastic.force) * change,
+            false => 0.0,
+        };
+        let target = self.target(law, time, change);
+        self.gap = self.gap.after(change);
+        if self.compare(law, target, moved) == 0.0 {
+            // The gap fits the tension, so that the rounding error of increments stores no energy.
+            self.gap = self.gap.after(self.tension.missing_change());
+        }
+        self.tension.last = self.tension.force;
+        self.last_rate = if time.duration.is_finite() { change / time.duration } else { 0.0 };
+        lost
+    }
+
+    pub fn energy(&self, law: &NormalLaw) -> f64 {
+        self.weight * law.elastic.energy(self.gap.value)
+    }
+
+    /// Contact force in the last step, averaged over the step [force].
+    pub fn last(&self) -> f64 {
+        -self.tension.last
+    }
+
+    pub fn save(&self, state: &mut Vec<f64>) {
+        let Self { gap, approach, last_rate, tension, .. } = self;
+        state.extend([gap.value, gap.rest, *approach, *last_rate, tension.last]);
+    }
+
+    pub fn restore(&mut self, next: &mut dyn FnMut() -> f64) {
+        self.gap = Coordinate { value: next(), rest: next() };
+        (self.approach, self.last_rate, self.tension.last) = (next(), next(), next());
+    }
+}

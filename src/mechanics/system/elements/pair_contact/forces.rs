@@ -1,0 +1,399 @@
+//! Contact forces between the bodies of an element in a step.
+//!
+//! A pair of a contact point and a body is created in the first iterate in which it touches, and removed at the end of a step in which it opens.
+//! Every iterate looks for new pairs, so no contact is missed, whatever the step size.
+//! Boxes around bodies and spans exclude bodies that are far from each other.
+
+use super::pair::{ContactPair, LocalRows, PairIndex};
+use super::shape::{Bounds, ContactSite, Foot, NearestSearch, Shape, WHOLE_AXIS};
+use crate::beams::{ForceSummary, Movement, SpanStiffness};
+use crate::elementary::square;
+use crate::geometry::{Vec2, larger};
+use crate::integrators::{Interval, Stage};
+use crate::linalg::BandedMatrix;
+use crate::system::bodies::Body;
+use crate::system::elements::contact_watch::{ContactWatch, ShortBounce};
+use crate::system::elements::internal_force::InternalForce;
+use crate::system::elements::obstacle::{ContactTime, NormalLaw};
+use crate::system::elements::rate_history::RateHistory;
+use crate::system::elements::{ContactState, Penetration, TrialState, WorkAndImpulse};
+
+/// Shapes that can touch each other: the contact points of one shape touch the axis of the other one.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Partnership {
+    pub(super) own: usize,
+    pub(super) other: usize,
+    pub(super) law: NormalLaw,
+}
+
+/// Bodies that can touch each other, and all pairs that touch at present.
+pub(super) struct PairForces {
+    name: String,
+    shapes: Vec<Shape>,
+    partnerships: Vec<Partnership>,
+    pairs: Vec<ContactPair>,
+    rate_history: RateHistory,
+    /// Stage of the last evaluation, and its weight.
+    stage: (Stage, f64),
+    last_force: Vec2,
+    dissipated: f64,
+    /// Smallest gap at present [length].
+    gap: f64,
+    watch: ContactWatch,
+    last_rate: f64,
+    rows: LocalRows,
+}
+
+impl PairForces {
+    pub(super) fn new(name: String, shapes: Vec<Shape>, partnerships: Vec<Partnership>) -> Self {
+        Self {
+            name,
+            shapes,
+            partnerships,
+            pairs: Vec::new(),
+            rate_history: RateHistory::default(),
+            stage: (Stage::Midpoint, 1.0),
+            last_force: Vec2::zeros(),
+            dissipated: 0.0,
+            gap: 0.0,
+            watch: ContactWatch::default(),
+            last_rate: 0.0,
+            rows: LocalRows::default(),
+        }
+    }
+
+    fn time(&self, (stage, weight): (Stage, f64)) -> ContactTime {
+        let duration = self.rate_history.duration();
+        let rates = self.rate_history.at(stage, weight).filter(|_| duration.is_finite());
+        ContactTime { stage, weight, rates, duration }
+    }
+
+    fn set_configuration(&mut self, bodies: &[Body]) {
+        for shape in &mut self.shapes {
+            shape.begin(bodies[shape.body].dynamics.control_points());
+        }
+    }
+
+    /// Sets the start configuration, and finds the pairs that touch in it.
+    fn begin_configuration(&mut self, bodies: &[Body]) {
+        self.set_configuration(bodies);
+        self.pairs.iter_mut().for_each(|pair| pair.locate(&self.shapes));
+        self.find_pairs();
+    }
+
+    /// Moves all shapes to an iterate, and finds the pairs that touch in it.
+    fn move_to(&mut self, bodies: &[Body], increments: &[f64]) {
+        for shape in &mut self.shapes {
+            let body = &bodies[shape.body];
+            shape.move_by(|at| body.vector_at(at, increments));
+        }
+        self.find_pairs();
+    }
+
+    /// Creates the pairs that touch in the present iterate and did not touch before.
+    fn find_pairs(&mut self) {
+        for &Partnership { own, other, law } in &self.partnerships {
+            let reach = self.shapes[own].radius + self.shapes[other].radius;
+            let bounds = self.shapes[other].end.bounds();
+            if self.shapes[own].end.bounds().squared_distance(&bounds) >= square(reach) {
+                continue;
+            }
+            for site in 0..self.shapes[own].sites.len() {
+                let index = PairIndex { shape: own, site, target: other };
+                if let Some(foot) = self.touched_foot(index, reach) {
+                    self.shapes[own].sites[site].touched.push(other);
+                    self.pairs.push(ContactPair::new(index, law, &self.shapes, foot));
+                }
+            }
+        }
+    }
+
+    /// Foot of a contact point that touches a body in the present iterate and did not touch it before.
+    fn touched_foot(
+        &self,
+        PairIndex { shape, site, target }: PairIndex,
+        reach: f64,
+    ) -> Option<Foot> {
+        let (own, other) = (&self.shapes[shape], &self.shapes[target]);
+        let ContactSite { place, allowed, touched, .. } = &own.sites[site];
+        if touched.contains(&target) {
+            return None;
+        }
+        let position = place.interpolate(&own.end.points);
+        let allowed = if shape == target { *allowed } else { WHOLE_AXIS };
+        let search = NearestSearch { position, allowed, limit: reach, hint: 0 };
+        other.nearest(&other.end, &search)
+    }
+
+    fn closed(&self) -> impl Iterator<Item = &ContactPair> {
+        self.pairs.iter().filter(|pair| pair.normal.is_closed())
+    }
+
+    /// Removes the pairs that are open at the end of a step.
+    fn remove_open_pairs(&mut self) {
+        self.pairs.retain(|pair| pair.normal.is_closed());
+        for site in self.shapes.iter_mut().flat_map(|shape| &mut shape.sites) {
+            site.touched.clear();
+        }
+        for PairIndex { shape, site, target } in self.pairs.iter().map(|pair| pair.index) {
+            self.shapes[shape].sites[site].touched.push(target);
+        }
+    }
+
+    /// Smallest gap in the configuration at the start of the step. It is not larger than the diagonal of the box around all bodies.
+    fn smallest_gap(&self) -> f64 {
+        let accumulated = self.closed().map(|pair| pair.normal.gap.value);
+        let all = self.shapes.iter().map(|shape| shape.start.bounds());
+        let size = all.reduce(Bounds::joined).map_or(0.0, |all| all.diagonal());
+        let mut smallest = accumulated.fold(size, f64::min);
+        for &Partnership { own, other, .. } in &self.partnerships {
+            if smallest <= 0.0 {
+                break;
+            }
+            let (own_index, (own, target)) = (own, (&self.shapes[own], &self.shapes[other]));
+            let reach = own.radius + target.radius;
+            let bounds = target.start.bounds();
+            for site in &own.sites {
+                let limit = smallest + reach;
+                let position = site.place.interpolate(&own.start.points);
+                let is_same = own_index == other;
+                let allowed = if is_same { site.allowed } else { WHOLE_AXIS };
+                if bounds.squared_distance_from(position) < square(limit) {
+                    let search = NearestSearch { position, allowed, limit, hint: 0 };
+                    if let Some(foot) = target.nearest(&target.start, &search) {
+                        let apart = position - foot.combine(0, &target.start.points);
+                        smallest = smallest.min((apart.norm() - reach).max(0.0));
+                    }
+                }
+            }
+        }
+        smallest
+    }
+}
+
+impl InternalForce for PairForces {
+    fn name(&self) -> &str {
+        &self.name
+    }
+
+    fn begin(&mut self, bodies: &[Body], inertia: &[f64]) {
+        for shape in &mut self.shapes {
+            let degrees = bodies[shape.body].degrees_of_freedom.iter();
+            shape
+                .set_masses(degrees.map(|at| inertia.get(at[0]).copied().unwrap_or(f64::INFINITY)));
+        }
+        self.begin_configuration(bodies);
+        self.gap = self.smallest_gap();
+    }
+
+    fn begin_step(&mut self, interval: Interval, bodies: &[Body], rates: &[f64]) {
+        self.rate_history.begin(interval.duration());
+        self.begin_configuration(bodies);
+        for shape in &mut self.shapes {
+            let body = &bodies[shape.body];
+            shape.set_velocities(|at| body.vector_at(at, rates));
+        }
+        self.pairs.iter_mut().for_each(|pair| pair.begin_step(&self.shapes));
+    }
+
+    fn begin_movement(&mut self, bodies: &[Body]) {
+        self.rate_history.begin(f64::INFINITY);
+        self.shapes.iter_mut().for_each(|shape| shape.velocities.clear());
+        self.begin_configuration(bodies);
+        self.pairs.iter_mut().for_each(ContactPair::begin_movement);
+    }
+
+    fn add_forces(&mut self, at: TrialState<'_>, out: &mut [f64]) -> ForceSummary {
+        let time = self.time((at.stage, at.weight));
+        self.stage = (at.stage, at.weight);
+        self.move_to(at.bodies, at.increments);
+        let mut summary = ForceSummary::default();
+        for pair in &mut self.pairs {
+            summary.join(&pair.add_force(&self.shapes, time, at.bodies, out));
+        }
+        summary
+    }
+
+    fn add_linearised_forces(
+        &mut self,
+        at: TrialState<'_>,
+        out: &mut [f64],
+        unknowns: usize,
+        tangent: &mut BandedMatrix,
+    ) {
+        let time = self.time((at.stage, at.weight));
+        self.move_to(at.bodies, at.increments);
+        let Self { pairs, shapes, rows, .. } = self;
+        for pair in pairs {
+            let derivatives = pair.add_linearised(shapes, time, at.bodies, out);
+            pair.collect(shapes, at.bodies, rows, unknowns);
+            tangent.add_block(&rows.unknowns, rows.entries(&derivatives));
+        }
+    }
+
+    fn add_mismatch_forces(&self, bodies: &[Body], weight: f64, out: &mut [f64]) {
+        let pairs = self.pairs.iter();
+        pairs.for_each(|pair| pair.add_mismatch_force(&self.shapes, bodies, weight, out));
+    }
+
+    fn correct(&mut self, bodies: &[Body], correction: &[f64]) {
+        let Self { pairs, shapes, .. } = self;
+        pairs.iter_mut().for_each(|pair| pair.correct(shapes, bodies, correction));
+    }
+
+    /// The forces on both bodies are opposite, so there is no exchange with the ground.
+    fn exchange(&self, _bodies: &[Body], _duration: f64) -> WorkAndImpulse {
+        WorkAndImpulse::default()
+    }
+
+    fn advance(&mut self, bodies: &[Body]) {
+        let time = self.time(self.stage);
+        for shape in &mut self.shapes {
+            let moved = bodies[shape.body].moved();
+            shape.move_by(|at| Vec2::new(moved[at][0], moved[at][1]));
+        }
+        let was_open = !self.pairs.iter().any(|pair| pair.normal.is_closed());
+        let (mut force, mut rate) = (0.0, 0.0);
+        let (mut on_first, mut lost) = (Vec2::zeros(), 0.0);
+        for pair in &mut self.pairs {
+            lost += pair.advance(&self.shapes, time);
+            let is_on_first = pair.index.shape == 0;
+            let is_by_first = pair.index.target == 0;
+            match (is_on_first, is_by_first) {
+                (true, false) => on_first += pair.mean_force(),
+                (false, true) => on_first -= pair.mean_force(),
+                _ => {}
+            }
+            if pair.normal.last() >= force {
+                (force, rate) = (pair.normal.last(), pair.normal.last_rate);
+            }
+        }
+        self.dissipated += lost;
+        self.last_force = on_first;
+        let is_open = !self.pairs.iter().any(|pair| pair.normal.is_closed());
+        if time.duration.is_finite() {
+            self.watch.add([was_open, is_open], [self.last_rate, rate], (force, time.duration));
+            self.last_rate = rate;
+        }
+        self.shapes.iter_mut().for_each(Shape::end_step);
+        self.remove_open_pairs();
+        self.gap = self.smallest_gap();
+        self.rate_history.end();
+    }
+
+    fn stored(&self) -> f64 {
+        self.pairs.iter().map(ContactPair::energy).fold(0.0, |sum, energy| sum + energy)
+    }
+
+    fn dissipated(&self) -> f64 {
+        self.dissipated
+    }
+
+    fn contact(&self, _bodies: &[Body]) -> Option<ContactState> {
+        let closed = self.closed().count();
+        Some(ContactState { force: self.last_force, friction: 0.0, gap: self.gap, closed })
+    }
+
+    fn penetrations(&self, _bodies: &[Body]) -> Vec<Penetration> {
+        let of_shape = |index: usize, shape: &Shape| {
+            let (mut depth, mut energy, mut force) = (0.0, 0.0, Vec2::zeros());
+            for pair in self.closed().filter(|pair| pair.index.shape == index) {
+                depth = larger(depth, -pair.normal.gap.value);
+                energy += pair.energy();
+                force += pair.elastic_force();
+            }
+            Penetration { body: shape.body, depth, force: force.norm(), energy }
+        };
+        let all = self.shapes.iter().enumerate().map(|(index, shape)| of_shape(index, shape));
+        all.filter(|one| one.depth > 0.0).collect()
+    }
+
+    fn crosses(&self, bodies: &[Body], increments: &[f64]) -> bool {
+        let mut partnerships = self.partnerships.iter();
+        partnerships.any(|&Partnership { own, other, .. }| {
+            let is_same = own == other;
+            let (own, other) = (&self.shapes[own], &self.shapes[other]);
+            let swept = |shape: &Shape| shape.start.bounds().joined(shape.end.bounds());
+            let is_near = swept(own).squared_distance(&swept(other)) == 0.0;
+            is_near
+                && own.sites.iter().any(|site| {
+                    let from = site.place.interpolate(&own.start.points);
+                    let [x, y, _] = bodies[own.body].at(&site.place, increments);
+                    let allowed = if is_same { site.allowed } else { WHOLE_AXIS };
+                    other.is_crossed([from, from + Vec2::new(x, y)], allowed)
+                })
+        })
+    }
+
+    fn short_bounce(&self) -> Option<ShortBounce> {
+        self.watch.short_bounce()
+    }
+
+    fn add_forces_at_start(&self, bodies: &[Body], rates: &[Vec<Movement>], out: &mut [f64]) {
+        let rate = |body: usize, at: usize| Vec2::new(rates[body][at][0], rates[body][at][1]);
+        for pair in self.closed() {
+            let velocity = pair.relative(&self.shapes, rate);
+            pair.add_force_at_start(&self.shapes, velocity, bodies, out);
+        }
+    }
+
+    fn each_damped_rate(&self, bodies: &[Body], rates: &[f64], take: &mut dyn FnMut(f64, f64)) {
+        for pair in self.closed().filter(|pair| pair.law.damping > 0.0) {
+            let rate = |body: usize, at: usize| bodies[body].vector_at(at, rates);
+            let (damping, rate) = pair.damped_rate(pair.relative(&self.shapes, rate));
+            take(damping, rate);
+        }
+    }
+
+    fn static_stiffness(&self, bodies: &[Body], take: &mut dyn FnMut(&[usize], &SpanStiffness)) {
+        let mut rows = LocalRows::default();
+        for pair in self.closed() {
+            let stiffness = pair.static_stiffness(&self.shapes, bodies, &mut rows);
+            take(&rows.unknowns, &stiffness);
+        }
+    }
+
+    fn save(&self, state: &mut Vec<f64>) {
+        self.rate_history.save(state);
+        self.watch.save(state);
+        let Self { last_rate, last_force, dissipated, gap, .. } = self;
+        state.extend([*last_rate, last_force.x, last_force.y, *dissipated, *gap]);
+    }
+
+    fn restore(&mut self, next: &mut dyn FnMut() -> f64) {
+        self.rate_history.restore(next);
+        self.watch.restore(next);
+        self.last_rate = next();
+        self.last_force = Vec2::new(next(), next());
+        (self.dissipated, self.gap) = (next(), next());
+    }
+
+    fn save_contacts(&self, contacts: &mut Vec<f64>) {
+        contacts.push(self.pairs.len() as f64);
+        self.pairs.iter().for_each(|pair| pair.save(contacts));
+    }
+
+    fn restore_contacts(
+        &mut self,
+        bodies: &[Body],
+        next: &mut dyn FnMut() -> Option<f64>,
+    ) -> Option<()> {
+        self.pairs.clear();
+        self.set_configuration(bodies);
+        for _ in 0..next()? as usize {
+            self.pairs.push(ContactPair::restored(&self.shapes, &self.partnerships, next)?);
+        }
+        self.remove_open_pairs();
+        Some(())
+    }
+
+    fn explain(&self) -> String {
+        let bodies = crate::system::errors::plural(self.shapes.len(), "body");
+        let is_damped = |one: &Partnership| one.law.damping > 0.0;
+        let damped = if self.partnerships.iter().any(is_damped) { ", damped" } else { "" };
+        let touching = self.closed().count();
+        format!(
+            "contact among {bodies}{damped}, at {touching} points at present; the contact forces are additional unknowns"
+        )
+    }
+}

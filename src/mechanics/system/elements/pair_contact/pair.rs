@@ -1,0 +1,462 @@
+//! Contact of a point of one body with the axis of another body, in a step.
+
+use std::array::from_fn;
+
+use super::forces::Partnership;
+use super::gap::{GapMovement, GapStart, GapTrial, LOCAL};
+use super::shape::{Foot, NearestSearch, Shape, WHOLE_AXIS};
+use crate::beams::{BodyPoint, ForceSummary, SpanStiffness};
+use crate::geometry::{MAX_DEGREE, Vec2};
+use crate::integrators::Stage;
+use crate::system::bodies::Body;
+use crate::system::elements::collocation;
+use crate::system::elements::coordinate::Coordinate;
+use crate::system::elements::mixed_force::ForceTarget;
+use crate::system::elements::obstacle::{ContactTime, GapChange, NormalForce, NormalLaw};
+
+/// Indices of a contact point and of the body that it touches.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct PairIndex {
+    pub(super) shape: usize,
+    pub(super) site: usize,
+    pub(super) target: usize,
+}
+
+/// Rows and columns of the tangent of a contact.
+#[derive(Debug, Clone, Default)]
+pub(super) struct LocalRows {
+    pub(super) unknowns: Vec<usize>,
+    /// Derivatives of the local coordinates with respect to each unknown.
+    columns: Vec<[f64; LOCAL]>,
+}
+
+/// Contact of a point with another body.
+#[derive(Debug, Clone)]
+pub(super) struct ContactPair {
+    pub(super) index: PairIndex,
+    pub(super) law: NormalLaw,
+    pub(super) normal: NormalForce,
+    start: GapStart,
+    trial: GapTrial,
+    /// Foot in the present iterate.
+    foot: Foot,
+    linearised: GapTrial,
+    linearised_foot: Foot,
+    /// Applied forces on the point at the start of the step and in the present iterate, as internal forces [force].
+    applied: [Vec2; 2],
+}
+
+impl ContactPair {
+    /// New pair, with the gap in the configuration at the start of the step.
+    pub(super) fn new(index: PairIndex, law: NormalLaw, shapes: &[Shape], foot: Foot) -> Self {
+        let weight = shapes[index.shape].sites[index.site].weight;
+        let start = GapStart { apart: Vec2::zeros(), foot };
+        let mut pair = Self {
+            index,
+            law,
+            normal: NormalForce::new(weight),
+            start,
+            trial: GapTrial::NONE,
+            foot,
+            linearised: GapTrial::NONE,
+            linearised_foot: foot,
+            applied: [Vec2::zeros(); 2],
+        };
+        pair.locate(shapes);
+        let rate = pair.normal_at_start().dot(&pair.relative_velocity(shapes));
+        let normal = &mut pair.normal;
+        (normal.approach, normal.last_rate) = (rate.abs(), rate);
+        pair.normal.gap = Coordinate::from(pair.start.apart.norm() - pair.reach(shapes));
+        pair.normal.mass = pair.effective_mass(shapes);
+        pair
+    }
+
+    fn place<'s>(&self, shapes: &'s [Shape]) -> &'s BodyPoint {
+        &shapes[self.index.shape].sites[self.index.site].place
+    }
+
+    /// Distance between point and axis at which the contact closes [length].
+    fn reach(&self, shapes: &[Shape]) -> f64 {
+        shapes[self.index.shape].radius + shapes[self.index.target].radius
+    }
+
+    /// Finds the foot at the start of the step.
+    pub(super) fn locate(&mut self, shapes: &[Shape]) {
+        let (from, to) = (&shapes[self.index.shape], &shapes[self.index.target]);
+        let position = self.place(shapes).interpolate(&from.start.points);
+        if let Some(foot) = to.nearest(&to.start, &self.search(shapes, position)) {
+            self.start.foot = foot;
+        }
+        self.start.apart = position - self.start.foot.combine(0, &to.start.points);
+        self.foot = self.start.foot;
+    }
+
+    /// Search for the foot that starts at the present foot.
+    fn search(&self, shapes: &[Shape], position: Vec2) -> NearestSearch {
+        let PairIndex { shape, site, target } = self.index;
+        let allowed = if shape == target { shapes[shape].sites[site].allowed } else { WHOLE_AXIS };
+        NearestSearch { position, allowed, limit: f64::INFINITY, hint: self.foot.span }
+    }
+
+    /// Prepares a step that starts with the present configuration.
+    pub(super) fn begin_step(&mut self, shapes: &[Shape]) {
+        self.normal.tension.begin_step();
+        self.normal.mass = self.effective_mass(shapes);
+        self.applied = [Vec2::zeros(); 2];
+    }
+
+    /// Prepares an increment of zero duration.
+    pub(super) fn begin_movement(&mut self) {
+        self.normal.tension.force = self.normal.tension.last;
+        self.applied = [Vec2::zeros(); 2];
+    }
+
+    fn normal_at_start(&self) -> Vec2 {
+        let length = self.start.apart.norm();
+        if length > 0.0 { self.start.apart / length } else { Vec2::zeros() }
+    }
+
+    fn relative_velocity(&self, shapes: &[Shape]) -> Vec2 {
+        let [own, other] = [self.index.shape, self.index.target].map(|at| &shapes[at]);
+        if own.velocities.is_empty() {
+            return Vec2::zeros();
+        }
+        self.place(shapes).interpolate(&own.velocities)
+            - self.start.foot.combine(0, &other.velocities)
+    }
+
+    /// Velocity of the point relative to its foot, from values at the control points of the bodies.
+    pub(super) fn relative(&self, shapes: &[Shape], value: impl Fn(usize, usize) -> Vec2) -> Vec2 {
+        let (own, other) = (shapes[self.index.shape].body, shapes[self.index.target].body);
+        let at_point = self.place(shapes).weights().map(|(at, share)| value(own, at) * share);
+        let at_foot = self.start.foot.weights(0).map(|(at, share)| value(other, at) * share);
+        at_point.sum::<Vec2>() - at_foot.sum::<Vec2>()
+    }
+
+    /// Mass of both bodies at the contact: `1/m = 1/m_point + 1/m_foot`.
+    fn effective_mass(&self, shapes: &[Shape]) -> f64 {
+        let point = shapes[self.index.shape].mobility(self.place(shapes).weights());
+        1.0 / (point + shapes[self.index.target].mobility(self.start.foot.weights(0)))
+    }
+
+    /// Computes the change of the gap from the displacements of the iterate.
+    pub(super) fn evaluate(&mut self, shapes: &[Shape], stage: Stage) {
+        let (own, other) = (&shapes[self.index.shape], &shapes[self.index.target]);
+        if stage == Stage::Start {
+            self.foot = self.start.foot;
+        } else {
+            let position = self.place(shapes).interpolate(&own.end.points);
+            match other.nearest(&other.end, &self.search(shapes, position)) {
+                Some(foot) => self.foot = foot,
+                None => self.foot = other.foot(self.foot.xi),
+            }
+        }
+        let (from, to) = (&self.start.foot, &self.foot);
+        let moved = match stage {
+            Stage::Start => [Vec2::zeros(); 3],
+            _ => [
+                self.place(shapes).interpolate(&own.movements),
+                from.combine(0, &other.movements),
+                to.combine(0, &other.movements),
+            ],
+        };
+        let (slid, increment) = slide(from, to, &other.start.points);
+        let tangents = [
+            to.combine(1, &other.start.points),
+            to.combine(1, &other.end.points),
+            to.combine(2, &other.end.points),
+        ];
+        let movement = GapMovement { foot: *to, moved, slid, increment, tangents };
+        self.trial = GapTrial::new(&self.start, &movement, collocation(stage).rotations);
+    }
+
+    /// Adds the present force to `out`. Returns its magnitude and its relative difference from the law.
+    pub(super) fn add_force(
+        &mut self,
+        shapes: &[Shape],
+        time: ContactTime,
+        bodies: &[Body],
+        out: &mut [f64],
+    ) -> ForceSummary {
+        self.evaluate(shapes, time.stage);
+        let target = self.normal.target(&self.law, time, self.trial.change);
+        let (force, strain_mismatch, at) = match time.stage {
+            Stage::Start => (target.force, 0.0, 0),
+            _ => {
+                let mismatch = self.normal.compare(&self.law, target, self.trial.moved);
+                (self.normal.tension.force, mismatch, 1)
+            }
+        };
+        let applied = self.trial.secant.map(|by| by * (time.weight * force));
+        self.applied[at] = applied[0];
+        self.scatter(shapes, bodies, (&self.foot, applied), out);
+        ForceSummary { force: force.abs(), strain_mismatch, ..ForceSummary::default() }
+    }
+
+    /// Adds the force with its difference from the law condensed out to `out`.
+    /// Returns the derivatives of the local forces with respect to the local coordinates.
+    pub(super) fn add_linearised(
+        &mut self,
+        shapes: &[Shape],
+        time: ContactTime,
+        bodies: &[Body],
+        out: &mut [f64],
+    ) -> [[f64; LOCAL]; LOCAL] {
+        self.evaluate(shapes, time.stage);
+        let target = self.normal.linearisation_target(&self.law, time, self.trial.change);
+        self.normal.tension.linearise(target);
+        (self.linearised, self.linearised_foot) = (self.trial, self.foot);
+        let forces = self.trial.secant.map(|by| by * (time.weight * target.force));
+        self.scatter(shapes, bodies, (&self.foot, forces), out);
+        let (stiffness, force) =
+            (time.weight * target.stiffness, time.weight * self.normal.tension.force);
+        self.local_tangent(stiffness, force)
+    }
+
+    fn local_tangent(&self, stiffness: f64, force: f64) -> [[f64; LOCAL]; LOCAL] {
+        let GapTrial { slope, secant, secant_slope, foot_slope, .. } = &self.trial;
+        from_fn(|row| {
+            let (vector, component) = (row / 2, row % 2);
+            match secant_slope.get(row) {
+                Some(by) => {
+                    let secant = stiffness * secant[vector][component];
+                    from_fn(|column| secant * slope[column] + force * by[column])
+                }
+                // The weights of the control points change with the foot.
+                None => foot_slope.map(|by| force * secant[2][component] * by),
+            }
+        })
+    }
+
+    /// Collects the unknowns that are coupled in the present iterate.
+    pub(super) fn collect(
+        &self,
+        shapes: &[Shape],
+        bodies: &[Body],
+        rows: &mut LocalRows,
+        count: usize,
+    ) {
+        rows.unknowns.clear();
+        rows.columns.clear();
+        let mut add = |body: usize, at: usize, weights: [(usize, f64); 2]| {
+            for axis in 0..2 {
+                let unknown = bodies[body].degrees_of_freedom[at][axis];
+                if unknown < count {
+                    let column = rows.column_of(unknown);
+                    weights.iter().for_each(|(vector, by)| column[2 * vector + axis] += by);
+                }
+            }
+        };
+        let (own, other) = (shapes[self.index.shape].body, shapes[self.index.target].body);
+        for (at, weight) in self.place(shapes).weights() {
+            add(own, at, [(0, weight), (0, 0.0)]);
+        }
+        for (at, weight) in self.start.foot.weights(0) {
+            add(other, at, [(1, weight), (1, 0.0)]);
+        }
+        for ((at, weight), (_, slope)) in self.foot.weights(0).zip(self.foot.weights(1)) {
+            add(other, at, [(2, weight), (3, slope)]);
+        }
+    }
+
+    pub(super) fn add_mismatch_force(
+        &self,
+        shapes: &[Shape],
+        bodies: &[Body],
+        weight: f64,
+        out: &mut [f64],
+    ) {
+        let forces = self.linearised.secant.map(|by| by * (weight * self.normal.tension.mismatch));
+        self.scatter(shapes, bodies, (&self.linearised_foot, forces), out);
+    }
+
+    pub(super) fn correct(&mut self, shapes: &[Shape], bodies: &[Body], correction: &[f64]) {
+        let (own, other) =
+            (&bodies[shapes[self.index.shape].body], &bodies[shapes[self.index.target].body]);
+        let sum = |weights: &mut dyn Iterator<Item = (usize, f64)>, body: &Body| {
+            weights.fold(Vec2::zeros(), |sum, (at, by)| sum + body.vector_at(at, correction) * by)
+        };
+        let moved = [
+            sum(&mut self.place(shapes).weights(), own),
+            sum(&mut self.start.foot.weights(0), other),
+            sum(&mut self.linearised_foot.weights(0), other),
+            sum(&mut self.linearised_foot.weights(1), other),
+        ];
+        let slope = &self.linearised.slope;
+        let change = (0..LOCAL).map(|at| slope[at] * moved[at / 2][at % 2]).sum();
+        self.normal.tension.correct(change);
+    }
+
+    /// Adds forces on the point, on the foot at the start of the step and on another foot to `out`.
+    fn scatter(
+        &self,
+        shapes: &[Shape],
+        bodies: &[Body],
+        (foot, [on_point, on_start, on_end]): (&Foot, [Vec2; 3]),
+        out: &mut [f64],
+    ) {
+        let mut add = |shape: usize, at: usize, force: Vec2| {
+            let [x, y, _] = bodies[shapes[shape].body].degrees_of_freedom[at];
+            out[x] += force.x;
+            out[y] += force.y;
+        };
+        let PairIndex { shape, target, .. } = self.index;
+        self.place(shapes).weights().for_each(|(at, by)| add(shape, at, on_point * by));
+        self.start.foot.weights(0).for_each(|(at, by)| add(target, at, on_start * by));
+        foot.weights(0).for_each(|(at, by)| add(target, at, on_end * by));
+    }
+
+    /// Ends a step. Returns the dissipated energy [energy].
+    pub(super) fn advance(&mut self, shapes: &[Shape], time: ContactTime) -> f64 {
+        self.evaluate(shapes, time.stage);
+        let GapTrial { change, moved, .. } = self.trial;
+        let lost = self.normal.advance(&self.law, time, GapChange { value: change, moved });
+        let [own, other] = [self.index.shape, self.index.target].map(|at| &shapes[at].end.points);
+        let apart = self.place(shapes).interpolate(own) - self.foot.combine(0, other);
+        self.start = GapStart { apart, foot: self.foot };
+        lost
+    }
+
+    /// Elastic energy at the start of the step [energy].
+    pub(super) fn energy(&self) -> f64 {
+        self.normal.energy(&self.law)
+    }
+
+    /// Force on the body of the point in the completed step [force].
+    pub(super) fn mean_force(&self) -> Vec2 {
+        -(self.applied[0] + self.applied[1])
+    }
+
+    /// Elastic tension and damping coefficient at the start of the step.
+    fn tension_at_start(&self) -> (ForceTarget, f64) {
+        let tension = self.normal.elastic(&self.law, Stage::End, 0.0);
+        (tension, self.normal.damping(&self.law, tension).0)
+    }
+
+    /// Damping coefficient, and the rate of the gap for a relative velocity.
+    pub(super) fn damped_rate(&self, velocity: Vec2) -> (f64, f64) {
+        (self.tension_at_start().1, self.normal_at_start().dot(&velocity))
+    }
+
+    /// Adds the force at the start of the step for a relative velocity.
+    pub(super) fn add_force_at_start(
+        &self,
+        shapes: &[Shape],
+        velocity: Vec2,
+        bodies: &[Body],
+        out: &mut [f64],
+    ) {
+        let (tension, damping) = self.tension_at_start();
+        let normal = self.normal_at_start();
+        let force = normal * (tension.force + damping * normal.dot(&velocity)).min(0.0);
+        let forces = [force, -force, Vec2::zeros()];
+        self.scatter(shapes, bodies, (&self.start.foot, forces), out);
+    }
+
+    /// Force on the point at the start of the step, as an internal force [force].
+    pub(super) fn elastic_force(&self) -> Vec2 {
+        self.normal_at_start() * self.tension_at_start().0.force
+    }
+
+    /// Static stiffness of the contact at the start of the step, with the degrees of freedom that it couples.
+    pub(super) fn static_stiffness(
+        &self,
+        shapes: &[Shape],
+        bodies: &[Body],
+        rows: &mut LocalRows,
+    ) -> SpanStiffness {
+        let mut resting = self.clone();
+        resting.evaluate(shapes, Stage::Start);
+        resting.collect(shapes, bodies, rows, usize::MAX);
+        let tension = resting.tension_at_start().0;
+        let mut stiffness = SpanStiffness::default();
+        let slope = resting.trial.slope;
+        stiffness.strains.extend(rows.columns.iter().map(|column| dot(&slope, column)));
+        stiffness.stiffness.push(tension.stiffness);
+        let geometric = resting.local_tangent(0.0, tension.force);
+        for (local, row) in geometric.iter().enumerate() {
+            stiffness.twists.extend(rows.columns.iter().map(|column| 0.5 * dot(row, column)));
+            stiffness.twists.extend(rows.columns.iter().map(|column| column[local]));
+            stiffness.rounding_fractions.push(0.0);
+        }
+        stiffness
+    }
+
+    /// Pair of a saved state; `None` if the state is not one of these shapes.
+    pub(super) fn restored(
+        shapes: &[Shape],
+        partnerships: &[Partnership],
+        next: &mut dyn FnMut() -> Option<f64>,
+    ) -> Option<Self> {
+        let mut index = || Some(next()? as usize);
+        let index = PairIndex { shape: index()?, site: index()?, target: index()? };
+        let is_own = |one: &&Partnership| (one.own, one.other) == (index.shape, index.target);
+        let law = partnerships.iter().find(is_own)?.law;
+        shapes[index.shape].sites.get(index.site)?;
+        let foot = shapes[index.target].first_foot_in(next()? as usize)?;
+        let mut pair = Self::new(index, law, shapes, foot);
+        let mut is_complete = true;
+        pair.normal.restore(&mut || {
+            let number = next();
+            is_complete &= number.is_some();
+            number.unwrap_or_default()
+        });
+        is_complete.then_some(pair)
+    }
+
+    pub(super) fn save(&self, state: &mut Vec<f64>) {
+        let PairIndex { shape, site, target } = self.index;
+        // The span decides between two feet at the same distance.
+        state.extend([shape, site, target, self.foot.span].map(|index| index as f64));
+        self.normal.save(state);
+    }
+}
+
+impl LocalRows {
+    fn column_of(&mut self, unknown: usize) -> &mut [f64; LOCAL] {
+        let known = self.unknowns.iter().position(|at| *at == unknown);
+        let at = known.unwrap_or_else(|| {
+            self.unknowns.push(unknown);
+            self.columns.push([0.0; LOCAL]);
+            self.columns.len() - 1
+        });
+        &mut self.columns[at]
+    }
+
+    /// Entries of the tangent for the collected unknowns, row by row.
+    pub(super) fn entries(
+        &self,
+        tangent: &[[f64; LOCAL]; LOCAL],
+    ) -> impl Iterator<Item = f64> + '_ {
+        let product: [[f64; LOCAL]; LOCAL] = *tangent;
+        self.columns.iter().flat_map(move |row| {
+            let by: [f64; LOCAL] =
+                from_fn(|column| (0..LOCAL).map(|at| row[at] * product[at][column]).sum());
+            self.columns.iter().map(move |column| dot(&by, column))
+        })
+    }
+}
+
+fn dot(a: &[f64; LOCAL], b: &[f64; LOCAL]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
+}
+
+/// Vector from one foot to another in a configuration, and the increment that its rounding error belongs to.
+/// On the same span, the vector is the Taylor polynomial at the first foot.
+fn slide(from: &Foot, to: &Foot, points: &[Vec2]) -> (Vec2, f64) {
+    let by = to.xi - from.xi;
+    if by == 0.0 {
+        return (Vec2::zeros(), 0.0);
+    }
+    if from.span == to.span {
+        let (mut sum, mut factor) = (Vec2::zeros(), 1.0);
+        for order in 1..=MAX_DEGREE {
+            factor *= by / order as f64;
+            sum += from.combine(order, points) * factor;
+        }
+        return (sum, sum.norm());
+    }
+    let ends = [from, to].map(|foot| foot.combine(0, points));
+    let size = from.weights(0).map(|(at, _)| (points[at] - ends[0]).norm()).fold(0.0, f64::max);
+    (ends[1] - ends[0], size.max((ends[1] - ends[0]).norm()))
+}

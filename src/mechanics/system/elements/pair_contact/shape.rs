@@ -1,0 +1,414 @@
+//! Geometry of a body in contact: the axis of a beam with its thickness, or a disc around a point.
+
+use std::iter::once;
+
+use crate::beams::BodyPoint;
+use crate::elementary::square;
+use crate::geometry::{Basis, BasisValues, Span, Vec2, cross};
+
+/// Number of samples per span in the search for the nearest point, minus one.
+const SAMPLES: usize = 4;
+
+/// Largest number of iterations of the search for the nearest point.
+const MOST_ITERATIONS: usize = 60;
+
+/// Largest cosine of the angle between the axis and the line to the nearest point, for a point that counts as the foot of a perpendicular.
+const PERPENDICULAR: f64 = 1e-6;
+
+/// Relative rounding error of distances.
+const ROUNDING: f64 = 1e-12;
+
+/// Axis-aligned box.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Bounds {
+    low: Vec2,
+    high: Vec2,
+}
+
+impl Bounds {
+    const EMPTY: Self = Self {
+        low: Vec2::new(f64::INFINITY, f64::INFINITY),
+        high: Vec2::new(f64::NEG_INFINITY, f64::NEG_INFINITY),
+    };
+
+    pub(super) fn of(points: impl Iterator<Item = Vec2>) -> Self {
+        points.fold(Self::EMPTY, |all, point| all.joined(Self { low: point, high: point }))
+    }
+
+    pub(super) fn joined(self, other: Self) -> Self {
+        Self { low: self.low.inf(&other.low), high: self.high.sup(&other.high) }
+    }
+
+    pub(super) fn diagonal(&self) -> f64 {
+        (self.high - self.low).norm()
+    }
+
+    /// Box that is larger by a fraction of its size on each side.
+    fn grown(self, fraction: f64) -> Self {
+        let by = (self.high - self.low) * fraction;
+        Self { low: self.low - by, high: self.high + by }
+    }
+
+    /// Squared distance between two boxes.
+    pub(super) fn squared_distance(&self, other: &Self) -> f64 {
+        let apart = |axis: usize| {
+            (self.low[axis] - other.high[axis]).max(other.low[axis] - self.high[axis]).max(0.0)
+        };
+        square(apart(0)) + square(apart(1))
+    }
+
+    pub(super) fn squared_distance_from(&self, point: Vec2) -> f64 {
+        self.squared_distance(&Self { low: point, high: point })
+    }
+}
+
+/// Point of a body as a combination of its control points, with its derivatives along the axis.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Foot {
+    pub(super) xi: f64,
+    pub(super) span: usize,
+    /// Weights of the control points and their derivatives with respect to ξ.
+    pub(super) values: BasisValues,
+    /// True if the foot moves along the axis with the other body. False at the ends of a beam, at corners, and for discs.
+    pub(super) is_free: bool,
+}
+
+impl Foot {
+    /// Index and derivative of the weight of each control point.
+    pub(super) fn weights(&self, order: usize) -> impl Iterator<Item = (usize, f64)> + '_ {
+        (self.values.first..).zip(self.values.derivatives(order).iter().copied())
+    }
+
+    pub(super) fn combine(&self, order: usize, of_points: &[Vec2]) -> Vec2 {
+        self.weights(order).fold(Vec2::zeros(), |sum, (at, weight)| sum + of_points[at] * weight)
+    }
+}
+
+/// Parts of an axis that a contact point can touch, as intervals of the parameter. Infinite bounds extend to the ends of the axis.
+pub(super) type AllowedParts = [(f64, f64); 2];
+
+/// All points of an axis.
+pub(super) const WHOLE_AXIS: AllowedParts =
+    [(f64::NEG_INFINITY, f64::INFINITY), (f64::INFINITY, f64::NEG_INFINITY)];
+
+/// Contact point of a body.
+#[derive(Debug, Clone)]
+pub(super) struct ContactSite {
+    pub(super) place: BodyPoint,
+    /// Quadrature weight [length]; 1 for a point.
+    pub(super) weight: f64,
+    /// Parts of the axis of its own beam that it can touch. Points that are too near along the axis are left out.
+    pub(super) allowed: AllowedParts,
+    /// Bodies that the point touches at present, by their index in the element.
+    pub(super) touched: Vec<usize>,
+}
+
+/// Configuration of a body: its control points, and boxes around its spans.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Configuration {
+    pub(super) points: Vec<Vec2>,
+    spans: Vec<Bounds>,
+}
+
+impl Configuration {
+    pub(super) fn bounds(&self) -> Bounds {
+        self.spans.iter().fold(Bounds::EMPTY, |all, span| all.joined(*span))
+    }
+}
+
+/// Axis of a body: a curve, or a single point.
+#[derive(Debug, Clone)]
+enum Axis {
+    Curve { basis: Basis, spans: Vec<Span>, growth: f64 },
+    Point(Foot),
+}
+
+/// Body in contact.
+#[derive(Debug, Clone)]
+pub(super) struct Shape {
+    pub(super) body: usize,
+    pub(super) radius: f64,
+    axis: Axis,
+    pub(super) sites: Vec<ContactSite>,
+    /// Configuration at the start of the step.
+    pub(super) start: Configuration,
+    /// Configuration in the present iterate.
+    pub(super) end: Configuration,
+    /// Displacements of the control points in the present iterate [length].
+    pub(super) movements: Vec<Vec2>,
+    /// Velocities of the control points at the start of the step [length/time].
+    pub(super) velocities: Vec<Vec2>,
+    /// Mass of each control point; infinite if it is supported [mass].
+    masses: Vec<f64>,
+}
+
+impl Shape {
+    pub(super) fn of_beam(
+        body: usize,
+        basis: &Basis,
+        radius: f64,
+        sites: Vec<ContactSite>,
+    ) -> Self {
+        // B-splines lie in the convex hull of their control points. Lagrange polynomials overshoot.
+        let growth = if matches!(basis, Basis::BSpline(_)) { 0.0 } else { 1.0 };
+        let axis = Axis::Curve { basis: basis.clone(), spans: basis.spans(), growth };
+        Self::new(body, radius, axis, sites)
+    }
+
+    pub(super) fn of_point(radius: f64, site: ContactSite) -> Self {
+        let BodyPoint { body, first, .. } = site.place;
+        let foot = Foot { xi: 0.0, span: 0, values: BasisValues::constant(first), is_free: false };
+        Self::new(body, radius, Axis::Point(foot), vec![site])
+    }
+
+    fn new(body: usize, radius: f64, axis: Axis, sites: Vec<ContactSite>) -> Self {
+        let [start, end] = [Configuration::default(), Configuration::default()];
+        Self {
+            body,
+            radius,
+            axis,
+            sites,
+            start,
+            end,
+            movements: Vec::new(),
+            velocities: Vec::new(),
+            masses: Vec::new(),
+        }
+    }
+
+    pub(super) fn set_masses(&mut self, masses: impl Iterator<Item = f64>) {
+        self.masses = masses.collect();
+    }
+
+    /// Inverse of the effective mass at a combination of control points [1/mass]. The whole mass of a rigid body counts at its massless points.
+    pub(super) fn mobility(&self, weights: impl Iterator<Item = (usize, f64)>) -> f64 {
+        let sum: f64 = weights.map(|(at, share)| square(share) / self.masses[at]).sum();
+        if sum.is_finite() { sum } else { 1.0 / self.masses.iter().sum::<f64>() }
+    }
+
+    /// Sets the configuration at the start of the step.
+    pub(super) fn begin(&mut self, controls: &[Vec2]) {
+        self.start.points.clear();
+        self.start.points.extend(controls);
+        self.axis.bound(&mut self.start);
+        self.end.clone_from(&self.start);
+        self.movements.clear();
+        self.movements.resize(controls.len(), Vec2::zeros());
+    }
+
+    /// Sets the velocities of the control points at the start of the step.
+    pub(super) fn set_velocities(&mut self, of_point: impl Fn(usize) -> Vec2) {
+        self.velocities.clear();
+        self.velocities.extend((0..self.start.points.len()).map(of_point));
+    }
+
+    /// Makes the configuration of the iterate the one at the start of the next step.
+    pub(super) fn end_step(&mut self) {
+        self.start.clone_from(&self.end);
+        self.movements.fill(Vec2::zeros());
+    }
+
+    /// Sets the configuration of an iterate from the displacements of the control points.
+    pub(super) fn move_by(&mut self, displacement: impl Fn(usize) -> Vec2) {
+        for (at, movement) in self.movements.iter_mut().enumerate() {
+            *movement = displacement(at);
+            self.end.points[at] = self.start.points[at] + *movement;
+        }
+        self.axis.bound(&mut self.end);
+    }
+
+    /// Foot at the start of a span; `None` if the axis has fewer spans.
+    pub(super) fn first_foot_in(&self, span: usize) -> Option<Foot> {
+        match &self.axis {
+            Axis::Point(foot) => (span == 0).then_some(*foot),
+            Axis::Curve { basis, spans, .. } => {
+                let Span { start, .. } = spans.get(span)?;
+                let values = basis.evaluate_in(&spans[span], *start);
+                Some(Foot { xi: *start, span, values, is_free: false })
+            }
+        }
+    }
+
+    /// Foot at a parameter.
+    pub(super) fn foot(&self, xi: f64) -> Foot {
+        match &self.axis {
+            Axis::Point(foot) => *foot,
+            Axis::Curve { basis, spans, .. } => {
+                let inner = spans.partition_point(|span| span.end <= xi).min(spans.len() - 1);
+                let values = basis.evaluate_in(&spans[inner], xi);
+                Foot { xi, span: inner, values, is_free: false }
+            }
+        }
+    }
+
+    /// Nearest point of the axis in a configuration, if there is one within the limits of the search.
+    pub(super) fn nearest(&self, at: &Configuration, search: &NearestSearch) -> Option<Foot> {
+        let NearestSearch { position, allowed, limit, hint } = *search;
+        let (basis, spans) = match &self.axis {
+            Axis::Curve { basis, spans, .. } => (basis, spans),
+            Axis::Point(foot) => {
+                let is_near = (foot.combine(0, &at.points) - position).norm() < limit;
+                return is_near.then_some(*foot);
+            }
+        };
+        let mut best: (f64, Option<(usize, f64)>) = (square(limit), None);
+        let others = (0..spans.len()).filter(|index| *index != hint);
+        for (index, span) in once(hint).chain(others).map(|index| (index, &spans[index])) {
+            if at.spans[index].squared_distance_from(position) >= best.0 {
+                continue;
+            }
+            let within = |&(low, high): &(f64, f64)| (span.start.max(low), span.end.min(high));
+            for (low, high) in allowed.iter().map(within).filter(|(low, high)| low < high) {
+                let search = SpanSearch { basis, span, points: &at.points, position };
+                let (squared, xi) = search.nearest_in(low, high);
+                let is_end_of_part = allowed.iter().any(|(low, high)| xi == *low || xi == *high);
+                if squared < best.0 && !is_end_of_part {
+                    best = (squared, Some((index, xi)));
+                }
+            }
+        }
+        let (span, xi) = best.1?;
+        let values = basis.evaluate_in(&spans[span], xi);
+        let mut foot = Foot { xi, span, values, is_free: false };
+        let apart = position - foot.combine(0, &at.points);
+        let slope = foot.combine(1, &at.points);
+        foot.is_free = apart.dot(&slope).abs() <= PERPENDICULAR * apart.norm() * slope.norm();
+        Some(foot)
+    }
+
+    /// Returns true if a moving position passes through the moving axis.
+    /// The axis is sampled as a polyline, whose vertices move along straight lines.
+    /// A position cannot pass through the axis if its relative movement is shorter than the sum of its distances at the start and at the end.
+    pub(super) fn is_crossed(&self, [from, to]: [Vec2; 2], allowed: AllowedParts) -> bool {
+        let Axis::Curve { basis, spans, .. } = &self.axis else { return false };
+        let path = Bounds::of([from, to].into_iter());
+        spans.iter().enumerate().any(|(index, span)| {
+            let swept = self.start.spans[index].joined(self.end.spans[index]);
+            let is_within = |(low, high): &(f64, f64)| *low <= span.start && span.end <= *high;
+            if !allowed.iter().any(is_within) || swept.squared_distance(&path) > 0.0 {
+                return false;
+            }
+            let vertex = |at: usize| {
+                let xi = span.start + (span.end - span.start) * (at as f64 / SAMPLES as f64);
+                let values = basis.evaluate_in(span, xi);
+                let [start, end] = [&self.start, &self.end].map(|at| values.combine(0, &at.points));
+                [from - start, to - end]
+            };
+            let moves = (span.first..=span.first + basis.degree()).map(|at| self.movements[at]);
+            let longest = moves.map(|by| (to - from - by).norm()).fold(0.0, f64::max);
+            let distance = |at: &Configuration, position: Vec2| {
+                let search = NearestSearch { position, allowed, limit: longest, hint: index };
+                let foot = self.nearest(at, &search);
+                foot.map_or(longest, |foot| (foot.combine(0, &at.points) - position).norm())
+            };
+            (0..SAMPLES).any(|at| passes_between(vertex(at), vertex(at + 1)))
+                && longest * (1.0 + ROUNDING)
+                    >= distance(&self.start, from) + distance(&self.end, to)
+        })
+    }
+}
+
+/// Search for the nearest point of an axis.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct NearestSearch {
+    pub(super) position: Vec2,
+    /// Parts of the axis that are searched. The ends of the parts are not found.
+    pub(super) allowed: AllowedParts,
+    /// Largest distance [length].
+    pub(super) limit: f64,
+    /// Span that is searched first.
+    pub(super) hint: usize,
+}
+
+impl Axis {
+    /// Computes the boxes of a configuration from its control points.
+    fn bound(&self, at: &mut Configuration) {
+        let Configuration { points, spans: bounds } = at;
+        bounds.clear();
+        match self {
+            Self::Point(foot) => bounds.push(Bounds::of([points[foot.values.first]].into_iter())),
+            Self::Curve { basis, spans, growth } => {
+                let order = basis.degree() + 1;
+                bounds.extend(spans.iter().map(|span| {
+                    let own = points[span.first..span.first + order].iter().copied();
+                    Bounds::of(own).grown(*growth)
+                }));
+            }
+        }
+    }
+}
+
+/// Search for the point of one span that is nearest to a position.
+struct SpanSearch<'a> {
+    basis: &'a Basis,
+    span: &'a Span,
+    points: &'a [Vec2],
+    position: Vec2,
+}
+
+impl SpanSearch<'_> {
+    /// Vector from the position to the axis, and the first two derivatives of the axis.
+    fn at(&self, xi: f64) -> [Vec2; 3] {
+        let values = self.basis.evaluate_in(self.span, xi);
+        let [place, slope, bend] = [0, 1, 2].map(|order| values.combine(order, self.points));
+        [place - self.position, slope, bend]
+    }
+
+    /// Squared distance and parameter of the nearest point between two parameters.
+    fn nearest_in(&self, low: f64, high: f64) -> (f64, f64) {
+        let sample = |at: usize| low + (high - low) * (at as f64 / SAMPLES as f64);
+        let squared = |at: usize| self.at(sample(at))[0].norm_squared();
+        let (mut best, mut nearest) = (0, squared(0));
+        for at in 1..=SAMPLES {
+            let here = squared(at);
+            if here < nearest {
+                (best, nearest) = (at, here);
+            }
+        }
+        let xi = self.stationary(
+            sample(best.saturating_sub(1)),
+            sample(best),
+            sample((best + 1).min(SAMPLES)),
+        );
+        let squared = self.at(xi)[0].norm_squared();
+        if squared < nearest { (squared, xi) } else { (nearest, sample(best)) }
+    }
+
+    /// Zero of the derivative of the distance in a bracket, by Newton's method with bisection; an end of the bracket without a zero.
+    fn stationary(&self, mut low: f64, mut xi: f64, mut high: f64) -> f64 {
+        for _ in 0..MOST_ITERATIONS {
+            let [apart, slope, bend] = self.at(xi);
+            let gradient = apart.dot(&slope);
+            if gradient > 0.0 {
+                high = xi
+            } else {
+                low = xi
+            }
+            let curvature = slope.norm_squared() + apart.dot(&bend);
+            let next = xi - gradient / curvature;
+            let is_inside = curvature > 0.0 && (low..=high).contains(&next);
+            let next = if is_inside { next } else { 0.5 * (low + high) };
+            if next == xi || low >= high {
+                break;
+            }
+            xi = next;
+        }
+        xi
+    }
+}
+
+/// Returns true if the origin passes between two points that move along straight lines.
+fn passes_between([a, a_end]: [Vec2; 2], [b, b_end]: [Vec2; 2]) -> bool {
+    let (da, db) = (a_end - a, b_end - b);
+    // Area of the triangle of the origin and both points: c₀ + c₁ t + c₂ t².
+    let (c0, c1, c2) = (cross(a, b), cross(da, b) + cross(a, db), cross(da, db));
+    let root = (c1 * c1 - 4.0 * c2 * c0).sqrt();
+    if root.is_nan() {
+        return false;
+    }
+    let sum = -0.5 * (c1 + root.copysign(c1));
+    [sum / c2, c0 / sum].into_iter().filter(|t| (0.0..=1.0).contains(t)).any(|t| {
+        let (a, b) = (a + da * t, b + db * t);
+        a.dot(&b) <= 0.0
+    })
+}
