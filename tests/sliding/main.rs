@@ -15,6 +15,7 @@ mod kink_starts;
 mod kinks;
 mod long_ways;
 mod many;
+mod moving_mass;
 mod one_impact;
 mod orders;
 mod relaxed;

@@ -4,7 +4,7 @@
 use crate::common::wild_scenes::{Temper, scene};
 use crate::common::{run, settings};
 use withy::integrators::Method;
-use withy::joints::{SLIDING_RULES, SlidingRule};
+use withy::joints::{EndAction, SLIDING_RULES, SlidingRule};
 use withy::simulation::{Invariant, Simulation, SimulationSettings, StepControl, StepSize};
 
 /// A step, and the time to which scenes run.
@@ -43,6 +43,11 @@ fn wild_scenes_end_or_say_why() {
     // All sliders with one rule, by its name, to see what becomes of them; that is told, and not asked for.
     let named = std::env::var("WITHY_RULE").ok();
     let rule = SLIDING_RULES.iter().find(|entry| Some(entry.name) == named.as_deref());
+    // Likewise one action at all ends.
+    let actions =
+        [("stop", EndAction::Stop), ("release", EndAction::Release), ("bounce", EndAction::Bounce)];
+    let named = std::env::var("WITHY_ENDS").ok();
+    let ends = actions.iter().find(|(name, _)| Some(*name) == named.as_deref());
     // Likewise all with steps that keep a tolerance.
     let tolerance = std::env::var("WITHY_TOLERANCE").ok().map(|told| told.parse().unwrap());
     let adaptive = tolerance.map(StepControl::to);
@@ -52,6 +57,9 @@ fn wild_scenes_end_or_say_why() {
         let (mut scene, method) = scene(seed);
         if let Some(rule) = &rule {
             scene.sliders.iter_mut().for_each(|slider| slider.rule = rule.rule);
+        }
+        if let Some((_, ends)) = ends {
+            scene.sliders.iter_mut().for_each(|slider| slider.ends = *ends);
         }
         let name = format!("{} with {method:?}", scene.name);
         let mut settings = settings(method, DT);
