@@ -8,6 +8,7 @@ mod archive;
 mod bodies;
 mod composition;
 mod consistency;
+mod contact_robustness;
 mod cores;
 mod damping;
 mod damping_laws;
