@@ -6,6 +6,7 @@ use crate::common::{
     at, body_scenes, release_scenes, run, scenes, settings, simulate, sliding_scenes,
 };
 use crate::drives::swung_at;
+use crate::obstacles::{ball, position, wall};
 use withy::beams::{Mesh, SectionVariation};
 use withy::integrators::Method;
 use withy::joints::SlidingRule;
@@ -15,7 +16,7 @@ use withy::simulation::{
     Variation,
 };
 use withy::system::{
-    Anchor, Element, Origin, ParticleDefinition, Scene, Spring, SpringKind, SpringLaw,
+    Anchor, Element, Obstacle, Origin, ParticleDefinition, Scene, Spring, SpringKind, SpringLaw,
 };
 
 const METHODS: [Method; 2] = [Method::EnergyMomentum, Method::FourthOrder];
@@ -281,5 +282,49 @@ fn what_a_drive_strikes_is_struck_beside_the_run_too() {
         let (energy, slope) = (kinetic(&simulation), simulation.derivative(0, kinetic).unwrap());
         assert!((energy - 1.25).abs() < 2e-3, "{energy}");
         assert!((slope - 2.0).abs() < 4e-3, "{slope}");
+    }
+}
+
+/// A ball that bounces obliquely on a floor with friction: derivatives are those of exact runs, and of the closed form of the normal motion.
+#[test]
+fn runs_against_obstacles_have_derivatives() {
+    let (dt, end) = (1e-3, 0.6);
+    let scene = |stiffness: f64, restitution: f64, friction: f64, height: f64| {
+        let floor = wall(at(0.0, 0.0), at(0.0, 1.0), stiffness, restitution);
+        let mut scene = ball(at(0.0, height), at(2.0, -1.0), Obstacle { friction, ..floor });
+        scene.gravity = at(0.0, -9.81);
+        scene
+    };
+    let at_parameters = |what: usize, by: f64| {
+        let mut values = [1e4, 0.7, 0.2, 0.5];
+        values[what] += by;
+        scene(values[0], values[1], values[2], values[3])
+    };
+    let distances = [1e-2, 1e-6, 1e-6, 1e-7];
+    let names = ["stiffness", "restitution", "friction", "height"];
+    let all =
+        (0..4).map(|what| variation(names[what], distances[what], |by| at_parameters(what, by)));
+    let settings = settings(Method::EnergyMomentum, dt);
+    let mut simulation =
+        Simulation::start_with_derivatives(at_parameters(0, 0.0), settings, all.collect()).unwrap();
+    run(&mut simulation, end).unwrap();
+    let plain = simulate(at_parameters(0, 0.0), Method::EnergyMomentum, dt, end);
+    assert_eq!(plain.model().state(), simulation.model().state());
+    assert!(plain.history().column("wall.force").unwrap().iter().any(|force| *force > 0.0));
+    for (what, name) in names.into_iter().enumerate() {
+        for component in 0..2 {
+            let found = simulation.derivative(what, |run| position(run)[component]).unwrap();
+            let exact = |by: f64| {
+                position(&simulate(at_parameters(what, by), Method::EnergyMomentum, dt, end))
+                    [component]
+            };
+            let h = distances[what];
+            let expected = (exact(h) - exact(-h)) / (2.0 * h);
+            println!("{name} {component}: {found} {expected}");
+            assert!(
+                (found - expected).abs() < 1e-5 * expected.abs().max(1e-3),
+                "{name} {component}"
+            );
+        }
     }
 }

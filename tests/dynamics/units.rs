@@ -192,7 +192,10 @@ impl Outcome {
         let WorkCounts { steps, newton_iterations, retries, arrival_tries, .. } =
             *simulation.counts();
         let arrivals = simulation.arrivals().iter().map(|arrival| {
-            (arrival.time / units.time, format!("{:?} {:?}", arrival.limit, arrival.kind))
+            (
+                arrival.time / units.time,
+                format!("{} {:?} {:?}", arrival.slider, arrival.end, arrival.kind),
+            )
         });
         let points = simulation.model().control_points().flatten();
         Self {

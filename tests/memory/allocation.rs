@@ -4,9 +4,9 @@
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::cell::Cell;
 
-use crate::common::{body_scenes, meshes, run, scenes, settings, sliding_scenes};
+use crate::common::{at, body_scenes, meshes, run, scenes, settings, sliding, sliding_scenes};
 use withy::integrators::{INTEGRATORS, Method};
-use withy::joints::SLIDING_RULES;
+use withy::joints::{JointKind, Partner, SLIDING_RULES, Side, Slider};
 use withy::simulation::{NoMonitor, Recording, Simulation, StepControl};
 use withy::system::Scene;
 
@@ -127,6 +127,25 @@ fn sliders_take_no_allocations_in_steps_either() {
             }
         }
     }
+}
+
+/// The present contact force is checked in every step of a slider that only pushes. One slides on a fixed beam, and another one falls on it.
+#[test]
+fn sliders_that_only_push_take_no_allocations_in_steps() {
+    let mut scene = Scene::new("pushing");
+    let axis = scenes::line(at(-1.0, 0.0), at(1.0, 0.0));
+    let rod = scenes::add_beam(&mut scene, axis, &sliding::smooth(4), sliding::STIFF);
+    for along in [0.0, 0.5, 1.0, 1.5, 2.0] {
+        let station = scene.station(rod, along).unwrap();
+        scene.join(JointKind::Rigid, station, Partner::Ground).unwrap();
+    }
+    scene.gravity = at(0.0, -9.81);
+    for (x, y) in [(-0.5, 0.0), (0.3, 1.0)] {
+        let bead = sliding::moving_particle(&mut scene, at(x, y), at(0.1, 0.0), 0.2);
+        let slider = Slider::new(scene.free_name("slider"), bead, rod, x + 1.0);
+        scene.add_slider(Slider { side: Some(Side::Left), ..slider }).unwrap();
+    }
+    assert_bounded("pushing", scene, Method::EnergyMomentum, 4);
 }
 
 #[test]

@@ -70,7 +70,7 @@ fn a_bead_on_a_beam_at_rest_arrives_at_the_exact_time() {
             let off = rows.map(straight).fold(0.0, f64::max);
             let force = simulation.history().column("slider1.force").unwrap();
             let force = force.iter().fold(0.0, |most: f64, force| most.max(force.abs()));
-            assert_eq!(arrival.limit.end, MasterEnd::Start);
+            assert_eq!(arrival.end, Some(MasterEnd::Start));
             println!("{action:?}: time off by {error:.1e}, ξ by {off:.1e}, force {force:.1e}");
             // The force of nothing is what rounding leaves of the gap, over the square of the duration of a part.
             let nothing = if method == Method::FourthOrder { 1e-9 } else { 1e-10 };
@@ -151,8 +151,8 @@ fn a_bead_that_starts_at_an_end_leaves_it_or_arrives_at_once() {
                     assert!((distance - 0.8).abs() < 1e-12, "{label}: {distance}");
 
                     let away = simulated(scene(2.0 * outward), method, dt, 0.4);
-                    let Arrival { time, limit, .. } = away.arrivals()[0];
-                    assert_eq!((time, limit.slider), (0.0, 0), "{label}");
+                    let Arrival { time, slider, .. } = away.arrivals()[0];
+                    assert_eq!((time, slider), (0.0, 0), "{label}");
                     assert_kept(&label, &away, ROUNDING);
                     match action {
                         EndAction::Stop => assert_eq!((away.time(), position(&away)), (0.0, along)),
@@ -269,10 +269,10 @@ fn two_beads_that_arrive_in_the_same_step_arrive_in_their_order() {
                 let stops_before = action == EndAction::Stop && first.is_some();
                 assert_eq!(arrivals.len(), if stops_before { 1 } else { 2 }, "{label}");
                 for arrival in arrivals {
-                    let error = arrival.time - expected(arrival.limit.slider);
+                    let error = arrival.time - expected(arrival.slider);
                     assert!(error.abs() < 1e-12, "{label}");
                 }
-                assert!(first.is_none_or(|first| first == arrivals[0].limit.slider), "{label}");
+                assert!(first.is_none_or(|first| first == arrivals[0].slider), "{label}");
             }
         }
     }

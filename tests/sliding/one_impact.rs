@@ -65,11 +65,7 @@ fn a_corner_and_a_stop_that_are_met_at_one_time_share_one_impact() {
         let scene = tray([0, 1, 2, 3], 1e8, restitution);
         let simulation = simulate(scene, Method::EnergyMomentum, 0.25, 0.5 + 1e-7);
         let kinds = by_bead(&simulation, |slider| {
-            simulation
-                .arrivals()
-                .iter()
-                .find(|arrival| arrival.limit.slider == slider)
-                .map(|a| a.kind)
+            simulation.arrivals().iter().find(|arrival| arrival.slider == slider).map(|a| a.kind)
         });
         let [bounced, passed] = [ArrivalKind::Bounced, ArrivalKind::Passed].map(Some);
         assert_eq!(kinds, [bounced, passed, bounced, passed]);

@@ -10,7 +10,10 @@ use withy::geometry::{Curve, Vec2, perpendicular, unit};
 use withy::integrators::Method;
 use withy::joints::{JointKind, Partner, Side, Slider, StartVelocities};
 use withy::loads::{LoadFrame, LoadKind, Schedule};
-use withy::simulation::{Invariant, Simulation, StepControl, StepSize};
+use withy::simulation::{
+    Arrival, ArrivalKind, Invariant, NoMonitor, Simulation, StepControl, StepSize, Variation,
+    Warning,
+};
 use withy::system::{Scene, SliderState, StartMotion};
 
 const METHOD: Method = Method::EnergyMomentum;
@@ -311,4 +314,121 @@ fn adaptive_steps_keep_the_ledger() {
     run(&mut simulation, 2.0).unwrap();
     assert!(drifts(&simulation) < 1e-11, "{:e}", drifts(&simulation));
     assert!(take_offs(&simulation) > 1);
+}
+
+/// Particles at the start and above a hinged beam. Their landings separate each other from the beam in turn.
+fn two_on_a_beam(mass_per_length: f64) -> Scene {
+    let mut scene = Scene::new("two on a beam");
+    let section = Section {
+        axial_stiffness: 1e4,
+        shear_stiffness: 4e3,
+        bending_stiffness: 1.0,
+        mass_per_length,
+        rotary_inertia: 1e-4 * mass_per_length,
+    };
+    let mesh = Mesh::bspline(8, 3, 2).unwrap();
+    let rod = add_beam(&mut scene, line(at(-1.0, 0.0), at(1.0, 0.0)), &mesh, section);
+    for along in [0.0, 2.0] {
+        let end = scene.station(rod, along).unwrap();
+        scene.join(JointKind::Hinge, end, Partner::Ground).unwrap();
+    }
+    scene.gravity = at(0.0, -9.81);
+    for (x, y) in [(0.0, 0.0), (0.3, 0.05)] {
+        let bead = moving_particle(&mut scene, at(x, y), Vec2::zeros(), 0.02);
+        add_slider(&mut scene, bead, rod, x + 1.0, 0.0);
+    }
+    scene
+}
+
+#[test]
+fn two_sliders_do_not_separate_each_other_without_end() {
+    for mass_per_length in [0.01, 0.1, 1.0] {
+        let scene = two_on_a_beam(mass_per_length);
+        let mut simulation = Simulation::start(scene, settings(METHOD, 0.01)).unwrap();
+        run(&mut simulation, 1.0).unwrap();
+        assert!(drifts(&simulation) < 1e-11, "{mass_per_length}: {:e}", drifts(&simulation));
+    }
+}
+
+fn dropped(restitution: f64) -> Simulation {
+    let scene = cantilever(0.0, Side::Left, restitution);
+    let mut simulation = Simulation::start(scene, settings(METHOD, 0.03)).unwrap();
+    run(&mut simulation, 6.0).unwrap();
+    simulation
+}
+
+/// Take-offs and landings are events with the times of rows of the history. The impulse of a landing changes the momentum of the ball.
+#[test]
+fn take_offs_and_landings_are_events() {
+    for restitution in [0.0, 0.5] {
+        let simulation = dropped(restitution);
+        let events = simulation.arrivals();
+        let first = &events[0];
+        let lands = if restitution == 0.0 { ArrivalKind::Landed } else { ArrivalKind::Bounced };
+        assert_eq!((first.kind, first.end, first.slider), (lands, None, 0));
+        assert!(first.impulse.y < 0.0, "{first:?}");
+        let has = |kind: ArrivalKind| events.iter().any(|event| event.kind == kind);
+        assert!(has(ArrivalKind::TookOff) && has(ArrivalKind::Landed), "{events:?}");
+        let impulse =
+            |event: &Arrival| event.kind == ArrivalKind::TookOff && event.impulse.y != 0.0;
+        assert!(!events.iter().any(impulse));
+        let times = simulation.history().column("t").unwrap();
+        assert!(events.iter().all(|event| times.contains(&event.time)), "{events:?}");
+        let text = first.describe("hop", None);
+        let did = if restitution == 0.0 { "landed on" } else { "bounced off" };
+        assert!(text.starts_with(&format!("slider 'hop' {did} its beam at t = ")), "{text}");
+    }
+}
+
+/// A saved run is repeated bit for bit, row by row, as conversions do.
+#[test]
+fn saved_runs_are_repeated_through_landings() {
+    for scene in [cantilever(0.0, Side::Left, 0.5), two_on_a_beam(0.1)] {
+        let mut simulation = Simulation::start(scene, settings(METHOD, 0.02)).unwrap();
+        run(&mut simulation, 4.0).unwrap();
+        assert!(simulation.arrivals().len() > 2);
+        let (_, loaded) = Simulation::from_bytes(&simulation.to_bytes("run").unwrap()).unwrap();
+        assert_eq!(loaded.arrivals(), simulation.arrivals());
+        let mut again = loaded.copy_at_start().unwrap();
+        for row in 0..loaded.history().samples().len() {
+            let time = loaded.history().samples()[row].measures.time;
+            assert!(again.run_again(&loaded, row, &mut NoMonitor).unwrap(), "t = {time}");
+        }
+    }
+}
+
+/// A run with derivatives has the take-offs and landings of a run without them.
+#[test]
+fn runs_with_derivatives_take_off_as_others() {
+    let scene = || sphere(0.3);
+    let variation = Variation {
+        name: "gravity".to_owned(),
+        distance: 1e-6,
+        scenes: [1.0 + 1e-6, 1.0 - 1e-6].map(|factor| {
+            let mut scene = scene();
+            scene.gravity *= factor;
+            scene
+        }),
+    };
+    let start =
+        Simulation::start_with_derivatives(scene(), settings(METHOD, 0.02), vec![variation]);
+    let mut simulation = start.unwrap();
+    let mut plain = Simulation::start(scene(), settings(METHOD, 0.02)).unwrap();
+    run(&mut simulation, 1.0).unwrap();
+    run(&mut plain, 1.0).unwrap();
+    assert_eq!(plain.arrivals()[0].kind, ArrivalKind::TookOff);
+    assert_eq!(plain.model().state(), simulation.model().state());
+    let refused = simulation.derivative(0, |run| run.time()).unwrap_err();
+    assert!(refused.to_string().contains("lands on its beam"), "{refused}");
+}
+
+/// Events divide steps, but the steps of the grid have one length.
+#[test]
+fn take_offs_and_landings_are_no_alternating_steps() {
+    let simulation = dropped(0.0);
+    let divided = |dt: &f64| *dt < 0.029;
+    let lengths = simulation.history().column("dt").unwrap();
+    assert!(lengths.into_iter().filter(divided).count() > 20);
+    let notes = simulation.warnings();
+    assert!(!notes.iter().any(|note| matches!(note, Warning::Uneven { .. })), "{notes:?}");
 }

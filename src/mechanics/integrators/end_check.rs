@@ -23,10 +23,22 @@ impl Integrator for EndCheck {
     ) -> Result<NewtonReport, StepError> {
         mechanism.checkpoint().save_state();
         let report = self.integrator.step(mechanism, interval)?;
-        mechanism.check_end().map_err(|overshoot| {
-            mechanism.checkpoint().restore_state();
-            StepError::Overshoot { interval, overshoot, iterations: report.iterations }
-        })?;
+        accept_end(mechanism, interval, report.iterations)?;
         Ok(report)
     }
+}
+
+/// Checks the state at the end of a step. A rejected step is undone: the mechanism returns to its saved state.
+///
+/// # Errors
+/// Fails if the state violates a condition of the constraints.
+pub(super) fn accept_end(
+    mechanism: &mut dyn Mechanism,
+    interval: Interval,
+    iterations: usize,
+) -> Result<(), StepError> {
+    mechanism.check_end().map_err(|overshoot| {
+        mechanism.checkpoint().restore_state();
+        StepError::Overshoot { interval, overshoot, iterations }
+    })
 }

@@ -1,6 +1,7 @@
 //! Steps of several similar mechanisms that share the factorised matrix of one mechanism.
 
 use super::balance::{BalanceCoefficients, StepSolver};
+use super::end_check::accept_end;
 use super::fourth_order::in_parts;
 use super::{EnergyMomentum, Interval, Mechanism, Method, Stage, StepError};
 use crate::linalg::BorderedLu;
@@ -62,14 +63,21 @@ impl SharedFactorStepper {
     ) -> Result<SharedFactorWork, StepError> {
         let mut followed = Ok(NewtonReport::default());
         let parts = self.parts;
+        let has_end_conditions = leader.has_end_conditions();
+        if has_end_conditions {
+            leader.checkpoint().save_state();
+        }
         let mut part = |leader: &mut dyn Mechanism, part: Interval| {
             self.part(leader, companions, part, &mut followed)
         };
-        let leader = match parts {
+        let report = match parts {
             SubstepCount::One => part(leader, interval)?,
             SubstepCount::OfFourthOrder => in_parts(leader, interval, part)?,
         };
-        Ok(SharedFactorWork { leader, companions: followed })
+        if has_end_conditions {
+            accept_end(leader, interval, report.iterations)?;
+        }
+        Ok(SharedFactorWork { leader: report, companions: followed })
     }
 
     fn part(

@@ -1,11 +1,11 @@
-//! Arrivals of sliders at the ends of their masters.
+//! Arrivals of sliders at the ends of their masters, take-offs and landings.
 
 use serde::{Deserialize, Serialize};
 
 use crate::geometry::Vec2;
-use crate::system::MasterLimit;
+use crate::system::MasterEnd;
 
-/// Outcome of the arrival of a slider at an end of its master.
+/// Outcome of the arrival of a slider at an end of its master, or on the axis of its master.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum ArrivalKind {
     /// The run ended.
@@ -16,17 +16,23 @@ pub enum ArrivalKind {
     Held,
     /// The slider was released.
     Released,
-    /// The slider passed a seam of its track.
+    /// The slider passed a seam of its track, or, in flight, the axis of its master beyond an end.
     Passed,
+    /// The slider left the axis of its master.
+    TookOff,
+    /// The slider reached the axis of its master, and is in contact with it.
+    Landed,
 }
 
-/// Arrival of a slider at an end of its master.
+/// Arrival of a slider at an end of its master, take-off or landing.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Arrival {
     /// Time of the arrival [time].
     pub time: f64,
-    /// Slider and end of its master.
-    pub limit: MasterLimit,
+    /// Index of the slider.
+    pub slider: usize,
+    /// End of the master; `None` for a take-off or a landing.
+    pub end: Option<MasterEnd>,
     /// Index of the beam on which a slider on a track arrived; `None` for other sliders.
     pub beam: Option<usize>,
     /// Outcome of the arrival.
@@ -44,6 +50,8 @@ impl ArrivalKind {
             Self::Held => "rested",
             Self::Released => "released",
             Self::Passed => "passed",
+            Self::TookOff => "took off",
+            Self::Landed => "landed",
         }
     }
 }
@@ -51,7 +59,7 @@ impl ArrivalKind {
 impl Arrival {
     /// Description such as `slider 'ring' bounced off the end of its beam at t = 1.5`. For sliders on tracks it contains the name of the beam.
     pub fn describe(&self, slider: &str, beam: Option<&str>) -> String {
-        let end = self.limit.end.name();
+        let end = self.end.map_or_else(String::new, |end| format!("the {} of ", end.name()));
         let beam = beam.map_or_else(|| "its beam".to_owned(), |name| format!("beam '{name}'"));
         let did = match self.kind {
             ArrivalKind::Stopped => "reached",
@@ -59,10 +67,9 @@ impl Arrival {
             ArrivalKind::Held => "came to rest against",
             ArrivalKind::Released => "was released at",
             ArrivalKind::Passed => "passed",
+            ArrivalKind::TookOff => "left",
+            ArrivalKind::Landed => "landed on",
         };
-        format!(
-            "slider '{slider}' {did} the {end} of {beam} at t = {}",
-            crate::system::rounded(self.time)
-        )
+        format!("slider '{slider}' {did} {end}{beam} at t = {}", crate::system::rounded(self.time))
     }
 }

@@ -336,10 +336,11 @@ impl Simulation {
         }
         let next = self.clock.grid.next(self.time(), limit);
         let interval = Interval::between(self.time(), next);
-        if self.model.apply_drive_jumps(interval)
-            && let Some(sensitivities) = &mut self.stepper.sensitivities
-        {
-            sensitivities.apply_drive_jumps(interval);
+        if self.model.apply_drive_jumps(interval) {
+            self.record_contact_changes();
+            if let Some(sensitivities) = &mut self.stepper.sensitivities {
+                sensitivities.apply_drive_jumps(interval);
+            }
         }
         let stepped = match self.adaptive.take() {
             None => self.step_on_grid(limit, monitor),

@@ -88,7 +88,16 @@ impl TimeGrid {
 
     /// End of the step that starts at `now`: the next grid time or cut, at most `limit` [time].
     pub fn next(&self, now: f64, limit: f64) -> f64 {
-        let grid = self.point(self.points_up_to(now) + 1);
+        self.next_after(self.points_up_to(now, self.passed), now, limit)
+    }
+
+    /// End of the step that started at an earlier time, without a limit [time].
+    pub(crate) fn end_of_step(&self, start: f64) -> f64 {
+        self.next_after(self.points_up_to(start, 0), start, f64::INFINITY)
+    }
+
+    fn next_after(&self, passed: u64, now: f64, limit: f64) -> f64 {
+        let grid = self.point(passed + 1);
         let cut = self.cuts[self.cuts.partition_point(|cut| self.has_reached(now, *cut))..].first();
         let slack = self.slack(now);
         let beat = self.clocks.iter().map(|beat| beat.next(now, slack)).min_by(f64::total_cmp);
@@ -117,13 +126,14 @@ impl TimeGrid {
 
     /// Records that a time is reached. The next search for an end time starts there.
     pub(crate) fn mark_reached(&mut self, now: f64) {
-        self.passed = self.points_up_to(now);
+        self.passed = self.points_up_to(now, self.passed);
     }
 
-    fn points_up_to(&self, now: f64) -> u64 {
+    /// Number of grid times up to `now`, at least `least`.
+    fn points_up_to(&self, now: f64, least: u64) -> u64 {
         // The search starts at an index slightly below the result.
         let near = (((now - self.start) / self.dt) as u64).saturating_sub(2).min(MOST_POINTS);
-        let mut passed = self.passed.max(near);
+        let mut passed = least.max(near);
         while passed < MOST_POINTS && self.has_reached(now, self.point(passed + 1)) {
             passed += 1;
         }

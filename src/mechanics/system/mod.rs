@@ -39,5 +39,5 @@ pub use sensors::{
     Quantity, RECORDABLE, Sensor, SensorSource, Timing, body_energies, section_values,
 };
 pub(crate) use sliders::END_TOLERANCE;
-pub use sliders::{AxialImpact, MasterEnd, MasterLimit, SliderEvent, SliderState};
+pub use sliders::{AxialImpact, ContactChange, MasterEnd, MasterLimit, SliderEvent, SliderState};
 pub use state::{Resolution, UnknownKind};

@@ -193,12 +193,14 @@ pub const TABLE: BindingTable = BindingTable {
         property(SIMULATION, "events", events)
             .returns(Returns::array_of(&ValueKind::Map).with_remark(" #{ t, slider, end, what, impulse }"))
             .summary("Events of sliders so far, at the ends of their beams and the seams of their \
-                tracks.")
+                tracks, and their take-offs and landings.")
             .doc(
                 "slider is the name of the slider; end is \"start\" or \"end\"; what is \
                 \"stopped\", \"bounced\", \"rested\" (in contact with the end stop until the \
                 contact force would be tensile or the slider is pulled away), \"released\" or, \
-                on a track, \"passed\" (to the next beam). impulse is the vector of the total \
+                on a track, \"passed\" (to the next beam). Sliders with a side have events \
+                without end: \"took off\", \"landed\", \"bounced\" for a landing with \
+                rebound, and \"passed\" beyond an end of the beam. impulse is the vector of the total \
                 impulse of the slider on its beams in the impact with all simultaneous \
                 arrivals (mass·length/time), without contact forces. On a track the map also \
                 has beam, the name of the beam at whose end the event was.",
@@ -446,13 +448,11 @@ fn events(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let handle = call.receiver::<SimulationHandle>()?;
     let simulation = handle.simulation();
     let event = |arrival: &Arrival| {
-        let slider = &simulation.scene().sliders[arrival.limit.slider].name;
-        let words = [
-            ("slider", slider.as_str()),
-            ("end", arrival.limit.end.name()),
-            ("what", arrival.kind.name()),
-        ];
-        let mut map: Map = words.into_iter().map(|(key, word)| (key.into(), word.into())).collect();
+        let slider = &simulation.scene().sliders[arrival.slider].name;
+        let end = arrival.end.map(|end| ("end", end.name()));
+        let words = [("slider", slider.as_str()), ("what", arrival.kind.name())];
+        let words = words.into_iter().chain(end);
+        let mut map: Map = words.map(|(key, word)| (key.into(), word.into())).collect();
         map.insert("t".into(), arrival.time.into());
         map.insert("impulse".into(), Dynamic::from(arrival.impulse));
         if let Some(beam) = arrival.beam {

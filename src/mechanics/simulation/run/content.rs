@@ -141,7 +141,7 @@ impl Content<'_> {
             let is_known = arrival.beam.is_none_or(|beam| beam < self.scene.beams.len());
             let numbers = [arrival.time, arrival.impulse.x, arrival.impulse.y];
             is_known
-                && arrival.limit.slider < self.scene.sliders.len()
+                && arrival.slider < self.scene.sliders.len()
                 && numbers.iter().all(|number| number.is_finite())
         };
         if !self.arrivals.iter().all(is_arrival) {

@@ -8,7 +8,9 @@ use crate::joints::EndAction;
 use crate::newton::NewtonReport;
 use crate::simulation::first_step::shortest_wave_time;
 use crate::simulation::{Arrival, ArrivalKind, SimulationError, StepSize};
-use crate::system::{Arriving, END_TOLERANCE, MasterEnd, MasterLimit, SliderEvent, SliderState};
+use crate::system::{
+    Arriving, ContactChange, END_TOLERANCE, MasterEnd, MasterLimit, SliderEvent, SliderState,
+};
 
 /// Largest number of attempts to find the time of an arrival. A few attempts are usual.
 const MOST_TRIES: usize = 60;
@@ -323,7 +325,22 @@ impl Simulation {
             Event::Slider(SliderEvent::Landing(slider)) => self.model.land(slider, self.dt())?,
             Event::Slider(SliderEvent::TakeOff(slider)) => self.model.take_off(slider),
         }
+        self.record_contact_changes();
         Ok(())
+    }
+
+    /// Records take-offs and landings since the last call.
+    pub(super) fn record_contact_changes(&mut self) {
+        for slider in 0..self.scene.sliders.len() {
+            let Some(change) = self.model.take_contact_change(slider) else { continue };
+            let (kind, impulse) = match change {
+                ContactChange::TakeOff => (ArrivalKind::TookOff, Vec2::zeros()),
+                ContactChange::Passage => (ArrivalKind::Passed, Vec2::zeros()),
+                ContactChange::Landing => (ArrivalKind::Landed, self.model.impulse_of(slider)),
+                ContactChange::Bounce => (ArrivalKind::Bounced, self.model.impulse_of(slider)),
+            };
+            self.progress.arrivals.push(Arrival { impulse, ..self.arrival(slider, None, kind) });
+        }
     }
 
     /// Executes an arrival at an end, and all simultaneous arrivals: the run stops, or sliders bounce, are held, or are released.
@@ -372,15 +389,16 @@ impl Simulation {
                     ArrivalKind::Bounced
                 }
             };
-            arrivals.push(self.arrival(limit, kind));
+            arrivals.push(self.arrival(limit.slider, Some(limit.end), kind));
         }
         if !arriving.is_empty() {
             self.model.solve_impact(&arriving, dt)?;
             for arrival in &mut arrivals {
-                arrival.impulse = self.model.impulse_of(arrival.limit.slider);
+                arrival.impulse = self.model.impulse_of(arrival.slider);
             }
             self.restart_kinks()?;
         }
+        self.record_contact_changes();
         // The arrival that ends the run is listed last.
         arrivals.sort_by_key(|arrival| arrival.kind == ArrivalKind::Stopped);
         self.progress.arrivals.extend(arrivals);
@@ -390,7 +408,7 @@ impl Simulation {
     /// Starts kinks at ends with the present contact forces. If the previous impact was less than a step ago, the kinks start without load.
     /// The forces between such impacts belong to vibrations that the steps do not resolve.
     fn restart_kinks(&mut self) -> Result<(), SimulationError> {
-        let last = self.progress.arrivals.last();
+        let last = self.progress.arrivals.iter().rev().find(|arrival| arrival.end.is_some());
         if last.is_some_and(|last| self.time() - last.time < self.dt() - self.slack()) {
             return Ok(());
         }
@@ -436,50 +454,51 @@ impl Simulation {
     fn oscillates_at_seam(&self, limit: MasterLimit, dt: f64) -> bool {
         let since = self.time() - self.unresolved(dt);
         let own = self.progress.arrivals.iter().rev();
-        let own = own.filter(|arrival| arrival.limit.slider == limit.slider);
+        let own = own.filter(|arrival| arrival.slider == limit.slider && arrival.end.is_some());
         let passed =
             own.take_while(|arrival| arrival.kind == ArrivalKind::Passed && arrival.time >= since);
-        let place = |arrival: &Arrival| (arrival.limit.end, arrival.beam);
+        let place = |arrival: &Arrival| (arrival.end, arrival.beam);
         let places: Vec<_> = passed.map(place).take(2 * CHATTER).collect();
-        let here = (limit.end, Some(self.model.slider_beam(limit.slider)));
-        let alternates = |pair: &[(MasterEnd, Option<usize>)]| pair[0] != here && pair[1] == here;
-        let back = |pair: &[(MasterEnd, Option<usize>)]| pair[0] == places[0] && alternates(pair);
+        let here = (Some(limit.end), Some(self.model.slider_beam(limit.slider)));
+        let alternates =
+            |pair: &[(Option<MasterEnd>, Option<usize>)]| pair[0] != here && pair[1] == here;
+        let back =
+            |pair: &[(Option<MasterEnd>, Option<usize>)]| pair[0] == places[0] && alternates(pair);
         places.len() == 2 * CHATTER && places.chunks_exact(2).all(back)
     }
 
-    fn arrival(&self, limit: MasterLimit, kind: ArrivalKind) -> Arrival {
-        let is_on_track = self.scene.sliders[limit.slider].track.is_some();
-        let beam = is_on_track.then(|| self.model.slider_beam(limit.slider));
-        Arrival { time: self.model.time(), limit, beam, kind, impulse: Vec2::zeros() }
+    fn arrival(&self, slider: usize, end: Option<MasterEnd>, kind: ArrivalKind) -> Arrival {
+        let is_on_track = self.scene.sliders[slider].track.is_some();
+        let beam = is_on_track.then(|| self.model.slider_beam(slider));
+        Arrival { time: self.model.time(), slider, end, beam, kind, impulse: Vec2::zeros() }
     }
 
     /// Returns true if the steps do not resolve the impacts of a slider at an end: the slider has struck the end several times within as many steps.
     fn chatters(&self, limit: MasterLimit, dt: f64) -> bool {
         let own = self.progress.arrivals.iter().rev();
-        let mut last = own.filter(|arrival| arrival.limit.slider == limit.slider).take(CHATTER);
+        let mut last = own.filter(|arrival| arrival.slider == limit.slider).take(CHATTER);
         let since = self.time() - self.unresolved(dt);
-        let again = |arrival: &Arrival| arrival.limit == limit && arrival.time >= since;
+        let again = |arrival: &Arrival| arrival.end == Some(limit.end) && arrival.time >= since;
         last.by_ref().take_while(|arrival| again(arrival)).count() == CHATTER
     }
 
     /// Records arrivals of all sliders at the ends of their masters in a dry run, because scripts may wait for them.
     pub(super) fn dry_run_arrivals(&mut self) {
         let arrival = |slider: usize| {
-            let limit = MasterLimit { slider, end: MasterEnd::End };
             let kind = match self.model.end_action(slider) {
                 _ if self.scene.is_on_closed_track(slider) => ArrivalKind::Passed,
                 EndAction::Stop => ArrivalKind::Stopped,
                 EndAction::Bounce | EndAction::Contact => ArrivalKind::Bounced,
                 EndAction::Release => ArrivalKind::Released,
             };
-            self.arrival(limit, kind)
+            self.arrival(slider, Some(MasterEnd::End), kind)
         };
         let mut arrivals: Vec<Arrival> = (0..self.scene.sliders.len()).map(arrival).collect();
         arrivals.sort_by_key(|arrival| arrival.kind == ArrivalKind::Stopped);
         self.progress.arrivals = arrivals;
     }
 
-    /// Arrivals of sliders at the ends of their masters so far.
+    /// Arrivals of sliders at the ends of their masters, take-offs and landings so far.
     pub fn arrivals(&self) -> &[Arrival] {
         &self.progress.arrivals
     }
@@ -496,7 +515,7 @@ impl Simulation {
 
     pub(super) fn describe(&self, arrival: &Arrival) -> String {
         let beam = arrival.beam.map(|beam| self.scene.beams[beam].name.as_str());
-        arrival.describe(&self.scene.sliders[arrival.limit.slider].name, beam)
+        arrival.describe(&self.scene.sliders[arrival.slider].name, beam)
     }
 
     /// Present state of a slider.

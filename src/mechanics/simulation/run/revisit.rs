@@ -84,7 +84,9 @@ impl Simulation {
             // The copy continues towards the next row and pauses at the arrival.
             let is_arrival = |at: &f64| of.arrivals().iter().any(|arrival| arrival.time == *at);
             let mut ends = rows[row..].iter().map(|row| row.measures.time);
-            let goal = ends.find(|end| !is_arrival(end)).unwrap_or(time);
+            let planned = || self.clock.grid.end_of_step(self.time());
+            let goal = ends.find(|end| !is_arrival(end)).unwrap_or_else(planned);
+            let goal = if goal.is_finite() { goal } else { time };
             match self.run_to(goal, &mut PauseTime { time, monitor }) {
                 Err(SimulationError::Interrupted { .. }) if self.time() == time => {}
                 ran => ran?,

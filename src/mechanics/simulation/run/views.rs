@@ -83,8 +83,7 @@ impl Simulation {
     /// Time at which an object was released, or at which a slider left its master [time]; `None` if neither occurred.
     pub fn release_of(&self, hold: Releasable) -> Option<f64> {
         let is_release = |arrival: &&Arrival| {
-            Releasable::Slider(arrival.limit.slider) == hold
-                && arrival.kind == ArrivalKind::Released
+            Releasable::Slider(arrival.slider) == hold && arrival.kind == ArrivalKind::Released
         };
         let left = self.arrivals().iter().find(is_release).map(|arrival| arrival.time);
         let is_it = |gone: &&ReleaseEvent| self.scene.releases[gone.release].object == hold;

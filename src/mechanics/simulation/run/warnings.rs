@@ -196,11 +196,10 @@ impl Simulation {
         if !keeps || !matches!(self.settings.dt, StepSize::Fixed(_)) {
             return None;
         }
-        let rows = self.history().samples();
-        let last = &rows[rows.len().saturating_sub(RECENT_STEPS)..];
+        let lengths = self.recent_grid_steps();
         let (mut turns, mut shortest, mut longest) = (0, f64::INFINITY, 0.0);
-        for pair in last.windows(2) {
-            let [before, now] = [pair[0].dt, pair[1].dt];
+        for pair in lengths.windows(2) {
+            let [before, now] = [pair[0], pair[1]];
             if before > 0.0 && (now - before).abs() > ALTERNATION * larger(now, before) {
                 turns += 1;
                 shortest = before.min(now).min(shortest);
@@ -208,6 +207,28 @@ impl Simulation {
             }
         }
         (turns >= MOST_TURNS).then_some(Warning::Uneven { shortest, longest })
+    }
+
+    /// Lengths of the recent steps of the time grid [time]. The parts of a step that a failure or an event of a slider divides are added.
+    fn recent_grid_steps(&self) -> Vec<f64> {
+        let rows = self.history().samples();
+        let last = &rows[rows.len().saturating_sub(RECENT_STEPS)..];
+        let is_event = |time: f64| {
+            let first = self.arrivals().partition_point(|arrival| arrival.time < time);
+            self.arrivals().get(first).is_some_and(|arrival| arrival.time == time)
+        };
+        let (mut lengths, mut covered, mut planned_end) = (Vec::new(), 0.0, f64::NEG_INFINITY);
+        for row in last {
+            let end = row.measures.time;
+            if row.retries > 0 || is_event(end) {
+                planned_end = larger(planned_end, self.clock.grid.end_of_step(end - row.dt));
+            }
+            covered += row.dt;
+            if self.clock.grid.has_reached(end, planned_end) {
+                lengths.push(std::mem::take(&mut covered));
+            }
+        }
+        lengths
     }
 
     /// Warning about many adaptive steps. The method is of first order, or the steps are much shorter than the motion of the whole scene requires.

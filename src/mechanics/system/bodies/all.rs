@@ -118,7 +118,18 @@ impl Bodies {
 
     /// Values of the unknowns, arranged by body and control point; zero at supported degrees of freedom.
     pub fn by_control_point(&self, values: &[f64]) -> Vec<Vec<Movement>> {
-        self.iter().map(|body| body.by_control_point(values).collect()).collect()
+        let mut all = Vec::new();
+        self.write_by_control_point(values, &mut all);
+        all
+    }
+
+    /// Writes the values of [`by_control_point`](Self::by_control_point) to a buffer.
+    pub fn write_by_control_point(&self, values: &[f64], all: &mut Vec<Vec<Movement>>) {
+        all.resize_with(self.len(), Vec::new);
+        for (body, own) in self.iter().zip(all) {
+            own.clear();
+            own.extend(body.by_control_point(values));
+        }
     }
 
     pub fn number_separately(&mut self) -> Vec<DegreesOfFreedom> {

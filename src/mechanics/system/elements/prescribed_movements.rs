@@ -298,10 +298,10 @@ impl PrescribedMovements {
     }
 
     /// Prescribed accelerations at the start of the step, by number of the degree of freedom; zero for unknowns.
-    pub fn accelerations(&self) -> Vec<f64> {
+    pub fn accelerations(&self) -> impl Iterator<Item = f64> {
         let behind = self.present.iter().map(|present| present.acceleration);
         let ahead = if self.movements.is_empty() { 0 } else { self.first };
-        std::iter::repeat_n(0.0, ahead).chain(behind).collect()
+        std::iter::repeat_n(0.0, ahead).chain(behind)
     }
 
     /// Stores the entries of `M Δv` of a step for the prescribed degrees of freedom.

@@ -32,25 +32,34 @@ impl System {
 
     /// Computes the inertia across the master of every slider with friction. The inertia is zero if the slider does not respond to an impulse.
     pub(super) fn measure_inertia_across(&mut self) {
+        let Ok(mut solver) = self.take_inertia_solver() else { return };
+        let Self { sliders, bodies, .. } = self;
+        for slider in sliders.iter_mut() {
+            if slider.active_friction().is_none() {
+                continue;
+            }
+            let across = slider.across(bodies);
+            let velocity = solver.response(|forces| slider.transmit(bodies, across, forces));
+            let inertia = if velocity > 0.0 { 1.0 / velocity } else { 0.0 };
+            slider.friction.iter_mut().for_each(|of| of.inertia_across = inertia);
+        }
+        self.step.inertia_solver = Some(solver);
+    }
+
+    /// Solver with the factors of the present inertia. The caller stores it again after use.
+    ///
+    /// # Errors
+    /// Fails if the inertia is singular.
+    pub(super) fn take_inertia_solver(&mut self) -> Result<Box<InertiaSolver>, LinearError> {
         let mut solver = self.step.inertia_solver.take().unwrap_or_else(|| {
             let (unknowns, half_bandwidth) = (self.unknowns(), self.half_bandwidth());
             Box::new(InertiaSolver::new(unknowns, half_bandwidth, self.degrees_of_freedom()))
         });
         // Without rigid links the inertia is constant.
-        let is_current = solver.is_factorised() && self.links.count() == 0;
-        if is_current || solver.factorise(|inertia| self.fill_banded_inertia(inertia)).is_ok() {
-            let Self { sliders, bodies, .. } = self;
-            for slider in sliders.iter_mut() {
-                if slider.active_friction().is_none() {
-                    continue;
-                }
-                let across = slider.across(bodies);
-                let velocity = solver.response(|forces| slider.transmit(bodies, across, forces));
-                let inertia = if velocity > 0.0 { 1.0 / velocity } else { 0.0 };
-                slider.friction.iter_mut().for_each(|of| of.inertia_across = inertia);
-            }
+        if !solver.is_factorised() || self.links.count() > 0 {
+            solver.factorise(|inertia| self.fill_banded_inertia(inertia))?;
         }
-        self.step.inertia_solver = Some(solver);
+        Ok(solver)
     }
 
     /// Starts the slip of sticking sliders whose present force along the master exceeds the friction limit. Returns true if a slider starts to slip.

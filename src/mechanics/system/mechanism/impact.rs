@@ -262,7 +262,7 @@ impl System {
         // A function without a value is ignored, because the following step reports it.
         let prescribed = self.supports.prescribed();
         let Ok(Some(jumps)) = prescribed.jumps(interval, &self.motion.rates) else { return false };
-        let directions = self.sliders.directions(&self.bodies);
+        let directions: Vec<ImpactDirection> = self.sliders.directions(&self.bodies).collect();
         let laws: Vec<ImpactLaw> =
             directions.iter().map(|(slider, _)| self.law_across(*slider)).collect();
         // A singular matrix is ignored, because the following step reports it.

@@ -11,14 +11,15 @@
 //! Accelerations and forces depend on the present state only. They are the same after a rewind, in a copy and in a simulation read from a file.
 //! Accelerations and forces contain unresolved vibrations. The mean of two consecutive steps does not contain them.
 
-use super::impact::{ImpactDirection, ImpulseResponse};
+use super::impact::ImpactDirection;
 use super::{Reactions, System};
-use crate::beams::BodyPoint;
+use crate::beams::{BodyPoint, Movement};
 use crate::geometry::Vec2;
 use crate::integrators::{Inertia, Mechanism, Stage};
-use crate::linalg::{BandedLu, BandedMatrix, LinearError};
+use crate::linalg::{BandedLu, LinearError};
 use crate::system::elements::{TrialState, collocation};
 use crate::system::links::InclinedRoller;
+use crate::system::state::{ContactResponse, PresentForces};
 use crate::system::{SliderState, SystemError};
 
 /// Accelerations and forces at one time.
@@ -29,14 +30,6 @@ pub struct Instant {
     reactions: Reactions,
     /// Force of each slave on its master [force].
     contacts: Vec<Vec2>,
-}
-
-/// Force of a contact on its slave, with the resulting accelerations.
-struct UnitForce {
-    /// Force on the slave. Without friction, it has unit length [-].
-    direction: Vec2,
-    /// Accelerations of the unknowns per unit of the contact force.
-    rates: Vec<f64>,
 }
 
 impl Instant {
@@ -62,20 +55,13 @@ impl System {
     /// # Errors
     /// Fails if a load has no value, or contact forces are not determined.
     pub fn instant(&mut self) -> Result<Instant, SystemError> {
-        let time = self.motion.time;
-        let refused = |reason: String| SystemError::NoInstant { time, reason };
-        self.elements
-            .evaluate_after(time)
-            .map_err(|(load, source)| refused(format!("{load}: {source}")))?;
-        let rates = self.bodies.by_control_point(&self.motion.rates);
+        let mut present = self.step.present.take().unwrap_or_default();
+        self.bodies.write_by_control_point(&self.motion.rates, &mut present.rates);
         let joined = self.bodies.number_separately();
         let mut apart = vec![0.0; joined.iter().map(|body| 3 * body.len()).sum()];
-        self.bodies.add_forces(collocation(Stage::Start), &[], 1.0, &mut apart);
-        let at =
-            TrialState { bodies: &self.bodies, stage: Stage::End, increments: &[], weight: 1.0 };
-        self.elements.subtract_from(at, &mut apart);
-        self.elements.add_resistance_at_start(&self.bodies, &rates, &mut apart);
+        let added = self.add_present_forces(&present.rates, &mut apart);
         let own = self.bodies.number_as(joined);
+        added?;
 
         let degrees: Vec<usize> = self
             .bodies
@@ -83,22 +69,12 @@ impl System {
             .flat_map(|body| body.degrees_of_freedom.iter().flatten())
             .copied()
             .collect();
-        let mut residual = vec![0.0; self.degrees_of_freedom()];
-        degrees.iter().zip(&apart).for_each(|(&at, force)| residual[at] += force);
-        if self.supports.prescribed().count() > 0 {
-            let prescribed = self.supports.prescribed().accelerations();
-            self.add_inertia(1.0, &prescribed, &mut residual);
-        }
-        for slider in self.sliders.iter().filter(|slider| slider.is_compliant()) {
-            slider.transmit(&self.bodies, slider.force_of_state(), &mut residual);
-        }
-        let (accelerations, mut contacts) =
-            self.solve_accelerations(&residual).map_err(|error| refused(error.to_string()))?;
-        for (contact, slider) in contacts.iter_mut().zip(self.sliders.iter()) {
-            if slider.is_compliant() {
-                *contact += slider.force_of_state();
-            }
-        }
+        present.residual.clear();
+        present.residual.resize(self.degrees_of_freedom(), 0.0);
+        degrees.iter().zip(&apart).for_each(|(&at, force)| present.residual[at] += force);
+        self.solve_present_forces(&mut present)?;
+        let (accelerations, contacts) = (present.accelerations.clone(), present.contacts.clone());
+        self.step.present = Some(present);
 
         let joined = self.bodies.number_as(own);
         let of_all: Vec<f64> =
@@ -117,6 +93,44 @@ impl System {
             accelerations,
             contacts,
         })
+    }
+
+    /// Computes the present contact forces in `self.step.present`. Nothing is allocated after the first call, unless the number of contacts grows.
+    ///
+    /// # Errors
+    /// Fails in the same cases as [`instant`](Self::instant).
+    pub(super) fn compute_present_forces(&mut self) -> Result<(), SystemError> {
+        let mut present = self.step.present.take().unwrap_or_default();
+        present.residual.clear();
+        present.residual.resize(self.degrees_of_freedom(), 0.0);
+        self.bodies.write_by_control_point(&self.motion.rates, &mut present.rates);
+        let PresentForces { rates, residual, .. } = &mut *present;
+        let solved = self
+            .add_present_forces(rates, residual)
+            .and_then(|()| self.solve_present_forces(&mut present));
+        self.step.present = Some(present);
+        solved
+    }
+
+    fn no_instant(&self, reason: String) -> SystemError {
+        SystemError::NoInstant { time: self.motion.time, reason }
+    }
+
+    /// Adds all forces at the present time except inertia and contacts to `out`, in the present numbering of the bodies.
+    /// `rates` contains the rates by control point.
+    fn add_present_forces(
+        &mut self,
+        rates: &[Vec<Movement>],
+        out: &mut [f64],
+    ) -> Result<(), SystemError> {
+        let evaluated = self.elements.evaluate_after(self.motion.time);
+        evaluated.map_err(|(load, source)| self.no_instant(format!("{load}: {source}")))?;
+        self.bodies.add_forces(collocation(Stage::Start), &[], 1.0, out);
+        let at =
+            TrialState { bodies: &self.bodies, stage: Stage::End, increments: &[], weight: 1.0 };
+        self.elements.subtract_from(at, out);
+        self.elements.add_resistance_at_start(&self.bodies, rates, out);
+        Ok(())
     }
 
     /// Calls a function while the model stores the present forces of its rigid links.
@@ -141,87 +155,107 @@ impl System {
         Ok(seen)
     }
 
+    /// Solves the balance for the accelerations and the contact forces. The residual contains the other forces.
+    fn solve_present_forces(&mut self, present: &mut PresentForces) -> Result<(), SystemError> {
+        present.prescribed.clear();
+        present.prescribed.extend(self.supports.prescribed().accelerations());
+        if self.supports.prescribed().count() > 0 {
+            let PresentForces { prescribed, residual, .. } = &mut *present;
+            self.add_inertia(1.0, prescribed, residual);
+        }
+        for slider in self.sliders.iter().filter(|slider| slider.is_compliant()) {
+            slider.transmit(&self.bodies, slider.force_of_state(), &mut present.residual);
+        }
+        self.solve_accelerations(present).map_err(|error| self.no_instant(error.to_string()))?;
+        for (contact, slider) in present.contacts.iter_mut().zip(self.sliders.iter()) {
+            if slider.is_compliant() {
+                *contact += slider.force_of_state();
+            }
+        }
+        Ok(())
+    }
+
     /// Solves `M a + residual = Gᵀ λ` for the accelerations and the forces on the masters.
-    fn solve_accelerations(&self, residual: &[f64]) -> Result<(Vec<f64>, Vec<Vec2>), LinearError> {
-        let mut accelerations: Vec<f64> =
-            residual[..self.unknowns()].iter().map(|force| -force).collect();
-        let prescribed = self.supports.prescribed().accelerations();
+    fn solve_accelerations(&mut self, present: &mut PresentForces) -> Result<(), LinearError> {
+        let solver = self.take_inertia_solver()?;
+        let (inertia, unknowns) = (solver.factors(), self.unknowns());
+        let PresentForces { residual, prescribed, accelerations, contacts, directions, .. } =
+            &mut *present;
+        accelerations.clear();
+        accelerations.extend(residual[..unknowns].iter().map(|force| -force));
         self.links.set_acceleration_bias(
             &self.bodies,
             &self.motion.rates,
-            &prescribed,
-            &mut accelerations,
+            prescribed,
+            accelerations,
         );
-        let mut inertia = self.banded_inertia();
-        let inertia = inertia.factorise()?;
-        inertia.solve(&mut accelerations);
-        accelerations.extend(prescribed.into_iter().skip(self.unknowns()));
-        let mut contacts = vec![Vec2::zeros(); self.sliders.len()];
-        let directions = self.sliders.directions(&self.bodies);
-        let answers = self.impulse_responses(&inertia, &directions);
-        let count = answers.len();
-        if count == 0 {
-            return Ok((accelerations, contacts));
+        inertia.solve(accelerations);
+        accelerations.extend(prescribed.iter().skip(unknowns));
+        contacts.clear();
+        contacts.resize(self.sliders.len(), Vec2::zeros());
+        directions.clear();
+        directions.extend(self.sliders.directions(&self.bodies));
+        if !present.directions.is_empty() {
+            self.solve_contact_forces(&inertia, present)?;
+            present.apply();
         }
-        let wanted = answers.iter().zip(&directions).map(|(answer, (slider, unit))| {
-            let slider = &self.sliders[*slider];
-            let carried = match slider.state {
-                SliderState::Sliding => slider.carried(&self.bodies, &self.motion.rates).dot(unit),
-                SliderState::Held(_) | SliderState::Separated | SliderState::Released => 0.0,
-            };
-            carried - answer.velocity(&accelerations)
-        });
-        let wanted: Vec<f64> = wanted.collect();
-        let solve = |units: &[UnitForce]| -> Result<Vec<f64>, LinearError> {
-            let mut response = BandedMatrix::zeros(count, count - 1);
-            for (row, answer) in answers.iter().enumerate() {
-                for (column, unit) in units.iter().enumerate() {
-                    response.add(row, column, answer.velocity(&unit.rates));
-                }
-            }
-            let mut forces = wanted.clone();
-            response.factorise()?.solve(&mut forces);
-            Ok(forces)
-        };
-        let unit_force = |(answer, (_, unit)): (&ImpulseResponse, &ImpactDirection)| UnitForce {
-            direction: *unit,
-            rates: answer.rates.clone(),
-        };
-        let mut units: Vec<UnitForce> = answers.iter().zip(&directions).map(unit_force).collect();
-        let mut forces = solve(&units)?;
-        if self.add_slip_friction(&inertia, &directions, &forces, &mut units) {
-            forces = solve(&units)?;
-        }
-        for ((force, unit), (slider, _)) in forces.iter().zip(&units).zip(&directions) {
-            contacts[*slider] -= unit.direction * *force;
-            let all = accelerations.iter_mut().zip(&unit.rates);
-            all.for_each(|(acceleration, rate)| *acceleration += force * rate);
-        }
-        Ok((accelerations, contacts))
+        self.step.inertia_solver = Some(solver);
+        Ok(())
     }
 
-    /// Adds the friction of sliders that slip to unit forces across their masters.
-    /// The direction of friction depends on the sign of the force across the master in the solution without friction. Returns true if a slider slips.
-    fn add_slip_friction(
+    fn solve_contact_forces(
         &self,
         inertia: &BandedLu<'_>,
-        directions: &[ImpactDirection],
-        forces: &[f64],
-        units: &mut [UnitForce],
-    ) -> bool {
-        let ratio = |at: usize| self.sliders[directions[at].0].slip_ratio(-forces[at].signum());
-        let slipping: Vec<usize> = (0..directions.len()).filter(|at| ratio(*at) != 0.0).collect();
-        let sliders = slipping.iter().map(|at| directions[*at].0);
-        let along: Vec<ImpactDirection> =
-            sliders.map(|slider| (slider, self.sliders[slider].along(&self.bodies))).collect();
-        let by_along = self.impulse_responses(inertia, &along);
-        for ((at, (_, tangent)), answer) in slipping.iter().zip(&along).zip(&by_along) {
-            let (unit, ratio) = (&mut units[*at], ratio(*at));
-            unit.direction += tangent * ratio;
-            let all = unit.rates.iter_mut().zip(&answer.rates);
-            all.for_each(|(rate, along)| *rate += ratio * along);
+        present: &mut PresentForces,
+    ) -> Result<(), LinearError> {
+        let PresentForces { directions, responses, .. } = &mut *present;
+        if responses.len() < directions.len() {
+            responses.resize_with(directions.len(), ContactResponse::default);
         }
-        !slipping.is_empty()
+        for (response, direction) in responses.iter_mut().zip(&*directions) {
+            self.set_contact_response(inertia, *direction, response);
+        }
+        let carried = |(slider, unit): &ImpactDirection| {
+            let slider = &self.sliders[*slider];
+            match slider.state {
+                SliderState::Sliding => slider.carried(&self.bodies, &self.motion.rates).dot(unit),
+                SliderState::Held(_) | SliderState::Separated | SliderState::Released => 0.0,
+            }
+        };
+        present.solve(carried)?;
+        if self.add_slip_friction(inertia, present) { present.solve(carried) } else { Ok(()) }
+    }
+
+    fn set_contact_response(
+        &self,
+        inertia: &BandedLu<'_>,
+        (slider, unit): ImpactDirection,
+        response: &mut ContactResponse,
+    ) {
+        let sizes = [self.unknowns(), self.degrees_of_freedom()];
+        response.set(unit, inertia, sizes, |forces| {
+            self.sliders[slider].transmit(&self.bodies, unit, forces);
+        });
+    }
+
+    /// Adds the friction of sliders that slip to the responses to forces across their masters.
+    /// The direction of friction depends on the sign of the force across the master in the solution without friction. Returns true if a slider slips.
+    fn add_slip_friction(&self, inertia: &BandedLu<'_>, present: &mut PresentForces) -> bool {
+        let PresentForces { directions, responses, magnitudes, .. } = present;
+        let mut slips = false;
+        for ((response, (slider, _)), force) in
+            responses.iter_mut().zip(&*directions).zip(&*magnitudes)
+        {
+            let ratio = self.sliders[*slider].slip_ratio(-force.signum());
+            if ratio != 0.0 {
+                let (tangent, mut along) =
+                    (self.sliders[*slider].along(&self.bodies), ContactResponse::default());
+                self.set_contact_response(inertia, (*slider, tangent), &mut along);
+                response.add(ratio, &along);
+                slips = true;
+            }
+        }
+        slips
     }
 
     /// Acceleration of a point of a body [length/time²].

@@ -183,8 +183,7 @@ impl System {
         }
         let passes = |slider: usize| corners.iter().any(|corner| corner.slider == slider);
         let others = self.sliders.directions(&self.bodies);
-        let others: Vec<ImpactDirection> =
-            others.into_iter().filter(|(slider, _)| !passes(*slider)).collect();
+        let others: Vec<ImpactDirection> = others.filter(|(slider, _)| !passes(*slider)).collect();
         let turned = SeamCorner::directions(corners);
         let met = [(&turned[..], deformation), (&others, deformation)];
         let problem = self.impact_problem(&met, -2.0)?;

@@ -8,7 +8,7 @@ use crate::geometry::Vec2;
 use crate::integrators::Overshoot;
 use crate::linalg::LinearError;
 use crate::system::SystemError;
-use crate::system::sliders::SliderEvent;
+use crate::system::sliders::{ContactChange, SliderEvent};
 
 /// Tensile contact force that counts as zero, as a fraction of the forces of the step.
 const TENSILE: f64 = 1e-10;
@@ -26,12 +26,14 @@ impl System {
         if !self.sliders.iter().any(|slider| slider.may_take_off()) {
             return Ok(());
         }
-        let Ok(now) = self.instant() else { return Ok(()) };
+        if self.compute_present_forces().is_err() {
+            return Ok(());
+        }
         for at in 0..self.sliders.len() {
             if !self.sliders[at].may_take_off() {
                 continue;
             }
-            let push = -now.contact(at).dot(&self.sliders[at].across(&self.bodies));
+            let push = self.computed_push(at);
             let (event, relative) = (SliderEvent::TakeOff(at), self.step.relative_force(push));
             let is_missed = self.sliders.target() == Some(event) && relative > TENSILE;
             let is_tensile = relative < -TENSILE;
@@ -46,8 +48,16 @@ impl System {
 
     /// Present force with which a slider pushes its master [force]; zero if the contact force is not determined.
     pub(crate) fn push(&mut self, slider: usize) -> f64 {
+        if self.compute_present_forces().is_err() {
+            return 0.0;
+        }
+        self.computed_push(slider)
+    }
+
+    fn computed_push(&self, slider: usize) -> f64 {
         let across = self.sliders[slider].across(&self.bodies);
-        self.instant().map_or(0.0, |now| -now.contact(slider).dot(&across))
+        let contacts = self.step.present.as_ref().map(|present| &present.contacts);
+        contacts.map_or(0.0, |contacts| -contacts[slider].dot(&across))
     }
 
     /// Distance of a slider in flight from the axis, as a fraction of the size of the contact [-].
@@ -71,6 +81,11 @@ impl System {
         self.sliders.iter_mut().for_each(|slider| slider.clear_events());
     }
 
+    /// Take-off, landing or bounce of a slider since the last call; `None` if its contact has not changed.
+    pub(crate) fn take_contact_change(&mut self, slider: usize) -> Option<ContactChange> {
+        self.sliders[slider].take_contact_change()
+    }
+
     /// Starts the flight of a slider. Positions, velocities and energy do not change.
     pub(crate) fn take_off(&mut self, slider: usize) {
         self.sliders[slider].take_off();
@@ -84,6 +99,7 @@ impl System {
     /// Fails if the impulses are undetermined.
     pub(crate) fn land(&mut self, slider: usize, dt: f64) -> Result<(), SystemError> {
         let mut striking = Vec::new();
+        self.sliders.iter_mut().for_each(|slider| slider.impulse = Vec2::zeros());
         for at in 0..self.sliders.len() {
             if !self.sliders[at].is_separated() {
                 continue;
@@ -109,7 +125,6 @@ impl System {
         if striking.is_empty() {
             return Ok(());
         }
-        self.sliders.iter_mut().for_each(|slider| slider.impulse = Vec2::zeros());
         self.solve_landing(&striking, dt).map_err(|_| self.sliders.overdetermined())?;
         self.choose_friction_modes();
         self.leave_tensile_stops()
@@ -152,10 +167,12 @@ impl System {
     }
 
     /// Law across the master for a slider that is in contact during an impact.
+    /// A slider with too many events stays in contact, because two sliders could otherwise separate each other in turn without end.
     pub(super) fn law_across(&self, slider: usize) -> ImpactLaw {
-        match self.sliders[slider].unilateral {
-            Some(_) => ImpactLaw::Unilateral,
-            None => ImpactLaw::Elastic,
+        let slider = &self.sliders[slider];
+        match slider.unilateral.is_some() && !slider.has_many_events() {
+            true => ImpactLaw::Unilateral,
+            false => ImpactLaw::Elastic,
         }
     }
 

@@ -294,18 +294,17 @@ impl Sliders {
 
     /// Directions [-] of the present contact forces, with the index of the slider.
     /// The directions are across masters without a compliant axis, and along masters for sliders that are held or stick.
-    pub fn directions(&self, bodies: &[Body]) -> Vec<(usize, Vec2)> {
-        let of_slider = |(at, slider): (usize, &SliderContact)| {
-            let (across, along) = (slider.across(bodies), slider.along(bodies));
-            match slider.state {
-                SliderState::Released | SliderState::Separated => vec![],
-                SliderState::Sliding if slider.is_compliant() => vec![],
-                SliderState::Sliding if slider.sticks() => vec![(at, across), (at, along)],
-                SliderState::Sliding => vec![(at, across)],
-                SliderState::Held(_) => vec![(at, across), (at, along)],
-            }
-        };
-        self.iter().enumerate().flat_map(of_slider).collect()
+    pub fn directions(&self, bodies: &[Body]) -> impl Iterator<Item = (usize, Vec2)> {
+        self.iter().enumerate().flat_map(|(at, slider)| {
+            let (has_across, has_along) = match slider.state {
+                SliderState::Released | SliderState::Separated => (false, false),
+                SliderState::Sliding if slider.is_compliant() => (false, false),
+                SliderState::Sliding => (true, slider.sticks()),
+                SliderState::Held(_) => (true, true),
+            };
+            let across = has_across.then(|| (at, slider.across(bodies)));
+            across.into_iter().chain(has_along.then(|| (at, slider.along(bodies))))
+        })
     }
 
     /// Energy lost in impacts of sliders at stops so far [energy].

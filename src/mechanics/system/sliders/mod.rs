@@ -15,5 +15,5 @@ pub use kinked_axis::{KinkedAxis, MasterKink};
 pub use master_curve::{
     END_TOLERANCE, MasterCurve, MasterEnd, MasterLimit, SliderEvent, SliderState,
 };
-pub use slider_contact::{AtRest, InStep, Passing, SliderContact};
+pub use slider_contact::{AtRest, ContactChange, InStep, Passing, SliderContact};
 pub use track_path::{Seam, TrackPath, TrackPathSegment};

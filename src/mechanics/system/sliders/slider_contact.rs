@@ -23,7 +23,7 @@ mod unilateral;
 
 pub use friction::{FrictionTransition, SliderFriction};
 pub use passing::{AtRest, InStep, Passing};
-pub use unilateral::UnilateralContact;
+pub use unilateral::{ContactChange, UnilateralContact};
 
 #[derive(Debug, Clone)]
 pub struct SliderContact {

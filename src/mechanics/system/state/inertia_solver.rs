@@ -1,6 +1,6 @@
 //! Responses to unit impulses, computed without allocation in every step.
 
-use crate::linalg::{BandedMatrix, LinearError};
+use crate::linalg::{BandedLu, BandedMatrix, LinearError};
 
 /// Factorised inertia matrix with the memory for responses to unit impulses.
 pub struct InertiaSolver {
@@ -39,6 +39,11 @@ impl InertiaSolver {
         self.inertia.factorise()?;
         self.is_factorised = true;
         Ok(())
+    }
+
+    /// Factors of the last inertia matrix.
+    pub fn factors(&self) -> BandedLu<'_> {
+        self.inertia.factors()
     }
 
     /// Velocity in the direction of a unit impulse that the impulse causes [1/mass]. `add_forces` adds its generalised forces.

@@ -1,6 +1,6 @@
 //! Scales of force and moment in the present step, with which the residual of the step is compared.
 
-use super::InertiaSolver;
+use super::{InertiaSolver, PresentForces};
 use crate::beams::{ForceSummary, RotationIncrement};
 use crate::integrators::Interval;
 
@@ -24,6 +24,8 @@ pub struct StepMeasures {
     scratch: Vec<f64>,
     /// `None` until a step with friction begins.
     pub inertia_solver: Option<Box<InertiaSolver>>,
+    /// `None` until present forces are computed.
+    pub present: Option<Box<PresentForces>>,
 }
 
 impl StepMeasures {
@@ -40,14 +42,16 @@ impl StepMeasures {
             returned: 0.0,
             scratch: vec![0.0; degrees_of_freedom],
             inertia_solver: None,
+            present: None,
         }
     }
 
     /// Prepares a step. `arm` is the largest arm of a rigid link [length].
     pub fn begin(&mut self, interval: Interval, arm: f64, jumps: bool) {
         let (returned, scratch) = (self.returned, std::mem::take(&mut self.scratch));
-        let inertia_solver = self.inertia_solver.take();
-        *self = Self { interval, arm, jumps, returned, scratch, inertia_solver, ..Self::new(0) };
+        let (inertia_solver, present) = (self.inertia_solver.take(), self.present.take());
+        let kept = Self { scratch, inertia_solver, present, ..Self::new(0) };
+        *self = Self { interval, arm, jumps, returned, ..kept };
     }
 
     pub fn no_forces(&mut self) -> &mut [f64] {

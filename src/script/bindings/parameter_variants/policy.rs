@@ -29,6 +29,7 @@ const EACH: &[&str] = &[
     "supports and drives",
     "springs and dampers",
     "drag",
+    "obstacles",
     "sliding joints",
     "tracks",
     "releases",

@@ -13,8 +13,9 @@
 //! A contact with a restitution below 1 also has a viscous force in parallel with the elastic one. The sum is limited to `±B`.
 
 use super::normal_force::SOFT;
-use super::point::GapTrial;
+use super::point::{ClosedContact, GapTrial};
 use crate::beams::Movement;
+use crate::elementary::square;
 use crate::geometry::{Vec2, larger, perpendicular};
 use crate::system::elements::coordinate::rounding_error;
 use crate::system::elements::mixed_force::{CORNER_TOLERANCE, ForceTarget, MixedForce};
@@ -117,6 +118,13 @@ impl SlipTrial {
     }
 }
 
+/// Damping coefficient along the surface while a contact sticks [force·time/length]. `factor` is the factor of the normal damping [-].
+pub(super) fn sticking_damping(stiffness: f64, mass: f64, factor: f64) -> f64 {
+    let factor = factor.min(MOST_DAMPING);
+    let is_damped = factor > 0.0 && mass.is_finite();
+    if is_damped { factor * (stiffness * mass).sqrt() } else { 0.0 }
+}
+
 /// Friction of a contact point in a step.
 #[derive(Debug, Clone)]
 pub(super) struct PointFriction {
@@ -128,6 +136,8 @@ pub(super) struct PointFriction {
     stiffness: f64,
     /// Damping coefficient while the contact sticks [force·time/length].
     damping: f64,
+    /// Effective mass of the body along the surface [mass].
+    mass: f64,
     /// Elastic deflection along the surface at the start of the step [length].
     deflection: f64,
     /// Friction force, as an internal force along the turned normal [force].
@@ -158,6 +168,7 @@ impl PointFriction {
             radius,
             stiffness: 0.0,
             damping: 0.0,
+            mass: 0.0,
             deflection: 0.0,
             force: MixedForce::default(),
             by_normal: 0.0,
@@ -167,12 +178,10 @@ impl PointFriction {
         }
     }
 
-    /// Sets stiffness and damping at the start of a simulation. `damping_factor` is the factor of the normal damping [-].
-    pub(super) fn begin(&mut self, stiffness: f64, mass: f64, damping_factor: f64) {
-        self.stiffness = stiffness;
-        let factor = damping_factor.min(MOST_DAMPING);
-        let is_damped = factor > 0.0 && mass.is_finite();
-        self.damping = if is_damped { factor * (stiffness * mass).sqrt() } else { 0.0 };
+    /// Sets the stiffness, the damping and the effective mass along the surface. `damping_factor` is the factor of the normal damping [-].
+    pub(super) fn set_scales(&mut self, stiffness: f64, mass: f64, damping_factor: f64) {
+        (self.stiffness, self.mass) = (stiffness, mass);
+        self.damping = sticking_damping(stiffness, mass, damping_factor);
     }
 
     pub(super) fn begin_step(&mut self) {
@@ -211,7 +220,8 @@ impl PointFriction {
     }
 
     /// Linearises the law at the present iterate, or at its intersection with the impedance of the body if the contact is stiff.
-    pub(super) fn linearise(&mut self, contact: NormalContact, impedance: f64) {
+    pub(super) fn linearise(&mut self, contact: NormalContact) {
+        let impedance = 2.0 * self.mass / square(contact.duration);
         let (law, slip) = (self.law(contact), self.trial.slip);
         let point = match self.stiffness > SOFT * impedance {
             true => ForceTarget::intersection_point(slip, self.force.force, impedance, |slip| {
@@ -297,11 +307,16 @@ impl PointFriction {
 
     /// Generalised internal force at the start of the step, for rates of the point.
     /// The slip is linear in the movement, so the slip rate follows from the rates.
-    pub(super) fn at_start(&self, normal: Vec2, normal_force: f64, rates: Movement) -> Movement {
-        let gap = GapTrial::along(normal);
+    pub(super) fn at_start(
+        &self,
+        contact: &ClosedContact,
+        normal_force: f64,
+        rates: Movement,
+    ) -> Movement {
+        let gap = GapTrial::along(contact.gradient);
         let SlipTrial { slip: rate, direction, .. } = SlipTrial::new(&gap, self.radius, rates);
         let limit = self.coefficient * normal_force.max(0.0);
-        let force = self.stiffness * self.deflection + self.damping * rate;
+        let force = self.stiffness * self.deflection + contact.sticking_damping * rate;
         direction.map(|by| by * force.clamp(-limit, limit))
     }
 

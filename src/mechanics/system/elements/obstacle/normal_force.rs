@@ -107,7 +107,7 @@ impl NormalForce {
     pub fn target(&self, law: &NormalLaw, time: ContactTime, change: f64) -> ForceTarget {
         let elastic = self.elastic(law, time.stage, change);
         let Some(rates) = time.rates.filter(|_| law.damping > 0.0) else { return elastic };
-        let (damping, by_change) = self.damping(law, elastic);
+        let (damping, by_change) = self.damping(law, elastic, self.mass);
         let rate = change * rates.by_change - self.last_rate * rates.by_last;
         let share = 1.0 / time.share();
         let force = elastic.force + share * damping * rate;
@@ -129,11 +129,11 @@ impl NormalForce {
     ///
     /// The coefficient is limited to its largest value in an impact that is governed by the contact.
     /// Without the limit, a resting contact would be damped without bound.
-    pub fn damping(&self, law: &NormalLaw, elastic: ForceTarget) -> (f64, f64) {
+    pub fn damping(&self, law: &NormalLaw, elastic: ForceTarget, mass: f64) -> (f64, f64) {
         if elastic.force == 0.0 {
             return (0.0, 0.0);
         }
-        let most = (self.stiffness(law) * self.mass).sqrt();
+        let most = (self.stiffness(law) * mass).sqrt();
         let by_force = -elastic.force / self.approach;
         match by_force < most {
             true => {

@@ -1,11 +1,11 @@
 //! Contact point: one quadrature point of a beam, a particle or a point of a rigid body, in a step.
 
 use super::definition::ObstacleShape;
-use super::friction::{NormalContact, PointFriction};
+use super::friction::{NormalContact, PointFriction, sticking_damping};
 use super::normal_force::{ContactTime, GapChange, NormalForce, NormalLaw};
 use crate::beams::{BodyPoint, ForceSummary, Movement, RotationIncrement};
 use crate::elementary::square;
-use crate::geometry::{Vec2, cross, larger};
+use crate::geometry::{Vec2, cross, larger, perpendicular};
 use crate::integrators::Stage;
 use crate::system::bodies::Body;
 use crate::system::elements::collocation;
@@ -123,9 +123,52 @@ impl GapTrial {
     }
 }
 
+/// Inertia of a body at a point, without the coupling between the control points of a beam.
+#[derive(Debug, Clone, Copy, Default)]
+struct PointInertia {
+    /// Velocity per unit impulse [1/mass].
+    mobility: f64,
+    /// Rate of rotation per unit angular impulse [1/(mass·length²)]; zero for a body that does not rotate.
+    angular_mobility: f64,
+    /// True for a point that a rigid link holds beside the centre of mass.
+    is_linked: bool,
+}
+
+impl PointInertia {
+    /// `diagonal` is the diagonal of the inertia matrix. The whole mass of a rigid body counts at its points.
+    fn new(place: &BodyPoint, body: &Body, diagonal: &[f64]) -> Self {
+        let of = |degree: usize| diagonal.get(degree).copied().unwrap_or(f64::INFINITY);
+        let sum = |component: usize| -> f64 {
+            let mobility = |(at, share): (usize, f64)| {
+                square(share) / of(body.degrees_of_freedom[at][component])
+            };
+            place.weights().map(mobility).sum()
+        };
+        let (mobility, angular) = (sum(0), sum(2));
+        let is_linked = mobility.is_infinite();
+        let whole: f64 = body.degrees_of_freedom.iter().map(|degrees| of(degrees[0])).sum();
+        Self {
+            mobility: if is_linked { 1.0 / whole } else { mobility },
+            angular_mobility: if angular.is_finite() { angular } else { 0.0 },
+            is_linked,
+        }
+    }
+
+    /// Arm of the point from the centre of mass of its rigid body [length].
+    fn arm(&self, position: Vec2, body: &Body) -> Vec2 {
+        if self.is_linked { position - body.dynamics.control_points()[0] } else { Vec2::zeros() }
+    }
+
+    /// Effective mass for an impulse with a lever about the centre of mass [mass].
+    fn mass(&self, lever: f64) -> f64 {
+        1.0 / (self.mobility + square(lever) * self.angular_mobility)
+    }
+}
+
 #[derive(Debug, Clone)]
 pub(super) struct ContactPoint {
     pub(super) place: BodyPoint,
+    inertia: PointInertia,
     normal: NormalForce,
     /// Vector from the obstacle to the point at the start of the step [length].
     start: Vec2,
@@ -141,6 +184,7 @@ impl ContactPoint {
     pub(super) fn new(place: BodyPoint, weight: f64) -> Self {
         Self {
             place,
+            inertia: PointInertia::default(),
             normal: NormalForce::new(weight),
             start: Vec2::zeros(),
             trial: GapTrial::NONE,
@@ -156,19 +200,11 @@ impl ContactPoint {
         Self { friction: Some(friction), ..self }
     }
 
-    /// Prepares the start of a simulation. Computes the effective mass from the diagonal of the inertia matrix.
-    /// The whole mass of a rigid body counts at its points.
+    /// Prepares the start of a simulation. `diagonal` is the diagonal of the inertia matrix.
     pub(super) fn begin(&mut self, surface: &Surface, body: &Body, diagonal: &[f64]) {
+        self.inertia = PointInertia::new(&self.place, body, diagonal);
         self.locate(surface, body);
-        let of = |degrees: &[usize; 3]| diagonal.get(degrees[0]).copied().unwrap_or(f64::INFINITY);
-        let mobility = |(at, share): (usize, f64)| square(share) / of(&body.degrees_of_freedom[at]);
-        let mass = 1.0 / self.place.weights().map(mobility).sum::<f64>();
-        let whole = body.degrees_of_freedom.iter().map(of).sum();
-        self.normal.mass = if mass > 0.0 { mass } else { whole };
-        let (stiffness, mass) = (self.normal.stiffness(&surface.law), self.normal.mass);
-        if let Some(friction) = &mut self.friction {
-            friction.begin(stiffness, mass, surface.law.damping);
-        }
+        self.update_masses(surface, body);
     }
 
     pub(super) fn is_closed(&self) -> bool {
@@ -194,6 +230,26 @@ impl ContactPoint {
         if !self.is_closed() {
             self.normal.gap = Coordinate::from(gap);
         }
+        if self.inertia.is_linked {
+            self.update_masses(surface, body);
+        }
+    }
+
+    fn update_masses(&mut self, surface: &Surface, body: &Body) {
+        let [mass, along] = self.masses(surface, body);
+        self.normal.mass = mass;
+        if let Some(friction) = &mut self.friction {
+            friction.set_scales(self.normal.stiffness(&surface.law), along, surface.law.damping);
+        }
+    }
+
+    /// Effective masses at present for impulses along the normal and along the surface [mass]. At a point of a rigid body, they depend on its angle.
+    fn masses(&self, surface: &Surface, body: &Body) -> [f64; 2] {
+        let position = self.position(body);
+        let normal = surface.gradient(surface.gap(position).1);
+        let arm = self.inertia.arm(position, body);
+        let levers = [cross(arm, normal), cross(arm, perpendicular(normal)) - surface.radius];
+        levers.map(|lever| self.inertia.mass(lever))
     }
 
     pub(super) fn begin_movement(&mut self, surface: &Surface, body: &Body) {
@@ -351,7 +407,7 @@ impl ContactPoint {
         else {
             return;
         };
-        friction.linearise(contact, 2.0 * self.normal.mass / square(time.duration));
+        friction.linearise(contact);
         let force = friction.condensed(-self.normal.tension.mismatch).map(|by| by * time.weight);
         let normal_slope = self.linearised.slope * -self.normal.tension.stiffness;
         let derivative = friction.tangent(normal_slope);
@@ -439,8 +495,11 @@ impl ContactPoint {
             ObstacleShape::Disc { .. } => from_obstacle.norm(),
         };
         let gradient = surface.gradient(from_obstacle);
-        let damping = self.normal.damping(&surface.law, tension).0;
-        Some(ClosedContact { gradient, tension, damping, radius_of_curvature })
+        let [mass, along] = self.masses(surface, body);
+        let damping = self.normal.damping(&surface.law, tension, mass).0;
+        let stiffness = self.normal.stiffness(&surface.law);
+        let sticking_damping = sticking_damping(stiffness, along, surface.law.damping);
+        Some(ClosedContact { gradient, tension, damping, sticking_damping, radius_of_curvature })
     }
 
     /// Adds the force of a closed contact at the start of the step, for rates at the control points of the body.
@@ -455,7 +514,8 @@ impl ContactPoint {
         let tension = contact.tension(Vec2::new(x, y));
         self.scatter(body, contact.gradient * tension, out);
         if let Some(friction) = &self.friction {
-            self.scatter_friction(body, friction.at_start(contact.gradient, -tension, rates), out);
+            let force = friction.at_start(contact, -tension, rates);
+            self.scatter_friction(body, force, out);
         }
     }
 
@@ -513,6 +573,8 @@ pub(super) struct ClosedContact {
     pub(super) tension: ForceTarget,
     /// Damping coefficient [force·time/length].
     pub(super) damping: f64,
+    /// Damping coefficient of friction that sticks [force·time/length].
+    pub(super) sticking_damping: f64,
     /// Distance from the centre of a disc [length]; infinite for a half-plane.
     pub(super) radius_of_curvature: f64,
 }

@@ -330,7 +330,7 @@ impl ContactPair {
     /// Elastic tension and damping coefficient at the start of the step.
     fn tension_at_start(&self) -> (ForceTarget, f64) {
         let tension = self.normal.elastic(&self.law, Stage::End, 0.0);
-        (tension, self.normal.damping(&self.law, tension).0)
+        (tension, self.normal.damping(&self.law, tension, self.normal.mass).0)
     }
 
     /// Damping coefficient, and the rate of the gap for a relative velocity.

@@ -23,6 +23,19 @@ const SMALLEST_CURVATURE: f64 = 0.5;
 /// Cosine of the angle between the axis and the vector to the slave, above which the slave is beyond an end of the master.
 const BEYOND: f64 = 1e-9;
 
+/// Change of the contact of a slider that only pushes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum ContactChange {
+    /// The slider left its master.
+    TakeOff,
+    /// The slider landed on its master, and is in contact with it.
+    Landing,
+    /// The slider landed on its master with rebound.
+    Bounce,
+    /// The slider passed the axis of its master beyond an end.
+    Passage,
+}
+
 /// Contact of a slider that only pushes.
 #[derive(Debug, Clone)]
 pub struct UnilateralContact {
@@ -36,6 +49,8 @@ pub struct UnilateralContact {
     events: usize,
     /// Number of attempted steps in which the slider stayed in contact because of too many events.
     pub kept_steps: usize,
+    /// Last take-off or landing that is not recorded yet.
+    change: Option<ContactChange>,
 }
 
 /// Nearest point of the master.
@@ -50,7 +65,8 @@ pub struct NearestPoint {
 
 impl UnilateralContact {
     pub fn new(sign: f64) -> Self {
-        Self { sign, nearest: NearestPoint::default(), may_land: true, events: 0, kept_steps: 0 }
+        let nearest = NearestPoint::default();
+        Self { sign, nearest, may_land: true, events: 0, kept_steps: 0, change: None }
     }
 
     /// Numeric state: permission to land, and number of events.
@@ -92,7 +108,15 @@ impl SliderContact {
         self.unknowns = ContactUnknowns::zeros();
         if let Some(contact) = &mut self.unilateral {
             (contact.may_land, contact.events) = (true, contact.events + 1);
+            contact.change = Some(ContactChange::TakeOff);
         }
+    }
+
+    /// Take-off or landing since the last call. A slider that is still in flight after a landing has bounced.
+    pub fn take_contact_change(&mut self) -> Option<ContactChange> {
+        let change = self.unilateral.as_mut()?.change.take()?;
+        let has_bounced = change == ContactChange::Landing && self.is_separated();
+        Some(if has_bounced { ContactChange::Bounce } else { change })
     }
 
     /// Ends a flight. The slider slides along its master from now on.
@@ -104,6 +128,7 @@ impl SliderContact {
     pub fn record_landing(&mut self) {
         if let Some(contact) = &mut self.unilateral {
             (contact.may_land, contact.events) = (true, contact.events + 1);
+            contact.change = Some(ContactChange::Landing);
         }
     }
 
@@ -111,6 +136,7 @@ impl SliderContact {
     pub fn record_passage(&mut self) {
         if let Some(contact) = &mut self.unilateral {
             (contact.may_land, contact.events) = (false, contact.events + 1);
+            contact.change = Some(ContactChange::Passage);
         }
     }
 

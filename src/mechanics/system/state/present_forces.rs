@@ -1,0 +1,123 @@
+//! Storage for accelerations and contact forces at the present time.
+
+use crate::beams::Movement;
+use crate::geometry::Vec2;
+use crate::linalg::{BandedLu, BandedMatrix, LinearError};
+
+/// Accelerations and contact forces at the present time, with the memory for their computation.
+/// Memory is allocated only if the number of contacts grows.
+pub struct PresentForces {
+    /// Rates of all bodies by control point.
+    pub rates: Vec<Vec<Movement>>,
+    /// Forces of the balance without inertia and contacts, at all degrees of freedom.
+    pub residual: Vec<f64>,
+    /// Prescribed accelerations by number of the degree of freedom; empty without drives.
+    pub prescribed: Vec<f64>,
+    /// Accelerations of the unknowns, with the forces of rigid links and rollers at their unknowns.
+    pub accelerations: Vec<f64>,
+    /// Force of each slave on its master [force].
+    pub contacts: Vec<Vec2>,
+    /// Directions of the contact forces, with the index of the slider.
+    pub directions: Vec<(usize, Vec2)>,
+    /// Responses to the contact forces, at least one for each direction.
+    pub responses: Vec<ContactResponse>,
+    /// Accelerations in all directions per unit of the contact forces [1/mass].
+    matrix: BandedMatrix,
+    /// Magnitude of each contact force [force].
+    pub magnitudes: Vec<f64>,
+}
+
+/// Response to a contact force on a slave.
+#[derive(Default)]
+pub struct ContactResponse {
+    /// Generalised forces `Gᵀ` of a unit force across or along the master, at all degrees of freedom.
+    forces: Vec<f64>,
+    /// Force on the slave per unit of the contact force [-]. It includes friction.
+    pub direction: Vec2,
+    /// Accelerations of the unknowns per unit of the contact force.
+    pub rates: Vec<f64>,
+}
+
+impl ContactResponse {
+    /// Sets the response to a unit force. `transmit` adds its generalised forces to zeros.
+    pub fn set(
+        &mut self,
+        direction: Vec2,
+        inertia: &BandedLu<'_>,
+        [unknowns, degrees_of_freedom]: [usize; 2],
+        transmit: impl FnOnce(&mut [f64]),
+    ) {
+        self.direction = direction;
+        self.forces.clear();
+        self.forces.resize(degrees_of_freedom, 0.0);
+        transmit(&mut self.forces);
+        self.rates.clear();
+        self.rates.extend_from_slice(&self.forces[..unknowns]);
+        inertia.solve(&mut self.rates);
+    }
+
+    /// Adds `factor` times another response.
+    pub fn add(&mut self, factor: f64, other: &Self) {
+        self.direction += other.direction * factor;
+        let pairs = self.rates.iter_mut().zip(&other.rates);
+        pairs.for_each(|(rate, other)| *rate += factor * other);
+    }
+
+    /// Component `G v` in the direction of the unit force, for given rates or accelerations `v`.
+    pub fn component(&self, rates: &[f64]) -> f64 {
+        let touched = self.forces.iter().zip(rates).filter(|(force, _)| **force != 0.0);
+        touched.map(|(force, rate)| rate * force).sum()
+    }
+}
+
+impl Default for PresentForces {
+    fn default() -> Self {
+        Self {
+            rates: Vec::new(),
+            residual: Vec::new(),
+            prescribed: Vec::new(),
+            accelerations: Vec::new(),
+            contacts: Vec::new(),
+            directions: Vec::new(),
+            responses: Vec::new(),
+            matrix: BandedMatrix::zeros(0, 0),
+            magnitudes: Vec::new(),
+        }
+    }
+}
+
+impl PresentForces {
+    /// Computes the magnitudes of the contact forces. `carried` is the required acceleration in each direction [length/time²].
+    ///
+    /// # Errors
+    /// Fails if the forces are not determined.
+    pub fn solve(&mut self, carried: impl Fn(&(usize, Vec2)) -> f64) -> Result<(), LinearError> {
+        let Self { accelerations, directions, responses, matrix, magnitudes, .. } = self;
+        let count = directions.len();
+        let responses = &responses[..count];
+        magnitudes.clear();
+        let missing = directions.iter().zip(responses);
+        magnitudes.extend(missing.map(|(at, own)| carried(at) - own.component(accelerations)));
+        match matrix.size() == count {
+            true => matrix.clear(),
+            false => *matrix = BandedMatrix::zeros(count, count - 1),
+        }
+        for (row, own) in responses.iter().enumerate() {
+            for (column, other) in responses.iter().enumerate() {
+                matrix.add(row, column, own.component(&other.rates));
+            }
+        }
+        matrix.factorise()?.solve(magnitudes);
+        Ok(())
+    }
+
+    /// Adds the contact forces to the accelerations, and to the forces on the masters.
+    pub fn apply(&mut self) {
+        let Self { accelerations, contacts, directions, responses, magnitudes, .. } = self;
+        for ((force, own), (slider, _)) in magnitudes.iter().zip(responses).zip(directions) {
+            contacts[*slider] -= own.direction * *force;
+            let all = accelerations.iter_mut().zip(&own.rates);
+            all.for_each(|(acceleration, rate)| *acceleration += force * rate);
+        }
+    }
+}
