@@ -127,7 +127,6 @@ impl Convergence {
         names
     }
 
-    /// Errors of a quantity. There is one refinement per integrator.
     pub fn ladders_with<'s>(&'s self, quantity: &'s str) -> impl Iterator<Item = &'s Refinement> {
         self.ladders.iter().filter(move |ladder| ladder.quantity == quantity)
     }
