@@ -10,7 +10,6 @@ pub enum ExerciseError {
     #[error("there is no exercise '{name}'; {}", meant(.nearest.as_deref()))]
     Unknown {
         name: String,
-        /// Name of the exercise that is most similar to the given name.
         nearest: Option<String>,
     },
     #[error(transparent)]
@@ -35,7 +34,6 @@ pub enum ExerciseError {
     #[error("'{}' has no submissions; it must contain a folder for each student, with folders such as '{track}'", path.display())]
     NoSubmissions {
         path: PathBuf,
-        /// Name of a track, as an example in the description of the expected folders.
         track: &'static str,
     },
 }

@@ -18,7 +18,6 @@ const LARGEST: u64 = 1 << 30;
 
 const HEAD: &str = "{\"student\":";
 
-/// Marks of earlier runs, by student and exercise.
 #[derive(Debug, Default)]
 pub struct KnownMarks(BTreeMap<StudentExercise, KnownMark>);
 
