@@ -34,7 +34,6 @@ struct Descent<'d, 'f, E> {
     rate_with_slopes: &'d mut RateWithSlopes<'f, E>,
     rate: &'d mut Rate<'f, E>,
     best: Option<(Vec<f64>, Rating)>,
-    /// Last evaluated design, in scaled parameters.
     last: Option<(Vec<f64>, SlopedRating)>,
     worst: f64,
     runs: usize,
@@ -96,8 +95,6 @@ impl<E> Descent<'_, '_, E> {
         }
     }
 
-    /// Returns true if the derivatives of objective and constraints agree with finite differences.
-    /// The finite differences are computed from values without derivatives.
     fn are_true(&mut self, x: &[f64], found: &SlopedRating) -> Result<bool, Ended<E>> {
         let [low, high] = test_points(&self.design.ranges, x);
         self.runs += 2;
@@ -138,10 +135,7 @@ impl<E> Descent<'_, '_, E> {
 }
 
 impl Design {
-    /// Minimises like [`solve`](Self::solve), but with derivatives, by SLSQP (D. Kraft, 1988).
-    ///
-    /// Each step of SLSQP minimises a quadratic model of the objective under linearised constraints.
-    /// The second derivatives of the model come from BFGS updates.
+    /// Minimises like [`solve`](Self::solve), with derivatives, by SLSQP (D. Kraft, 1988).
     /// If derivatives are missing or SLSQP fails, `solve` continues from the best design found so far.
     ///
     /// # Errors

@@ -5,11 +5,7 @@ use nalgebra::{DMatrix, DVector};
 use super::{Evaluate, Evaluation, SearchRange};
 
 /// Default perturbation, as a fraction of the size of a parameter.
-///
-/// For a perturbation `h`, central differences have a truncation error of `h² f‴/6`.
-/// If the results have noise, central differences have an error of the noise divided by `h`.
-/// The noise of a run is about 1e-12 of its results, which is the tolerance of Newton's method.
-/// With a perturbation of 1e-4, the truncation error and the error due to noise are both about 1e-8.
+/// Truncation and the noise of runs then cause about equal errors of central differences, 1e-8 each.
 pub const RELATIVE_STEP: f64 = 1e-4;
 
 enum Stencil {
