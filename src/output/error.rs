@@ -21,7 +21,6 @@ pub enum OutputError {
     RaggedColumns {
         name: String,
         length: usize,
-        /// Name of the first column, which determines the number of rows.
         first: String,
         expected: usize,
     },

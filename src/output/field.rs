@@ -37,7 +37,6 @@ impl FieldPicture {
         Self { title: title.into(), label: label.into(), ..Self::default() }
     }
 
-    /// Adds a beam, given by points along it and their values.
     pub fn beam(mut self, values: Vec<(Point, f64)>) -> Self {
         self.beams.push(values);
         self

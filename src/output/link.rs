@@ -34,7 +34,6 @@ impl Link {
         (self.from.0 + ahead * x - aside * y, self.from.1 + ahead * y + aside * x)
     }
 
-    /// Straight line between both points.
     pub fn ends(&self) -> Vec<Point> {
         vec![self.from, self.at((self.length, 0.0))]
     }

@@ -85,7 +85,6 @@ impl View {
         is_within(x, self.centre.0, self.needs.0) && is_within(y, self.centre.1, self.needs.1)
     }
 
-    /// Ends of the box along x and along y.
     pub fn ends(&self) -> [(f64, f64); 2] {
         let ends = |centre: f64, size: f64| (centre - size / 2.0, centre + size / 2.0);
         [ends(self.centre.0, self.needs.0), ends(self.centre.1, self.needs.1)]

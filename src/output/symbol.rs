@@ -37,7 +37,6 @@ pub enum Symbol {
     Carriage,
     /// Revolute joint between beams.
     Joint,
-    /// Rigid joint between beams.
     RigidJoint,
     /// Point that slides along a beam.
     Slider,
@@ -73,7 +72,6 @@ impl Symbol {
         matches!(self, Self::Wall | Self::Disc)
     }
 
-    /// Name of the symbol in viewer data.
     pub fn name(self) -> &'static str {
         match self {
             Self::Hinge => "hinge",

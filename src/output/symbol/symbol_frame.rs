@@ -39,7 +39,6 @@ pub(super) struct SymbolFrame<'a> {
 }
 
 impl SymbolFrame<'_> {
-    /// Draws a symbol. Springs, dampers, tendons and obstacles are drawn elsewhere.
     pub(super) fn draw(mut self, symbol: Symbol) {
         match symbol {
             Symbol::Hinge => self.hinge(),

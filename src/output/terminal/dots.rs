@@ -74,7 +74,6 @@ impl Dots {
         }
     }
 
-    /// Characters with dots, as column, row, dots and colour.
     pub fn drawn(&self) -> impl Iterator<Item = (usize, usize, u8, TerminalColour)> {
         let of_cell = |(at, (mask, ink)): (usize, &(u8, TerminalColour))| {
             (*mask != 0).then(|| (at % self.columns, at / self.columns, *mask, *ink))
@@ -103,7 +102,6 @@ impl Glyphs {
     }
 }
 
-/// ASCII character that looks most similar to the dots.
 fn ascii_of_dots(mask: u8) -> char {
     let rows = |column: usize| (0..DOWN).filter(move |&row| mask & BITS[column][row] != 0);
     let (left, right) = (rows(0).count(), rows(1).count());

@@ -56,7 +56,6 @@ pub struct ConfigurationPicture {
 
 struct PlaneWindow {
     middle: Point,
-    /// Distance between two dots in data units.
     dot: f64,
     last: Point,
 }
