@@ -153,7 +153,6 @@ pub fn parts(operand: &str) -> Vec<&str> {
     parts
 }
 
-/// Summary of a curve in one line: first, last, smallest and largest value.
 pub fn summary(curve: &PlotCurve) -> String {
     let values = curve.points.iter().map(|(_, value)| *value);
     let shown = |value: Option<f64>| value.map_or_else(String::new, |x| significant(x, DIGITS));

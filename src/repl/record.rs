@@ -124,7 +124,6 @@ impl SessionRecord {
         twice
     }
 
-    /// Source text of the last definition of a function.
     pub fn definition(&self, name: &str) -> Option<String> {
         self.entries.iter().rev().filter_map(RecordedInput::source).find_map(|source| {
             let found = written(source).into_iter().rev();
@@ -194,13 +193,11 @@ fn value_text(engine: &Engine, text: &str) -> String {
     terminated(&format!("{before}{space}let {ANSWER} = {}", expression.trim_start()).into())
 }
 
-/// Source texts of the functions defined in a text.
 pub fn functions_of(source: &Source) -> impl Iterator<Item = &str> {
     written(source).into_iter().map(|definition| &source[definition.bytes])
 }
 
 struct FunctionText {
-    /// Name and number of parameters. For a method, the name includes the type.
     name: (String, usize),
     /// Byte range of the definition, from its doc comments or `private` to the closing brace.
     bytes: Range<usize>,

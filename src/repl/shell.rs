@@ -53,9 +53,7 @@ pub struct Shell {
     session: Session,
     screen: ReplyTarget,
     watched: Vec<String>,
-    /// Number of written files that have been reported to the user.
     reported_files: usize,
-    /// Scripts that this shell has saved, with their paths.
     saved: HashMap<PathBuf, String>,
     clock: Rc<dyn Clock>,
     pager: Option<Box<dyn Pager>>,

@@ -79,7 +79,6 @@ struct BracketLevel<'t> {
     owner: Option<&'t str>,
     /// Keyword whose block has not started yet.
     keyword: Option<&'t str>,
-    /// Keyword whose block was closed last.
     closed: Option<&'t str>,
     /// True between the bars of a closure such as `|x, y| x + y`.
     is_between_bars: bool,

@@ -13,7 +13,6 @@ impl TypedAhead {
         Self(())
     }
 
-    /// Restores the original mode for another program, until the returned guard is dropped.
     pub fn restore_for_program() -> TerminalLease {
         TerminalLease(terminal::restore())
     }
