@@ -110,7 +110,6 @@ mod tests {
             .collect()
     }
 
-    /// Points computed by the program of Joe and Kuo in three dimensions.
     #[test]
     fn points_are_those_of_joe_and_kuo() {
         assert_eq!(plain(6, 0), [0.0, 0.5, 0.75, 0.25, 0.375, 0.875]);
