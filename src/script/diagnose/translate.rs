@@ -37,7 +37,6 @@ struct Unwrapped<'e> {
     inner: &'e EvalAltResult,
     program: Program,
     trace: Vec<CallFrame>,
-    /// Position of the innermost call, with its file.
     called_at: Option<(Program, Position)>,
     /// Position from which the standard library was called; `None` if the error did not occur in the library.
     library_called_at: Option<(Program, Position)>,

@@ -18,7 +18,6 @@ use crate::script::source::syntax::{LONGEST_CHAIN, OWN, power_name};
 #[derive(Clone, Copy)]
 struct OnNumbers {
     of: fn(f64, f64) -> f64,
-    /// Check for arguments at which the function has no derivative.
     corner: Option<NonsmoothCheck>,
 }
 

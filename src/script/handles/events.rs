@@ -24,7 +24,6 @@ impl<F: Clone> Events<F> {
         self.functions.get(self.called).map(|(time, _)| *time)
     }
 
-    /// Removes and returns the next function that is due.
     pub fn take_due(&mut self, now: f64) -> Option<F> {
         let (_, due) = self.functions.get(self.called).filter(|(time, _)| *time <= now)?;
         self.called += 1;

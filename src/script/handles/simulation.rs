@@ -237,7 +237,6 @@ impl SimulationHandle {
         self.simulation().slack()
     }
 
-    /// Advances the simulation, and calls the functions scheduled up to the goal.
     pub fn advance(&self, call: &Call, goal: &RunTarget) -> Result<(), ScriptError> {
         self.0.sensing.expect_idle()?;
         let context = call.context();
@@ -326,7 +325,6 @@ impl SimulationHandle {
         }
     }
 
-    /// Advances the time in a dry run, and calls scheduled functions.
     pub fn dry_run(&self, context: &Context, end: f64) -> Result<(), ScriptError> {
         context.meter().count_dry_run();
         context.proceed()?;

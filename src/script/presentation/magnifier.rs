@@ -15,7 +15,6 @@ pub struct Magnifier<'a> {
     factor: f64,
     travel: Travel,
     start: Configuration,
-    /// Stations of joints of each body.
     joints: Vec<Vec<Station>>,
 }
 
@@ -201,7 +200,6 @@ impl<'a> Magnifier<'a> {
         Ok(shifts)
     }
 
-    /// Rigid bodies with an outline.
     fn outlined(&self) -> impl Iterator<Item = usize> + '_ {
         let scene = self.simulation.scene();
         let bodies = (scene.first_rigid_body()..).zip(&scene.rigid_bodies);

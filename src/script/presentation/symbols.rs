@@ -19,7 +19,6 @@ pub struct StationSymbol<'a> {
     pub name: &'a str,
     pub at: Station,
     pub pointing: Pointing,
-    /// Releasable object that the symbol represents.
     pub hold: Option<Releasable>,
 }
 
@@ -65,7 +64,6 @@ impl<'a> SceneAt<'a> {
         Self { scene, time, released: holds.filter(is_gone).collect() }
     }
 
-    /// Scene of an equilibrium under its full load.
     pub fn at_rest(rest: &'a Equilibrium) -> Self {
         Self { scene: rest.scene(), time: 0.0, released: Vec::new() }
     }
@@ -110,7 +108,6 @@ pub fn symbols(
     Ok(placed.chain(springs).chain(of_obstacles(scene).map(|(_, placed)| placed)).collect())
 }
 
-/// Symbols of obstacles, with their names.
 pub fn of_obstacles(scene: &Scene) -> impl Iterator<Item = (&str, PlacedSymbol)> {
     scene.obstacles().map(|obstacle| {
         let (symbol, at, direction) = match obstacle.shape {
@@ -176,7 +173,6 @@ pub fn of_spring_kind(spring: &Spring) -> Symbol {
     }
 }
 
-/// Symbols of joints, supports and prescribed motions.
 pub fn of_supports(scene: &Scene) -> impl Iterator<Item = StationSymbol<'_>> {
     let joints = scene.joints.iter().enumerate();
     let joints = joints.map(|(index, joint)| of_joint(scene, joint, Releasable::Joint(index)));

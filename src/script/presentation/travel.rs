@@ -7,7 +7,6 @@ use crate::system::Scene;
 /// Bodies that joints hold in place, and groups of joined bodies that can move without deformation. Bodies have their indices in the model.
 pub struct Travel {
     is_held: Vec<bool>,
-    /// Smallest index in the group of joined travelling bodies, for each body.
     group: Vec<usize>,
 }
 
@@ -27,7 +26,6 @@ impl Travel {
         self.is_held[body]
     }
 
-    /// Smallest index in the group of joined bodies that travel together.
     pub fn group(&self, body: usize) -> usize {
         self.group[body]
     }

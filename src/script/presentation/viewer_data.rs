@@ -83,7 +83,6 @@ struct FrameSelection {
     indices: Vec<usize>,
     /// Control points. The first index is the frame, the second the body.
     frames: Vec<Vec<Vec<Vec2>>>,
-    /// For each body, the index of its first point.
     first: Vec<usize>,
 }
 

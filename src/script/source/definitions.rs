@@ -69,7 +69,6 @@ impl<'t> Definition<'t> {
     }
 }
 
-/// Change of the bracket depth by a token.
 pub fn nesting(token: &Token) -> isize {
     match token {
         Token::LeftBrace

@@ -42,7 +42,6 @@ struct ContextData {
     pipe_closed: Cell<bool>,
     progress: Box<dyn Progress + Send>,
     inputs: RefCell<Inputs>,
-    /// Values of the parameters in a run of a study.
     parameters: RefCell<Map>,
     files_read: FilesRead,
     studies: StudyPreferences,

@@ -134,7 +134,6 @@ impl CostTable {
         cost.shortest.as_secs_f64() / alone
     }
 
-    /// Rows as script maps.
     pub fn rows(&self) -> Vec<Map> {
         let row = |cost: &StepCost| {
             let whole = |count: usize| Dynamic::from(count as rhai::INT);
@@ -242,7 +241,6 @@ impl CostTable {
         }
     }
 
-    /// Bar chart of the times, with the plain scene marked.
     pub fn chart(&self) -> BarChart {
         let micro = |cost: &StepCost| cost.shortest.as_secs_f64() * 1e6;
         let empty =

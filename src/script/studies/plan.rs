@@ -69,7 +69,6 @@ impl ErrorStudyPlan {
         SimulationSettings { method, dt, tolerance: Tolerance::default() }
     }
 
-    /// Settings of all combinations of integrators and step sizes.
     pub fn all_settings(&self) -> Vec<SimulationSettings> {
         let with = |method: &Method| {
             let method = *method;
@@ -247,7 +246,6 @@ fn label_of(call: &Call, mesh: &Dynamic) -> String {
     mesh.read_lock::<Mesh>().map_or_else(|| call.show(mesh), |mesh| mesh.describe())
 }
 
-/// Scene on a mesh, made by the function of the study.
 pub fn scene_on_mesh(
     call: &Call,
     scene_of: &FnPtr,

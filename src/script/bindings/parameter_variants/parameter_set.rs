@@ -22,7 +22,6 @@ pub struct ParameterSet {
     parameters: RefCell<Vec<DeclaredParameter>>,
     /// True if variants have been used. No parameter may be added after that.
     is_in_use: Cell<bool>,
-    /// Script positions (line and column) of reported branches that depend on a parameter.
     reported: RefCell<BTreeSet<(usize, usize)>>,
 }
 
@@ -75,7 +74,6 @@ pub fn present_variant() -> usize {
     present().map_or(0, |present| present.variant)
 }
 
-/// Marks the results of perturbed variants as unavailable, with a reason.
 pub fn set_unavailable(reason: &str) {
     LOST.set(Some(reason.into()));
 }
@@ -145,7 +143,6 @@ impl ParameterSet {
         Ok(VariantValue::new(self, values, None))
     }
 
-    /// Returns true at the first call for a position of the script.
     pub fn is_first_report(&self, line: usize, column: usize) -> bool {
         self.reported.borrow_mut().insert((line, column))
     }
@@ -164,7 +161,6 @@ impl ParameterSet {
         1 + 2 * self.parameters.borrow().len()
     }
 
-    /// Names of the parameters, with their perturbations.
     pub fn parameters(&self) -> Vec<(String, f64)> {
         let parameters = self.parameters.borrow();
         parameters.iter().map(|of| (of.name.clone(), of.distance)).collect()

@@ -71,7 +71,6 @@ impl<'s> TokenWindow<'s> {
         self.find(from_here).map_or("", |word| word.text.as_str())
     }
 
-    /// Token at the given index from the start of the statement.
     pub fn in_statement(&self, index: usize) -> &str {
         self.words.get(self.first + index).map_or("", |word| word.text.as_str())
     }
@@ -128,7 +127,6 @@ impl<'s> TokenWindow<'s> {
         self.first as isize - self.here as isize
     }
 
-    /// Token that the parser reported as missing, and the explanation by the parser.
     pub fn missing(&self) -> (&str, &str) {
         match self.error {
             ParseErrorType::MissingToken(token, why) => (token, why),
@@ -140,7 +138,6 @@ impl<'s> TokenWindow<'s> {
         self.here >= self.words.len()
     }
 
-    /// Creates an explanation for the position of the token at the given offset.
     pub fn explain(
         &self,
         from_here: isize,

@@ -16,7 +16,6 @@ pub struct UnknownTopic {
     pub meant: Option<&'static str>,
     /// Names with help that contain the word.
     pub related: Vec<&'static str>,
-    /// Names whose help mentions the word.
     pub mentions: Vec<&'static str>,
 }
 

@@ -91,7 +91,6 @@ pub fn expect_options_for_panels(options: &Options, panels: usize) -> Result<(),
     }
 }
 
-/// Applies labels, scales and limits of the options to a chart.
 pub fn with_options(options: &Options, mut chart: LineChart) -> Result<LineChart, OptionError> {
     let limits = limits(options)?;
     let is_asked = |name: &str| options.boolean(name).unwrap_or(false);

@@ -20,7 +20,6 @@ pub struct RunFunction {
     pub besides: Vec<Portable>,
 }
 
-/// Error for a function that changes a captured variable.
 pub fn changes(name: &str) -> String {
     format!(
         "it changes the variable '{name}' from outside, which is separate in every run: return \
@@ -120,7 +119,6 @@ impl RunFunction {
         Some((captured, given))
     }
 
-    /// First captured variable whose value has changed.
     pub fn changed(&self, captured: &[Dynamic]) -> Option<&str> {
         let pairs = self.captured.iter().zip(captured);
         pairs.into_iter().find(|((_, was), is)| !was.is(is)).map(|((name, _), _)| name.as_str())

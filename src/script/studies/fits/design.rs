@@ -40,18 +40,15 @@ pub struct DesignRequest<'o> {
     pub function: &'o FnPtr,
     pub goal: Objective,
     pub limits: Vec<Limit>,
-    /// Tolerance of the parameters, as a fraction of their ranges.
     pub tolerance: f64,
     pub most_runs: usize,
     pub derivatives: Derivatives,
-    /// Wall-clock limit of a run.
     pub wall: Duration,
 }
 
 #[derive(Clone)]
 pub struct BestDesign {
     pub parameters: Vec<(String, f64)>,
-    /// Results with the best parameters.
     pub results: Vec<(String, f64)>,
     /// True if the search converged within the allowed number of runs.
     pub is_settled: bool,

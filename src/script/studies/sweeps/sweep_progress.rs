@@ -28,7 +28,6 @@ impl SweepProgress {
         Self { results, is_known: vec![false; rows], done: 0, rows, model: None }
     }
 
-    /// Marks the rows of other parts as done.
     pub fn mark_other_parts(&mut self, part: StudyPart) {
         for row in (0..self.rows).filter(|row| !part.has(*row)) {
             self.restore_row(row);
@@ -89,7 +88,6 @@ impl SweepProgress {
         }
     }
 
-    /// Records the result of a row. Returns the entries for the journal.
     pub fn record_result(
         &mut self,
         at: usize,
