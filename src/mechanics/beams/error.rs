@@ -35,7 +35,6 @@ pub enum BeamError {
         "taper: a place is {value}, but places must increase from 0 (start of the beam) to 1 (its end)"
     )]
     TaperPlace {
-        /// First position that is not in increasing order [-].
         value: f64,
     },
     #[error(

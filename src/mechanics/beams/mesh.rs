@@ -38,8 +38,7 @@ pub struct PointCounts {
     pub inertia: usize,
 }
 
-/// Span of the mesh, its quadrature points for the strain `Γ`, and the number of points for the curvature `κ`.
-/// The quadrature is `∫ f dξ ≈ Σ weight · f(point)`.
+/// Span of the mesh with its quadrature points and weights for axial and shear strain, and the number of points for the curvature.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct QuadratureSpan {
     pub(super) span: Span,
@@ -48,7 +47,6 @@ pub(super) struct QuadratureSpan {
 }
 
 impl QuadratureSpan {
-    /// Quadrature rule of the span for the curvature `κ`.
     pub(super) fn moment_rule(&self) -> Result<GaussRule, GeometryError> {
         GaussRule::new(self.moment_points)
     }

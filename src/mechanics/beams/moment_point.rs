@@ -12,7 +12,6 @@ const SAME_TURN: f64 = 64.0 * f64::EPSILON;
 #[derive(Debug, Clone)]
 pub(super) struct MomentPoint<const N: usize> {
     pub(super) axis: AxisPoint<N>,
-    /// Curvature `κ0` at the start of the step.
     pub(super) curvature: f64,
     pub(super) last_moment: f64,
 }

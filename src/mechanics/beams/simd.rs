@@ -25,7 +25,6 @@ pub(super) struct LaneChunk<V> {
 }
 
 impl<V: Simd> LaneChunk<V> {
-    /// Number of chunks needed for all lanes.
     pub(super) const COUNT: usize = {
         assert!(LANES.is_multiple_of(V::F64_LANES), "vectors are no longer than the lanes");
         LANES / V::F64_LANES

@@ -16,7 +16,6 @@ use super::{RotationIncrement, Section};
 
 /// Operation that is repeated for all spans. Each operation is a separate type, so that the compiler uses vector instructions in the whole loop.
 pub(super) trait SpanLoop<const N: usize, S> {
-    /// Performs the operation for a group of spans.
     fn at<V: Simd>(&mut self, simd: V, group: &mut SpanGroup<N, S>);
 
     fn over(self, groups: &mut [SpanGroup<N, S>])

@@ -71,7 +71,6 @@ pub(super) fn group_of<const N: usize, S>(
 }
 
 impl<const N: usize, S: Sections> SpanGroup<N, S> {
-    /// Arranges the quadrature points of consecutive spans in lanes.
     pub(super) fn side_by_side(spans: &[SpanOfPoints<N>]) -> Self {
         let (mut places, mut of_force, mut of_moment) = (Vec::new(), 0, 0);
         for span in spans {

@@ -33,8 +33,8 @@ fn arc() -> Curve {
     Curve::arc(Vec2::new(0.0, 0.0), 1.0, 0.3, 2.2).unwrap()
 }
 
-/// Kink length `g` computed by dense matrices, with the start of the string held.
-/// The kink length is the exact displacement of the string at ξ under a unit load at ξ, minus the displacement in the mesh.
+/// Kink length computed by dense matrices, with the start of the string held.
+/// It is the displacement of the exact string under a unit load, minus the displacement on the mesh.
 fn dense(mesh: &Mesh, points: &[Vec2], places: &[f64]) -> Vec<f64> {
     let (basis, count) = (mesh.basis(), points.len());
     let mut stiffness = DMatrix::zeros(count, count);
@@ -172,9 +172,8 @@ fn a_mesh_with_too_few_points_has_no_missed_kink() {
     assert!(unresolved_kink(&mesh, &points).unwrap().is_none());
 }
 
-/// Missing energy of a kink at rest and of a moving kink on equal spans without ends, averaged over the positions of the kink.
-/// The energy is computed by Fourier sums: the waves of the exact string minus the waves of splines of the given degree.
-/// The mesh has one strain point per span. For odd degrees, this point is half a span from a knot.
+/// Missing energy of a kink at rest and of a moving kink on equal spans, averaged over the positions of the kink.
+/// The energy is the difference between Fourier sums of the exact string and of splines of the given degree.
 fn fourier(degree: usize, is_exact: bool) -> f64 {
     let (tau, order) = (2.0 * std::f64::consts::PI, degree as i32 + 1);
     let hat = |k: f64| (elementary::sin(0.5 * k) / (0.5 * k)).powi(order);

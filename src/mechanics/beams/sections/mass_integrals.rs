@@ -22,7 +22,6 @@ pub(in crate::beams) trait MassIntegral:
     /// Factors that convert the [`weights`](Self::weights) to inertia: the mass and rotary inertia per length, or one.
     fn shares(uniform: &Section) -> Movement;
 
-    /// Inertia of each component x, y and rotation, multiplied by a factor.
     #[inline]
     fn inertia(self, factor: f64, uniform: &Section) -> Movement {
         let (weights, shares) = (self.weights(), Self::shares(uniform));

@@ -15,7 +15,6 @@ pub(in crate::beams) trait Sections: Clone + Debug + Send + Sync {
     /// Type of the integral of a product of two basis functions.
     /// If the inertia varies along the beam, the type also contains the integrals weighted with the inertia.
     type MassIntegral: MassIntegral;
-    /// Type of a section interpolated between the quadrature points.
     type Interpolation: Interpolation;
 
     fn new(at_force: Vec<Section>, at_moment: Vec<Section>) -> Self;
@@ -95,13 +94,10 @@ impl Sections for Uniform {
 pub(in crate::beams) struct PerPoint {
     at_force: Vec<Section>,
     at_moment: Vec<Section>,
-    /// Stiffness `diag(EA, GA)` at the quadrature points for the strain `Γ`, in vector lanes.
-    /// The next field contains `EI` at the quadrature points for the curvature `κ`.
     force_stiffness: Vec<Pair<Lanes>>,
     bending_stiffness: Vec<Lanes>,
 }
 
-/// Property of the sections at several points, one point in each vector lane. Unused lanes repeat the last point.
 fn side_by_side(sections: &[Section], of: impl Fn(&Section) -> f64) -> Lanes {
     let mut lanes = Lanes::default();
     for lane in 0..LANES {
