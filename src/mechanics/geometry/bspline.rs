@@ -5,16 +5,7 @@ use super::{KnotVector, Span};
 
 /// Nonzero B-splines on `span` of `knots` at `xi`, with all derivatives. Outside the span their polynomials are extended.
 ///
-/// The functions and their derivatives are computed from the splines of one degree less.
-/// The spline `N_m` of degree `q - 1` contributes to two splines of degree `q`. Its support is `[ξ_m, ξ_{m+q}]` and has the length `h_m`.
-/// Reference: The NURBS Book, equations 2.5 and 2.7. The results are those of algorithm A2.3.
-///
-/// ```text
-/// contribution to N_{m-1}:  (ξ_{m+q} - ξ)/h_m · N_m
-/// derivatives of N_{m-1}:   -q/h_m times the derivatives of N_m of one order less
-/// contribution to N_m:      (ξ - ξ_m)/h_m · N_m
-/// derivatives of N_m:       q/h_m times the derivatives of N_m of one order less
-/// ```
+/// The functions and their derivatives follow from the splines of one degree less (The NURBS Book, equations 2.5 and 2.7).
 pub(super) fn evaluate(knots: &KnotVector, span: &Span, xi: f64) -> BasisValues {
     let mut basis = BasisValues::zeros(span.first, knots.degree());
     fill((knots, knots.degree()), span, xi, basis.rows_mut());
@@ -64,8 +55,7 @@ fn raise<const WIDTH: usize>(
     higher
 }
 
-/// Computes the derivatives of one order for the splines of degree `q`.
-/// The input contains the derivatives of the next lower order of the splines of degree `q - 1`.
+/// Computes the derivatives of one order of the splines of degree `q`, from the derivatives of one order less of degree `q - 1`.
 #[inline(always)]
 fn differentiate<const WIDTH: usize>(
     lower: &[f64; WIDTH],

@@ -134,8 +134,7 @@ impl LagrangeBasis {
         }
     }
 
-    /// Polynomial `L_j = Π_{m≠j} (ξ - ξ_m) / (ξ_j - ξ_m)` with its derivatives, computed by multiplying the linear factors.
-    /// For a linear factor `f`, Leibniz' rule is `(f g)⁽ᵏ⁾ = f g⁽ᵏ⁾ + k f' g⁽ᵏ⁻¹⁾`.
+    /// Lagrange polynomial of a node with its derivatives, computed by multiplying the linear factors.
     fn polynomial(&self, span: &Span, j: usize, xi: f64) -> FunctionRow {
         let mut derivatives = FunctionRow::default();
         derivatives[0] = 1.0;

@@ -43,8 +43,7 @@ pub(super) fn through(points: &[Vec2]) -> Result<SplineCurve, GeometryError> {
     SplineCurve::new(KnotVector::new(3, knots)?, control_points)
 }
 
-/// Common speed `α = |x'|` at the start, the middle and the end of a cubic piece on the unit interval.
-/// The speed is the positive root of equation 9.50, for a `chord` and the sum `T_0 + T_3` of the end tangents.
+/// Common speed at the start, the middle and the end of a cubic piece (The NURBS Book, equation 9.50).
 fn common_speed(chord: Vec2, tangent_sum: Vec2) -> f64 {
     let a = 16.0 - tangent_sum.norm_squared();
     let half_b = 6.0 * chord.dot(&tangent_sum);

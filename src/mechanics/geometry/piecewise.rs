@@ -17,15 +17,15 @@ pub struct PiecewisePolynomial {
 /// Function along a path between two parameters, with its divided difference.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct FunctionOnPath {
-    /// Value at the start `ξ0` of the path.
+    /// Value at the start of the path.
     pub start: f64,
-    /// Value at the end `ξ1` of the path.
+    /// Value at the end of the path.
     pub end: f64,
     /// Derivative at the end of the path, as limit from inside the path.
     pub slope: f64,
-    /// Divided difference `D = (f(ξ1) - f(ξ0))/(ξ1 - ξ0)`, accurate to rounding for paths of any length.
+    /// Divided difference: mean derivative of the function over the path, accurate to rounding for paths of any length.
     pub difference: f64,
-    /// Derivative `∂D/∂ξ1` of the divided difference with respect to the end of the path, for a fixed start.
+    /// Derivative of the divided difference with respect to the end of the path, for a fixed start.
     pub change: f64,
 }
 
@@ -72,14 +72,12 @@ impl PiecewisePolynomial {
         &self.rule
     }
 
-    /// Largest value of the function at the centres of the spans.
     pub(crate) fn largest_in_middle(&self) -> f64 {
         let middles = self.spans.iter().enumerate();
         middles.map(|(span, (middle, _))| self.in_span(span, *middle)[0]).fold(0.0, larger)
     }
 
-    /// Values along a path within one span.
-    /// Horner's scheme evaluates the polynomial `f` and its quotients `f[·, ξ1]` and `f[·, ξ1, ξ1]` at both ends.
+    /// Values along a path within one span, computed by Horner's scheme.
     #[inline]
     pub(super) fn between(&self, span: usize, from: f64, to: f64) -> FunctionOnPath {
         let (middle, half) = self.spans[span];

@@ -35,7 +35,6 @@ impl PositiveBand {
         }
     }
 
-    /// Entry of a row and a column.
     pub fn get(&self, row: usize, column: usize) -> f64 {
         let (low, high) = (row.min(column), row.max(column));
         self.rows[low].get(high - low).copied().unwrap_or(0.0)

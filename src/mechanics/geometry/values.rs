@@ -31,12 +31,12 @@ impl BasisValues {
         &mut self.rows[..=self.degree]
     }
 
-    /// Values `N_first(ξ) …` of the `degree + 1` functions. They sum to one.
+    /// Values of the `degree + 1` functions. The values sum to one.
     pub fn values(&self) -> &[f64] {
         self.derivatives(0)
     }
 
-    /// First derivatives `N'_first(ξ) …` of the `degree + 1` functions with respect to ξ. They sum to zero.
+    /// First derivatives of the `degree + 1` functions with respect to the parameter. The derivatives sum to zero.
     pub fn slopes(&self) -> &[f64] {
         self.derivatives(1)
     }
@@ -47,7 +47,7 @@ impl BasisValues {
         &row[..=self.degree]
     }
 
-    /// Derivative of order `order` of `Σ_i N_i(ξ) P_i`, with one point `P_i` per basis function, in the unit of the points.
+    /// Derivative of the given order of a curve with one point per basis function, in the unit of the points.
     ///
     /// # Panics
     /// Panics if there are fewer points than basis functions.
@@ -96,7 +96,6 @@ impl<const WIDTH: usize> LowDerivatives<WIDTH> {
         &self.rows[order][..=self.degree]
     }
 
-    /// Value and derivatives of one function.
     pub fn of_function(&self, at: usize) -> [f64; LOW_ORDERS + 1] {
         self.rows.map(|row| row[at])
     }
