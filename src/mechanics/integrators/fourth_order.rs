@@ -16,16 +16,11 @@ const ENDS: [f64; 7] = {
     [a, a + b, a + b + c, 1.0 - (a + b + c), 1.0 - (a + b), 1.0 - a, 1.0]
 };
 
-/// Fourth-order method.
-/// A step consists of seven energy–momentum substeps with the lengths `a, b, c, 1 - 2(a + b + c), c, b, a`.
-/// The fourth substep runs backwards in time.
+/// Fourth-order method. A step consists of seven energy–momentum substeps, of which the fourth runs backwards in time.
 /// Each substep conserves energy, linear and angular momentum to rounding. Hence the whole step conserves them too.
+/// The leading errors of the substeps cancel, because the cubes of their lengths sum to zero (docs/theory.md, section 8.3).
 ///
-/// In a step of a symmetric second-order method, the leading error is proportional to the third power of the step size.
-/// The leading errors of the substeps cancel, because the sum of the cubes of the substep lengths is zero. Hence the method has order four.
-/// The remaining error is small because the lengths are small. The lengths are chosen such that slow loads do not excite unresolved vibrations.
-///
-/// Reference for composition methods: R. I. McLachlan, SIAM J. Sci. Comput. 16 (1995) 151–168. The coefficients were computed for this program.
+/// Reference for composition methods: R. I. McLachlan, SIAM J. Sci. Comput. 16 (1995) 151–168.
 #[derive(Debug, Clone)]
 pub struct FourthOrder {
     substep: EnergyMomentum,
