@@ -2,7 +2,7 @@
 
 use super::{CONTACT_UNKNOWNS, Contact, Equation, SlidingLaw};
 
-/// Law for a released slider, which has no force and no constraint: `λ = 0`, `η = 0`, `Δξ = 0`.
+/// Law for a released slider, which has no force and no constraint.
 #[derive(Debug, Clone, Copy)]
 pub struct Released;
 
