@@ -6,24 +6,19 @@ use super::{BlockLayout, reverse_cuthill_mckee};
 /// Largest ratio of the elimination work to the work for the same band without blocks. Below this ratio, the order of the band is kept.
 const LARGEST_WORK: usize = 4;
 
-/// Order of the unknowns that are not eliminated in blocks, including delayed unknowns, and the resulting profile of the matrix.
-///
-/// The order depends only on the unknowns that the blocks touch.
-/// The delayed unknowns of a block follow the last unknown that the block touches. At this position in the order, the delayed unknowns have a pivot.
+/// Order of the unknowns that are not eliminated in blocks, and the resulting profile of the matrix.
+/// The order depends only on the band unknowns that are coupled to blocks.
+/// Delayed unknowns of a block follow the last band unknown that is coupled to the block.
 #[derive(Debug, Clone)]
 pub(super) struct Arrangement {
     layout: BlockLayout,
     /// Position of each unknown of the band in the order; `UNTOUCHED` if the unknown is eliminated in a block.
     pub(super) position: Vec<usize>,
-    /// For each unknown of the band, the end of the sequence of consecutive positions that contains its position.
     pub(super) run_ends: Vec<usize>,
-    /// First position of the delayed unknowns of each block; `UNTOUCHED` if the block delays no unknowns.
     pub(super) delayed: Vec<usize>,
     pub(super) ends: Vec<usize>,
     own_ends: Vec<usize>,
-    /// For each unknown in the order of elimination, the number of delayed unknowns after it.
     delayed_after: Vec<usize>,
-    /// Unknowns that the blocks touched when the order was determined.
     ordered_for: Vec<usize>,
     touched: Vec<usize>,
 }
@@ -51,7 +46,7 @@ impl Arrangement {
         self.ends.len()
     }
 
-    /// Updates the profile. Updates also the order, if the blocks touch different unknowns than before.
+    /// Updates the profile. Updates also the order, if the blocks are coupled to other band unknowns than before.
     pub(super) fn fit(&mut self, blocks: &[Block]) {
         self.touched.clear();
         for block in blocks.iter().filter(|block| block.can_delay_unknowns()) {
@@ -159,7 +154,6 @@ impl Arrangement {
     }
 }
 
-/// Extends the profile at each coupled position to the last of the coupled positions.
 fn couple(ends: &mut [usize], places: impl Iterator<Item = usize> + Clone) {
     let last = places.clone().max().unwrap_or(0);
     places.for_each(|place| ends[place] = ends[place].max(last));

@@ -45,7 +45,6 @@ impl BandedMatrix {
         self.storage.clear();
     }
 
-    /// View of all rows, for adding entries.
     #[inline]
     pub(crate) fn rows_mut(&mut self) -> BandRows<'_> {
         let (stride, centre) = (self.storage.stride(), self.storage.centre());
@@ -214,8 +213,6 @@ mod tests {
             }
             let singular = |unknown| LinearError::Singular { unknown, size: 12 };
             assert_eq!(column.factorise().unwrap_err(), singular(zero));
-            // Row exchanges move the zero row down until only the last row follows it.
-            // In the column of the last exchange, the last row has only a diagonal entry, so it is not exchanged with the zero row.
             assert_eq!(row.factorise().unwrap_err(), singular(zero.max(10)));
         }
     }

@@ -1,11 +1,9 @@
-//! Block of a local border: a few unknowns outside a band, and the unknowns of the band that are coupled to them.
+//! Block of a local border: a few unknowns outside a band, and the band unknowns that are coupled to them.
 //! Each block is eliminated separately from the other blocks.
 //!
 //! The block is a small dense matrix, like the front of a multifrontal method (Duff & Reid, ACM Trans. Math. Softw. 9 (1983) 302–325).
-//! The own unknowns of a block are eliminated with complete pivoting. The Schur complement for the touched unknowns is added to the band.
-//! Some unknowns of the block may have no pivot yet, for example the contact force of a supported slave.
-//! An unknown without a pivot is coupled to the band only by a constraint.
-//! Unknowns without pivot are *delayed*: they are inserted into the band after the touched unknowns.
+//! Its unknowns are eliminated with complete pivoting, and the Schur complement is added to the band.
+//! An unknown without a pivot, for example the contact force of a supported slave, is delayed: it is inserted into the band.
 
 use pulp::{Simd, WithSimd};
 
@@ -20,10 +18,10 @@ const LANES: usize = 4;
 /// Largest number of delayed unknowns of a block.
 pub(super) const MOST_DELAYED: usize = 2;
 
-/// Largest contribution of a pivot to a diagonal entry of the band. It is a multiple of the largest diagonal entry at the touched unknowns.
+/// Largest contribution of a pivot to a diagonal entry of the band, as a multiple of the largest diagonal entry of the coupled unknowns.
 const LARGEST_FILL: f64 = 100.0;
 
-/// Placeholder index for an unknown of the band that a block does not touch.
+/// Placeholder index for a band unknown that is not coupled to a block.
 pub(super) const UNTOUCHED: usize = usize::MAX;
 
 /// Elimination of all blocks in the border of a band. An error contains the index of the failed block.
@@ -48,7 +46,6 @@ impl WithSimd for BlockElimination<'_> {
     }
 }
 
-/// Row of `B` and column of `C` for an unknown of the band.
 #[derive(Debug, Clone)]
 struct Coupling {
     at: usize,
@@ -63,9 +60,9 @@ pub(super) struct Block {
     /// Couplings with unknowns of the band. An unknown may occur several times.
     couplings: Vec<Coupling>,
     corner: [[f64; BLOCK]; BLOCK],
-    /// Unknowns of the band that the block touches, except its own unknowns.
+    /// Unknowns of the band that are coupled to the block, except its own unknowns.
     pub(super) touched: Vec<usize>,
-    /// Rows of the dense matrix, in the order: own unknowns, unknowns of the block, touched unknowns.
+    /// Rows of the dense matrix: own unknowns, then unknowns of the block, then coupled unknowns of the band.
     /// After the elimination, the rows contain the factors and the Schur complement.
     front: Vec<f64>,
     /// Buffer for the vectors of a pivot row, with zeros up to the pivot.
@@ -73,12 +70,10 @@ pub(super) struct Block {
     row_at: Vec<usize>,
     column_at: Vec<usize>,
     pub(super) pivots: usize,
-    /// Units of the rows and unknowns of the block.
     units: [(BorderUnit, BorderUnit); BLOCK],
     /// Factors of rows and columns that make the entries of the dense matrix comparable, in the order of elimination.
     row_factors: Vec<f64>,
     column_factors: Vec<f64>,
-    /// Largest diagonal entry of the band at the touched unknowns.
     pub(super) stiffness: f64,
 }
 
@@ -151,7 +146,6 @@ impl Block {
         self.corner[row][column]
     }
 
-    /// Number of unknowns that the block can eliminate.
     pub(super) fn candidates(&self) -> usize {
         self.own.len() + BLOCK
     }
@@ -174,7 +168,6 @@ impl Block {
         self.size().next_multiple_of(LANES)
     }
 
-    /// Factor of a row of the Schur complement. It gives the equations of delayed unknowns the same magnitude as the equations of the band.
     pub(super) fn scale(&self, left: usize) -> f64 {
         if left < self.delayed() { self.row_factors[self.pivots + left] } else { 1.0 }
     }
@@ -349,8 +342,7 @@ impl Block {
         }
     }
 
-    /// Rows of the Schur complement with their indices.
-    /// The rows of delayed unknowns, which are eliminated in the band, come first. The rows of the touched unknowns of the band follow.
+    /// Rows of the Schur complement with their indices: delayed unknowns first, then the coupled unknowns of the band.
     pub(super) fn schur_complement(&self) -> impl Iterator<Item = (usize, &[f64])> {
         let (size, stride, first) = (self.size(), self.stride(), self.pivots);
         let rows = self.front.chunks_exact(stride).map(move |row| &row[..size]).skip(first);
@@ -358,8 +350,8 @@ impl Block {
     }
 
     /// Applies the elimination to a right-hand side.
-    /// The argument `own` contains the entries for the own unknowns and the block, in the order of the pivots.
-    /// The callback `subtract` receives the contributions to the entries of touched unknowns.
+    /// The argument `own` contains the entries of the eliminated unknowns in the order of the pivots.
+    /// The callback `subtract` receives the contributions to the coupled unknowns of the band.
     pub(super) fn substitute(&self, own: &mut [f64], mut subtract: impl FnMut(usize, f64)) {
         let rows = self.front.chunks_exact(self.stride());
         for (at, row) in rows.enumerate() {
@@ -372,7 +364,7 @@ impl Block {
         }
     }
 
-    /// Solves for the eliminated unknowns, which are the first entries of `all`. The delayed and touched unknowns after them are known.
+    /// Solves for the eliminated unknowns, which are the first entries of `all`. The other entries are known.
     pub(super) fn back_substitute(&self, all: &mut [f64]) {
         let (size, stride) = (self.size(), self.stride());
         for at in (0..self.pivots).rev() {
@@ -383,8 +375,6 @@ impl Block {
         }
     }
 
-    /// Entries of a right-hand side in the order of the pivot rows.
-    /// The entries are taken from `own` for own unknowns, and from `block` for unknowns of the block.
     pub(super) fn by_rows<'a>(
         &'a self,
         own: impl Fn(usize) -> f64 + 'a,

@@ -1,8 +1,7 @@
 //! Banded matrix with a border: additional columns and rows that may have entries anywhere.
 //!
 //! A border with few unknowns is stored as dense columns, which do not change the band.
-//! A border of many blocks, each of which touches few unknowns of the band, is eliminated block by block.
-//! The work of the block elimination is proportional to the number of blocks.
+//! A border of many blocks is eliminated block by block, with work in proportion to the number of blocks.
 
 use super::block::BLOCK;
 use super::full_border::FullLu;
@@ -65,7 +64,7 @@ impl BorderUnit {
 pub enum Border {
     /// Dense columns and rows.
     Full(FullBorder),
-    /// Blocks of five unknowns. Each block touches few unknowns of the band, and no other block.
+    /// Blocks of five unknowns. Each block is coupled to few unknowns of the band, and to no other block.
     Local(Box<LocalBorder>),
 }
 

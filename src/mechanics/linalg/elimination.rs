@@ -56,9 +56,9 @@ impl WithSimd for Elimination<'_> {
     }
 }
 
-/// Elimination of a matrix whose profile is symmetric.
-/// For each index `i`, the profile contains the last row with an entry in column `i`. It is also the last column with an entry in row `i`.
-/// The values of the profile never decrease. The profile is longer than the matrix by one panel of rows.
+/// Elimination of a matrix with a symmetric profile.
+/// For each index, the profile gives the last row with an entry in this column, which is also the last column with an entry in this row.
+/// The values of the profile never decrease.
 pub(super) struct ProfileElimination<'a>(pub(super) ActiveRows<'a>, pub(super) &'a [usize]);
 
 impl WithSimd for ProfileElimination<'_> {

@@ -34,7 +34,6 @@ pub struct FullBorder {
     /// Entries of `C` (row of the border, column, value). Values for the same row and column must be added up.
     rows: Vec<(usize, usize, f64)>,
     corner: Box<BandedMatrix>,
-    /// Units of the border rows and unknowns.
     units: Vec<(BorderUnit, BorderUnit)>,
 }
 
@@ -152,7 +151,6 @@ impl FullBorder {
         all.filter(|(.., value)| *value != 0.0).collect()
     }
 
-    /// Factorises a matrix that consists of this border and an already factorised band.
     pub(super) fn factorise<'a>(
         &'a mut self,
         band: BandedLu<'a>,

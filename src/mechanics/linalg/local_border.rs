@@ -1,13 +1,7 @@
-//! Border of many blocks. Each block touches few unknowns of the band and is eliminated separately.
+//! Border of many blocks. Each block is coupled to few unknowns of the band and is eliminated separately.
 //!
-//! ```text
-//! [ A    B1   B2  … ]
-//! [ C1   D1         ]        each block separately:  A + Σ (Schur complement of block k on the unknowns that it touches)
-//! [ C2        D2    ]
-//! [ …             … ]
-//! ```
-//!
-//! The work is proportional to the number of blocks and unknowns. In each factorisation, the blocks may touch different unknowns of the band.
+//! The work is proportional to the number of blocks and unknowns.
+//! In each factorisation, the blocks may be coupled to different unknowns of the band.
 
 use std::sync::Arc;
 
@@ -21,14 +15,11 @@ use super::{BandedMatrix, LinearError};
 /// Half-bandwidth that is allocated in addition to that of the band.
 const EXTRA_HALF_BANDWIDTH: usize = 16;
 
-/// Structure of the blocks of a border and of its band.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct BlockLayout {
     /// For each block, the unknowns of the band that are coupled with others by this block only. They are eliminated with the block.
     pub own: Vec<Vec<usize>>,
-    /// Groups of unknowns of the band that are coupled with each other.
     pub groups: Arc<[Vec<usize>]>,
-    /// Number of entries for which each block allocates memory in advance.
     pub block_entries: usize,
 }
 
@@ -126,7 +117,6 @@ impl LocalBorder {
         Ok(LocalLu { blocks, arrangement, factors, right, own, all })
     }
 
-    /// Copies the band, in the order of the arrangement.
     fn copy(&mut self, band: &BandedMatrix) {
         let Arrangement { position, run_ends: runs_to, .. } = &self.arrangement;
         for (row, &place) in position.iter().enumerate().filter(|(_, place)| **place != UNTOUCHED) {
@@ -234,7 +224,6 @@ mod tests {
     use nalgebra::{DMatrix, DVector};
     use proptest::prelude::*;
 
-    /// Unknowns that a block touches, given by the first of several consecutive unknowns, their number, and an optional further unknown.
     type Touch = (usize, usize, Option<usize>);
 
     const OWN: usize = 2;

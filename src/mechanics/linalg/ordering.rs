@@ -7,7 +7,6 @@ use std::collections::VecDeque;
 pub struct Ordering {
     /// New number of each unknown: `position[old]`.
     pub position: Vec<usize>,
-    /// Half-bandwidth: the largest difference of new numbers within a group.
     pub half_bandwidth: usize,
 }
 

@@ -34,7 +34,6 @@ impl PreciseBand {
         self.size
     }
 
-    /// Half-bandwidth.
     pub fn half_bandwidth(&self) -> usize {
         self.half_bandwidth
     }
@@ -43,7 +42,6 @@ impl PreciseBand {
         self.half_bandwidth + 1 + MARGIN
     }
 
-    /// Diagonal entry of a row, rounded to 16 digits.
     pub(crate) fn diagonal(&self, row: usize) -> f64 {
         self.high[row * self.stride()]
     }

@@ -9,7 +9,6 @@ use super::strips::VectorStrip;
 pub struct SymmetricSparse {
     /// Index of the first entry of each row, followed by the total number of entries.
     starts: Vec<usize>,
-    /// Columns of the entries, sorted in each row.
     columns: Vec<u32>,
     values: Vec<f64>,
 }
@@ -76,7 +75,6 @@ impl SymmetricSparse {
             .zip(self.values[entries].iter().copied())
     }
 
-    /// Diagonal entry of a row.
     pub(crate) fn diagonal(&self, row: usize) -> f64 {
         self.row(row).find(|(column, _)| *column == row).map_or(0.0, |(_, value)| value)
     }

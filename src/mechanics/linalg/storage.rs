@@ -21,7 +21,6 @@ pub(super) struct Storage {
     /// After the factorisation, a row contains the multipliers to the left of the diagonal and the inverse pivot on the diagonal.
     pub(super) rows: Vec<f64>,
     pub(super) pivots: Vec<usize>,
-    /// For each row of the upper factor, the last column with an entry.
     pub(super) last_columns: Vec<usize>,
     /// Multipliers of the rows below a panel, stored until the panel is accepted.
     pub(super) multipliers: Vec<[f64; PANEL]>,

@@ -1,9 +1,6 @@
 //! `L D Lᵀ` factorisation of a symmetric band matrix. The elimination uses 32 digits; storage and substitution use 16 digits.
 //!
-//! In a positive definite sum of terms of very different magnitudes, the pivots have very different magnitudes. The columns of `L` do not.
-//! The factors `L` and `D` are rounded to 16 digits at the end.
-//! Rounding `L` and `D` has the same effect as rounding the entries of `B`:
-//! each term of the sum changes by a small relative amount (theory, section 15).
+//! Rounding the factors to 16 digits has the effect of small relative changes of the stiffness terms (docs/theory.md, section 15).
 
 use pulp::{Arch, Simd, WithSimd};
 
