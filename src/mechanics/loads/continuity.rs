@@ -1,11 +1,7 @@
 //! Check that prescribed motions given by script functions are continuous.
 //!
-//! A script function can be evaluated only at single times. To detect a jump at the start, it is evaluated at two small times.
-//! The ratio of its changes distinguishes jumps, functions such as `√t` with an infinite rate, and smooth functions.
-//! To detect a jump within a step, the differences of consecutive values are compared.
-//! If one of the differences exceeds the sum of all others, its interval is bisected thirty times.
-//! Each bisection keeps the half with the larger difference.
-//! If the function jumps, the remaining difference is constant; otherwise it tends to zero.
+//! At the start, the ratio of the changes at two small times distinguishes jumps, infinite rates and smooth functions.
+//! Within a step, the interval with the largest difference is bisected. For a jump, the remaining difference is constant.
 
 use super::{LimitSide, LoadError, Schedule};
 use crate::elementary::whole_power;

@@ -1,11 +1,8 @@
 //! Means of schedules over steps.
 //!
-//! Between breaks, constants and tables are polynomials, which a three-point Gauss rule integrates exactly.
-//! Sines, smooth pulses, and their products with each other and with tables are sums of terms.
-//! A term has the form `p(x) cos(κ x + φ)` with a polynomial `p`.
-//! Terms `p(x) cos(κ x + φ)` are integrated in closed form. All other schedules are sampled at five points.
-//! Two quadrature rules use the five points: three Gauss points, and the middle point with two additional points.
-//! Both quadrature rules are exact for cubic polynomials. The difference of their results is an estimate of the sampling error.
+//! Constants and tables are integrated exactly by a three-point Gauss rule. Sines, smooth pulses and their products are integrated in closed form.
+//! All other schedules are sampled at five points, for two quadrature rules that are exact for cubic polynomials.
+//! The difference between the results of both rules is an estimate of the sampling error.
 
 use super::{GAUSS, LimitSide, LoadError, Operation, Schedule, table_value};
 use crate::elementary::{cos, sin};
@@ -258,7 +255,6 @@ struct Wave {
     /// Coefficients of `p`.
     polynomial: [f64; MOST_DEGREE + 1],
     degree: usize,
-    /// Real and imaginary part of the amplitude.
     amplitude: [f64; 2],
     turn: f64,
 }
@@ -336,7 +332,6 @@ mod tests {
         Schedule::combined(Operation::Product, a.clone(), b.clone()).unwrap()
     }
 
-    /// Mean by a composite Gauss rule with many parts.
     fn by_parts(schedule: &Schedule, start: f64, end: f64) -> f64 {
         let parts = 4000;
         let width = (end - start) / f64::from(parts);
