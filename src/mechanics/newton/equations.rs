@@ -7,7 +7,7 @@ use crate::linalg::BorderedMatrix;
 pub struct ResidualNorms {
     /// Largest residual force, as a fraction of the scale of the forces [-].
     pub force: f64,
-    /// Largest difference between the strains of the configuration and the strains that belong to the section forces [-].
+    /// Largest strain residual: strain of the configuration minus strain that belongs to the section force [-].
     pub strain: f64,
     /// Largest constraint violation, as a fraction of the scale of the constraint [-].
     pub constraint: f64,
@@ -42,7 +42,7 @@ impl ResidualNorms {
 pub enum ResidualPart {
     /// Force balance.
     Force,
-    /// Strain mismatch.
+    /// Strain residual.
     Strain,
     /// Constraint violation.
     Constraint,

@@ -28,7 +28,7 @@ const STANDSTILL: f64 = 0.1;
 pub struct Tolerance {
     /// Tolerance of the relative residual force [-].
     pub force: f64,
-    /// Tolerance of the strain mismatch [-].
+    /// Tolerance of the strain residual [-].
     pub strain: f64,
     /// Tolerance of the relative constraint violation [-].
     pub constraint: f64,
