@@ -26,7 +26,6 @@ pub(super) struct Adaptive {
     pub(super) tolerance: f64,
     /// Length scale of position errors [length].
     pub(super) length: f64,
-    /// Order of accuracy of the method in this scene.
     pub(super) order: u32,
 }
 

@@ -16,7 +16,6 @@ pub struct Axes<'a> {
 pub struct AxisStation {
     values: BasisValues,
     degree: usize,
-    /// Derivative `r0'` of the initial position with respect to the parameter of the mesh [length].
     drawn_slope: Vec2,
     /// Initial curvature [1/length].
     drawn_curvature: f64,

@@ -97,8 +97,8 @@ impl Outline {
         Self { line: line.into(), marks: Vec::new(), corners }
     }
 
-    /// Corners of the closed polygon of a rigid body, in the frame of the line between the two points of [`line`](Self::line).
-    /// The coordinates of the corners are along the line and to its left, in units of its length.
+    /// Corners of the closed polygon of a rigid body, relative to the line between the two points of [`line`](Self::line).
+    /// Coordinates are along this line and to its left, in units of its length.
     pub fn corners(&self) -> &[Vec2] {
         &self.corners
     }

@@ -15,7 +15,6 @@ pub(super) struct Snapshot {
     pub(super) state: SystemState,
     /// Time of the snapshot [time].
     pub(super) time: f64,
-    /// Number of history rows that remain when the snapshot is restored.
     pub(super) rows: usize,
     pub(super) last_step: StepTaken,
     pub(super) arrivals: usize,
@@ -28,7 +27,6 @@ pub(super) struct Snapshot {
 }
 
 impl Snapshot {
-    /// Number of steps up to the snapshot, which identifies the snapshot.
     pub(super) fn steps(&self) -> usize {
         self.counts.steps
     }
@@ -44,7 +42,6 @@ pub(super) struct Snapshots {
     /// Memory limit [bytes].
     limit: usize,
     first: Option<Snapshot>,
-    /// Recent snapshots in the order of time, one for each step.
     recent: VecDeque<Snapshot>,
     most: usize,
 }
@@ -78,7 +75,6 @@ impl Snapshots {
         self.first.as_ref()
     }
 
-    /// Step numbers and times of the snapshots, in their order.
     pub(super) fn places(&self) -> impl Iterator<Item = (usize, f64)> {
         self.all().map(|snapshot| (snapshot.steps(), snapshot.time))
     }

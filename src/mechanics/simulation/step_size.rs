@@ -30,7 +30,6 @@ pub struct StepControl {
     pub largest: Option<f64>,
 }
 
-/// Error for an invalid step size, tolerance or bound.
 #[expect(missing_docs, reason = "the messages describe the variants and their fields")]
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum StepSizeError {

@@ -20,7 +20,6 @@ pub struct TimeGrid {
     dt: f64,
     /// Largest difference of two times that count as equal, unless their rounding error is larger.
     slack: f64,
-    /// Cuts in increasing order.
     cuts: Vec<f64>,
     clocks: Vec<SampleClock>,
     passed: u64,
@@ -38,7 +37,6 @@ impl TimeGrid {
         Self { dt: f64::INFINITY, ..Self::new(start, first, cuts) }
     }
 
-    /// Adds cuts at the times at which digital controllers sample and act.
     pub(crate) fn with_beats(self, beats: impl Iterator<Item = SampleClock>) -> Self {
         Self { clocks: beats.collect(), ..self }
     }

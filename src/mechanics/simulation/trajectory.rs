@@ -19,7 +19,6 @@ impl Trajectory {
         Self { stride, times: Vec::new(), numbers: Vec::new(), every: 1, offered: 0 }
     }
 
-    /// Reserves memory for further configurations.
     pub(crate) fn reserve(&mut self, configurations: usize) {
         let room = configurations.min(MOST_NUMBERS / self.stride + 1);
         self.times.reserve(room);

@@ -30,7 +30,6 @@ const CHATTER: usize = 3;
 /// Largest number of arrivals within one step of the grid. More arrivals are an error.
 pub(super) const MOST_ARRIVALS: usize = 10_000;
 
-/// Step that ends at an event of a slider.
 pub(super) struct EventStep {
     /// Interval of the step and its work. `None` if the event is at the start of the step.
     pub(super) step: Option<(Interval, NewtonReport)>,
@@ -52,7 +51,6 @@ enum ArrivalEstimate {
 }
 
 impl ArrivalEstimate {
-    /// Event at the start of the step.
     fn at_once(number: usize) -> Self {
         Self::Located(EventStep { step: None, event: Event::Slider(SliderEvent::of(number)) })
     }
@@ -108,7 +106,6 @@ impl TimeBracket {
         self.after.0 - self.before.0 <= 4.0 * f64::EPSILON * self.after.0
     }
 
-    /// Duration of the next step to try.
     fn next_duration(&self) -> f64 {
         self.estimate().max(self.shortest)
     }
@@ -309,7 +306,6 @@ impl Simulation {
             || self.model.approaches(limit, dt).unwrap_or(true)
     }
 
-    /// Executes the event at the end of a located step.
     pub(super) fn execute(&mut self, located: &EventStep) -> Result<(), SimulationError> {
         match located.event {
             Event::JustBefore => (),

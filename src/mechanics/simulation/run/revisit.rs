@@ -3,7 +3,6 @@
 use super::Simulation;
 use crate::simulation::{Monitor, SimulationError};
 
-/// Monitor that pauses a run at a given time.
 struct PauseTime<'m> {
     time: f64,
     monitor: &'m mut dyn Monitor,
