@@ -325,7 +325,6 @@ impl<'s> Continuation<'s> {
         self.append_point(factor, self.distance_moved(), iterations);
     }
 
-    /// Appends the configuration of the model to the path.
     pub(super) fn append_point(&mut self, factor: f64, distance: f64, iterations: usize) {
         self.path.push(point(&mut self.model, factor, distance, iterations));
     }

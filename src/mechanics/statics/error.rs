@@ -35,13 +35,10 @@ pub enum StaticsError {
     Load { load: String, source: LoadError },
     #[error("no load acts at t = {time}, so that the scene is in equilibrium as drawn")]
     NoLoad {
-        /// Time of the loading [time].
         time: f64,
     },
-    /// A path of given length was requested, but the scene has only initial strains, which do not depend on the load factor.
     #[error("no load acts at t = {time}: only prestress acts, and arc-length control needs a load")]
     NoScaledLoad {
-        /// Time of the loading [time].
         time: f64,
     },
     #[error(
@@ -61,7 +58,6 @@ pub enum StaticsError {
     #[error("no equilibrium of scene '{scene}' was found beyond load factor {}: {reason}", rounded(*reached))]
     NoEquilibrium {
         scene: String,
-        /// Last load factor at which an equilibrium was found [-].
         reached: f64,
         reason: Box<StepFailure>,
     },
@@ -71,13 +67,11 @@ pub enum StaticsError {
     PathLost {
         scene: String,
         points: usize,
-        /// Load factor of the last point [-].
         reached: f64,
         reason: Box<StepFailure>,
     },
     #[error("interrupted at load factor {}", rounded(*reached))]
     Interrupted {
-        /// Last load factor at which an equilibrium was found [-].
         reached: f64,
     },
 }
