@@ -25,7 +25,6 @@ const STRAIN_ROUNDINGS: f64 = 100.0;
 pub struct Assembly<'a> {
     pub scene: &'a Scene,
     pub meshes: Vec<Mesh>,
-    /// Bodies of the scene: beams, then particles, then rigid bodies.
     pub bodies: Vec<Box<dyn BodyDynamics>>,
 }
 

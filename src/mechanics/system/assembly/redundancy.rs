@@ -1,8 +1,7 @@
 //! Check that the contact forces of sliders are determined. Redundant contacts have no unique forces.
 //!
-//! Contact impulses `P` change the velocities of the slaves across their masters by `G M⁻¹ Gᵀ P`.
-//! The constraint matrix is `G` and the mass matrix is `M`.
-//! If `G M⁻¹ Gᵀ` is singular, some impulses have no effect, and the contact forces of a step are undetermined.
+//! The check computes the velocities of slaves across their masters due to contact impulses.
+//! If the matrix of these velocities is singular, some impulses have no effect, and the contact forces are undetermined.
 
 use crate::system::errors::SliderError;
 use crate::system::{Scene, System, SystemError};

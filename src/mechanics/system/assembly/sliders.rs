@@ -19,7 +19,6 @@ use crate::system::{BeamDefinition, Scene, System, SystemError};
 const SAME_VELOCITY: f64 = 1e-9;
 
 impl Assembly<'_> {
-    /// Contacts of the sliders, in the order of the sliders in the scene.
     pub fn sliders(&self, numbering: &Numbering) -> Result<Vec<SliderContact>, SystemError> {
         let mut sliders: Vec<SliderContact> = Vec::new();
         let mut kink_lengths = vec![None; self.scene.beams.len()];
@@ -144,8 +143,7 @@ fn bar(beam: &BeamDefinition) -> ImpactBar {
 
 impl System {
     /// Applies the rule of each slider for start velocities: the velocity across the master is either checked or projected to zero.
-    ///
-    /// A speed `w` across a master counts as zero if the strain `w/c` of its wave is below the rounding error `ε`. The wave speed is `c`.
+    /// A velocity counts as zero if the strain of its wave is below the rounding error of strains.
     pub(super) fn project_start_velocities(&mut self, scene: &Scene) -> Result<(), SystemError> {
         let negligible = self.negligible_velocity(scene);
         self.follow_masters();

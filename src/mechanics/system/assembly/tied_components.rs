@@ -11,12 +11,10 @@ pub const GROUND: usize = 0;
 /// Classes of components tied by joints, particles and rigid bodies. Components are numbered from one in the order of the bodies.
 pub struct TiedComponents {
     pub ties: Ties,
-    /// First component of each body, followed by the total number of components.
     offsets: Vec<usize>,
     pub links: Vec<(usize, usize)>,
     /// Body and control point of each inclined roller, in the order of the joints; `None` for a released roller.
     pub rollers: Vec<Option<(usize, usize)>>,
-    /// Classes with a prescribed motion, in the order of the drives.
     pub prescribed: Vec<usize>,
 }
 
@@ -95,7 +93,6 @@ impl TiedComponents {
         self.offsets[self.offsets.len() - 1]
     }
 
-    /// Index of a component of a control point.
     pub fn component(&self, (body, point): (usize, usize), component: Component) -> usize {
         self.offsets[body] + 3 * point + component as usize
     }

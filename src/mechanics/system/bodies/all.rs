@@ -109,7 +109,6 @@ impl Bodies {
         self.iter().map(|body| body.dynamics.strain_energy()).sum()
     }
 
-    /// Stores the increments of the unknowns in the bodies.
     pub fn gather(&mut self, increments: &[f64]) {
         for body in &mut self.all {
             body.gather(increments);

@@ -14,9 +14,7 @@ use crate::system::bodies::{Body, Momenta};
 pub struct Elements {
     masses: Vec<NodalMass>,
     weight: Option<Weight>,
-    /// External forces, in the order of the scene.
     forces: Vec<Box<dyn ExternalForce>>,
-    /// Internal forces, in the order of the scene.
     resistances: Vec<Box<dyn InternalForce>>,
     /// Largest relative difference between a force and its law in the last iterate, and the index of the internal force.
     largest_mismatch: (f64, usize),
@@ -63,7 +61,6 @@ impl Elements {
         self.resistances.iter().map(|resistance| &**resistance)
     }
 
-    /// Springs, dampers and tendons, in the order of the scene.
     fn springs_mut(&mut self) -> impl Iterator<Item = &mut Box<dyn InternalForce>> {
         self.resistances.iter_mut().filter(|resistance| resistance.stretched().is_some())
     }

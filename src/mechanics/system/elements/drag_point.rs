@@ -18,9 +18,7 @@ pub struct Medium {
 #[derive(Debug, Clone)]
 pub struct DragPoint {
     pub body: usize,
-    /// First control point with a nonzero basis function at the point.
     first: usize,
-    /// Basis functions at the point [-]. `slope` contains their derivatives with respect to arc length [1/length]; they are zero for isotropic drag.
     shape: Vec<f64>,
     slope: Vec<f64>,
     /// Quadrature weight [length]; 1 for a point.
@@ -43,7 +41,6 @@ pub struct DragPoint {
 struct DragTrial {
     tangent: Vec2,
     response: DragResponse,
-    /// Derivative of the line angle with respect to the gradient vector [1/length].
     angle_by_gradient: Vec2,
     rates: (f64, f64),
 }
@@ -262,7 +259,6 @@ impl DragPoint {
     }
 
     /// Displacement of the point minus `duration` times the velocity in the drag law [length].
-    /// The result is zero if the velocity in the drag law is the mean velocity of the step.
     pub fn besides(&self, movement: Vec2, duration: f64) -> Vec2 {
         let Some(rates) = self.rates else { return Vec2::zeros() };
         movement * (1.0 - rates.by_change * duration)

@@ -97,14 +97,12 @@ pub trait ElementDef {
     fn build(&self, site: &dyn AssemblyContext) -> Result<BuiltElement, SystemError>;
 }
 
-/// Element of a model, built from its definition.
 pub enum BuiltElement {
     PointMass(NodalMass),
     Force(Box<dyn ExternalForce>),
     Resistance(Box<dyn InternalForce>),
 }
 
-/// Scene queries for the check of an element.
 pub trait SceneChecks {
     /// All beams and particles of the scene.
     fn contact_targets(&self) -> Vec<ContactTarget>;
@@ -136,12 +134,10 @@ pub trait AssemblyContext {
 
     fn mesh(&self, beam: usize) -> &Mesh;
 
-    /// Cross section as a function of the position along a beam.
     fn variation(&self, beam: usize) -> &SectionVariation;
 
     /// Body in its initial state. Body indices count beams first, then particles, then rigid bodies.
     fn body(&self, index: usize) -> &dyn BodyDynamics;
 
-    /// Converts a geometry error of a beam to a scene error.
     fn wrong(&self, beam: usize, error: GeometryError) -> SystemError;
 }

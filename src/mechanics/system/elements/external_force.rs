@@ -21,7 +21,6 @@ pub fn collocation(stage: Stage) -> Collocation {
 /// Iterate of a step in which forces are evaluated.
 #[derive(Clone, Copy)]
 pub struct TrialState<'a> {
-    /// All bodies of the model at the start of the step.
     pub bodies: &'a [Body],
     pub stage: Stage,
     /// Increments of the unknowns since the start of the step [length, rad].
@@ -97,7 +96,6 @@ pub trait ExternalForce {
         false
     }
 
-    /// Number of sections whose angle is tracked.
     fn tracked_sections(&self) -> usize {
         0
     }
@@ -112,7 +110,6 @@ pub trait ExternalForce {
     /// Describes the evaluation of the element in a step, for each of the given methods.
     fn explain(&self, methods: &[Method]) -> String;
 
-    /// Number of script functions that the element calls.
     fn functions(&self) -> usize {
         0
     }

@@ -88,7 +88,6 @@ pub trait InternalForce {
         None
     }
 
-    /// Bodies that are inside this obstacle at present.
     fn penetrations(&self, _bodies: &[Body]) -> Vec<Penetration> {
         Vec::new()
     }
@@ -122,7 +121,6 @@ pub trait InternalForce {
         None
     }
 
-    /// Index of the beam whose material is damped.
     fn damped_beam(&self) -> Option<usize> {
         None
     }

@@ -127,7 +127,6 @@ struct AppliedLoad {
     weighted_factors: f64,
     current: f64,
     account: Option<LoadAccount>,
-    /// Magnitude of the load at a schedule factor of 1.
     size: f64,
 }
 

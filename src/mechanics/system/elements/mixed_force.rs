@@ -8,14 +8,13 @@ pub struct MixedForce {
     pub force: f64,
     pub last: f64,
     pub mismatch: f64,
-    /// Derivative of the target force with respect to the elongation change `Δq`, at the last linearisation.
+    /// Derivative of the target force with respect to the elongation change, at the last linearisation.
     pub stiffness: f64,
-    /// Derivative of the target force at the last comparison.
     target_slope: f64,
     search: IterationState,
 }
 
-/// Number of linearisations in the present step. The other fields contain the rate (or elongation change) and the force at the last linearisation.
+/// Number of linearisations in the present step, with the rate and the force at the last linearisation.
 #[derive(Debug, Clone, Copy, Default)]
 struct IterationState {
     linearised: u32,
@@ -29,7 +28,7 @@ pub const CORNER_TOLERANCE: f64 = 2e-4;
 /// Number of linearisations after which a secant estimate of the impedance is used. Smooth laws usually converge earlier.
 const PLAIN_LINEARISATIONS: u32 = 4;
 
-/// Force that the law requires in a configuration, and its derivative with respect to the elongation change `Δq`.
+/// Force that the law requires in a configuration, and its derivative with respect to the elongation change.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct ForceTarget {
     pub force: f64,
@@ -47,8 +46,8 @@ impl MixedForce {
         if self.mismatch == 0.0 { 0.0 } else { self.mismatch.abs() / size }
     }
 
-    /// Change of the elongation increment `Δq` for which the target would equal the present force, to first order.
-    /// The missing change is infinite if the slope is not positive.
+    /// Elongation change for which the target would equal the present force, to first order.
+    /// The result is infinite if the slope is not positive.
     pub fn missing_change(&self) -> f64 {
         match self.mismatch == 0.0 {
             true => 0.0,
@@ -86,9 +85,8 @@ impl MixedForce {
 const MOST_TRIES: usize = 120;
 
 impl ForceTarget {
-    /// Target of a linearisation at `change`, from the intersection of an increasing law with a straight line.
-    ///
-    /// The line passes through the present force at `change`, and falls with the impedance of the rest of the system.
+    /// Target of a linearisation at `change`: the intersection of an increasing law with a line of negative slope.
+    /// The slope of the line is the impedance of the rest of the system.
     /// Without the intersection, Newton's method would alternate between the segments at a corner of a stiff law.
     pub fn intersection(
         change: f64,
@@ -100,7 +98,6 @@ impl ForceTarget {
         Self { force: met.force + met.stiffness * (change - at), stiffness: met.stiffness }
     }
 
-    /// Elongation change at this intersection.
     pub fn intersection_point(
         change: f64,
         force: f64,

@@ -1,9 +1,8 @@
 //! Springs of zero natural length, whose ends may coincide.
 //!
-//! A linear spring of zero natural length is a pair of springs along x and y: `U = ½ k (x² + y²)`.
-//! A single force `k ℓ` along the connecting vector would change its direction infinitely fast where the ends meet.
+//! A linear spring of zero natural length is a pair of springs along x and y.
+//! A single force along the connecting vector would change its direction infinitely fast where the ends meet.
 //! Nonlinear laws act on the length.
-//! The parallel damper uses the rate along the mean vector. The rate of the length is wrong if the ends pass through each other within a step.
 
 use super::damping_law::DampingLaw;
 use super::elongation::{Elongation, ElongationEnd};

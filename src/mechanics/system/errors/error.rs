@@ -20,13 +20,10 @@ pub enum SystemError {
     Unnamed { kind: &'static str, name: String, reason: &'static str },
     #[error("the scene already has {} '{name}'; give this {new} another name", with_article(kind))]
     DuplicateName { kind: &'static str, new: &'static str, name: String },
-    /// The station lies outside its beam.
     #[error("station {station} is outside the length of beam '{beam}', [0, {}]", rounded(*length))]
     StationOutside {
         beam: String,
-        /// Requested arc length [length].
         station: f64,
-        /// Length of the beam [length].
         length: f64,
     },
     #[error("the outline of body '{body}' cannot be drawn: {reason}")]
@@ -51,7 +48,6 @@ pub enum SystemError {
     NoSection { body: String },
     #[error("forces and accelerations at t = {time} are undetermined: {reason}")]
     NoInstant {
-        /// Time for which the function has no value [time].
         time: f64,
         reason: String,
     },
@@ -70,11 +66,8 @@ pub enum SystemError {
     )]
     TableOrder {
         object: String,
-        /// Index of the point whose elongation does not increase, counted from 0.
         index: usize,
-        /// Elongation of the rejected point of the table [length, rad].
         elongation: f64,
-        /// Elongation of the previous point [length, rad].
         before: f64,
     },
     #[error(
@@ -84,7 +77,6 @@ pub enum SystemError {
         joint: String,
         from: String,
         to: String,
-        /// Distance between the two connected points [length].
         gap: f64,
     },
     #[error("{joint}: {place} is already {existing}; remove one of the two joints")]
@@ -92,7 +84,6 @@ pub enum SystemError {
     #[error("{damper}: {active_range}")]
     ActiveDamper {
         damper: String,
-        /// Description of the rates at which the law adds energy, with advice for correcting it.
         active_range: String,
     },
     #[error(
@@ -106,7 +97,6 @@ pub enum SystemError {
         drive: String,
         component: &'static str,
         place: String,
-        /// The word `fixed` or `prescribed`, or another reason.
         existing: &'static str,
     },
     #[error(
@@ -115,7 +105,6 @@ pub enum SystemError {
     DriveStart {
         drive: String,
         component: &'static str,
-        /// Initial value [length, rad].
         value: f64,
     },
     #[error(
@@ -124,9 +113,7 @@ pub enum SystemError {
     DriveJump {
         drive: String,
         component: &'static str,
-        /// Time of the jump [time].
         time: f64,
-        /// Size of the jump [length, rad].
         jump: f64,
     },
     #[error("{drive}: {source}")]
@@ -143,16 +130,13 @@ pub enum SystemError {
     StartVelocity {
         body: String,
         place: String,
-        /// Start velocity of the body at this point [length/time, or 1/time for a rotation].
         velocity: f64,
         other: String,
     },
     #[error("{object}: a particle has no rotation")]
     ParticleTurned { object: String, by: Turning },
-    /// A sliding joint is invalid.
     #[error(transparent)]
     Slider(Box<SliderError>),
-    /// A track is invalid.
     #[error(transparent)]
     Track(Box<TrackError>),
     #[error("{object}: {name} is {value}, but must be {allowed}")]

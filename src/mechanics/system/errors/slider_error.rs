@@ -70,7 +70,6 @@ pub enum SliderError {
         parts: SliderParts,
         from: String,
         to: String,
-        /// Distance between the two points [length].
         gap: f64,
         nearest: Approach,
     },
@@ -88,19 +87,16 @@ pub enum SliderError {
     RuleOfOneBeam {
         parts: SliderParts,
         rule: &'static str,
-        /// Behaviour at seams under the selected sliding rule.
         behaviour: &'static str,
     },
     #[error("slider '{slider}': restitution is {restitution}, but must be from 0 to 1")]
     Restitution {
         slider: String,
-        /// Rejected coefficient [-].
         restitution: f64,
     },
     #[error("slider '{slider}': friction is {friction}, but must be zero or more")]
     Friction {
         slider: String,
-        /// Rejected coefficient [-].
         friction: f64,
     },
     #[error(
@@ -116,7 +112,6 @@ pub enum SliderError {
     OtherSide {
         parts: SliderParts,
         side: &'static str,
-        /// Distance from the axis [length].
         gap: f64,
     },
     #[error(
@@ -124,7 +119,6 @@ pub enum SliderError {
     )]
     LeavesMaster {
         slider: String,
-        /// Velocity of the slave relative to the master, in the direction across the master [length/time].
         speed: f64,
     },
     #[error(

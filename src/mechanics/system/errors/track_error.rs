@@ -1,6 +1,5 @@
 //! Errors of tracks.
 
-/// Error for a track that cannot be defined.
 #[expect(missing_docs, reason = "the messages describe the variants and their fields")]
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum TrackError {
@@ -15,7 +14,6 @@ pub enum TrackError {
         track: String,
         before: String,
         next: String,
-        /// Description of the end of the beam before the gap.
         place: String,
         start: String,
         end: String,
@@ -25,19 +23,14 @@ pub enum TrackError {
     )]
     Open {
         track: String,
-        /// Description of the end of the last beam.
         place: String,
-        /// Description of the start of the first beam.
         start: String,
-        /// Distance between the end of the last beam and the start of the first beam [length].
         gap: f64,
     },
     #[error("track '{track}': {first_end} and {other} are both at {place}, but are not joined")]
     NotJoined {
         track: String,
-        /// Description of the end of the first beam.
         first_end: String,
-        /// Description of the end of the second beam.
         other: String,
         place: String,
     },

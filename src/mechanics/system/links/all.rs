@@ -44,7 +44,6 @@ impl Links {
         self.rigid.len()
     }
 
-    /// Rigid links, in the order of rigid bodies and points.
     pub fn iter(&self) -> impl Iterator<Item = &RigidLink> {
         self.rigid.iter()
     }

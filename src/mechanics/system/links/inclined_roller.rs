@@ -1,13 +1,7 @@
-//! Inclined roller in a step: a point on a straight line, with a constraint force across the line.
+//! Inclined roller in a step: a point on a straight line, with a constraint force across the line (docs/theory.md, section 9.5).
 //!
-//! ```text
-//! constraint:          n·Δx = 0 with the unit normal n of the line
-//! force on the point:  -λ n
-//! ```
-//!
-//! The equation is linear in the increments. Hence the force `-λ n` does no work in any increment that satisfies the equation.
-//! The impulse `-Δt λ n` of the roller acts at the mean position of the point, like impulses of other supports.
-//! For methods with `v1 = 2 Δx/Δt - v0`, all velocities are along the line if the start velocity is along the line.
+//! The constraint force does no work in any increment that satisfies the constraint.
+//! The impulse of the roller acts at the mean position of the point, like impulses of other supports.
 
 use super::rigid_link::ForceUnknowns;
 use crate::beams::{ForceSummary, SpanStiffness};
@@ -18,20 +12,15 @@ use crate::system::bodies::Bodies;
 /// Point of a body constrained to a straight line.
 #[derive(Debug, Clone)]
 pub struct InclinedRoller {
-    /// Index of the joint in the scene.
     pub joint: usize,
     /// Body and control point of the constrained point.
     pub node: (usize, usize),
     /// Force unknown; `None` after a release.
     pub unknown: Option<usize>,
-    /// Unit normal `n` [-].
     normal: Vec2,
-    /// Initial position of the point on the line [length].
     origin: Vec2,
-    /// Scale of the violation [length]: the size of the scene plus the increments of the iterate.
     size: f64,
     movement: f64,
-    /// Multiplier `λ` of the last step or static solution [force].
     force: f64,
 }
 
@@ -64,7 +53,7 @@ impl InclinedRoller {
         self.force_of(if self.unknown.is_some() { self.force } else { 0.0 })
     }
 
-    /// Multiplier `λ` of the last step or static solution [force].
+    /// Multiplier of the last step or static solution [force].
     pub fn multiplier(&self) -> f64 {
         self.force
     }

@@ -1,14 +1,7 @@
 //! Impulses of joints and supports in the last step. They are accumulated if mean forces over a step are requested.
 //!
-//! After a step has been solved, its balance is evaluated again, without the ties of joints.
-//! In this evaluation, every control point has separate degrees of freedom.
+//! After a step has been solved, its balance is evaluated again with separate degrees of freedom for every control point.
 //! The residual at each control point is the force of joints and supports. Impulses of impacts are added.
-//!
-//! ```text
-//! balance of forces:  M (v1 - v0)/Δt + Σ share · F(stage) + G = r
-//! impulse of a step:  p1 - p0 = Δt Σ (r + loads)
-//! ```
-//!
 //! Methods that balance accelerations instead of momenta do not provide mean forces.
 
 use super::rigidity::add_transmitted_impulses;
@@ -34,13 +27,10 @@ pub struct ExchangeLedger {
 /// Impulses on all control points, with preallocated buffers.
 pub struct Impulses {
     /// Degrees of freedom that are numbered separately for every control point, even if joints tie control points.
-    /// During an evaluation, the separate degrees of freedom replace the degrees of freedom of the model.
     numbers: Vec<DegreesOfFreedom>,
     /// Force unknowns of rigid links, numbered after all separate degrees of freedom.
-    /// During an evaluation, the separately numbered force unknowns of links replace the force unknowns in the model.
     links: Vec<[usize; 2]>,
     /// List with `None` for each inclined roller, because the forces of rollers are summed separately.
-    /// During an evaluation, the list replaces the force unknowns of rollers in the model.
     rollers: Vec<Option<usize>>,
     values: Vec<f64>,
     /// Residual of the balance, with additional space for contact equations.
@@ -90,7 +80,6 @@ impl ExchangeLedger {
 }
 
 impl System {
-    /// Enables the accumulation of impulses of joints and supports.
     pub(crate) fn accumulate_impulses(&mut self) {
         if self.exchanged.impulses.is_some() {
             return;

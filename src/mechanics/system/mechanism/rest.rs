@@ -18,7 +18,7 @@ pub struct StaticForces {
     pub force: f64,
     /// Largest section moment or moment of a load [force·length].
     pub moment: f64,
-    /// Largest difference between the strains of the configuration and the strains that belong to the section forces [-].
+    /// Largest strain residual: strain of the configuration minus strain that belongs to the section force [-].
     pub strain_mismatch: f64,
 }
 
@@ -57,7 +57,7 @@ impl System {
         }
     }
 
-    /// Adds the internal forces with strain mismatches condensed out, minus `load_factor` times the loads.
+    /// Adds the internal forces with the section force unknowns eliminated, minus `load_factor` times the loads.
     /// Adds also the derivatives of all added forces with respect to the displacements.
     pub fn add_linearised_static_forces(
         &mut self,

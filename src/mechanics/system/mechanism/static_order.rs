@@ -48,7 +48,6 @@ impl StaticOrder {
 }
 
 impl System {
-    /// Order of the unknowns for the present configuration.
     pub(crate) fn static_order(&self) -> StaticOrder {
         let movements = self.unknowns.count();
         if self.sliders.is_empty() {

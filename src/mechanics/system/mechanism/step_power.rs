@@ -12,7 +12,6 @@ pub struct StepPower {
 }
 
 impl System {
-    /// Enables the computation of powers over a step.
     pub(crate) fn enable_powers(&mut self) {
         let powers = self.works().map(|work| StepPower { power: 0.0, work });
         self.exchanged.powers = Some(powers.collect());
@@ -29,7 +28,6 @@ impl System {
         self.power_of_drive(self.supports.prescribed().works().len() + load)
     }
 
-    /// Sets the powers of drives to those of a step of zero length.
     pub(super) fn initialise_powers(&mut self) {
         let Some(powers) = &mut self.exchanged.powers else { return };
         for (drive, power) in self.supports.prescribed().powers(&self.motion.rates) {

@@ -85,7 +85,7 @@ impl System {
         if duration < 0.0 { sum.negated() } else { sum }
     }
 
-    /// Evaluates the entries of `M Δv` and `M v̄` for the prescribed degrees of freedom. `Δv` is the change and `v̄` the mean of the rates in a step.
+    /// Evaluates the momentum change and the mean momentum of a step at the prescribed degrees of freedom.
     fn add_prescribed_inertia(&mut self, rates: &[f64]) {
         let Self { bodies, elements, supports, motion, step, .. } = self;
         let movements = supports.prescribed_mut();

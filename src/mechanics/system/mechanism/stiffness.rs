@@ -156,7 +156,6 @@ impl System {
     }
 }
 
-/// Wraps a callback so that it receives positions in `order` instead of numbers of unknowns.
 fn in_order<'t>(
     order: &'t StaticOrder,
     take: &'t mut dyn FnMut(&[usize], &SpanStiffness),
@@ -170,7 +169,7 @@ fn in_order<'t>(
     }
 }
 
-/// Adds the stiffness `Bᵀ k B + K_g` of a span: its material part with the strain matrix `B`, and its geometric part `K_g`.
+/// Adds the material and the geometric stiffness of a span.
 pub fn add_resistance(stiffness: &mut PreciseBand, degrees: &[usize], span: &SpanStiffness) {
     let width = degrees.len();
     for (factor, row) in span.stiffness.iter().zip(span.strains.chunks_exact(width)) {

@@ -72,8 +72,8 @@ impl System {
     }
 
     /// Returns true if the velocity of a slider at an end points beyond the end.
-    /// The velocity contains only deformations that an impact with steps of length `dt` includes [time],
-    /// and no velocities across masters, which change their signs from step to step.
+    /// The velocity contains only deformations that an impact with steps of length `dt` [time] includes.
+    /// Velocities across masters are excluded, because they change their signs from step to step.
     ///
     /// # Errors
     /// Fails if the impulse is undetermined.

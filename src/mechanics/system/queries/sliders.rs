@@ -22,7 +22,6 @@ impl System {
         self.slider(slider).held_by(self.bodies())
     }
 
-    /// Index of the present master of a slider.
     pub(crate) fn slider_beam(&self, slider: usize) -> usize {
         self.slider(slider).connection.master
     }
@@ -107,7 +106,6 @@ impl System {
         self.slider(limit.slider).is_at(limit.end)
     }
 
-    /// Behaviour of a slider at the ends of its master.
     pub(crate) fn end_action(&self, slider: usize) -> EndAction {
         self.slider(slider).ends
     }

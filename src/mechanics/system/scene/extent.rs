@@ -62,7 +62,7 @@ impl Scene {
     }
 
     /// Rounding error of strain energies [energy].
-    /// With beams, the rounding error is `ε Σ (EA L + EI/L)`, with the machine precision `ε`, the lengths `L` and the stiffnesses `EA` and `EI`.
+    /// With beams, it is the machine precision times the sum of `EA L + EI/L` over the beams, with length `L` and stiffnesses `EA` and `EI`.
     /// Without beams, it is the work of the initial forces on the rounding errors of positions.
     pub(crate) fn rounding_energy(&self) -> f64 {
         if self.beams.is_empty() {

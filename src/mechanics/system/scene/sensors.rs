@@ -210,7 +210,7 @@ impl Scene {
     }
 }
 
-/// Place at an arc length of a beam of a length, for the rest `0.5].x` of a name; `None` if the rest has no arc length on the beam.
+/// Place at an arc length of a beam, for the remainder of a sensor name such as `0.5].x`; `None` if there is no such arc length.
 fn place_inside<'s>(
     object: Cow<'s, str>,
     beam: usize,

@@ -212,7 +212,6 @@ fn internal_force(model: &System, at: usize) -> &dyn InternalForce {
     model.elements().internal_force(at)
 }
 
-/// Elongation of a spring and its force.
 fn spring(model: &System, at: usize) -> [f64; 2] {
     let state = internal_force(model, at).stretched();
     state.map_or([f64::NAN; 2], |state| [state.elongation, state.force])

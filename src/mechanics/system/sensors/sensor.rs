@@ -49,7 +49,6 @@ impl Sensor {
         Self { name: format!("{object}.{}", quantity.name), source, quantity }
     }
 
-    /// Sensor of the contribution of an object to a sum of the scene.
     pub(in crate::system) fn in_sum(
         quantity: &'static Quantity,
         object: &str,
@@ -90,7 +89,6 @@ impl Sensor {
     }
 }
 
-/// A sensor is stored by its name.
 impl Serialize for Sensor {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         match self.can_be_stored() {

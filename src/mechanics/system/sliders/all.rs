@@ -18,7 +18,6 @@ use crate::system::errors::{SliderError, SystemError};
 pub struct Sliders {
     all: Vec<SliderContact>,
     blocks: Option<BlockLayout>,
-    /// Event at which the next step has to end.
     target: Option<SliderEvent>,
 }
 
@@ -114,7 +113,6 @@ impl Sliders {
         }
     }
 
-    /// Predicts unchanged contact forces for a displacement between two equilibria.
     pub fn predict_unchanged(&self, unknowns: &mut [f64]) {
         self.iter().for_each(|slider| slider.predict_unchanged(unknowns));
     }
@@ -254,7 +252,6 @@ impl Sliders {
         })
     }
 
-    /// Event at which the next step has to end.
     pub fn target(&self) -> Option<SliderEvent> {
         self.target
     }

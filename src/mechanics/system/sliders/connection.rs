@@ -11,7 +11,6 @@ pub struct Connection {
     pub master: usize,
     /// Index of the slave body, and index of the control point of the slave.
     pub slave: (usize, usize),
-    /// Index of the slider in the model.
     pub index: usize,
 }
 

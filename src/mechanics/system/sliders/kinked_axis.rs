@@ -33,24 +33,18 @@ const LARGEST_START: f64 = 0.02;
 /// Data of the kink that the mesh of a master does not represent, shared by all sliders on the master.
 #[derive(Debug, Clone)]
 pub struct MasterKink {
-    /// Kink length `g(ξ)` [length].
     pub length: Arc<PiecewisePolynomial>,
-    /// Arc length `s(ξ)` [length].
     pub arc: Arc<PiecewisePolynomial>,
     /// Inertia factor `μ` of a moving kink [-].
     pub inertia: f64,
 }
 
-/// Kink of the axis of a master under a contact force `p`, which displaces the axis by `g p/GA` at the slider.
+/// Kink of the axis of a master under a contact force, which displaces the axis at the slider.
 #[derive(Debug, Clone)]
 pub struct KinkedAxis {
-    /// Kink length `g(ξ)` of the mesh of the master [length].
     length: Arc<PiecewisePolynomial>,
-    /// Arc length `s(ξ)` of the master [length].
     arc: Arc<PiecewisePolynomial>,
-    /// Compliance `1/GA` of the master [1/force].
     compliance: f64,
-    /// Factor `μ ρA/GA` of the master [time²/length²].
     inverse_square_speed: f64,
     /// Speed above which the kink is kept constant [length/time].
     fastest: f64,
@@ -60,15 +54,10 @@ pub struct KinkedAxis {
     least: f64,
     /// True if the kink is kept constant in the present step, because the step has no solution with a variable kink.
     is_frozen: bool,
-    /// Kink length `g` and its first and second derivatives with respect to `ξ`, at the slider [length].
     compliance_derivatives: [f64; 3],
-    /// Length of the master per unit of ξ at the slider [length].
     stretch: f64,
-    /// Duration of the step [time].
     duration: f64,
-    /// Jump `a` of the tangent of the master at the slider, as the force `p = GA a` that causes it statically [force].
     jump: Vec2,
-    /// Speed `v` of the kink along the master [length/time].
     speed: f64,
 }
 
@@ -122,7 +111,7 @@ impl KinkedAxis {
         speed.abs() < SLOW * self.fastest
     }
 
-    /// Rate `dξ/dt` [1/time], multiplied by the length of the master per unit of ξ [length/time].
+    /// Speed along the master that belongs to a rate of its parameter [length/time].
     pub fn speed_of(&self, rate: f64) -> f64 {
         self.stretch * rate
     }
@@ -159,7 +148,7 @@ impl KinkedAxis {
         self.stretch = passage.at_end(&self.arc)[1];
     }
 
-    /// Accepts the state of the kink at the end of a step with a mean contact force `λ` [force], after [`accept_end`](Self::accept_end).
+    /// Accepts the state of the kink at the end of a step with a mean contact force [force], after [`accept_end`](Self::accept_end).
     /// The jump of the tangent is stored as the force that would cause it statically. On a rigid axis, the mean force of the step is stored.
     pub fn advance(&mut self, mean: Vec2, KinkState { jump, speed }: KinkState) {
         self.jump = if self.is_compliant() { jump } else { mean };
@@ -189,12 +178,12 @@ impl KinkedAxis {
         (self.jump, self.speed) = (Vec2::new(x, y), speed);
     }
 
-    /// Contact force `λ = (GA - ρA v²) a` on the master [force].
+    /// Contact force on the master [force].
     pub fn force(&self) -> Vec2 {
         self.jump * (1.0 - self.inverse_square_speed * self.speed * self.speed)
     }
 
-    /// Removes the force of a stop from the contact force. The stop force acts along the tangent `x'` of the axis [length].
+    /// Removes the force of a stop, which acts along the tangent of the axis, from the contact force.
     ///
     /// Within rounding of the end, the axis may be compliant. The force is then kept, because positions determine it.
     pub fn remove_stop_force(&mut self, tangent: Vec2) {
@@ -203,7 +192,7 @@ impl KinkedAxis {
         }
     }
 
-    /// Starts the kink with a contact force [force] across the tangent `x'` of the axis [length].
+    /// Starts the kink with a contact force [force] across the tangent of the axis [length].
     /// If the force is too large for a new kink, the kink starts without load.
     pub fn load(&mut self, force: Vec2, tangent: Vec2) {
         let is_small = force.norm() * self.compliance < LARGEST_START;
@@ -211,12 +200,11 @@ impl KinkedAxis {
         self.keep_force_across(tangent);
     }
 
-    /// Sets the speed of the kink along the master to the speed that belongs to a rate `dξ/dt` [1/time].
+    /// Sets the speed of the kink along the master, for a rate of the parameter [1/time].
     pub fn start_speed(&mut self, rate: f64) {
         self.speed = self.stretch * rate;
     }
 
-    /// Keeps the force across a tangent `x'` of the axis [length], so that `p·x' + ½ g' |p|²/GA = 0` holds up to the third power of `p`.
     fn keep_force_across(&mut self, tangent: Vec2) {
         let along = |force: Vec2| tangent * (force.dot(&tangent) / tangent.norm_squared());
         let across = self.jump - along(self.jump);
@@ -229,21 +217,21 @@ impl KinkedAxis {
         self.compliance_derivatives[0] > self.none
     }
 
-    /// Displacement of the axis, `g p/GA` [length].
+    /// Displacement of the axis due to the kink [length].
     pub fn offset(&self) -> Vec2 {
         self.jump * (self.compliance_derivatives[0] * self.compliance)
     }
 
-    /// Derivative of [`offset`](Self::offset) with respect to `ξ`.
-    /// The second value is half the product of the offset and its second derivative, `½ g g'' |p|²/GA²`.
+    /// Derivative of [`offset`](Self::offset) with respect to the parameter.
+    /// The second value is half the product of the offset and its second derivative.
     pub fn slopes(&self) -> (Vec2, f64) {
         let [length, slope, bend] = self.compliance_derivatives;
         let force = self.jump * self.compliance;
         (force * slope, 0.5 * length * bend * force.norm_squared())
     }
 
-    /// Compliance `g/GA` [length/force], followed by the derivative of [`offset`](Self::offset) with respect to `ξ` [length].
-    /// The last value is the second derivative of the energy for a constant force, `½ g'' |p|²/GA` [energy].
+    /// Compliance of the kink [length/force], followed by the derivative of [`offset`](Self::offset) with respect to the parameter [length].
+    /// The last value is the second derivative of the energy with respect to the parameter, for a constant force [energy].
     pub fn static_compliance(&self) -> (f64, Vec2, f64) {
         let [length, slope, bend] = self.compliance_derivatives;
         let force = self.jump * self.compliance;
@@ -251,12 +239,12 @@ impl KinkedAxis {
         (compliance, force * slope, 0.5 * bend * force.dot(&self.jump))
     }
 
-    /// Strain energy of the kink, `½ g |p|²/GA` [energy].
+    /// Strain energy of the kink [energy].
     pub fn energy(&self) -> f64 {
         0.5 * self.jump.dot(&self.offset())
     }
 
-    /// Kinetic energy of the moving kink, `½ ρA g |a|² v²` [energy].
+    /// Kinetic energy of the moving kink [energy].
     pub fn kinetic_energy(&self) -> f64 {
         self.inverse_square_speed * self.speed * self.speed * self.energy()
     }

@@ -46,9 +46,8 @@ pub struct SliderContact {
     pub stop_may_pull: bool,
     /// True if the stop force was tensile in the last attempted step.
     pub is_pulled: bool,
-    /// Parameter `ξ` of the master at the slider [-].
+    /// Parameter of the master at the slider [-].
     pub parameter: f64,
-    /// Contact unknowns of the last step: force, couple and sliding increment.
     pub unknowns: ContactUnknowns,
     /// Contact force on the master [force].
     mean_force: StepMean<Vec2>,
@@ -65,12 +64,10 @@ pub struct SliderContact {
     track: Option<Box<TrackPath>>,
     /// Master and slave as bars with impact waves; `None` if the slave is not a beam.
     bars: (ImpactBar, Option<ImpactBar>),
-    /// Kinked axis of the master, for rules with a kink.
     kinked_axis: Option<KinkedAxis>,
     kink_at_end: KinkState,
     /// Length of the master per unit of its parameter [length].
     length: f64,
-    /// Path of zero length at the start of the step.
     start_path: ContactPath,
     path: ContactPath,
     /// Control points of the master whose basis functions are nonzero on the path, relative to the slave, at the start of the step.
@@ -173,7 +170,6 @@ impl SliderContact {
         CONTACT_UNKNOWNS * 2 * (1 + self.most_of_masters(usual))
     }
 
-    /// Moves the slider to a position on its master, given by the parameter.
     fn set_parameter(&mut self, parameter: f64) {
         self.parameter = parameter;
         self.before.clear();

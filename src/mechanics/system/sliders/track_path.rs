@@ -29,7 +29,6 @@ pub struct TrackPath {
     end: TrackEnd,
     /// Length of the track as drawn before each of its beams, followed by its total length [length].
     lengths: Arc<[f64]>,
-    /// Index of the present beam in the track.
     segment: usize,
     /// Number of passages from the last beam of a closed track to its first beam, minus the number of reverse passages.
     turns: f64,
@@ -40,7 +39,6 @@ pub struct TrackPath {
 /// Continuation of a track beyond an end of one of its beams.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Seam {
-    /// Index of the next beam in the track.
     pub segment: usize,
     pub end: MasterEnd,
     turns: f64,
@@ -83,7 +81,6 @@ impl TrackPath {
         self.turns * self.length() + (self.lengths[self.segment] + along)
     }
 
-    /// Bases of the beams in the order of the track.
     pub fn bases(&self) -> impl Iterator<Item = &Basis> {
         self.segments.iter().map(|leg| leg.path.basis())
     }
@@ -123,7 +120,6 @@ impl TrackPath {
         (there - here).norm() <= SAME * (next.master.length() + here.norm())
     }
 
-    /// Moves the slider to the other side of a seam.
     pub fn cross_seam(&mut self, seam: Seam) {
         self.segment = seam.segment;
         self.turns += seam.turns;

@@ -1,4 +1,4 @@
-//! Coefficients that express the coordinates of an elongation by the degrees of freedom. They are basis functions at the terminals.
+//! Derivatives of the coordinates of an elongation with respect to the degrees of freedom, which are basis functions at the terminals.
 
 use super::{Elongation, ElongationEnd};
 use crate::linalg::BandRows;
@@ -70,7 +70,6 @@ impl Elongation {
     }
 }
 
-/// Computes the coordinates from values of the unknowns. Supported degrees of freedom contribute nothing.
 fn combine(shares: &[CoordinateShare], values: &[f64], coordinates: &mut [f64]) {
     coordinates.fill(0.0);
     for CoordinateShare { degree, coordinate, share } in shares {

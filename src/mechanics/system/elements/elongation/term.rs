@@ -11,8 +11,6 @@ pub(in crate::system::elements) struct ElongationTerm {
     pub(in crate::system::elements) change: f64,
     pub(in crate::system::elements) secant: Vec2,
     pub(in crate::system::elements) slope: Vec2,
-    /// Factor `inverse` in the derivative of the secant `e`: `∂e/∂d₁ = (I - e⊗s) · inverse` [1/length].
-    /// The vector `d₁` connects the ends of the segment at the end of the step, and `s` is its direction.
     inverse: f64,
 }
 
@@ -29,7 +27,7 @@ impl ElongationTerm {
         let both = before + after;
         let mean = direction(start + end, both);
         let slope = direction(end, after);
-        // If forces act at the end of a step, rotation increments are increments of the angle, and the force has the direction at the end.
+        // For forces at the end of a step, rotation increments are angles, and the force has the direction at the end.
         let (secant, inverse) = match rotations {
             RotationIncrement::TangentScaled => (mean, both),
             RotationIncrement::Angle => (slope, after),
@@ -44,8 +42,7 @@ impl ElongationTerm {
     }
 }
 
-/// Relative rotation of two sections.
-/// The relative rotation contains the ratio `r = (Δθ_b - Δθ_a)/(Δω_b - Δω_a)`, and the derivatives of `r` with respect to `Δω_a` and `Δω_b`.
+/// Relative rotation of two sections, with its derivatives with respect to both rotation increments.
 pub(super) struct RelativeTurn {
     pub(super) ratio: f64,
     pub(super) derivatives: [f64; 2],

@@ -109,7 +109,6 @@ impl SpringDamper {
         }
     }
 
-    /// Returns the extrapolated rate of the elongation, and the derivative of this rate with respect to the elongation change `Δq`.
     fn rate(&self, late: f64) -> (f64, f64) {
         let rate = self.elongation.change / self.duration;
         (rate + late * (rate - self.last.1), (1.0 + late) / self.duration)

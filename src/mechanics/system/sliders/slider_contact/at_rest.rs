@@ -38,13 +38,11 @@ impl Passing for AtRest {
 }
 
 impl SliderContact {
-    /// Predicts an unchanged contact force for a displacement between two equilibria.
     pub fn predict_unchanged(&self, unknowns: &mut [f64]) {
         let guess = ContactUnknowns { force: self.force_of_state(), ..ContactUnknowns::zeros() };
         unknowns[self.connection.places()].copy_from_slice(&guess.to_array());
     }
 
-    /// Contact at the end of a static iterate.
     fn evaluate_static(
         &mut self,
         bodies: &[Body],
@@ -124,11 +122,6 @@ impl SliderContact {
 
     /// Calls `take` with the static stiffness of the contact. A rigid axis has a penalty stiffness [force/length].
     /// The position unknown of the slider is `own`.
-    ///
-    /// ```text
-    /// r = x_s - Σ B_i x_i      s = δx_s - Σ B_i δx_i - (x' + g' λ/GA) δξ      k = GA/g
-    /// δ²Π = k |s|² - 2 λ·Σ B_i' δx_i δξ - (λ·x'' + ½ g'' |λ|²/GA) δξ²
-    /// ```
     pub fn static_stiffness(
         &self,
         bodies: &[Body],

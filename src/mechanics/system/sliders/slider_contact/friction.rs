@@ -28,7 +28,6 @@ const MOST_TRANSITIONS: usize = 8;
 /// Transition of a slider with friction at the end of an attempted step.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum FrictionTransition {
-    /// Slip ends.
     SlipEnds {
         /// Velocity along the master at the end of the step, positive if it is opposite to the slip [length/time].
         reversed: f64,
@@ -37,7 +36,6 @@ pub enum FrictionTransition {
     SlipStarts,
 }
 
-/// Friction of a slider.
 #[derive(Debug, Clone)]
 pub struct SliderFriction {
     /// Coefficient of friction [-].
@@ -56,7 +54,6 @@ pub struct SliderFriction {
     duration: f64,
     /// Duration of the longest step so far [time].
     longest: f64,
-    /// Friction forces of the last iterate.
     forces: FrictionForces,
     /// Mean force on the master along the tangent of the master in the last step [force].
     force: f64,
@@ -163,7 +160,6 @@ impl SliderContact {
         Some(if self.is_sliding() { friction.force } else { 0.0 })
     }
 
-    /// Friction of a slider that slides along its master.
     pub fn active_friction(&self) -> Option<&SliderFriction> {
         self.friction.as_deref().filter(|_| self.is_sliding())
     }
@@ -277,7 +273,6 @@ impl SliderContact {
         friction.map_or(0.0, |friction| sign * friction.mode_number() * friction.coefficient)
     }
 
-    /// Starts the sticking of the slider to its master.
     pub fn stick(&mut self) {
         if let Some(friction) = &mut self.friction {
             friction.change_mode(FrictionMode::Stick);

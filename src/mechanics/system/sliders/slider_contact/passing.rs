@@ -30,7 +30,7 @@ pub trait Passing {
     /// Contact forces on the control points of the master whose basis functions are nonzero on the path [force].
     fn forces<'c>(contact: &'c Contact<'_>) -> impl Iterator<Item = Vec2> + 'c;
 
-    /// Derivatives of the contact forces on the master: factors for `λ` and `η`, and a force for `Δξ`.
+    /// Derivatives of the contact forces on the master: a factor for the force, a factor for the couple, and a vector for the sliding increment.
     fn slopes<'c>(contact: &'c Contact<'_>) -> impl Iterator<Item = (f64, f64, Vec2)> + 'c;
 
     /// Chord of the path, as a fraction of the length of the path along the axis as drawn [-].

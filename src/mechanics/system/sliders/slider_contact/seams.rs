@@ -53,7 +53,6 @@ impl SliderContact {
         self.track.iter_mut().for_each(|route| route.crossed_at = time);
     }
 
-    /// Index of the beam on the other side of a seam.
     pub fn beam_beyond(&self, seam: Seam) -> Option<usize> {
         self.track.as_ref().map(|route| route.segment(seam.segment).beam)
     }

@@ -28,7 +28,6 @@ const BEYOND: f64 = 1e-9;
 pub struct UnilateralContact {
     /// Sign of the distance from the axis, along the left normal, on the side of the flight [-].
     pub sign: f64,
-    /// Nearest point of the master at the end of the last attempted step.
     nearest: NearestPoint,
     /// True if the slave is on the side of the flight. It can reach the other side beyond an end of the master, and cannot land from there.
     may_land: bool,
@@ -38,7 +37,6 @@ pub struct UnilateralContact {
     pub kept_steps: usize,
 }
 
-/// Nearest point of the master.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct NearestPoint {
     parameter: f64,
@@ -100,7 +98,6 @@ impl SliderContact {
         self.state = SliderState::Sliding;
     }
 
-    /// Records that the slave landed on its master.
     pub fn record_landing(&mut self) {
         if let Some(contact) = &mut self.unilateral {
             (contact.may_land, contact.events) = (true, contact.events + 1);
@@ -187,7 +184,6 @@ impl SliderContact {
         self.accept_flight();
     }
 
-    /// Accepts the nearest point at the end of a step.
     pub(super) fn accept_flight(&mut self) {
         let tolerance = self.touching_distance();
         if let Some(contact) =
