@@ -1,7 +1,5 @@
-//! Computation of all modes of a small scene in one pass.
+//! Computation of all modes of a small scene in one pass (docs/theory.md, section 15).
 //!
-//! Let `K + σ M = L D Lᵀ` and `M = H Hᵀ`. The squared singular values of `G = D^-½ L⁻¹ H` are `μ = 1/(ω² + σ)`.
-//! The rows of `G` become smaller in the order of the pivots. Rotations of columns preserve the relative accuracy of each row.
 //! One-sided Jacobi rotations compute large and small singular values to almost full accuracy (J. Demmel & K. Veselić 1992).
 
 use nalgebra::DMatrix;
@@ -47,7 +45,6 @@ pub(super) fn all_pairs(
     let values = rotate(&mut columns, goes_on)?;
     let mut order: Vec<usize> = (0..values.len()).filter(|at| values[*at] > 0.0).collect();
     order.sort_by(|a, b| values[*b].total_cmp(&values[*a]));
-    // For a singular vector `u` of length one, `φ = L⁻ᵀ D^-½ u` satisfies `φᵀ M φ = μ`.
     for (&at, value) in order.iter().zip(order.iter().map(|at| values[*at])) {
         let mut column = columns.column_mut(at);
         for row in (0..size).rev() {

@@ -1,8 +1,6 @@
-//! Stiffness of a configuration in factored form.
-//! The factored form consists of the derivatives of strains with respect to displacements, and of the stiffnesses of the strains.
+//! Stiffness of a configuration in factored form: derivatives of strains with respect to displacements, and stiffnesses of the strains.
 //!
-//! Section forces `n = k s` are unknowns in addition to the displacements `x`.
-//! The stiffness `k` multiplies only the residual `m = B x - n/k` of a strain `s = B x`.
+//! Section forces are unknowns in addition to the displacements. The stiffness multiplies only strain residuals.
 //! Hence the rounding errors of force residuals are proportional to section forces, not to stiffnesses.
 
 use pulp::{Arch, Simd, WithSimd};
@@ -11,7 +9,6 @@ use crate::beams::SpanStiffness;
 use crate::elementary::square;
 use crate::linalg::{STRIP_WIDTH, VectorStrip};
 
-/// Number for each of the four vectors of a strip.
 pub(super) type FourVectors = [f64; STRIP_WIDTH];
 
 /// Stiffness of all spans and springs of a scene: rows of strains and their stiffnesses.
@@ -36,11 +33,8 @@ struct StrainRows {
 #[derive(Debug, Clone)]
 pub(super) struct Shapes {
     pub(super) movements: Vec<FourVectors>,
-    /// Section forces `n`, one entry per strain.
     forces: Vec<FourVectors>,
-    /// Strain residuals `m`, one entry per strain.
     mismatches: Vec<FourVectors>,
-    /// Internal forces `Bᵀ (n + k m) + K_g x` of each shape, with the geometric stiffness `K_g` [force, force·length].
     pub(super) internal_forces: Vec<FourVectors>,
 }
 
@@ -55,9 +49,7 @@ impl Shapes {
 
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Energies {
-    /// Twice the energy of each shape: `Σ n²/k + xᵀ K_g x`.
     pub(super) double_energy: FourVectors,
-    /// Twice the energy of the last correction, for each shape.
     pub(super) correction: FourVectors,
 }
 
@@ -82,7 +74,6 @@ impl Elastic {
         strains * (width + 1) * size_of::<f64>()
     }
 
-    /// Memory for four shapes of a given number of unknowns.
     pub(super) fn room(&self, length: usize) -> Shapes {
         let rows = vec![[0.0; STRIP_WIDTH]; self.strains()];
         let vector = vec![[0.0; STRIP_WIDTH]; length];
@@ -103,16 +94,12 @@ impl Elastic {
         self.correct(shapes, movements)
     }
 
-    /// Corrects four shapes by the displacements `δ`: `x ← x + δ`.
-    /// The section forces become `n ← n + k (m + B δ)`, with the stiffness `k` and the strain residual `m`.
-    /// Returns the energies of the shapes.
+    /// Corrects four shapes by displacements, updates their section forces, and returns their energies.
     pub(super) fn correct(&self, shapes: &mut Shapes, by: &VectorStrip) -> Energies {
         Arch::new().dispatch(ShapeCorrection { elastic: self, shapes, by })
     }
 
-    /// Rounding error of twice the energy for given displacements `x`.
-    /// The error is `Σ k (ε Σ |B| |x|)²` plus the rounding error of section forces in `xᵀ K_g x`.
-    /// The stiffnesses are `k`, and the machine precision is `ε`.
+    /// Rounding error of twice the energy for given displacements.
     pub(super) fn rounding_of(&self, movements: &VectorStrip) -> FourVectors {
         Arch::new().dispatch(Rounding { elastic: self, movements })
     }

@@ -30,7 +30,7 @@ const ORTHONORMAL: f64 = 1e-14;
 
 const MOST_RESTARTS: usize = 60;
 
-/// Pairs `(μ, φ)` of eigenvalue and shape with `M φ = μ (K + σ M) φ` and `φᵀ M φ = 1`, in decreasing order of `μ`.
+/// Pairs of an eigenvalue and a shape that is normalised with respect to the inertia, in decreasing order of the eigenvalues.
 pub(super) struct Pairs {
     pub(super) values: Vec<f64>,
     /// Vectors `φ` of the pairs, four per strip.
@@ -41,9 +41,7 @@ pub(super) struct Lanczos<'a> {
     pencil: &'a Pencil,
     factors: &'a SymmetricFactors,
     basis: Vec<Vec<FourVectors>>,
-    /// Projection `Vᵀ M A⁻¹ M V` of the problem onto the basis `V`.
     projected: DMatrix<f64>,
-    /// Next block of vectors. The next fields contain the product of this block with the inertia, and its coupling to the previous block.
     next: Vec<FourVectors>,
     next_momenta: Vec<FourVectors>,
     coupling: Square4,
@@ -308,8 +306,8 @@ fn product(a: &Square4, b: &Square4) -> Square4 {
     })
 }
 
-/// Cholesky factor `R` with `Rᵀ R = G`, and its inverse. Rows and columns that consist of rounding errors are set to zero.
-/// A row consists of rounding errors if its size is very small in comparison with the initial size.
+/// Cholesky factor of a matrix of scalar products, and its inverse.
+/// Rows and columns that consist of rounding errors are set to zero.
 fn cholesky(gram: &Square4, sizes: &FourVectors) -> (Square4, Square4) {
     let (mut upper, mut inverse) = (Square4::default(), Square4::default());
     for j in 0..STRIP_WIDTH {

@@ -65,7 +65,7 @@ pub struct Modes {
     /// Control points of all bodies. The next field contains the mode shapes as displacements of these points.
     points: Vec<Vec<Vec2>>,
     displacements: Vec<Vec<Vec<Vec2>>>,
-    /// Decay rate `½ φᵀ D φ` of each mode [1/time].
+    /// Decay rate of each mode [1/time].
     decay_rates: Vec<f64>,
 }
 
@@ -116,7 +116,7 @@ impl Modes {
         &self.modes
     }
 
-    /// Decay rates `½ φᵀ D φ` [1/time].
+    /// Decay rates [1/time].
     /// The rates are exact if damping does not couple modes, for example if the material has one relaxation time for all strains.
     /// If damping couples modes, the rates are accurate to first order in the damping.
     pub fn decay_rates(&self) -> &[f64] {

@@ -103,7 +103,7 @@ impl Pencil {
     }
 
     /// Number of modes whose squared frequency is below `square`; `None` if the elimination is not reliable.
-    /// The count is the number of negative eigenvalues of `K - σ M`, with `σ` equal to `square` (Sylvester's law of inertia).
+    /// The count follows from the signs of pivots (Sylvester's law of inertia).
     pub(super) fn modes_below(&self, square: f64) -> Option<usize> {
         match self.stiffness.pivots(-square, &self.inertia) {
             Ok(pivots) if pivots.growth <= MOST_GROWTH => Some(pivots.negative),

@@ -20,19 +20,16 @@ const WIDE: f64 = 1e7;
 
 pub(super) struct RefinedPair {
     pub(super) square: f64,
-    /// Upper bound of the relative error of `ω² + σ` [-]. The rounding error of the pair itself is not included.
+    /// Upper bound of the relative error of the shifted squared frequency [-]. The rounding error of the pair itself is not included.
     pub(super) residual: f64,
     /// Rounding error of `ω²` due to the rounding of displacements [1/time²].
     pub(super) rounding: f64,
     pub(super) shape: Vec<f64>,
 }
 
-/// Corrects the first `count` pairs of a search.
-///
-/// A pair `(x, n)` consists of displacements and section forces. Its energies determine `ω²`.
-/// For the residual force `r = ω² M x - Bᵀ (n + k m) - K_g x` the correction is `δ = A⁻¹ r`, so that `x` becomes `(ω² + σ) A⁻¹ M x`.
-/// Components of other pairs are removed from the correction `δ` and included in the residual.
-/// If components of other pairs were not removed, the inverted stiffness would amplify small components of low pairs in high pairs.
+/// Corrects the first `count` pairs of a search, with section forces as additional unknowns.
+/// Components of other pairs are removed from each correction, because the inverted stiffness would amplify them.
+/// The removed components are included in the residual.
 ///
 /// # Errors
 /// Fails if the refinement is stopped.
@@ -238,7 +235,7 @@ impl OtherPairs<'_> {
     }
 }
 
-/// Converts inertia forces `r` to residual forces by subtracting the internal forces of the shape: `r ← ω² r - Bᵀ (n + k m) - K_g x`.
+/// Converts inertia forces to residual forces by subtracting the internal forces of the shape.
 fn subtract_restoring(r: &mut [FourVectors], squares: &FourVectors, shapes: &Shapes) {
     for (r, resisting) in r.iter_mut().zip(&shapes.internal_forces) {
         for ((r, resisting), square) in r.iter_mut().zip(resisting).zip(squares) {
@@ -253,7 +250,7 @@ fn squares_of(energies: &FourVectors, kinetic: &FourVectors) -> FourVectors {
     )
 }
 
-/// Factors that normalise the shapes to `xᵀ M x = 1`.
+/// Factors that normalise the shapes with respect to the inertia.
 fn scale_of(kinetic: &FourVectors) -> FourVectors {
     kinetic.map(|kinetic| if kinetic > 0.0 { 1.0 / kinetic.sqrt() } else { 0.0 })
 }

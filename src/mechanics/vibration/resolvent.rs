@@ -1,19 +1,9 @@
-//! Damped vibrations with a shift: eigenvalues of `λ² + λ B Bᵀ + Ω²` near the shift.
+//! Damped vibrations with a shift: eigenvalues of the quadratic problem near the shift (docs/theory.md, section 15).
 //!
-//! With `y = (Ω x, ẋ)` the equation of motion is `ẏ = A y`, where `A = [0 Ω; -Ω -B Bᵀ]` is dissipative.
-//! Hence `|(A - σ)⁻¹| ≤ 1/σ` for any `σ > 0` and damping of any strength (Lumer & Phillips, Pacific J. Math. 11 (1961) 679–698).
-//! Let `e = (σ² + Ω²)^-½`, `w = Ω e` and `t = σ e` be diagonal matrices, so that `w² + t² = 1`. The shifted inverse is:
-//!
-//! ```text
-//! σ (A - σ)⁻¹ = [ -(t² + w P w)   -w (1 - P) t ]        P = G (1 + Gᵀ G)⁻¹ Gᵀ,   G = √σ e B
-//!               [  t (1 - P) w    -t (1 - P) t ]
-//! ```
-//!
-//! No entry of the shifted inverse is large, because a dashpot of any strength acts as a projection `P`.
-//! The projection is `P = U s²/(1 + s²) Uᵀ`, with the singular vectors `U` and singular values `s` of `G`.
-//! One-sided rotations compute `U` and `s` accurately over all magnitudes. The eigenvalues `θ` of the matrix give `λ = σ (1 + 1/θ)`.
-//! Each reported `λ` is corrected by inverse iteration with the Rayleigh quotient of the quadratic problem.
-//! The forces of strong dashpots, divided by their damping, are unknowns of the iteration (Tisseur & Meerbergen 2001, sections 2 and 3.4).
+//! For a positive shift, the shifted inverse is bounded for damping of any strength (Lumer & Phillips 1961).
+//! A dashpot of any strength acts as a projection, whose singular vectors are computed by one-sided rotations.
+//! Each reported eigenvalue is corrected by inverse iteration with the Rayleigh quotient of the quadratic problem.
+//! The forces of strong dashpots are unknowns of the iteration (Tisseur & Meerbergen 2001, sections 2 and 3.4).
 
 use nalgebra::{DMatrix, DVector, Schur};
 
@@ -48,13 +38,9 @@ const STRONG: f64 = 1e4;
 pub(super) struct Resolvent {
     /// Shift `σ` [1/time].
     pub(super) shift: f64,
-    /// Scales `w = |ω|/√(σ² + ω²)` and `t = σ/√(σ² + ω²)` of each mode, and the sign of `ω²` [-].
     scales: Vec<(f64, f64, f64)>,
-    /// Modes whose displacements are components of `y`: all modes with `ω² ≠ 0`.
     places: Vec<usize>,
-    /// Modes whose velocities are components of `y`: all modes with `ω² ≠ 0` or with damping.
     velocities: Vec<usize>,
-    /// Singular vectors `U`, one column for each squared singular value `s²`.
     directions: DMatrix<f64>,
     damping: Vec<f64>,
 }
@@ -91,7 +77,7 @@ impl Resolvent {
         Ok(Self { shift, scales, places, velocities, directions, damping })
     }
 
-    /// All eigenvalues in the form `λ/σ`, in increasing order of magnitude. The eigenvalues near the shift are accurate.
+    /// All eigenvalues as multiples of the shift, in increasing order of magnitude. The eigenvalues near the shift are accurate.
     ///
     /// # Errors
     /// Fails if the search does not converge.
@@ -126,7 +112,6 @@ impl Resolvent {
         Ok(found)
     }
 
-    /// Matrix `σ (A - σ)⁻¹`.
     fn matrix(&self) -> DMatrix<f64> {
         let Self { scales, places, velocities, .. } = self;
         let held = self.weighted(|square| square / (1.0 + square));
@@ -146,7 +131,6 @@ impl Resolvent {
         })
     }
 
-    /// Returns the matrix `U f(s²) Uᵀ`. The function `of` returns `f` for a squared singular value.
     fn weighted(&self, of: impl Fn(f64) -> f64) -> DMatrix<f64> {
         let mut weighted = self.directions.clone();
         for (mut column, square) in weighted.column_iter_mut().zip(&self.damping) {
@@ -155,7 +139,7 @@ impl Resolvent {
         weighted * self.directions.transpose()
     }
 
-    /// Corrected eigenvalue in the form `λ/σ`.
+    /// Corrected eigenvalue, as a multiple of the shift.
     pub(super) fn corrected(&self, start: ComplexNumber) -> ComplexNumber {
         let complex = |value: f64| ComplexNumber::new(value, 0.0);
         let modes = self.scales.len();
@@ -163,7 +147,7 @@ impl Resolvent {
         let strong: Vec<usize> =
             (0..self.damping.len()).filter(|at| self.damping[*at] > STRONG).collect();
         let mut at = start;
-        // The computed eigenvalue is proportional to `1/(λ - σ)`. This determines the rounding error of `λ`.
+        // The rounding error of the eigenvalue follows from the rounding error of its shifted inverse.
         let rounding = ROUNDING_CHANGE * square(size(start - complex(1.0))) / size(start);
         let trusted = (NEAR + rounding).min(FAR) * size(start);
         let unknowns = modes + strong.len();
