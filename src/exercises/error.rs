@@ -8,10 +8,7 @@ use crate::output::OutputError;
 #[derive(Debug, thiserror::Error)]
 pub enum ExerciseError {
     #[error("there is no exercise '{name}'; {}", meant(.nearest.as_deref()))]
-    Unknown {
-        name: String,
-        nearest: Option<String>,
-    },
+    Unknown { name: String, nearest: Option<String> },
     #[error(transparent)]
     Write(#[from] OutputError),
     #[error("cannot read '{}': {source}; check that you may read it", path.display())]
@@ -32,10 +29,7 @@ pub enum ExerciseError {
     #[error("'{}' is damaged ({why}); move it away to restart the record of progress; your attempts are kept", path.display())]
     Progress { path: PathBuf, why: serde_json::Error },
     #[error("'{}' has no submissions; it must contain a folder for each student, with folders such as '{track}'", path.display())]
-    NoSubmissions {
-        path: PathBuf,
-        track: &'static str,
-    },
+    NoSubmissions { path: PathBuf, track: &'static str },
 }
 
 fn meant(nearest: Option<&str>) -> String {

@@ -7,10 +7,7 @@ use super::Vec2;
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum GeometryError {
     #[error("{object} is {value}, but must be a finite number")]
-    NotFinite {
-        object: String,
-        value: f64,
-    },
+    NotFinite { object: String, value: f64 },
 
     #[error("degree {degree} is not available; allowed are 1 to {largest}")]
     Degree { degree: usize, largest: usize },
@@ -22,10 +19,7 @@ pub enum GeometryError {
         "continuity {continuity} is not possible with degree {degree}; allowed are 0 to {}",
         .degree - 1
     )]
-    Continuity {
-        continuity: usize,
-        degree: usize,
-    },
+    Continuity { continuity: usize, degree: usize },
 
     #[error(
         "knots: {count} are too few for degree {degree}; an open knot vector has at least {} ({} at each end)",
@@ -37,70 +31,39 @@ pub enum GeometryError {
         "knots: entry {index} ({value}) is smaller than entry {} ({previous}); knots must not decrease",
         .index - 1
     )]
-    DecreasingKnots {
-        index: usize,
-        value: f64,
-        previous: f64,
-    },
+    DecreasingKnots { index: usize, value: f64, previous: f64 },
 
     #[error(
         "knots: the {end} knot {knot} has multiplicity {multiplicity}; an open knot vector of degree {degree} \
          repeats it {} times: write {}",
         .degree + 1, open_end(end, *knot, *degree)
     )]
-    EndMultiplicity {
-        end: &'static str,
-        knot: f64,
-        multiplicity: usize,
-        degree: usize,
-    },
+    EndMultiplicity { end: &'static str, knot: f64, multiplicity: usize, degree: usize },
 
     #[error(
         "knots: the interior knot {knot} has multiplicity {multiplicity}, but at most {degree} (the degree) is allowed for a continuous curve"
     )]
-    InteriorMultiplicity {
-        knot: f64,
-        multiplicity: usize,
-        degree: usize,
-    },
+    InteriorMultiplicity { knot: f64, multiplicity: usize, degree: usize },
 
     #[error(
         "{object}: the span from {start} to {end} is shorter than 1e-12 of the domain; make the two values equal or move them apart"
     )]
-    ShortSpan {
-        object: &'static str,
-        start: f64,
-        end: f64,
-    },
+    ShortSpan { object: &'static str, start: f64, end: f64 },
 
     #[error("knots: all are {knot}, but the last knot must be larger than the first")]
-    EmptyDomain {
-        knot: f64,
-    },
+    EmptyDomain { knot: f64 },
 
     #[error(
         "breaks: entry {index} ({value}) is not larger than entry {} ({previous}); breaks must increase",
         .index - 1
     )]
-    BreakOrder {
-        index: usize,
-        value: f64,
-        previous: f64,
-    },
+    BreakOrder { index: usize, value: f64, previous: f64 },
 
     #[error("parameter {xi} is outside [{start}, {end}]")]
-    OutsideDomain {
-        xi: f64,
-        start: f64,
-        end: f64,
-    },
+    OutsideDomain { xi: f64, start: f64, end: f64 },
 
     #[error("knot {xi} cannot be inserted; it must lie strictly between {start} and {end}")]
-    InsertOutside {
-        xi: f64,
-        start: f64,
-        end: f64,
-    },
+    InsertOutside { xi: f64, start: f64, end: f64 },
 
     #[error(
         "control points: {points} given; the knot vector has {functions} basis functions and needs one each"
@@ -114,52 +77,34 @@ pub enum GeometryError {
         "points: entries {} and {index} are both ({}, {}); consecutive points must differ: leave one out",
         .index - 1, .point.x, .point.y
     )]
-    CoincidentPoints {
-        index: usize,
-        point: Vec2,
-    },
+    CoincidentPoints { index: usize, point: Vec2 },
 
     #[error("line: start and end are both ({}, {}), but must differ", .point.x, .point.y)]
-    ZeroLengthLine {
-        point: Vec2,
-    },
+    ZeroLengthLine { point: Vec2 },
 
     #[error("spline: all control points are ({}, {}); at least one must differ", .point.x, .point.y)]
-    ZeroLengthSpline {
-        point: Vec2,
-    },
+    ZeroLengthSpline { point: Vec2 },
 
     #[error("arc: radius is {radius}, but must be positive")]
-    ArcRadius {
-        radius: f64,
-    },
+    ArcRadius { radius: f64 },
 
     #[error(
         "arc: start and end angle are both {angle}, but must differ (add 2π for a full circle)"
     )]
-    ZeroArc {
-        angle: f64,
-    },
+    ZeroArc { angle: f64 },
 
     #[error(
         "arc: the angle between start and end is {sweep} rad, but at most 2π is allowed in either direction"
     )]
-    ArcTurn {
-        sweep: f64,
-    },
+    ArcTurn { sweep: f64 },
 
     #[error(
         "curve: no tangent at parameter {xi}, where its derivative is zero; move coincident control points apart, or evaluate at another parameter"
     )]
-    NoTangent {
-        xi: f64,
-    },
+    NoTangent { xi: f64 },
 
     #[error("arc length {arc_length} is outside the length of the curve, [0, {length}]")]
-    OutsideLength {
-        arc_length: f64,
-        length: f64,
-    },
+    OutsideLength { arc_length: f64, length: f64 },
 
     #[error("quadrature: {points} points requested, but 1 to {largest} are allowed")]
     QuadraturePoints { points: usize, largest: usize },

@@ -75,44 +75,24 @@ pub enum StepError {
         "a section would rotate by {} rad in the step of {:.3e} from t = {}, but the rotation per step must be below π; use a smaller step",
         if *rotation < 1e7 { format!("{rotation:.2}") } else { format!("{rotation:.2e}") }, interval.duration(), interval.start
     )]
-    Rotation {
-        interval: Interval,
-        rotation: f64,
-        iterations: usize,
-    },
+    Rotation { interval: Interval, rotation: f64, iterations: usize },
     #[error(
         "in the step of {:.3e} from t = {} the beam under a slider rotates by about π (chord {chord:.1e} of the path); use a smaller step",
         interval.duration(), interval.start
     )]
-    Chord {
-        interval: Interval,
-        chord: f64,
-        iterations: usize,
-    },
+    Chord { interval: Interval, chord: f64, iterations: usize },
     #[error(
         "a body would pass through obstacle '{obstacle}' in the step of {:.3e} from t = {}; use a smaller step",
         interval.duration(), interval.start
     )]
-    Crossing {
-        interval: Interval,
-        obstacle: String,
-        iterations: usize,
-    },
+    Crossing { interval: Interval, obstacle: String, iterations: usize },
     #[error(
         "limit {} of a constraint is exceeded within the step of {:.3e} from t = {}",
         overshoot.event, interval.duration(), interval.start
     )]
-    Overshoot {
-        interval: Interval,
-        overshoot: Overshoot,
-        iterations: usize,
-    },
+    Overshoot { interval: Interval, overshoot: Overshoot, iterations: usize },
     #[error("{load}: {source} (in the step from t = {} to {})", interval.start, interval.end)]
-    Load {
-        interval: Interval,
-        load: String,
-        source: ExternalError,
-    },
+    Load { interval: Interval, load: String, source: ExternalError },
 }
 
 impl StepError {

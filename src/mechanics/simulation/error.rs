@@ -31,55 +31,25 @@ pub enum SimulationError {
     #[error(
         "a controller with a sampling period of {period:e} would be sampled more than {most} times in a step of dt = {dt:e}"
     )]
-    TooManySamples {
-        period: f64,
-        dt: f64,
-        most: f64,
-    },
+    TooManySamples { period: f64, dt: f64, most: f64 },
     #[error(
         "the equilibrium has the prescribed motion '{drive}' at {}, but its function gives {} at t = {time}: the motion would jump", rounded(*rest_position), rounded(*function_value)
     )]
-    StartMismatch {
-        drive: String,
-        rest_position: f64,
-        function_value: f64,
-        time: f64,
-    },
+    StartMismatch { drive: String, rest_position: f64, function_value: f64, time: f64 },
     #[error("the simulation is already at t = {now} and cannot run to t = {end}")]
-    End {
-        now: f64,
-        end: f64,
-    },
+    End { now: f64, end: f64 },
     #[error(
         "no step from t = {} converges, down to dt/{divisions} (dt = {}): {source}{conditions}", rounded(*time), step_size(*dt)
     )]
-    Step {
-        time: f64,
-        dt: f64,
-        divisions: u64,
-        source: Box<StepError>,
-        conditions: String,
-    },
+    Step { time: f64, dt: f64, divisions: u64, source: Box<StepError>, conditions: String },
     #[error(
         "the tolerance {tolerance} requires steps below the smallest allowed one ({}) at t = {}: the error of a step of dt = {} is {error:.3} times the allowed one", step_size(*smallest), rounded(*time), step_size(*dt)
     )]
-    Tolerance {
-        time: f64,
-        tolerance: f64,
-        dt: f64,
-        error: f64,
-        smallest: f64,
-    },
+    Tolerance { time: f64, tolerance: f64, dt: f64, error: f64, smallest: f64 },
     #[error(
         "no step from t = {} converges, down to the smallest allowed one, {} (dt = {}): {source}{conditions}", rounded(*time), step_size(*smallest), step_size(*dt)
     )]
-    Smallest {
-        time: f64,
-        dt: f64,
-        smallest: f64,
-        source: Box<StepError>,
-        conditions: String,
-    },
+    Smallest { time: f64, dt: f64, smallest: f64, source: Box<StepError>, conditions: String },
     #[error(
         "slider '{slider}' {event} shortly after t = {}, but no step that ends there converges, down to dt/{divisions} (dt = {}); use a smaller dt or a finer mesh{conditions}", rounded(*time), step_size(*dt)
     )]
@@ -96,44 +66,24 @@ pub enum SimulationError {
     #[error("the run has ended: {ending}")]
     Ended { ending: String },
     #[error("{arrival}, the last of {most} arrivals within one step")]
-    TooManyArrivals {
-        arrival: String,
-        most: usize,
-    },
+    TooManyArrivals { arrival: String, most: usize },
     #[error("cannot go back {steps} steps: only {steps_taken} were taken")]
     TooFewSteps { steps: usize, steps_taken: usize },
     #[error("cannot go back to t = {time}: the simulation covers t = {} to {}", rounded(*start), rounded(*now))]
-    OutsideRun {
-        time: f64,
-        start: f64,
-        now: f64,
-    },
+    OutsideRun { time: f64, start: f64, now: f64 },
     #[error(
         "cannot go back: this simulation stores no snapshots{}",
         if *limit > 0.0 { format!(", because a single one exceeds the memory limit of {limit} MB") } else { String::new() }
     )]
-    NoSnapshots {
-        limit: f64,
-    },
+    NoSnapshots { limit: f64 },
     #[error("cannot go back to {target}: snapshots are stored from t = {} on", rounded(*first))]
-    BeforeFirst {
-        target: String,
-        first: f64,
-    },
+    BeforeFirst { target: String, first: f64 },
     #[error(
         "cannot go back to {target}: within the memory limit of {limit} MB only snapshots of the last {steps} steps (from t = {}) and of t = {} are stored", rounded(*oldest), rounded(*first)
     )]
-    NoSnapshot {
-        target: String,
-        steps: usize,
-        oldest: f64,
-        first: f64,
-        limit: f64,
-    },
+    NoSnapshot { target: String, steps: usize, oldest: f64, first: f64, limit: f64 },
     #[error("interrupted at t = {}; the history up to this time is kept", rounded(*time))]
-    Interrupted {
-        time: f64,
-    },
+    Interrupted { time: f64 },
 }
 
 /// Formats a step size with at most six significant digits.

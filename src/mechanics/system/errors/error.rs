@@ -21,11 +21,7 @@ pub enum SystemError {
     #[error("the scene already has {} '{name}'; give this {new} another name", with_article(kind))]
     DuplicateName { kind: &'static str, new: &'static str, name: String },
     #[error("station {station} is outside the length of beam '{beam}', [0, {}]", rounded(*length))]
-    StationOutside {
-        beam: String,
-        station: f64,
-        length: f64,
-    },
+    StationOutside { beam: String, station: f64, length: f64 },
     #[error("the outline of body '{body}' cannot be drawn: {reason}")]
     Outline { body: String, reason: &'static str },
     #[error("body '{body}' has no point '{point}'; it has {}", if known.is_empty() { "only its centre" } else { known })]
@@ -47,10 +43,7 @@ pub enum SystemError {
     #[error("{body} has no cross section")]
     NoSection { body: String },
     #[error("forces and accelerations at t = {time} are undetermined: {reason}")]
-    NoInstant {
-        time: f64,
-        reason: String,
-    },
+    NoInstant { time: f64, reason: String },
     #[error("there is no quantity '{name}' to record: {reason}")]
     NoSensor { name: String, reason: String },
     #[error("the history already has a column '{name}'; give this one another name")]
@@ -64,28 +57,15 @@ pub enum SystemError {
     #[error(
         "{object}: the elongation at index {index} of its table is {elongation}, but the previous one is {before}; elongations must increase"
     )]
-    TableOrder {
-        object: String,
-        index: usize,
-        elongation: f64,
-        before: f64,
-    },
+    TableOrder { object: String, index: usize, elongation: f64, before: f64 },
     #[error(
         "{joint}: its stations at {from} and {to} are {} apart, but must be at the same place at the start; move one of them", rounded(*gap)
     )]
-    OpenJoint {
-        joint: String,
-        from: String,
-        to: String,
-        gap: f64,
-    },
+    OpenJoint { joint: String, from: String, to: String, gap: f64 },
     #[error("{joint}: {place} is already {existing}; remove one of the two joints")]
     AlreadyTied { joint: String, place: String, existing: String },
     #[error("{damper}: {active_range}")]
-    ActiveDamper {
-        damper: String,
-        active_range: String,
-    },
+    ActiveDamper { damper: String, active_range: String },
     #[error(
         "the {component} of {place} is already prescribed by '{drive}' and cannot also be fixed; prescribe or fix each component once"
     )]
@@ -93,29 +73,15 @@ pub enum SystemError {
     #[error(
         "{drive}: the {component} of {place} is already {existing}; prescribe or fix each component once"
     )]
-    AlreadyDriven {
-        drive: String,
-        component: &'static str,
-        place: String,
-        existing: &'static str,
-    },
+    AlreadyDriven { drive: String, component: &'static str, place: String, existing: &'static str },
     #[error(
         "{drive}: its {component} is {value} at t = 0, but must be 0: a prescribed motion is relative to the initial position"
     )]
-    DriveStart {
-        drive: String,
-        component: &'static str,
-        value: f64,
-    },
+    DriveStart { drive: String, component: &'static str, value: f64 },
     #[error(
         "{drive}: its {component} jumps by {} at t = {time}, but a prescribed motion must be continuous", rounded(*jump)
     )]
-    DriveJump {
-        drive: String,
-        component: &'static str,
-        time: f64,
-        jump: f64,
-    },
+    DriveJump { drive: String, component: &'static str, time: f64, jump: f64 },
     #[error("{drive}: {source}")]
     DriveValue { drive: String, source: LoadError },
     #[error("'{name}' already has a release; remove one of the two releases")]
@@ -127,12 +93,7 @@ pub enum SystemError {
     #[error(
         "{body} has the start velocity {} at its {place}, but {other}; give it a compatible start velocity", rounded(*velocity)
     )]
-    StartVelocity {
-        body: String,
-        place: String,
-        velocity: f64,
-        other: String,
-    },
+    StartVelocity { body: String, place: String, velocity: f64, other: String },
     #[error("{object}: a particle has no rotation")]
     ParticleTurned { object: String, by: Turning },
     #[error(transparent)]

@@ -10,28 +10,11 @@ pub enum TrackError {
     #[error(
         "track '{track}': beam '{before}' ends at {place}, but the next beam '{next}' has its ends at {start} and {end}; consecutive beams must meet"
     )]
-    Gap {
-        track: String,
-        before: String,
-        next: String,
-        place: String,
-        start: String,
-        end: String,
-    },
+    Gap { track: String, before: String, next: String, place: String, start: String, end: String },
     #[error(
         "track '{track}' is declared closed, but it ends at {place}, {gap:.3e} from its start {start}"
     )]
-    Open {
-        track: String,
-        place: String,
-        start: String,
-        gap: f64,
-    },
+    Open { track: String, place: String, start: String, gap: f64 },
     #[error("track '{track}': {first_end} and {other} are both at {place}, but are not joined")]
-    NotJoined {
-        track: String,
-        first_end: String,
-        other: String,
-        place: String,
-    },
+    NotJoined { track: String, first_end: String, other: String, place: String },
 }
