@@ -158,7 +158,6 @@ impl RefinementLevels<'_> {
     fn last_convergence(&self, near: &[(f64, f64)], far: &[(f64, f64)]) -> Option<f64> {
         let end = near.last()?.0;
         let start = near.first()?.0;
-        // The zero crossings of the distances are smoothed by windows whose length is a twentieth of the run.
         let window = (end - start) / 20.0;
         let within = |distances: &[(f64, f64)], to: f64| {
             let inside =

@@ -67,7 +67,6 @@ impl<E> Descent<'_, '_, E> {
 
     fn evaluate(&mut self, scaled: &[f64]) -> Result<Option<SlopedRating>, Ended<E>> {
         let x = self.design.unscaled(scaled);
-        // The design counts as one run, although a second call is needed if derivatives are missing.
         self.runs += 1;
         match (self.rate_with_slopes)(&x).map_err(Ended::Error)? {
             Ok(mut found) => {
@@ -191,7 +190,6 @@ impl Design {
             Some(rating) => Ok(Some(rating)),
             None => rate(x),
         })?;
-        // `solve` starts from the best design of SLSQP, so its result is never worse.
         Ok(more.map(|more| Designed {
             runs: runs + more.runs - asked_again,
             gradient_runs,

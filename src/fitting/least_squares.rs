@@ -313,7 +313,6 @@ impl LeastSquares {
             *steps += 1;
             taken += 1;
             is_fresh = false;
-            // If the function has returned exact derivatives, they replace the updated derivatives.
             if state.squares() <= least || derivatives.is_some() {
                 return Ok(Round::NeedsDerivatives(derivatives));
             }

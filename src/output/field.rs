@@ -201,7 +201,6 @@ impl Panel for FieldPicture {
             (plot.left..=plot.right).contains(&at.0) && (plot.top..=plot.bottom).contains(&at.1)
         };
         for beam in &beams {
-            // If limits clip a beam, partly visible pieces between two samples are drawn completely.
             for seen in beam.chunk_by(|(a, _), (b, _)| is_inside(*a) && is_inside(*b)) {
                 Self::draw_beam(canvas, piece, seen);
             }

@@ -5,7 +5,7 @@ use super::{
     canvas::Point,
 };
 
-/// Preferred width of a separate plot [pixels]. The next constants are the range of its height and its smallest width.
+/// Preferred width of a separate plot [pixels].
 const WIDTH: f64 = 740.0;
 const HEIGHTS: (f64, f64) = (220.0, 700.0);
 const LEAST_WIDTH: f64 = 300.0;

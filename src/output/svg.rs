@@ -29,8 +29,6 @@ pub fn paint(canvas: &Canvas, width: u32, height: u32) -> Result<String, OutputE
     let opening = opening(size);
     let drawn =
         body.strip_prefix(&opening).ok_or_else(|| refused("the document begins otherwise"))?;
-    // All shapes are opaque, so the attribute `opacity` is not needed.
-    // Texts are drawn as outlines, so the removed characters do not occur in a text.
     Ok(head(canvas, width, height, size) + drawn.replace(" opacity=\"1\"", "").as_str())
 }
 

@@ -132,7 +132,6 @@ pub fn parts(operand: &str) -> Vec<&str> {
         match (token.kind, token.of(operand)) {
             (TokenKind::Open(_), _) => depth += 1,
             (TokenKind::Close(_), _) => depth = depth.saturating_sub(1),
-            // Bars enclose the parameters of a closure. A bar after a value is an operator.
             (TokenKind::Symbol, "|") => {
                 let is_operator =
                     matches!(before, TokenKind::Word | TokenKind::Number | TokenKind::Close(_));

@@ -78,7 +78,6 @@ impl SessionRecord {
             self.sources().map(|source| source.map(written).unwrap_or_default()).collect();
         let mut script = format!("{HEADER}\n\n");
         for (index, entry) in self.entries.iter().enumerate() {
-            // The value of `ans` is needed until the next expression changes it.
             let later = || self.entries[index + 1..].iter().zip(&asked[index + 1..]);
             let next = later().position(|(entry, _)| matches!(entry, RecordedInput::Expression(_)));
             let is_asked = || {
@@ -145,7 +144,6 @@ impl RecordedInput {
     fn source(&self) -> Option<&Source> {
         match self {
             Self::Statements(text) | Self::Expression(text) => Some(text),
-            // An input that is not repeated defines no functions and does not use `ans`.
             Self::EarlyReturn(_) => None,
             Self::Moved(line) => Some(line),
         }

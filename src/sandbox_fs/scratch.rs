@@ -34,7 +34,6 @@ impl Scratch {
 
     fn within(home: &Path) -> io::Result<Self> {
         let folder = tempfile::Builder::new().prefix(PREFIX).tempdir_in(home)?;
-        // The file is locked before it gets its name, because other processes may look for an unlocked file of this name at any time.
         let open = Folder::open(folder.path())?;
         let (begun, held) = (Path::new(".begun"), Path::new(HELD));
         let file = open.create(begun)?;
@@ -117,7 +116,6 @@ mod tests {
         fs::write(folder.path().join("big"), "left behind").unwrap();
         let left = folder.keep();
         drop(_held);
-        // A folder of a process that is starting, and a file with a similar name, must not be removed.
         fs::create_dir(home.path().join("withy-scratch-begun")).unwrap();
         fs::write(home.path().join("withy-scratch-file"), "").unwrap();
         let next = Scratch::within(home.path()).unwrap();

@@ -134,7 +134,7 @@ pub trait BodyDynamics: Send + Sync {
     fn extent(&self) -> Option<(Section, f64)>;
 
     /// Appends the unit normals of the sections at the start of the step, as vectors in space [-].
-    /// The list contains one normal for each quadrature point for the strain `Γ`.
+    /// The list contains one normal for each quadrature point of the axial and shear strain.
     fn write_normals(&self, normals: &mut Vec<Vec2>);
 
     /// Strain energy at the start of the step [energy].

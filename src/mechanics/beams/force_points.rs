@@ -262,7 +262,6 @@ impl<const N: usize> ForcePoints<N> {
         tangent: &ForceTangent<N>,
         block: &mut SpanTangent<V, N>,
     ) {
-        // For each component, the rows of all control points are multiples of one row.
         let mut rows: [BlockRow<N>; 3] = [[[0.0; 3]; N]; 3];
         for (row, [by_x, by_y, by_rotation]) in rows.iter_mut().zip(&tangent.rows) {
             let functions = self.axis.slope.iter().zip(&self.axis.shape);

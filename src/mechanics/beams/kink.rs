@@ -130,12 +130,9 @@ impl SplineString {
         let own = span.first..span.first + self.degree;
         let (before, behind) = (self.load_residual(own.start), self.load_residual(own.end));
         let mut sum = vec![0.0; 2 * self.degree + 1];
-        // Products of splines before the kink with splines after the kink.
         sum[0] -=
             (before.0..).zip(&before.1).map(|(at, r)| r * self.response(at, &behind)).sum::<f64>();
         for (i, part) in own.clone().zip(fractions) {
-            // Product of the splines of earlier spans and the part of this spline behind the kink.
-            // Product of the part of this spline in front of the kink and the splines of later spans.
             let (earlier, later) = (self.response(i, &before), -self.response(i, &behind));
             sum[0] += earlier;
             sum.iter_mut().zip(part).for_each(|(sum, c)| *sum += (later - earlier) * c);

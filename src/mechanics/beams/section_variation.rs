@@ -75,7 +75,6 @@ impl SectionVariation {
             }
             Self::Dimensions(all) => {
                 let (fraction, [before, after]) = between(all, part);
-                // An interpolation between two valid solids is valid.
                 let solid = before.mixed(&after, fraction);
                 Section::from_solid(solid).unwrap_or_else(|_| Section::of_solid(solid))
             }

@@ -112,7 +112,7 @@ impl<const N: usize, S: Sections> SpanLoop<N, S> for ForceAssembly<'_> {
     }
 }
 
-/// Adds the internal forces with strain mismatches condensed out, and calls the sink with the tangent matrix of each span.
+/// Adds the internal forces with the section force unknowns eliminated, and calls the sink with the tangent matrix of each span.
 pub(super) struct Linearisation<'a> {
     pub(super) iterate: SpanInputs<'a>,
     pub(super) forces: ForcesFrom<'a>,
@@ -164,7 +164,7 @@ impl<const N: usize, S: Sections> SpanLoop<N, S> for Linearisation<'_> {
     }
 }
 
-/// Adds the forces that would remove the strain mismatch.
+/// Adds the forces that would remove the strain residuals.
 pub(super) struct MismatchForces<'a> {
     pub(super) section: &'a Section,
     pub(super) weight: f64,

@@ -24,7 +24,6 @@ pub(super) fn fill<const WIDTH: usize>(
 ) {
     let most = rows.len() - 1;
     rows[0][0] = 1.0;
-    // The local knots are the `degree` knots before the span and the `degree` knots after it.
     let local = &knots.knots()[span.first + 1..=span.first + 2 * degree];
     for q in 1..=degree {
         let supports = local[degree - q..degree]

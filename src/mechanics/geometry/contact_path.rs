@@ -7,7 +7,7 @@ use super::values::{FunctionRow, LOW_ORDERS, LowDerivatives};
 use super::{Basis, GaussRule, MAX_DEGREE, PiecewisePolynomial, Span};
 
 /// Basis functions along a path between two parameters of a beam, for a point that slides along the beam in a time step.
-/// Their divided differences are accurate for paths of any length, including zero, and across breaks of any continuity.
+/// The divided differences of the functions are accurate for paths of any length, including zero, and across breaks.
 ///
 /// Every accessor returns one value for each function that is nonzero somewhere on the path. Parameters and results are dimensionless.
 /// At a break, the path uses the span inside the path. A path of zero length uses the span on the right.

@@ -184,14 +184,12 @@ mod tests {
             for (&xi, &point) in breaks.iter().zip(&points) {
                 prop_assert!(near(curve.derivative(xi, 0).unwrap(), point));
             }
-            // The speed at the ends and in the middle is equal for all pieces.
             let speed = curve.derivative(0.0, 1).unwrap().norm();
             for (span, next) in knots.spans().iter().zip(breaks.iter().skip(1)) {
                 let middle = curve.derivative(0.5 * (span.start + span.end), 1).unwrap().norm();
                 prop_assert!((middle - speed).abs() < 1e-9 * speed);
                 prop_assert!((curve.derivative(*next, 1).unwrap().norm() - speed).abs() < 1e-9 * speed);
             }
-            // The derivatives from both sides are equal at the double knots.
             for &xi in &breaks[1..spans] {
                 prop_assert_eq!(knots.multiplicity(xi), 2);
                 let jump = curve.derivative(xi, 1).unwrap() - curve.derivative(xi - 1e-10, 1).unwrap();

@@ -136,7 +136,6 @@ mod tests {
         let span = |start, end| Span { first: 0, start, end };
         let rows = [vec![1.0, 2.0, 3.0], vec![0.5, 0.0, -1.0]];
         let function = PiecewisePolynomial::new(&[span(0.0, 2.0), span(2.0, 2.5)], &rows);
-        // First span: 1 + 2t + 3t² at ξ = 1.5, where t = ½ and dt/dξ = 1. Second span: ½ - t² at ξ = 2.5, where t = 1 and dt/dξ = 4.
         assert_eq!(function.in_span(0, 1.5), [2.75, 5.0, 6.0]);
         assert_eq!(function.in_span(1, 2.5), [-0.5, -8.0, -32.0]);
     }

@@ -186,12 +186,10 @@ mod tests {
                         integral(&basis, &run, |on, at| place.kernel(on, at) * slope(on, at));
                     let expected = slope(span, xi);
                     assert!((found - expected).abs() < 1e-9 * (1.0 + expected.abs()));
-                    // The projection error is orthogonal to the derivatives.
                     let missed = integral(&basis, &run, |on, at| {
                         place.projection_error(on, at) * slope(on, at)
                     });
                     assert!(missed.abs() < 1e-10, "{missed:e}");
-                    // The integral of the kernel over the run is one.
                     let ends = [place.integral[0], place.integral[basis.functions() - 1]];
                     assert!((ends[1] - ends[0] - 1.0).abs() < 1e-10);
                 }

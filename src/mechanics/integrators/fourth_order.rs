@@ -35,7 +35,6 @@ impl FourthOrder {
 
     /// Creates the method, and allocates memory for a mechanism.
     pub fn new(mechanism: &mut dyn Mechanism, tolerance: Tolerance) -> Self {
-        // The call of `save_state` allocates the memory for the saved state before the first step.
         mechanism.checkpoint().save_state();
         Self { substep: EnergyMomentum::new(mechanism, tolerance) }
     }
@@ -120,7 +119,6 @@ mod tests {
             for part in parts {
                 let ended = begun + part;
                 let mean = ((load * begun).cos() - (load * ended).cos()) / (load * part);
-                // Stiffness and static response are 1. Hence rate' = ω² (mean - place), with both values in the middle of the substep.
                 let stiffness = (0.5 * part * frequency).powi(2);
                 let moved = (part * rate + 2.0 * stiffness * (mean - place)) / (1.0 + stiffness);
                 (place, rate, begun) = (place + moved, 2.0 * moved / part - rate, ended);

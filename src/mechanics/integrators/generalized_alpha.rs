@@ -93,7 +93,6 @@ impl GeneralizedAlpha {
             inertia: (1.0 - inertia_before) / beta,
             stage: Stage::End,
             weight: 1.0 - forces_before,
-            // Prescribed accelerations are evaluated at the same time as the forces.
             prescribed: BalancedAt::Fraction(1.0 - forces_before),
         };
         let report = solver.solve(mechanism, interval, rule)?;

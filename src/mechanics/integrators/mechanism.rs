@@ -40,7 +40,7 @@ pub trait Inertia {
 
 /// Forces of a mechanical system that depend on its configuration.
 ///
-/// Section forces may be internal unknowns. They are condensed out of the equations and corrected together with the increments.
+/// Section forces may be internal unknowns. They are eliminated from the equations and corrected together with the increments.
 pub trait Forces {
     /// Adds `weight` times the forces of a stage to `out`: internal forces minus loads, computed from the present section forces.
     ///
@@ -69,7 +69,7 @@ pub trait Forces {
     /// Largest force residual, as a fraction of the forces in this step [-].
     fn relative_imbalance(&self, residual: &[f64]) -> f64;
 
-    /// Object with the largest value in a part of the residual, for messages.
+    /// Object with the largest force, strain or constraint residual, for messages.
     fn worst(&self, _part: ResidualPart, _residual: &[f64]) -> Option<FailureSource> {
         None
     }

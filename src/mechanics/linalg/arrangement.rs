@@ -107,7 +107,6 @@ impl Arrangement {
         for block in blocks.iter().filter(delaying) {
             self.delayed_after[last(block, &self.position)] += MOST_DELAYED;
         }
-        // Replaces the number of delayed unknowns after each position by the position of the first of them.
         let mut shift = 0;
         for (place, behind) in self.delayed_after.iter_mut().enumerate() {
             shift += std::mem::replace(behind, place + 1 + shift);
@@ -122,7 +121,6 @@ impl Arrangement {
                 size += MOST_DELAYED;
             }
         }
-        // The position of each unknown is shifted by the delayed unknowns before it.
         for position in self.position.iter_mut().filter(|position| **position != UNTOUCHED) {
             *position = position.checked_sub(1).map_or(0, |before| self.delayed_after[before]);
         }

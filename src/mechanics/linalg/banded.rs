@@ -135,7 +135,6 @@ mod tests {
         #[test]
         fn the_banded_solution_is_the_dense_one(
             size in 1_usize..40, half_bandwidth in 0_usize..12, entries in prop::collection::vec(-1.0..1.0_f64, 2000),
-            // Relative sizes of the diagonal for which no, some or many rows are exchanged.
             diagonal in prop::sample::select(vec![0.0, 0.5, 3.0, 30.0]),
         ) {
             let mut matrix = BandedMatrix::zeros(size, half_bandwidth);
@@ -239,7 +238,6 @@ mod tests {
     #[test]
     fn graded_rows_are_solved_as_well_as_by_a_dense_matrix_with_pivoting() {
         let size = 24;
-        // Powers of two up to 1e12 are used, so that the right-hand side for a solution of ones is exact.
         let gradings: [fn(i32) -> i32; 4] =
             [|_| 0, |i| 40 * i / 23, |i| 40 - 40 * i / 23, |i| 7 * i % 41];
         for (number, grading) in gradings.into_iter().enumerate() {
@@ -300,7 +298,6 @@ mod tests {
                     let (mut matrix, mut x, solution) = linked_point(h, stiffness / (h * h), order);
                     matrix.weigh_rows();
                     matrix.factorise().unwrap().solve(&mut x);
-                    // The forces of the links are the small differences of the inertia forces.
                     let forces = [order[2], order[3]];
                     let size =
                         |at: usize| if forces.contains(&at) { (2.0 + stiffness) / h } else { 1.0 };

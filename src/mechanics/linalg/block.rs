@@ -2,7 +2,7 @@
 //! Each block is eliminated separately from the other blocks.
 //!
 //! The block is a small dense matrix, like the front of a multifrontal method (Duff & Reid, ACM Trans. Math. Softw. 9 (1983) 302–325).
-//! Its unknowns are eliminated with complete pivoting, and the Schur complement is added to the band.
+//! The unknowns of the block are eliminated with complete pivoting, and the Schur complement is added to the band.
 //! An unknown without a pivot, for example the contact force of a supported slave, is delayed: it is inserted into the band.
 
 use pulp::{Simd, WithSimd};
@@ -71,7 +71,7 @@ pub(super) struct Block {
     column_at: Vec<usize>,
     pub(super) pivots: usize,
     units: [(BorderUnit, BorderUnit); BLOCK],
-    /// Factors of rows and columns that make the entries of the dense matrix comparable, in the order of elimination.
+    /// Scale factors of the rows and columns of the dense matrix, in the order of elimination.
     row_factors: Vec<f64>,
     column_factors: Vec<f64>,
     pub(super) stiffness: f64,
@@ -207,7 +207,7 @@ impl Block {
         Ok(())
     }
 
-    /// Finds the touched unknowns and fills the dense matrix.
+    /// Finds the coupled unknowns of the band, and fills the dense matrix.
     #[inline(always)]
     fn gather(&mut self, band: &BandedMatrix, places: &mut [usize]) {
         let (own, candidates) = (self.own.len(), self.candidates());
@@ -275,7 +275,6 @@ impl Block {
                 largest = if magnitude > largest { magnitude } else { largest };
                 of_entries += magnitude;
             }
-            // The sum is not finite if an entry is not finite.
             sum += of_entries;
             if largest * of_row > found.1 {
                 found = (row, largest * of_row);

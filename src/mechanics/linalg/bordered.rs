@@ -342,7 +342,6 @@ mod tests {
 
     #[test]
     fn what_only_the_border_holds_is_solved_with_it() {
-        // Three masses are connected by springs of stiffness 2 and 3, and the border fixes the last mass. The last border row is dense.
         let border = BorderShape { width: 2, row_entries: 4 };
         let mut matrix = BorderedMatrix::zeros(3, 1, border).with_joint_elimination(1);
         for (at, stiffness) in [2e6, 3e6].into_iter().enumerate() {
@@ -372,7 +371,6 @@ mod tests {
     /// Solves a contact problem on a band of positions and angles in the given units of length and force.
     /// The solution is converted back to the original units.
     fn in_units(length: f64, force: f64, mut matrix: BorderedMatrix, seed: f64) -> Vec<f64> {
-        // Units of the rows and of the unknowns of the band.
         let of_band = [(force, length), (force, length), (force * length, 1.0)];
         let of_contact = [(length, force), (length, force), (force, force), (force, force)];
         let of_way = [(force, 1.0)];

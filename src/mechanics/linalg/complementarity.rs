@@ -90,7 +90,6 @@ mod tests {
     fn what_is_taken_along_by_another_is_not_pushed() {
         let matrix = [vec![2.0, 1.9], vec![1.9, 2.0]];
         let pairings = [Pairing::Complementary; 2];
-        // The first unknown alone makes the response of the second pair positive.
         assert_eq!(complementary(&matrix, &[-2.0, -0.1], &pairings).unwrap(), [1.0, 0.0]);
         let tied = [Pairing::Complementary, Pairing::Equality];
         let both = complementary(&matrix, &[-2.0, -0.1], &tied).unwrap();
@@ -120,7 +119,6 @@ mod tests {
                     }
                 }
             }
-            // The same complementarity problem with its pairs in reverse order.
             let turned: Vec<Vec<f64>> = matrix.iter().rev().map(|row| row.iter().rev().copied().collect()).collect();
             let q: Vec<f64> = q.into_iter().rev().collect();
             let pairings: Vec<Pairing> = pairings.into_iter().rev().collect();

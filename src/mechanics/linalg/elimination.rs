@@ -46,7 +46,6 @@ impl WithSimd for Elimination<'_> {
             8 => eliminate(simd, &mut self.0, 8, eliminate_fixed::<S, 8, 8, 28>),
             11 => eliminate(simd, &mut self.0, 11, eliminate_fixed::<S, 11, 12, 37>),
             reach => {
-                // All columns after the last entry are zero.
                 let width = reach.next_multiple_of(LANES);
                 eliminate(simd, &mut self.0, reach, |simd, storage, first| {
                     eliminate_panel(simd, storage, first, [reach, reach], width)
@@ -91,7 +90,6 @@ fn eliminate<S: Simd>(
     reach: usize,
     eliminate_plain: impl Fn(S, &mut ActiveRows<'_>, usize) -> bool,
 ) -> Result<(), LinearError> {
-    // Last column in which the rows above the panel have an entry.
     let mut filled = 0;
     for first in (0..storage.columns).step_by(PANEL) {
         let next = first + PANEL;
@@ -129,8 +127,6 @@ fn eliminate_in_profile<S: Simd>(
         let next = first + PANEL;
         let below = ends[next - 1] + 1 - next;
         let width = filled.max(ends[next - 1]) + 1 - next;
-        // Columns after the last entry and rows below the last row are zero.
-        // The compile-time constants are the sizes for cubic beams, with and without a point that slides from one span to the next.
         let is_eliminated = match below.max(width) {
             ..=9 if reach > 10 => eliminate_panel(simd, storage, first, [reach, 9], 12),
             ..=11 if reach > 10 => eliminate_panel(simd, storage, first, [reach, 11], 12),
@@ -289,7 +285,6 @@ fn eliminate_column(
     let (stride, rows) = (3 * reach + PANEL, &mut *storage.rows);
     let last_row = end(column).min(size - 1);
     let diagonal = column * stride + reach + PANEL - 1;
-    // The entry one row below in the same column is stored `stride - 1` elements later.
     let entry = |row: usize| rows[diagonal + (row - column) * (stride - 1)].abs();
     let relative = |row: usize| entry(row) / storage.sizes[row].sqrt();
     let (mut pivot_row, mut largest) = (column, relative(column));

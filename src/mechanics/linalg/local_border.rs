@@ -158,7 +158,6 @@ fn add_schur_complement(
             }
         }
     }
-    // Positions reserved for delayed unknowns that are not used get a row of the identity matrix.
     if delayed != UNTOUCHED {
         for place in delayed + count..delayed + super::block::MOST_DELAYED {
             matrix.set_row_size(place, 1.0);
@@ -304,7 +303,6 @@ mod tests {
         let (size, own) = (300, [false; 30]);
         let (layout, all) = layout(size, 2, &own);
         let mut matrix = BorderedMatrix::with_blocks(all, 2, layout.clone());
-        // The blocks correspond to two beams of 150 unknowns that cross each other at every block.
         let touches: Vec<Touch> =
             (0..30).map(|block| (5 * block, 3, Some(150 + 5 * block))).collect();
         let mut value = 0.3_f64;

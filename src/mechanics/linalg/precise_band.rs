@@ -61,7 +61,6 @@ impl PreciseBand {
             if row < self.size && a != 0.0 {
                 let a = DoubleDouble::product(factor, a);
                 for (&column, &b) in unknowns.iter().zip(r) {
-                    // Each pair of different unknowns occurs twice. Only the pair in the upper triangle is used.
                     if row <= column && column < self.size {
                         self.add_double_double(row, column, a.times(b));
                     }

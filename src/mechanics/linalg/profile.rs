@@ -100,7 +100,6 @@ mod tests {
             diagonal in prop::sample::select(vec![0.0, 0.5, 3.0, 30.0]),
         ) {
             let mut matrix = ProfileMatrix::with_capacity(1, 0);
-            // The second solution has a different profile.
             for shift in [0, 7] {
                 let size = reaches.len();
                 let ends: Vec<usize> =

@@ -27,7 +27,6 @@ impl SymmetricSparse {
         let mut next = starts.clone();
         let (mut columns, mut values) = (vec![0_u32; starts[size]], vec![0.0; starts[size]]);
         give(&mut |row, column, value| {
-            // Entries are inserted in the order of columns. Most entries are already given in this order.
             let (first, mut at) = (starts[row], next[row]);
             while at > first && columns[at - 1] as usize > column {
                 (columns[at], values[at]) = (columns[at - 1], values[at - 1]);

@@ -154,7 +154,6 @@ impl Storage {
             if *size == 0.0 {
                 *size = largest(&mut coupled().map(by_constraint).filter(|size| size.is_finite()));
             }
-            // A row without entries has the size zero.
             if *size == 0.0 {
                 *size = 1.0;
             }

@@ -231,7 +231,6 @@ fn back_substitute(row: &[f64], x: &[f64]) -> f64 {
 fn substitute_strip<const W: usize>(factors: &Factors<'_>, x: &mut [[f64; W]], first: usize) {
     let (size, reach, rows) = (factors.size, factors.reach, factors.rows);
     let (stride, centre) = (3 * reach + PANEL, reach + PANEL - 1);
-    // A row exchange changes entries in up to `reach` earlier columns.
     for column in first.saturating_sub(reach)..size {
         x.swap(column, factors.pivots[column]);
         let value = x[column];

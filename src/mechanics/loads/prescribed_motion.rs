@@ -321,7 +321,6 @@ mod tests {
             if t < 1e-3 { (t * 4e3).sin() } else { (4.0_f64).sin() }
         }));
         assert!((soon.beginning(0.0).unwrap().rate - 4e3).abs() < 1e-5);
-        // A run that starts later begins with the values at its start time.
         assert_eq!(soon.beginning(2.0).unwrap(), MotionAtStart::default());
         let square = PrescribedMotion::Position(of(|t| t * t));
         assert!((square.beginning(1.5).unwrap().rate - 3.0).abs() < 1e-9);

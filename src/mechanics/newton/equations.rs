@@ -50,15 +50,15 @@ pub enum ResidualPart {
 
 /// Nonlinear equations `R(u) = 0`, which may have internal unknowns at quadrature points.
 ///
-/// The internal unknowns (section forces) are condensed out of the linear system.
+/// The internal unknowns (section forces) are eliminated from the linear system.
 /// Method: "mixed integration point" Newton (Magisano, Leonetti & Garcea 2017).
-/// [`linearise`](Equations::linearise) condenses the internal unknowns, and [`correct`](Equations::correct) updates them.
+/// [`linearise`](Equations::linearise) eliminates the internal unknowns, and [`correct`](Equations::correct) updates them.
 pub trait Equations {
-    /// Computes residual and tangent at `u`, with internal unknowns condensed out. Both must be zero on entry.
+    /// Computes residual and tangent at `u`, with the internal unknowns eliminated. Both must be zero on entry.
     fn linearise(&mut self, u: &[f64], residual: &mut [f64], tangent: &mut BorderedMatrix);
 
     /// Prepares a correction with the factors of the last linearisation.
-    /// Condenses the internal unknowns out of the residual that the last call of [`imbalance`](Equations::imbalance) has computed.
+    /// Eliminates the internal unknowns from the residual that the last call of [`imbalance`](Equations::imbalance) has computed.
     fn condense(&mut self, residual: &mut [f64]);
 
     /// Updates the internal unknowns after a correction of `u`, using the last linearisation.

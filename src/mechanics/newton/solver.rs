@@ -202,7 +202,7 @@ impl Newton {
     ) -> Result<NewtonReport, NewtonError> {
         self.tangent.clear();
         residual.fill(0.0);
-        // This call of `linearise` condenses out the internal unknowns. Its tangent is not used.
+        // This call of `linearise` eliminates the internal unknowns. Its tangent is not used.
         equations.linearise(u, residual, &mut self.tangent);
         let mut before = f64::INFINITY;
         for corrections in 1..=MOST_SHARED_CORRECTIONS {

@@ -101,7 +101,6 @@ impl StepController {
     /// Updates the state after a step whose error is too large.
     pub(super) fn reject(&self, state: &mut StepSizeState, trial: TriedStep) {
         let most = if state.tries > 0 { SECOND_REJECTION_FACTOR } else { SAFETY };
-        // A NaN error is treated as infinite.
         let error = if trial.error.is_nan() { f64::INFINITY } else { trial.error };
         self.shorten(state, trial.duration, self.room(error).clamp(LEAST_GROWTH, most));
     }
@@ -118,7 +117,6 @@ impl StepController {
 
     fn shorten(&self, state: &mut StepSizeState, duration: f64, part: f64) {
         state.tries += 1;
-        // The end time of a step may exceed the largest number. The duration is then infinite, and the requested step size is used.
         state.unconstrained_size = self.bounded(duration.min(state.unconstrained_size) * part);
     }
 

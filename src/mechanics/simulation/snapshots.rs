@@ -128,7 +128,6 @@ impl Snapshots {
     pub(super) fn push(&mut self, snapshot: Snapshot) {
         let count = self.recent.len();
         if count == self.recent.capacity() {
-            // The capacity grows geometrically, but never beyond the limit.
             self.recent.reserve_exact(count.max(4).min(self.most.saturating_sub(count)));
         }
         self.recent.push_back(snapshot);

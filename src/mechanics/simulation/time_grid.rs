@@ -119,7 +119,6 @@ impl TimeGrid {
     }
 
     fn points_up_to(&self, now: f64) -> u64 {
-        // The search starts at an index slightly below the result.
         let near = (((now - self.start) / self.dt) as u64).saturating_sub(2).min(MOST_POINTS);
         let mut passed = self.passed.max(near);
         while passed < MOST_POINTS && self.has_reached(now, self.point(passed + 1)) {

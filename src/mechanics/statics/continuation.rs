@@ -79,7 +79,6 @@ impl<'s> Continuation<'s> {
         let all = model.unknowns() + model.constraint_shape().width;
         let mut path = EquilibriumPath::default();
         path.push(point(&mut model, 0.0, 0.0, 0));
-        // Isolated particles have no moments, so any length may be used.
         let length = scene.size().unwrap_or(1.0);
         Self {
             scene,
@@ -100,7 +99,6 @@ impl<'s> Continuation<'s> {
         let Loading { factor, steps, .. } = self.loading;
         self.begin(factor * (1.0 / steps as f64), hold)?;
         for step in 2..=steps {
-            // In the last step, the factor is exactly the requested load factor.
             self.solve_for_factor(factor * (step as f64 / steps as f64), MOST_HALVINGS)?;
         }
         Ok(())
@@ -261,7 +259,7 @@ impl<'s> Continuation<'s> {
     /// Solves for a fraction of the loads, starting from the present configuration.
     /// A positive `rate` adds viscous damping with this rate [1/time²]. Returns the number of iterations.
     ///
-    /// The solution is repeated whenever a stop begins or ceases to hold a slider.
+    /// The solution is repeated whenever a slider comes into contact with a stop or leaves a stop.
     pub(super) fn balance_from(&mut self, factor: f64, rate: f64) -> Result<usize, StepFailure> {
         let (reached, mut iterations) = (self.path.load_factor(), 0);
         for _ in 0..=self.scene.most_settlings() {

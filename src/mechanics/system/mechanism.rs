@@ -89,7 +89,6 @@ impl System {
         let inertia = self.diagonal_of_inertia();
         self.elements.begin(&self.bodies, &inertia);
         self.motion.begin(inertia);
-        // The resolution of a single body is that of the whole mechanism, so it is not measured separately.
         let bodies = &self.bodies;
         let damped = self.elements.resistances().filter_map(InternalForce::damped_beam);
         let apart = damped.filter(|_| bodies.len() > 1);

@@ -20,8 +20,8 @@ const MOST_SWEEPS: usize = 60;
 /// Largest remainder of a diagonal entry of the inertia that is due to rounding, as a fraction of the entry.
 const WITHOUT_INERTIA: f64 = 1e-13;
 
-/// Computes all pairs of an eigenvalue `μ` and a shape `φ` of a small scene with inertia, in decreasing order of `μ`.
-/// For degrees of freedom without inertia, `μ = 0`.
+/// Computes all pairs of an eigenvalue and a shape of a small scene with inertia, in decreasing order of the eigenvalues.
+/// Degrees of freedom without inertia have the eigenvalue zero.
 ///
 /// # Errors
 /// Fails if the search is stopped.
@@ -69,7 +69,7 @@ pub(super) fn all_pairs(
     Ok(Pairs { values: order.iter().map(|at| values[*at]).collect(), strips })
 }
 
-/// Orthogonalises the shapes of higher modes with respect to lower modes, and normalises all shapes to `φᵀ M φ = 1`.
+/// Orthogonalises the shapes of higher modes with respect to lower modes, and normalises all shapes with respect to the inertia.
 /// Rounding errors of a shape may have little strain energy but much kinetic energy.
 fn orthogonalise(pencil: &Pencil, shapes: &mut DMatrix<f64>) {
     let size = pencil.size();
@@ -93,7 +93,7 @@ fn orthogonalise(pencil: &Pencil, shapes: &mut DMatrix<f64>) {
     }
 }
 
-/// Factor `H` of the inertia `M = H Hᵀ`. The columns of degrees of freedom without inertia are zero.
+/// Matrix whose product with its transpose is the inertia. The columns of degrees of freedom without inertia are zero.
 fn inertia_root(pencil: &Pencil) -> DMatrix<f64> {
     let size = pencil.size();
     let mut root = DMatrix::zeros(size, size);

@@ -87,7 +87,6 @@ impl Elastic {
 
     /// Sets four mode shapes to the given displacements, with the section forces of their strains. Returns their energies.
     pub(super) fn begin(&self, movements: &VectorStrip, shapes: &mut Shapes) -> Energies {
-        // A mode shape that is zero becomes equal to the displacements by this correction.
         shapes.movements.fill([0.0; STRIP_WIDTH]);
         shapes.forces.fill([0.0; STRIP_WIDTH]);
         shapes.mismatches.fill([0.0; STRIP_WIDTH]);

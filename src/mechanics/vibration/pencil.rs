@@ -80,7 +80,6 @@ impl Pencil {
     pub(super) fn memory(model: &System) -> usize {
         let order = model.static_order();
         let (size, reach) = (order.count(), order.half_bandwidth() + 1);
-        // The memory is that of the double-double stiffness, its factors, the inertia during sorting, and about two strains per degree of freedom.
         size * reach * 8 * size_of::<f64>() + Elastic::memory(2 * size, reach)
     }
 
@@ -96,7 +95,7 @@ impl Pencil {
         vec![[0.0; STRIP_WIDTH]; self.length()]
     }
 
-    /// Factors of `K + σ M`; `None` if the matrix is not positive definite.
+    /// Factors of the stiffness plus `shift` times the inertia; `None` if the sum is not positive definite.
     pub(super) fn factors(&self, shift: f64) -> Option<SymmetricFactors> {
         let factors = self.stiffness.factorise(shift, &self.inertia).ok()?;
         (factors.pivots().negative == 0).then_some(factors)

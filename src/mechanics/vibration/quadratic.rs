@@ -29,7 +29,7 @@ pub(super) fn size(at: ComplexNumber) -> f64 {
 
 /// Damped vibration problem in the basis of the undamped modes.
 pub(super) struct Quadratic {
-    /// Squared frequencies of the undamped modes [1/time²], which are the diagonal of `Ω²`.
+    /// Squared frequencies of the undamped modes [1/time²].
     pub(super) squares: Vec<f64>,
     /// Matrix with a row for each mode and a column for each damped rate [1/time^½]. Its product with its transpose is the damping.
     pub(super) dampers: DMatrix<f64>,
@@ -116,7 +116,6 @@ impl Quadratic {
         let free =
             modes().filter(|(_, square)| **square == 0.0).map(|(mode, _)| self.damping(mode));
         let free = free.filter(|damping| *damping > 0.0).fold(f64::INFINITY, f64::min);
-        // The square of the shift must be larger than `-ω²` of every unstable mode.
         let unstable = self.squares.iter().fold(0.0, |most, square| larger(most, -square));
         larger((1.0 / (compliance + 1.0 / slowest)).min(free), 2.0 * unstable.sqrt())
     }

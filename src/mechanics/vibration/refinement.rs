@@ -97,7 +97,7 @@ struct OtherPairs<'a> {
 }
 
 impl OtherPairs<'_> {
-    /// Squared frequencies `ω²` of a strip, computed from the eigenvalues `μ`; zero for unused lanes.
+    /// Squared frequencies of a strip, computed from the eigenvalues; zero for unused lanes.
     fn squares(&self, at: usize) -> FourVectors {
         std::array::from_fn(|lane| {
             let value = self.values.get(STRIP_WIDTH * at + lane).copied();
@@ -199,7 +199,7 @@ impl OtherPairs<'_> {
     }
 
     /// Removes the components of all pairs from residual forces.
-    /// Returns the contribution of the removed components to the residuals, as a fraction of `ω² + σ`.
+    /// Returns the contribution of the removed components to the residuals, as a fraction of the shifted squared frequency.
     ///
     /// For components of lower pairs, only their magnitude is added, because the inverted stiffness would overestimate their contribution.
     fn remove_other_pairs(
@@ -220,7 +220,7 @@ impl OtherPairs<'_> {
         left
     }
 
-    /// Returns true if `ω² + σ` differs strongly between the highest and the lowest pair. A common solution would mix their rounding errors.
+    /// Returns true if the shifted squared frequencies of the pairs differ strongly. A common solution would mix their rounding errors.
     fn is_wide(&self) -> bool {
         let count = self.values.len().min(STRIP_WIDTH * self.strips.len());
         self.values[0] > WIDE * self.values[count - 1]

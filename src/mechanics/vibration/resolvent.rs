@@ -12,24 +12,25 @@ use super::dense::rotate;
 use super::quadratic::{ComplexNumber, Quadratic, size};
 use crate::elementary::square;
 
-/// Largest number of QR iterations per eigenvalue `θ` in the Schur decomposition. A few iterations are usual.
+/// Largest number of QR iterations per eigenvalue in the Schur decomposition. A few iterations are usual.
 const MOST_SWEEPS: usize = 40;
 
 /// Relative sizes of subdiagonal entries that the Schur decomposition treats as zero. If it does not converge, the next larger value is used.
 const DECOUPLED: [f64; 3] = [f64::EPSILON, 1e-14, 1e-12];
 
-/// Number of corrections of each reported `λ`.
+/// Number of corrections of each reported eigenvalue.
 const CORRECTIONS: usize = 4;
 
-/// Relative change of `λ` above which a correction is rejected, because it leads to another eigenvalue.
+/// Relative change of an eigenvalue above which a correction is rejected, because it leads to another eigenvalue.
 const FAR: f64 = 1e-4;
 
-/// Relative change of `λ` near the shift above which a correction is rejected if the change is much larger than rounding.
+/// Relative change of an eigenvalue near the shift, above which a correction is rejected if the change is much larger than rounding.
 /// A larger change indicates several close eigenvalues whose shapes are mixed.
 const NEAR: f64 = 1e-10;
 const ROUNDING_CHANGE: f64 = 1e-12;
 
-/// Distance between the shift of the inverse iteration and `λ`, as a fraction of `λ`. At this distance, the matrix is not singular.
+/// Distance between the shift of the inverse iteration and the eigenvalue, as a fraction of the eigenvalue.
+/// At this distance, the matrix is not singular.
 const BESIDE: f64 = 1e-8;
 
 /// Damping `s²` above which the force of a dashpot is an unknown. As a matrix entry, it would reduce the accuracy of weakly damped modes.
@@ -87,9 +88,6 @@ impl Resolvent {
         if count == 0 {
             return Ok(Vec::new());
         }
-        // The Schur decomposition compares subdiagonal entries with the diagonal.
-        // The decomposition may not converge near eigenvalues close to zero, although these eigenvalues are not needed.
-        // If the decomposition fails, all eigenvalues are shifted away from zero by the largest magnitude.
         let search = |part: f64, moved: f64| {
             let mut matrix = matrix.clone();
             (0..count).for_each(|at| matrix[(at, at)] -= moved);
@@ -147,7 +145,6 @@ impl Resolvent {
         let strong: Vec<usize> =
             (0..self.damping.len()).filter(|at| self.damping[*at] > STRONG).collect();
         let mut at = start;
-        // The rounding error of the eigenvalue follows from the rounding error of its shifted inverse.
         let rounding = ROUNDING_CHANGE * square(size(start - complex(1.0))) / size(start);
         let trusted = (NEAR + rounding).min(FAR) * size(start);
         let unknowns = modes + strong.len();
@@ -190,7 +187,6 @@ impl Resolvent {
                 damped += rate * rate * self.damping[*damper];
             }
             let root = root(damped * damped - inertia * stiffness * 4.0);
-            // The larger of both values has no cancellation. The smaller value follows from it.
             let [sum, difference] = [damped + root, damped - root];
             let sum = if size(sum) > size(difference) { sum } else { difference };
             let nearest = [-sum / (inertia * 2.0), -stiffness * 2.0 / sum];
@@ -198,7 +194,6 @@ impl Resolvent {
                 true => nearest[0],
                 false => nearest[1],
             };
-            // At a double eigenvalue the Rayleigh quotient is not defined.
             let moved = size(nearest - start);
             if moved.is_nan() || moved > trusted {
                 return start;

@@ -59,7 +59,6 @@ impl PlacedSymbol {
             return vec![end(-diagonal), end(diagonal)];
         }
         let radius = hypot(tip.0 - at.0, tip.1 - at.1);
-        // A chord in the window is at most as long as its diagonal. Angle / 2 ≤ (π / 2) · sine.
         let (facing, half) = (atan2(y, x), PI * (0.5 * diagonal / radius).min(1.0));
         let point = |index: u32| {
             let angle = facing + half * (1.0 - f64::from(2 * index) / f64::from(SEGMENTS));

@@ -86,7 +86,6 @@ impl Dots {
 fn line_dots(from: (i64, i64), to: (i64, i64)) -> impl Iterator<Item = (i64, i64)> {
     let (dx, dy) = (to.0 - from.0, to.1 - from.1);
     let steps = dx.abs().max(dy.abs());
-    // Integer division with rounding. Halves are rounded away from the start of the line.
     let part = move |whole: i64, step: i64| {
         (2 * whole.abs() * step + steps) / (2 * steps).max(1) * whole.signum()
     };
@@ -121,7 +120,6 @@ fn ascii_of_dots(mask: u8) -> char {
             _ => '_',
         },
         _ if left == 0 || right == 0 => '|',
-        // Compares the mean rows of both columns without division. Rows are counted downwards.
         _ => match (sum(0) * right).cmp(&(sum(1) * left)) {
             std::cmp::Ordering::Less => '\\',
             std::cmp::Ordering::Greater => '/',

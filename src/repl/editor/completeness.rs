@@ -126,7 +126,6 @@ impl<'t> InputReader<'t> {
                 if written == "|" {
                     self.level.is_between_bars = !self.level.is_between_bars && !self.is_value;
                 }
-                // In other languages a colon starts a block. In this language it occurs only in maps.
                 if written == ":" && self.level.bracket != Some(Bracket::Map) {
                     return ParseOutcome::Final(Complete);
                 }

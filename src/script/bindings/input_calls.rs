@@ -24,7 +24,6 @@ pub fn input_calls(ast: &AST) -> Vec<InputCall> {
             ) => Some((called, *at)),
             _ => None,
         };
-        // A script may define a function of this name with another number of parameters.
         let is_input = |called: &FnCallExpr| {
             called.name == INPUT && !called.is_qualified() && matches!(called.args.len(), 2 | 3)
         };

@@ -65,7 +65,7 @@ impl ValueKind {
         })
     }
 
-    /// Most likely type, if several are possible.
+    /// Most likely type of a value that may have several types.
     pub fn likely(self) -> Self {
         match self {
             Self::OneOf([first, ..]) => first.likely(),

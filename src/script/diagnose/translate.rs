@@ -103,7 +103,6 @@ impl Explainer<'_> {
                 EvalAltResult::ErrorRuntime(payload, _) => payload.read_lock::<Failure>(),
                 _ => None,
             };
-            // If the library passes an option on, the user's call also contains the key of the option. Positions of arguments may differ.
             let place = match place.map(|failure| failure.place.clone()) {
                 Some(CallPart::Key(key)) => CallPart::Key(key),
                 _ => CallPart::Call,

@@ -60,7 +60,6 @@ pub fn install(engine: &mut Engine) {
     engine.register_raw_fn("+", varied, |_, operands| -> EngineResult<Dynamic> {
         Ok(operands[0].clone())
     });
-    // The values of all variants are already floats.
     engine.register_fn("to_float", |number: VariantValue| number);
     for name in ["to_int", "sign", "is_zero", "is_even", "is_odd"] {
         engine.register_raw_fn(name, varied, move |context: NativeCallContext, operands| {

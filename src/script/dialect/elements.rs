@@ -157,7 +157,6 @@ fn array_and_test(values: &[&mut Dynamic]) -> EngineResult<(Array, FnPtr)> {
 }
 
 fn function_of(values: &[&mut Dynamic]) -> EngineResult<FnPtr> {
-    // The engine calls the registered functions only with an array or map followed by a function.
     let function = values.get(1).and_then(|function| (**function).clone().try_cast::<FnPtr>());
     function.ok_or_else(|| {
         ScriptError::internal_error("a test is no function").into_engine(Position::NONE)
@@ -213,7 +212,6 @@ impl<'a> ElementCallback<'a> {
     ) -> EngineResult<Dynamic> {
         let copy = element.clone();
         let index = Dynamic::from(INT::try_from(index).unwrap_or(INT::MAX));
-        // A native function would use `this` as its first argument.
         let this = self.function.is_anonymous().then_some(&mut *element);
         match given {
             CallbackArguments::Element => self.function.call_raw(self.native, this, [copy]),

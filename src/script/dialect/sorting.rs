@@ -107,7 +107,6 @@ fn sorted(native: &NativeCallContext, values: &[&mut Dynamic]) -> EngineResult<A
 
 /// Returns true if the result of the comparison function puts the first element after the second element.
 fn is_after(native: &NativeCallContext, order: &Dynamic) -> EngineResult<bool> {
-    // The result `true` puts the first element before the second element.
     if let Ok(is_before) = order.as_bool() {
         return Ok(!is_before);
     }

@@ -10,7 +10,6 @@ use crate::script::source::switch_rewrite;
 
 pub fn install(engine: &mut Engine) {
     switch_rewrite::install(engine, |engine, value, at| {
-        // During the evaluation in a variant, a value that depends on parameters is replaced by its value in the variant.
         let value = match present() {
             Some(present) => VariantValue::project(&value, present.variant),
             None => value,

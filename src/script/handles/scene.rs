@@ -111,7 +111,6 @@ impl SceneHandle {
         let Some(CurrentVariant { family, variant }) = present().filter(|of| of.variant > 0) else {
             return scene;
         };
-        // The present call has not yet changed the scene, because variant 0 is evaluated last.
         let beside = beside.get_or_init(|| {
             let copy = |_| Rc::new(RefCell::new(scene.borrow().clone()));
             PerturbedBuilds { scenes: (1..family.variants()).map(copy).collect(), family }
@@ -183,12 +182,10 @@ impl SceneHandle {
             return Ok(());
         };
         let own = self.variants.scene.borrow();
-        // The beam does not yet exist in variant 0, because the perturbed variants are evaluated first.
         let Some(own) = own.beams.get(beam) else { return Ok(()) };
         let length = own.axis.length();
         let is_other = |scene: &Rc<RefCell<Scene>>| {
             let scene = scene.borrow();
-            // The length of a rotated beam may differ by a rounding error.
             let apart = scene.beams.get(beam).map_or(0.0, |of| (length - of.axis.length()).abs());
             apart > ROUNDING_OF_PLACES * length
         };
@@ -199,7 +196,7 @@ impl SceneHandle {
         Ok(())
     }
 
-    /// Returns true in variant 0. Functions are stored only in variant 0, so that each function is stored once.
+    /// Returns true in the unperturbed variant. Functions are stored only in the unperturbed variant, so that each function is stored once.
     fn keeps(&self) -> bool {
         present().is_none_or(|present| present.variant == 0)
     }

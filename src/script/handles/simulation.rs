@@ -271,7 +271,6 @@ impl SimulationHandle {
 
     fn take_steps(&self, context: &Context, steps: usize) -> Result<(), ScriptError> {
         for taken in 0..steps {
-            // If the run had ended before the first step, this step fails. A later end is only reported.
             if taken > 0 && self.has_ended() {
                 self.report_end(context, &format!("before it had taken {steps} steps"));
                 break;

@@ -148,7 +148,6 @@ impl<'a> Magnifier<'a> {
         let arms = || start.iter().zip(&now).map(|(start, now)| (start - from, now - to));
         let turn: Vec2 =
             arms().map(|(start, now)| Vec2::new(start.dot(&now), cross(start, now))).sum();
-        // Joints keep their positions, also where a bent beam brings them closer together.
         let size = match has_several {
             true => arms().map(|(start, _)| start.norm_squared()).sum(),
             false => turn.norm(),
@@ -165,7 +164,7 @@ impl<'a> Magnifier<'a> {
         [of.particles[particle]].iter().chain(outline).copied().collect()
     }
 
-    /// Displacements of travelling bodies that keep them at magnified held bodies.
+    /// Displacements that keep travelling bodies attached to magnified bodies.
     fn shifts(
         &self,
         bodies: &MagnifiedBodies,

@@ -219,7 +219,6 @@ pub fn drift_lines(title: impl Into<String>, history: &History) -> LineChart {
         .y_scale(AxisScale::Logarithmic);
     let invariants = Invariant::ALL.iter().filter(|(_, of)| *of != Invariant::Gap);
     invariants.fold(chart, |chart, (name, of)| {
-        // The drift in the first row is zero by definition.
         let points =
             over_time(history, history.drifts(*of)).split_off(1.min(history.samples().len()));
         chart.series(Series::new(name.replace('_', " "), points))

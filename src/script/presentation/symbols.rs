@@ -90,7 +90,6 @@ pub fn symbols(
     let is_there = |sign: &StationSymbol| sign.hold.is_none_or(|hold| !at.released.contains(&hold));
     let held = of_supports(scene).chain(of_sliders(scene)).filter(is_there);
     let unplaced: Vec<StationSymbol> = held.chain(of_loads(scene, time)).collect();
-    // Each symbol uses three positions: its own, and the positions shortly before and after it on the beam. The positions of the springs are last.
     let around = unplaced.iter().flat_map(|symbol| around(scene, &symbol.at));
     let springs = scene.springs().enumerate();
     let springs = springs.filter(|(index, _)| !at.released.contains(&Releasable::Spring(*index)));

@@ -30,7 +30,7 @@ impl Travel {
         self.group[body]
     }
 
-    /// Returns true for the ground and for bodies that are held.
+    /// Returns true for the ground, and for bodies that joints hold in place.
     fn is_fixed(&self, scene: &Scene, partner: &Partner) -> bool {
         match partner {
             Partner::Ground => true,
@@ -38,7 +38,7 @@ impl Travel {
         }
     }
 
-    /// Marks bodies that the ground and held bodies hold. Returns true if there is a new one.
+    /// Marks bodies that joints to the ground or to marked bodies hold in place. Returns true if a body was marked.
     fn hold_bodies(&mut self, scene: &Scene) -> bool {
         let mut free: Vec<usize> = self.rigid_freedoms(scene);
         for (station, partner, joint) in joint_ends(scene) {

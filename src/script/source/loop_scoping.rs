@@ -38,7 +38,6 @@ pub fn install(engine: &mut Engine) {
 /// Declares the last variables of the scope again, with their values. The loop assigns to the original variables in every iteration.
 fn declare_again(context: &mut EvalContext, variables: usize) {
     let scope = context.scope_mut();
-    // The newest variables come first.
     let names: Vec<String> =
         scope.iter_raw().take(variables).map(|(name, _, _)| name.to_owned()).collect();
     for name in names {

@@ -65,7 +65,6 @@ struct ContextData {
 impl Context {
     /// Creates the state at the start of a run.
     pub fn new(settings: RunSettings) -> Self {
-        // A run that computes a part of its studies writes only the files of this part.
         let writing = settings.studies.part.map_or(settings.mode, |_| RunMode::DryRun);
         Self(Rc::new(ContextData {
             mode: settings.mode,

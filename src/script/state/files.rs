@@ -111,7 +111,6 @@ impl OutputFolder {
             written = Some(file.checksum());
             Ok(())
         })?;
-        // If a later call fails, the existing file has already been recorded or kept under another name.
         let is_ours = record.may_replace(&folder, name);
         written.map_or(Ok(()), |written| record.record(&folder, name, written))?;
         let kept = if is_ours {

@@ -57,7 +57,6 @@ pub fn case(
             function: #{{ scene: scene, {name}: 0.1 }}"
         ))
     };
-    // An invalid setting is an error. If an option replaced the setting, the cell would differ from its label.
     let wrong = |name: &str, value: &Dynamic, hint: &str| {
         call.error(format!("the '{name}' of a cell is {}", call.describe(value))).hint(hint)
     };

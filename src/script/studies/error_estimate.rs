@@ -123,7 +123,6 @@ impl Plan {
         let Some(shortest) = scene.beams.iter().map(|beam| beam.mesh.spans()).min() else {
             return Ok(Self { companions, meshes: None, mesh_sizes: [1.0; 3], level: 0 });
         };
-        // Companions 2 and 3 have twice the step size of the simulation, like companion 0.
         let (ratios, meshes, level) = match shortest {
             SPANS_TO_COARSEN.. => ([0.75, 0.5], [0, 2, 3], 0),
             1 => ([4.0, 2.0], [2, 3, 0], 2),

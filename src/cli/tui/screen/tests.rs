@@ -139,7 +139,6 @@ fn after_a_run_the_result_is_seen_and_the_rest_can_be_reached() {
         "{all}"
     );
     assert!(all.contains("↑↓ scroll"), "{all}");
-    // Every line must be visible at some scroll position.
     let window = screen(&state, (80, 24), &[]).window;
     let mut seen = String::new();
     for top in 0..=window.last {

@@ -10,7 +10,7 @@ use crate::beams::force_points::Stiffness;
 use crate::beams::pair::Pair;
 use crate::beams::simd::{LANES, LaneChunk, Lanes, Vector};
 
-/// Sections at the quadrature points of consecutive spans. A uniform beam stores a single section elsewhere and none here.
+/// Sections at the quadrature points of consecutive spans; empty for a uniform beam.
 pub(in crate::beams) trait Sections: Clone + Debug + Send + Sync {
     /// Type of the integral of a product of two basis functions.
     /// If the inertia varies along the beam, the type also contains the integrals weighted with the inertia.

@@ -59,7 +59,6 @@ fn every_spline_has_a_rule_that_sees_all_its_derivatives() {
             let continuity = continuity.min(degree - 1);
             for spans in [2, 3, 4, 7, 16, 33] {
                 for sizes in sizes(spans) {
-                    // Linear splines are only C⁰, so each span is a separate run.
                     let basis = basis(&sizes, degree, continuity);
                     let run = if degree == 1 { basis.spans()[..1].to_vec() } else { basis.spans() };
                     let what = format!("degree {degree}, C{continuity}, {sizes:?}");
@@ -130,7 +129,6 @@ fn long_and_uneven_meshes_have_rules_too() {
         let [_, _, scattered] = sizes(1500);
         let uneven = basis(&scattered, degree, degree - 1);
         assert!(patch_rule(&uneven, &uneven.spans()).is_some(), "{degree}");
-        // Every second span is a thousand times as long as its neighbours.
         let sizes: Vec<f64> = (0..12).map(|at| [1.0, 1e3][at % 2]).collect();
         let uneven = basis(&sizes, degree, degree - 1);
         assert!(patch_rule(&uneven, &uneven.spans()).is_some(), "{degree}");

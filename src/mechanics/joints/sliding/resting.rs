@@ -1,6 +1,6 @@
 //! Static laws of sliders.
 //!
-//! A static contact is treated as a contact with a path of zero length at `ξ1`, on the master in its final configuration.
+//! A static contact is treated as a contact with a path of zero length, on the master in its final configuration.
 
 use super::{CONTACT_UNKNOWNS, Contact, Equation, SlidingLaw};
 use crate::geometry::Vec2;
@@ -13,7 +13,7 @@ pub struct Resting;
 /// Static law of a slider that a stop holds at an end of its master, including the kink of the master.
 #[derive(Debug, Clone, Copy)]
 pub struct AtStop {
-    /// Sliding increment `Δξ` to the end [-].
+    /// Sliding increment to the end of the master [-].
     pub increment: f64,
 }
 

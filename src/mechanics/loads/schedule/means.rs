@@ -226,7 +226,6 @@ impl Step {
         (amplitude, turn): ([f64; 2], f64),
     ) -> Option<f64> {
         if wave.is_constant() {
-            // If the wave is constant, only its real part has an effect.
             let [real, _] = wave.amplitude;
             let amplitude = amplitude.map(|part| real * part);
             return self.mean(factors, Wave { amplitude, turn, ..wave });
@@ -293,7 +292,6 @@ impl Wave {
     fn mean(&self) -> f64 {
         let [real, imaginary] = self.amplitude;
         let (sine, cosine) = (sin(self.turn), cos(self.turn));
-        // Half the integral of xᵏ cos (even k) or xᵏ sin (odd k). The other integrals are zero.
         let mut moment = if self.turn == 0.0 { 1.0 } else { sine / self.turn };
         let mut sum = real * self.polynomial[0] * moment;
         for (power, coefficient) in self.polynomial.iter().enumerate().take(self.degree + 1).skip(1)

@@ -150,7 +150,6 @@ impl Simulation {
     fn search(&mut self, interval: Interval, first: Overshoot) -> Result<EventStep, StepError> {
         let (mut cut, mut overshoot) = (interval, first);
         let mut tries = 0..MOST_TRIES;
-        // Each pass handles a slider that arrives before the current target.
         loop {
             let target = SliderEvent::of(overshoot.event);
             self.model.set_target(Some(target));
@@ -335,7 +334,6 @@ impl Simulation {
             let strikes = self.model.leads_beyond(limit);
             let kind = match self.model.end_action(limit.slider) {
                 _ if self.model.continues_beyond(limit) => {
-                    // The slider only touched the seam, or its velocity was reversed exactly at the seam.
                     if located.step.is_some() && !strikes {
                         continue;
                     }
@@ -351,7 +349,6 @@ impl Simulation {
                     self.model.release_slider(limit.slider);
                     ArrivalKind::Released
                 }
-                // The slider only touched the stop, or its velocity was reversed exactly at the stop.
                 _ if located.step.is_some() && !strikes && !self.model.approaches(limit, dt)? => {
                     ArrivalKind::Bounced
                 }
@@ -377,7 +374,6 @@ impl Simulation {
             }
             self.restart_kinks()?;
         }
-        // The arrival that ends the run is listed last.
         arrivals.sort_by_key(|arrival| arrival.kind == ArrivalKind::Stopped);
         self.progress.arrivals.extend(arrivals);
         Ok(())

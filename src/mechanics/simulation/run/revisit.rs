@@ -79,8 +79,6 @@ impl Simulation {
         let Some(wanted) = rows.get(row) else { return Ok(false) };
         let time = wanted.measures.time;
         if time > self.time() {
-            // The original step may have been planned beyond the arrival.
-            // The copy continues towards the next row and pauses at the arrival.
             let is_arrival = |at: &f64| of.arrivals().iter().any(|arrival| arrival.time == *at);
             let mut ends = rows[row..].iter().map(|row| row.measures.time);
             let goal = ends.find(|end| !is_arrival(end)).unwrap_or(time);

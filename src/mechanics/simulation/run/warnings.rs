@@ -243,7 +243,6 @@ impl Simulation {
         if !keeps || !self.scene.sliders.is_empty() {
             return None;
         }
-        // The other rows of the history are examined only if the energies of the first and the last row differ too much.
         let apart = Invariant::Energy.value(&last) - Invariant::Energy.value(&first);
         let now = last.energy.kinetic + last.energy.strain + last.energy.stored;
         if apart.norm() <= LARGEST_DRIFT * now {

@@ -18,7 +18,6 @@ impl System {
         let Ok(response) = self.response_across() else {
             return Err(self.sliders().overdetermined());
         };
-        // Rows of the Cholesky factor.
         let mut rows: Vec<Vec<f64>> = Vec::with_capacity(response.len());
         for (slider, response) in response.iter().enumerate() {
             let own = response[slider];

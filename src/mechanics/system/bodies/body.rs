@@ -169,7 +169,7 @@ impl Body {
         self.summary = self.dynamics.add_forces(at, &self.movements, weight, &mut self.forces);
     }
 
-    /// Accumulates the internal forces with strain mismatches condensed out, and adds their derivatives to the given rows of the tangent.
+    /// Accumulates the internal forces with the section force unknowns eliminated, and adds their derivatives to the given rows of the tangent.
     pub fn linearise(
         &mut self,
         at: Collocation,

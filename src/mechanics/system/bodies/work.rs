@@ -54,7 +54,7 @@ impl Bodies {
         summary
     }
 
-    /// Adds the internal forces with strain mismatches condensed out to `out`, and their derivatives to the tangent.
+    /// Adds the internal forces with the section force unknowns eliminated to `out`, and their derivatives to the tangent.
     pub fn add_linearised_forces(
         &mut self,
         at: Collocation,

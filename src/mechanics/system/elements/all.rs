@@ -196,7 +196,7 @@ impl Elements {
         (missing != 0.0).then(|| (resistance.name(), missing))
     }
 
-    /// Adds all internal forces with force residuals condensed out, and their derivatives with respect to the `unknowns` increments.
+    /// Adds all internal forces with the force unknowns eliminated, and their derivatives with respect to the `unknowns` increments.
     pub fn add_linearised_resistance(
         &mut self,
         at: TrialState<'_>,

@@ -116,7 +116,6 @@ impl DampingLaw {
         if let Some((rate, force)) = moving.find(|at| feeds(*at)) {
             return Some(NegativeDamping::At { rate, force });
         }
-        // At this large rate, the force of an extrapolation with negative slope has changed its sign.
         let reach = |end: f64| 1e6 * (end.abs() + (last.0 - first.0));
         let beyond = [(first, first.0 - reach(first.0)), (last, last.0 + reach(last.0))];
         let (end, rate) = beyond.into_iter().find(|(_, rate)| feeds((*rate, self.force(*rate))))?;
@@ -172,7 +171,6 @@ impl DampingLaw {
         let Some(passed) = corners.iter().position(|(at, _)| above(*at) >= 0.0) else {
             return at_rate;
         };
-        // Rate in the interior of the segment below this corner.
         let Some(before) = passed.checked_sub(1) else { return at_rate };
         let inside = 0.5 * (corners[before].0 + corners[passed].0);
         let slope = self.slope(inside);

@@ -62,7 +62,6 @@ impl DragLaw {
             Self::Point(law) => {
                 let speed = velocity.norm();
                 let factor = law.linear + law.quadratic * speed;
-                // Derivative of the quadratic part of the drag law with respect to the velocity.
                 let bend = if speed > 0.0 { velocity * (law.quadratic / speed) } else { velocity };
                 DragResponse {
                     force: Vec2::new(across, along) * factor,
@@ -147,7 +146,6 @@ mod tests {
                     assert!((by - expected).norm() < 1e-8, "{law:?}: {by} {expected}");
                 }
                 let turned = force(velocity, angle + h) - force(velocity, angle - h);
-                // The vector changes with its components and with the rotation of the line.
                 let by = found.by_angle + Vec2::new(found.force.y, -found.force.x);
                 assert!((in_space(t, by) - turned / (2.0 * h)).norm() < 1e-8, "{law:?}");
             }

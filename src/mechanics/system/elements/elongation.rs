@@ -153,7 +153,6 @@ impl Elongation {
         match self.measure {
             Measure::Length(_) => after,
             Measure::Angle => larger(1.0, after),
-            // The increments of the component may be much larger than the component.
             Measure::Component(..) => {
                 self.movements.iter().fold(after, |size, by| size.max(by.abs()))
             }
@@ -247,7 +246,6 @@ impl Elongation {
         self.moving().fold(0.0, |sum, (place, coordinates)| {
             let [x, y, spin] = bodies[place.body].at(place, rates);
             match (self.is_angle(), &self.slope[coordinates]) {
-                // Rates of angles are given directly. They do not need the conversion factor between increments and angles in the slope.
                 (true, slope) => sum + slope[0].signum() * spin,
                 (false, slope) => sum + (slope[0] * x + slope[1] * y),
             }

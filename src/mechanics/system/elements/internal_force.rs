@@ -43,7 +43,7 @@ pub trait InternalForce {
     /// Adds `at.weight` times the present forces on bodies to `out`. Returns the largest force and the largest difference from a force law.
     fn add_forces(&mut self, at: TrialState<'_>, out: &mut [f64]) -> ForceSummary;
 
-    /// Adds `at.weight` times the forces with their residuals condensed out, and their derivatives with respect to the increments.
+    /// Adds `at.weight` times the forces with the force unknowns eliminated, and their derivatives with respect to the increments.
     fn add_linearised_forces(
         &mut self,
         at: TrialState<'_>,

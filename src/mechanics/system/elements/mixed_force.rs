@@ -115,8 +115,6 @@ impl ForceTarget {
     ) -> (f64, Self) {
         let above = |at: f64, of: Self| of.force - force + impedance * (at - change);
         let (mut at, mut met) = (change, law(change));
-        // A law of zero slope would intersect the line at `reach`.
-        // An increasing law intersects the line between `change` and `reach`.
         let reach = change - above(change, met) / impedance;
         let (mut low, mut high) = (change.min(reach), change.max(reach));
         for _ in 0..MOST_TRIES {

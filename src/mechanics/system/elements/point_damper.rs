@@ -196,7 +196,6 @@ impl InternalForce for PointDamper {
         self.force.linearise(target);
         let DamperTrial { direction, rate_by_movement, direction_slope: turn, .. } = met;
         self.scatter(at.bodies, direction * target.force, out);
-        // The direction of the force rotates with the connecting line.
         let turning = self.force.force * turn;
         let terminals = || self.terminals.iter().zip([-1.0, 1.0]);
         for (to, sign) in terminals() {

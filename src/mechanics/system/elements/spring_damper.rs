@@ -203,7 +203,6 @@ impl InternalForce for SpringDamper {
         if self.damping.is_active() {
             self.elongation.scatter(&self.elongation.lag, damping.force, out);
         }
-        // Geometric terms use the force of the present iterate.
         let stiffness = self.weighted(at, restoring.stiffness, damping.stiffness);
         let force = self.weighted(at, self.spring.force, self.damper.force);
         let Elongation { secant, slope, secant_slope: bend, lag, lag_slope: lag_bend, .. } =

@@ -362,7 +362,6 @@ mod tests {
         assert_eq!(table.sharp_corners(), [0.0, 0.5]);
         let hardening = |q: f64| Ok::<f64, ()>(q + q * q * q);
         assert!(SpringLaw::sampled((-1.0, 1.0), hardening).unwrap().sharp_corners().is_empty());
-        // A zero of the stiffness is not a sharp corner either.
         let cubic = |q: f64| Ok::<f64, ()>(q * q * q);
         let waves = |q: f64| Ok::<f64, ()>((3.0 * q) - q * q * q);
         assert!(SpringLaw::sampled((-1.0, 1.0), cubic).unwrap().sharp_corners().is_empty());

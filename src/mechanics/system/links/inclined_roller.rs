@@ -163,7 +163,6 @@ impl InclinedRoller {
         span.strains.extend([self.normal.x, self.normal.y]);
         span.stiffness.push(stiffness);
         take(&self.degrees(bodies), span);
-        // The spring has no geometric stiffness.
         span.begin(0);
         span.strains.push(1.0);
         span.stiffness.push(stiffness);

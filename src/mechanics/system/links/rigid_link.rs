@@ -277,7 +277,6 @@ impl RigidLink {
         span.rounding_fractions.clear();
         span.rounding_fractions.push(0.0);
         take(&[point_x, point_y, x, y, rotation], span);
-        // The penalty term has no geometric stiffness.
         let own = SpanStiffness {
             strains: vec![1.0],
             stiffness: vec![stiffness],

@@ -11,7 +11,7 @@ pub struct BodyEnergy {
     pub axial: f64,
     /// Bending strain energy.
     pub shear: f64,
-    /// Bending strain energy, `½ ∫ EI κ² dX`.
+    /// Bending strain energy.
     pub bending: f64,
     /// Potential energy in gravity, relative to the origin.
     pub potential: f64,

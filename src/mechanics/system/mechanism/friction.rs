@@ -36,7 +36,6 @@ impl System {
             let (unknowns, half_bandwidth) = (self.unknowns(), self.half_bandwidth());
             Box::new(InertiaSolver::new(unknowns, half_bandwidth, self.degrees_of_freedom()))
         });
-        // Without rigid links the inertia is constant.
         let is_current = solver.is_factorised() && self.links.count() == 0;
         if is_current || solver.factorise(|inertia| self.fill_banded_inertia(inertia)).is_ok() {
             let Self { sliders, bodies, .. } = self;

@@ -18,7 +18,7 @@ pub(super) type ImpactDirection = (usize, Vec2);
 pub(super) type ImpactSelection<'a> = (&'a [ImpactDirection], Deformation);
 
 /// Smallest ratio of two velocity responses to an impulse: with the included deformations, and with all deformations.
-/// Below this ratio of the two responses, the direction of the impulse counts as rigid.
+/// If the ratio is smaller, the bodies count as rigid in the direction of the impulse.
 pub(super) const GIVES: f64 = 1e-9;
 
 /// Forces of a unit impulse in one direction, with the resulting velocities.

@@ -28,7 +28,6 @@ impl System {
         if starting.is_empty() {
             return Ok(());
         }
-        // A contact without its kink is rigid.
         let axes: Vec<Option<KinkedAxis>> =
             starting.iter().map(|at| self.sliders[*at].exchange_kinked_axis(None)).collect();
         let now = self.instant();

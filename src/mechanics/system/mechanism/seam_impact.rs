@@ -90,7 +90,6 @@ impl Response {
 
     /// Rotation angle between two velocities in the metric of the inverse velocity response [rad].
     fn angle(&self, from: Vec2, to: Vec2) -> f64 {
-        // Scalar product in the metric of the inverse velocity response, times the determinant of the response.
         let along = perpendicular(from).dot(&self.times(perpendicular(to)));
         atan2(self.determinant().sqrt() * cross(from, to), along)
     }
@@ -213,7 +212,6 @@ pub(super) fn deflect_at_corners(
         for (at, bend) in bends.iter().enumerate() {
             let [x, y] = [2 * at, 2 * at + 1];
             let (keeps, swings) = bend.row();
-            // The operator J maps (x, y) to (-y, x).
             for (row, from, sign) in [(x, y, swings), (y, x, -swings)] {
                 matrix[row] = problem.response[from].iter().map(|w| w * sign).collect();
                 matrix[row][row] += keeps;
@@ -295,7 +293,6 @@ impl TurnSearch {
         }
         let off = self.own.angle(before, after) - self.required_angle;
         let slope = self.before.map(|(angle, other)| (off - other) / (self.angle - angle));
-        // The secant method is used if the estimated slope is plausible, otherwise the slope 1.
         let slope = slope.filter(|slope| SLOPES.contains(slope)).unwrap_or(1.0);
         self.before = Some((self.angle, off));
         self.angle -= off / slope;

@@ -124,7 +124,6 @@ impl System {
         if in_flight.any(|(slider, _)| slider.unilateral.is_none()) {
             return Err(refused("a slider without a side is in flight"));
         }
-        // The values of the sliders are at the end of `numbers`.
         let of_sliders = &numbers[numbers.len() - self.sliders.saved()..];
         if !self.sliders.fit(of_sliders) {
             return Err(refused("a slider is outside its beam"));

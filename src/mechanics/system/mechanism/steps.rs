@@ -50,7 +50,7 @@ impl System {
         self.elements.subtract_from(at, out)
     }
 
-    /// Adds the internal forces with residuals condensed out, minus `share` times the external forces, and their derivatives.
+    /// Adds the internal forces with the force unknowns eliminated, minus `share` times the external forces, and their derivatives.
     pub(super) fn add_linearised(
         &mut self,
         stage: Stage,
@@ -77,7 +77,6 @@ impl System {
         let mut sum = self.elements.exchange(&self.bodies, duration);
         sum += self.supports.exchange(&self.bodies, residual, duration);
         for (unknown, roller) in self.links.rollers() {
-            // In a time step, the unknown of a roller is an impulse.
             let impulse = roller.force_of(increments[unknown]);
             sum +=
                 WorkAndImpulse::of(0.0, impulse, cross(roller.mean_place(&self.bodies), impulse));

@@ -122,7 +122,7 @@ impl System {
     }
 
     /// Estimate of the square of the lowest bending frequency [1/time²]; `None` without a beam.
-    /// The estimate is the smallest `EI`, divided by the largest `ρA` and by the fourth power of the total length of the beams.
+    /// The estimate is the smallest bending stiffness, divided by the largest mass per length and the fourth power of the total length.
     pub(crate) fn slowest_bending(&self) -> Option<f64> {
         let extents = || self.bodies.iter().filter_map(|body| body.dynamics.extent());
         let length: f64 = extents().map(|(_, length)| length).sum();

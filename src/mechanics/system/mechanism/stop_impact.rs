@@ -191,7 +191,7 @@ impl System {
             self.apply_impulses(&hits, corners, [Deformation::Resolved(RIGID * dt), at_stops])?;
         }
         // The first impact suppresses some deformations of the struck body.
-        // A second impact with all deformations removes the remaining velocities of sliders that come to rest.
+        // A second impact with all deformations stops the sliders that come to rest.
         let resting = [&arriving.plastic[..], &arriving.held].concat();
         if !resting.is_empty() {
             let hits = self

@@ -62,7 +62,6 @@ impl System {
         let has_let_go = |hold: Releasable| unknowns.are_free_of(hold);
         let all = scene.joints.iter().map(|joint| Ok((joint.kind, ends(joint)?)));
         let all = all.collect::<Result<Vec<_>, SystemError>>()?;
-        // All points of a rigid body together transmit the force and moment of the joint.
         let links = self.links().iter();
         let turning = links.map(|link| (Some((link.body, 0)), Some((link.body, link.point))));
         let turning: Vec<(Node, Node)> = turning.collect();

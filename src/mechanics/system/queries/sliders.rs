@@ -65,7 +65,7 @@ impl System {
     }
 
     /// Distance of the slave of a slider that only pushes from the axis of its master [length], positive on the side of the flight.
-    /// It is zero in contact, and `None` for a slider that never leaves its master.
+    /// The distance is zero in contact, and `None` for a slider that never leaves its master.
     pub fn flight_gap(&self, slider: usize) -> Option<f64> {
         self.slider(slider).flight_gap(self.bodies())
     }

@@ -45,7 +45,6 @@ impl Scene {
             .chain(plain.elements.iter_mut().filter_map(Element::name_mut));
         names.for_each(String::clear);
         plain.rigid_bodies.iter_mut().for_each(|body| body.outline.clear());
-        // The order of elements of different types does not matter.
         plain.elements.sort_by_key(Element::kind);
         serde_json::to_value(plain)
     }

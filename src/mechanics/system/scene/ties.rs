@@ -58,7 +58,6 @@ pub fn check_ties(scene: &Scene) -> Result<(), SystemError> {
         .collect();
     let driven: Vec<usize> = scene.drives.iter().map(|drive| index(&drive.station)).collect();
     let mut ties = Ties::new(1 + 3 * places.len());
-    // The angles of all points of a rigid body are equal.
     for (at, place) in places.iter().enumerate() {
         let is_own = |other: &Station| match (place.body, other.body) {
             (BodyIndex::Rigid(body, _), BodyIndex::Rigid(other, _)) => body == other,

@@ -178,7 +178,8 @@ impl Scene {
         Ok(legs)
     }
 
-    /// Next beam of a track, with its direction. If both ends of the beam touch, the track enters at the joined end.
+    /// Next beam of a track, with its direction.
+    /// If both ends of the beam coincide with the end of the track, the track continues at the joined end.
     fn next_segment(&self, before: TrackBeam, beam: usize) -> Option<TrackBeam> {
         let ways = [TrackDirection::Forward, TrackDirection::Backward]
             .map(|heading| TrackBeam { beam, heading });

@@ -31,9 +31,9 @@ pub enum Timing {
     Instant,
     /// Mean over the last step.
     StepMean,
-    /// Mean over the last step, or value at its end, whichever the method of integration balances.
+    /// Mean over the last step or value at its end, depending on the method of integration.
     MeanOfMethod,
-    /// Mean over the last step, which the model forms on request.
+    /// Mean over the last step, which the model accumulates on request.
     SummedMean,
 }
 

@@ -68,7 +68,7 @@ impl Sensor {
         }
     }
 
-    /// Returns true if the values are sums over the last step that the model forms on request.
+    /// Returns true if the values are means over the last step that the model accumulates on request.
     pub(crate) fn is_summed(&self) -> bool {
         self.quantity.timing == Timing::SummedMean
     }

@@ -10,10 +10,10 @@ use crate::joints::{Kink, KinkMotion, KinkState};
 const RIGID: f64 = 1e-14;
 
 /// Largest speed of a variable kink, as a fraction of the speed of shear waves. At larger speeds the kink is kept constant.
-/// Near the speed of shear waves the stiffness `GA - ρA v²` is nearly zero.
+/// Near the speed of shear waves, the stiffness of the kink is nearly zero.
 const FASTEST: f64 = 0.8;
 
-/// Largest speed of a variable kink, as a fraction of `√(GA/μρA)`. At the speed `√(GA/μρA)` the stiffness on the mesh vanishes.
+/// Largest speed of a variable kink, as a fraction of the speed at which the stiffness of the kink on the mesh vanishes.
 const FASTEST_ON_MESH: f64 = 0.9;
 
 /// Kink length below which the kink is kept constant, as a fraction of the largest kink length in the middle of the master.
@@ -35,7 +35,7 @@ const LARGEST_START: f64 = 0.02;
 pub struct MasterKink {
     pub length: Arc<PiecewisePolynomial>,
     pub arc: Arc<PiecewisePolynomial>,
-    /// Inertia factor `μ` of a moving kink [-].
+    /// Correction factor of the kinetic energy of a moving kink [-].
     pub inertia: f64,
 }
 
@@ -82,7 +82,7 @@ impl KinkedAxis {
         }
     }
 
-    /// Starts a step of a duration [time]. A kink without mass gets the rate `dξ/dt` [1/time].
+    /// Starts a step of a duration [time]. A kink without mass gets the given rate of the parameter [1/time].
     pub fn begin_step(&mut self, duration: f64, rate: f64) {
         self.duration = duration;
         if !self.is_heavy() {

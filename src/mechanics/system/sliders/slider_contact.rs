@@ -205,7 +205,6 @@ impl SliderContact {
         self.lost_energy += std::mem::take(&mut self.stop_energy);
         self.unknowns = ContactUnknowns::zeros();
         self.mean_force = StepMean::default();
-        // At an end of the master, the kink has no energy.
         self.kinked_axis.iter_mut().for_each(KinkedAxis::straighten);
     }
 
@@ -359,7 +358,6 @@ impl SliderContact {
         let friction = contact.friction.as_ref().map(|friction| contact.friction_forces(friction));
         let force = pressing.norm();
         let push = match state {
-            // A stop with an infinite tensile force releases the slider at once.
             SliderState::Held(_) if leans_on_nothing => f64::NEG_INFINITY,
             SliderState::Held(end) => contact.outward_push(end.outward()),
             SliderState::Sliding | SliderState::Separated | SliderState::Released => 0.0,

@@ -8,7 +8,7 @@ use crate::joints::{TrackDirection, TrackEnd};
 use crate::system::bodies::Body;
 
 /// Distance between the ends of two beams below which the ends coincide.
-/// It is a fraction of the length of the beam plus the distance from the origin.
+/// The distance is a fraction of the length of the beam plus the distance of the ends from the origin.
 const SAME: f64 = 1e-9;
 
 /// Beam of a track with the data of its sliders.

@@ -69,7 +69,6 @@ impl Resolution {
         increment: f64,
         rotations: RotationIncrement,
     ) {
-        // The increment is an upper bound of the angle, and is faster to compare.
         if increment > self.rotation {
             let angle = rotations.angle(increment);
             if angle > self.rotation {

@@ -192,7 +192,6 @@ impl BranchSearch<'_, '_> {
         if JUMPS.contains(&sign) {
             return known.by(call.args.iter(), sign, at);
         }
-        // The call creates a closure. Its first arguments are the captured variables.
         if let Some((function, captured)) = written_within(call) {
             return self.within(&function, captured, known);
         }

@@ -15,7 +15,7 @@ use crate::script::messages::error::{CallPart, ScriptError};
 /// The relative error of the difference quotient is about the square of this number, plus the rounding error divided by this number.
 pub const RELATIVE_DISTANCE: f64 = 1e-5;
 
-/// Parameters of a scene. Variant 0 contains their unperturbed values.
+/// Parameters of a scene. The unperturbed variant contains the given values.
 /// Variants 1 and 2 perturb the first parameter positively and negatively, variants 3 and 4 the second parameter, and so on.
 #[derive(Default)]
 pub struct ParameterSet {
@@ -175,13 +175,13 @@ impl ParameterSet {
         self.parameters.borrow().iter().position(|of| of.name == name)
     }
 
-    /// Index of the parameter that a variant perturbs, and true for a positive perturbation; `None` for variant 0.
+    /// Index of the parameter that a variant perturbs, and true for a positive perturbation; `None` for the unperturbed variant.
     pub fn side_of_variant(variant: usize) -> Option<(usize, bool)> {
         let beside = variant.checked_sub(1)?;
         Some((beside / 2, beside % 2 == 0))
     }
 
-    /// Description of a variant, for example `EI = … + 1e-3`; empty for variant 0.
+    /// Description of a variant, for example `EI = … + 1e-3`; empty for the unperturbed variant.
     pub fn describe(&self, variant: usize) -> String {
         let parameters = self.parameters.borrow();
         let of =

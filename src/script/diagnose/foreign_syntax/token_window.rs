@@ -57,10 +57,7 @@ impl<'s> TokenWindow<'s> {
             words.push(Word { text, token: token.clone(), at: *at, is_joined });
         }
         let here = found - start;
-        let gap = here.checked_sub(1).and_then(|last| {
-            // In an unclosed string, token positions need not increase.
-            program.text.get(ends[last]..ends[last + 1])
-        });
+        let gap = here.checked_sub(1).and_then(|last| program.text.get(ends[last]..ends[last + 1]));
         let gap = gap.unwrap_or_default().to_owned();
         let first = first_of_statement(&words, here);
         Self { catalog, error, words, here, first, place, gap }

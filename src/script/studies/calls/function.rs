@@ -250,7 +250,6 @@ impl ParameterReading {
                 Some(ASTNode::Expr(Expr::Dot(of, ..) | Expr::Index(of, ..))) if is_map(&of.lhs) => {
                     name_read(&of.rhs)
                 }
-                // A closure captures the map under the same name.
                 Some(ASTNode::Expr(Expr::FnCall(made, _))) => match written_within(made) {
                     Some((within, _)) => {
                         self.read(call, &within, map);

@@ -82,7 +82,6 @@ impl Limit {
             let wrong = |what: String| {
                 let message = format!("the constraint on '{name}' {what}");
                 let hint = if value.is_bool() { CONSTRAINT_HINT } else { shape };
-                // The name also occurs in the function, but the error must have the position of the option.
                 at_key(call, "constraints", message, hint)
             };
             let Some(array) = value.clone().try_cast::<Array>() else {
@@ -199,7 +198,6 @@ impl DesignRequest<'_> {
             wall: self.wall,
         };
         let start: Vec<f64> = self.ranges.ranges.iter().map(|range| range.first()).collect();
-        // The first run gives the names of the results, and reports its errors.
         let results = names(&call.context().silently(|| question.here(call, &start))?);
         let place = |name: &str| {
             results.iter().position(|known| known == name).ok_or_else(|| {

@@ -233,7 +233,6 @@ impl Spread {
                         *repeats /= count;
                         Choice::Grid(*repeats)
                     }
-                    // All levels have the same probability.
                     Some(points) => {
                         let level = |point: f64| ((point * count as f64) as usize).min(count - 1);
                         Choice::Drawn(points.into_iter().map(|point| level(point) as u32).collect())

@@ -110,7 +110,6 @@ impl SweepProgress {
                 entries.push(RowEntry::Computed(number, values));
                 Ok(entries)
             }
-            // No row has been completed yet, so the function may be wrong for all rows.
             RowOutcome::Wrong(message) if self.model.is_none() => Err(SweepError::Row(at, message)),
             RowOutcome::Failed(reason) | RowOutcome::Wrong(reason) => {
                 self.restore_row(at);

@@ -187,7 +187,6 @@ impl FinishedSweep {
             let Some(column) = results.column(name) else { continue };
             let found = || column.iter().copied().enumerate().filter(|(_, x)| x.is_finite());
             let least = found().min_by(|a, b| a.1.total_cmp(&b.1));
-            // Among equal values, the first value is used.
             let largest = found().rev().max_by(|a, b| a.1.total_cmp(&b.1));
             let count = found().count().max(1);
             let mean = found().map(|(_, x)| x / count as f64).sum::<f64>();

@@ -129,7 +129,6 @@ impl SliderContact {
         rigid: f64,
         take: &mut dyn FnMut(&[usize], &SpanStiffness),
     ) {
-        // The position of a held slider has no stiffness.
         let still = SpanStiffness {
             strains: vec![1.0],
             stiffness: vec![rigid],

@@ -217,7 +217,6 @@ impl SliderContact {
         let FrictionForces { along, across, end_velocity, .. } = friction.forces;
         match friction.mode {
             FrictionMode::Slip(sign) => {
-                // A sliding increment opposite to the slip would gain energy.
                 let is_against = sign * increment < 0.0;
                 let reversed = -sign * end_velocity;
                 let ends = friction.cuts_steps() && reversed > self.negligible_slip(friction);

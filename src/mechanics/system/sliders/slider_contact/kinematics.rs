@@ -18,7 +18,6 @@ impl SliderContact {
 
     /// Second derivative of the contact point on the master with respect to the parameter [length].
     pub(super) fn bend(&self, bodies: &[Body]) -> Vec2 {
-        // For a path of zero length, the derivative of divided differences is half the second derivative.
         slope_of(self.start_path.change(), self.window(bodies)) * 2.0
     }
 

@@ -87,7 +87,6 @@ impl SliderContact {
         route.seam(bodies, end).map_or(0.0, |seam| {
             let leg = route.segment(seam.segment);
             let tangent = leg.end_tangent(bodies, increments, seam.end);
-            // The force is scaled to the length per unit of parameter on the present side, so that both sides can be compared.
             let scale = self.length / leg.length_of_parameter();
             force.dot(&tangent) * seam.end.outward() * scale
         })

@@ -165,7 +165,6 @@ impl SliderContact {
         let sum = |weights: &[f64]| -> Vec2 {
             weights.iter().zip(path.first()..).map(|(by, at)| from_slave(at) * *by).sum()
         };
-        // For a path of zero length, the derivative of divided differences is half the second derivative.
         [sum(path.end()), sum(path.slope()), sum(path.change()) * 2.0]
     }
 
